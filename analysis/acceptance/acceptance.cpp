@@ -16,8 +16,8 @@
 #include "analysis/measures/trial_value.hpp"
 #include "analysis/statistics/clusters/observed_test.hpp"
 #include "core/failure/failure.hpp"
-#include "core/random/number_source.hpp"
-#include "experiments/designs/random_key.hpp"
+#include "core/random/random_numbers.hpp"
+#include "experiments/designs/designs.hpp"
 #include "experiments/parameters/study_units.hpp"
 #include "results/layout/layout.hpp"
 

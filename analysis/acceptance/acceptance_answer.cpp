@@ -10,7 +10,6 @@
 
 #include "analysis/acceptance/acceptance.hpp"
 #include "analysis/goal/goal_text.hpp"
-#include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
 
 namespace zerocount::acceptance {

@@ -13,7 +13,7 @@
 #include "analysis/document/answer.hpp"
 #include "analysis/goal/goal_verdict.hpp"
 #include "analysis/measures/undecided_moves.hpp"
-#include "experiments/manifest_text/manifest_values.hpp"
+#include "experiments/manifest_text/manifest_text.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/all_trials_file.hpp"
 

@@ -9,7 +9,6 @@
 #include "analysis/parallel/parallel.hpp"
 #include "analysis/statistics/quantile.hpp"
 #include "core/random/random_numbers.hpp"
-#include "core/random/variates.hpp"
 
 namespace zerocount::comparison {
 namespace {

@@ -11,14 +11,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "analysis/text/relation.hpp"
+#include "analysis/text/text.hpp"
 #include "core/failure/failure.hpp"
 #include "core/numerics/interval.hpp"
-#include "core/text/number_text.hpp"
-#include "core/text/trimmed.hpp"
+#include "core/text/text.hpp"
 #include "experiments/parameters/unknown_key.hpp"
 #include "experiments/study/point_label.hpp"
-#include "experiments/yaml/nearest_name.hpp"
+#include "experiments/yaml/problems.hpp"
 #include "experiments/yaml/scalars.hpp"
 #include "experiments/yaml/text_file.hpp"
 #include "experiments/yaml/yaml_tree.hpp"

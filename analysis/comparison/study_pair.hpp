@@ -6,7 +6,7 @@
 
 #include "analysis/comparison/gate_rules.hpp"
 #include "analysis/comparison/point_trials.hpp"
-#include "experiments/manifest_text/manifest_values.hpp"
+#include "experiments/manifest_text/manifest_text.hpp"
 #include "results/reading/all_trials_file.hpp"
 
 /// Matches two files: the points that both have, how many trials of each are compared, and the goal.

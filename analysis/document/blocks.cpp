@@ -8,7 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "analysis/document/figure.hpp"
-#include "analysis/text/percent.hpp"
+#include "analysis/text/text.hpp"
 
 namespace zerocount::document {
 namespace {

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/document/answer.hpp"
-#include "core/text/csv_field.hpp"
+#include "core/text/text.hpp"
 
 namespace zerocount::document {
 namespace {

@@ -8,7 +8,6 @@
 
 #include "analysis/document/answer.hpp"
 #include "analysis/document/blocks.hpp"
-#include "analysis/document/markup.hpp"
 
 namespace zerocount::document {
 namespace {

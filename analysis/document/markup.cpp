@@ -1,7 +1,6 @@
-#include "analysis/document/markup.hpp"
-
+#include "analysis/document/blocks.hpp"
 #include "analysis/text/text.hpp"
-#include "core/text/utf8.hpp"
+#include "core/text/text.hpp"
 
 namespace zerocount::document {
 

@@ -8,8 +8,7 @@
 
 #include "analysis/document/answer.hpp"
 #include "analysis/document/blocks.hpp"
-#include "analysis/text/fitted_text.hpp"
-#include "core/text/utf8.hpp"
+#include "core/text/text.hpp"
 
 namespace zerocount::document {
 namespace {

@@ -12,7 +12,7 @@
 #include "analysis/fit/residuals.hpp"
 #include "core/loop/encoder.hpp"
 #include "core/trial/trial.hpp"
-#include "experiments/study/machine_inputs.hpp"
+#include "experiments/study/group_inputs.hpp"
 #include "experiments/study/study_trial.hpp"
 
 namespace zerocount::experiment_design {

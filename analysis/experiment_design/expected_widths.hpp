@@ -10,7 +10,7 @@
 #include "analysis/fit/presliding/contact.hpp"
 #include "analysis/fit/presliding/identification.hpp"
 #include "core/trial/parameters.hpp"
-#include "experiments/study/study_fwd.hpp"
+#include "experiments/study/study.hpp"
 
 /// The only place that knows how `identify` reads and fits a record.
 namespace zerocount::experiment_design {

@@ -9,7 +9,7 @@
 
 #include "analysis/document/description.hpp"
 #include "analysis/experiment_design/protocol_search.hpp"
-#include "experiments/study/study_fwd.hpp"
+#include "experiments/study/study.hpp"
 
 namespace zerocount::experiment_design {
 

@@ -10,7 +10,7 @@
 #include "analysis/fit/residuals.hpp"
 #include "analysis/fit/solver.hpp"
 #include "analysis/statistics/quantile.hpp"
-#include "core/numerics/bisection.hpp"
+#include "core/numerics/roots.hpp"
 
 namespace zerocount::fit {
 

@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-#include "core/motion/plant_start.hpp"
+#include "core/motion/parameters.hpp"
 #include "core/motion/torque_course.hpp"
 #include "core/plant/plant.hpp"
 #include "experiments/parameters/study_units.hpp"

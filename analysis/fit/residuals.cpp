@@ -13,7 +13,6 @@
 #include "analysis/statistics/quantile.hpp"
 #include "core/numerics/dense.hpp"
 #include "core/random/random_numbers.hpp"
-#include "core/random/variates.hpp"
 
 namespace zerocount::fit {
 

@@ -11,7 +11,7 @@
 #include "analysis/statistics/clusters/rig_proportion.hpp"
 #include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/proportion.hpp"
-#include "core/numerics/bisection.hpp"
+#include "core/numerics/roots.hpp"
 
 namespace zerocount::goal {
 namespace {

@@ -10,11 +10,9 @@
 #include "analysis/statistics/clusters/rig_proportion.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/statistics/sample_size.hpp"
-#include "analysis/text/percent.hpp"
-#include "analysis/text/quantity.hpp"
 #include "analysis/text/text.hpp"
-#include "core/numerics/bisection.hpp"
-#include "core/text/counted.hpp"
+#include "core/numerics/roots.hpp"
+#include "core/text/text.hpp"
 #include "experiments/parameters/study_units.hpp"
 #include "results/layout/measure_table.hpp"
 

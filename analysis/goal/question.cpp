@@ -15,7 +15,7 @@
 #include "analysis/statistics/clusters/clustered_proportion.hpp"
 #include "analysis/statistics/clusters/rig_proportion.hpp"
 #include "analysis/statistics/clusters/rig_statistics.hpp"
-#include "analysis/statistics/confidence_sequence.hpp"
+#include "analysis/statistics/mean_bounds.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "core/failure/failure.hpp"
 #include "results/layout/layout.hpp"

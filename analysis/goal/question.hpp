@@ -15,7 +15,7 @@
 #include "analysis/statistics/clusters/tolerance.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "experiments/study/goal.hpp"
-#include "experiments/study/study_fwd.hpp"
+#include "experiments/study/study.hpp"
 
 /// The question of a study: the goal of its manifest, or success where it has none. All that judges trials,
 /// rigs, worlds and design points takes from here what they are judged by, and what it is called.

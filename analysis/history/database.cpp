@@ -19,7 +19,6 @@
 
 #include "core/failure/failure.hpp"
 #include "results/storage/durable_file.hpp"
-#include "results/storage/file_descriptor.hpp"
 
 namespace zerocount::history {
 namespace {

@@ -24,7 +24,7 @@
 #include "experiments/yaml/text_file.hpp"
 #include "results/layout/header.hpp"
 #include "results/layout/recorded_values.hpp"
-#include "results/storage/checksum_trailer.hpp"
+#include "results/storage/file_contents.hpp"
 
 namespace zerocount::history {
 namespace {

@@ -16,7 +16,7 @@
 #include "experiments/study/study_trial.hpp"
 #include "results/layout/layout.hpp"
 #include "results/layout/table_io.hpp"
-#include "results/reading/csv.hpp"
+#include "results/reading/export.hpp"
 
 namespace zerocount::iso230 {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/iso230/columns.hpp"
-#include "experiments/study/study_fwd.hpp"
+#include "experiments/study/study.hpp"
 #include "results/hdf5/hdf5.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "results/reading/export.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "analysis/statistics/unknown.hpp"
-#include "experiments/study/study_fwd.hpp"
+#include "experiments/study/study.hpp"
 
 namespace zerocount::jerks {
 

@@ -6,9 +6,8 @@
 
 #include "analysis/jerks/creep_comparison.hpp"
 #include "analysis/jerks/jerk_statistics.hpp"
-#include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
-#include "core/text/counted.hpp"
+#include "core/text/text.hpp"
 #include "experiments/study/study_trial.hpp"
 
 namespace zerocount::jerks {

@@ -17,7 +17,7 @@
 #include "analysis/statistics/quantile.hpp"
 #include "analysis/statistics/unknown.hpp"
 #include "core/trial/outcome.hpp"
-#include "experiments/study/study_fwd.hpp"
+#include "experiments/study/study.hpp"
 #include "results/reading/all_trials_file.hpp"
 
 namespace zerocount::jerks {

@@ -15,11 +15,11 @@
 #include "analysis/measures/measure_statistics.hpp"
 #include "analysis/measures/move_counts.hpp"
 #include "analysis/statistics/clusters/trial_clusters.hpp"
-#include "analysis/text/relation.hpp"
+#include "analysis/text/text.hpp"
 #include "core/trial/outcome.hpp"
 #include "experiments/study/features.hpp"
 #include "experiments/study/goal.hpp"
-#include "experiments/study/study_fwd.hpp"
+#include "experiments/study/study.hpp"
 #include "results/layout/measure_table.hpp"
 
 namespace zerocount::measures {

@@ -10,10 +10,10 @@
 #include "analysis/measures/point_accumulator.hpp"
 #include "analysis/measures/trial_value.hpp"
 #include "analysis/statistics/clusters/clustered_proportion.hpp"
-#include "analysis/statistics/known_values.hpp"
 #include "analysis/statistics/mean_bounds.hpp"
+#include "analysis/statistics/unknown.hpp"
 #include "core/trial/divergence.hpp"
-#include "experiments/designs/random_key.hpp"
+#include "experiments/designs/designs.hpp"
 
 namespace zerocount::measures {
 namespace {

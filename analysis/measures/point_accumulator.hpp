@@ -9,11 +9,11 @@
 #include "analysis/measures/goal_counts.hpp"
 #include "analysis/measures/measure_statistics.hpp"
 #include "analysis/measures/point_statistics.hpp"
+#include "analysis/statistics/change_point.hpp"
 #include "analysis/statistics/clusters/clustered_mean.hpp"
 #include "analysis/statistics/clusters/trial_clusters.hpp"
 #include "analysis/statistics/sums/histogram.hpp"
 #include "analysis/statistics/sums/state.hpp"
-#include "analysis/statistics/trend.hpp"
 #include "core/trial/outcome.hpp"
 
 namespace zerocount::measures {

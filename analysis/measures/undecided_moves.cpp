@@ -8,7 +8,7 @@
 
 #include "analysis/statistics/quantile.hpp"
 #include "analysis/statistics/unknown.hpp"
-#include "core/theory/slow_approach.hpp"
+#include "core/theory/move_times.hpp"
 #include "core/trial/last_half.hpp"
 #include "core/trial/parameters.hpp"
 #include "experiments/study/study_trial.hpp"

@@ -8,7 +8,7 @@
 #include "analysis/statistics/sums/histogram.hpp"
 #include "analysis/statistics/unknown.hpp"
 #include "core/trial/outcome.hpp"
-#include "experiments/study/study_fwd.hpp"
+#include "experiments/study/study.hpp"
 
 namespace zerocount::measures {
 

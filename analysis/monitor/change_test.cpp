@@ -9,7 +9,7 @@
 
 #include "core/numerics/elementary_functions.hpp"
 #include "core/numerics/normal_distribution.hpp"
-#include "core/random/number_source.hpp"
+#include "core/random/random_numbers.hpp"
 
 namespace zerocount::monitor {
 namespace {

@@ -12,8 +12,8 @@
 #include "analysis/monitor/change_test.hpp"
 #include "analysis/parallel/parallel.hpp"
 #include "core/failure/failure.hpp"
-#include "core/random/number_source.hpp"
-#include "experiments/designs/random_key.hpp"
+#include "core/random/random_numbers.hpp"
+#include "experiments/designs/designs.hpp"
 
 namespace zerocount::monitor {
 namespace {

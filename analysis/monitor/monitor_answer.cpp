@@ -9,7 +9,6 @@
 #include <fmt/ranges.h>
 
 #include "analysis/monitor/machine_monitor.hpp"
-#include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
 
 namespace zerocount::monitor {

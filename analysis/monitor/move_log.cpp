@@ -16,7 +16,7 @@
 #include "analysis/statistics/quantile.hpp"
 #include "analysis/text/text.hpp"
 #include "core/failure/failure.hpp"
-#include "core/text/number_text.hpp"
+#include "core/text/text.hpp"
 #include "core/text/unit.hpp"
 #include "experiments/parameters/study_units.hpp"
 

@@ -9,7 +9,7 @@
 
 #include <oneapi/tbb/info.h>
 
-#include "core/text/number_text.hpp"
+#include "core/text/text.hpp"
 
 namespace zerocount::parallel {
 namespace {

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "analysis/text/text.hpp"
-#include "core/text/trimmed.hpp"
+#include "core/text/text.hpp"
 
 namespace zerocount::records {
 namespace {

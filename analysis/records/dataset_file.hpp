@@ -10,7 +10,7 @@
 
 #include "analysis/records/mat_file.hpp"
 #include "experiments/tables/text_table.hpp"
-#include "results/hdf5/array_file.hpp"
+#include "results/hdf5/foreign_file.hpp"
 
 namespace zerocount::records {
 

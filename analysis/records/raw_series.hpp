@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "analysis/records/column_mapping.hpp"
-#include "core/motion/plant_start.hpp"
+#include "core/motion/parameters.hpp"
 #include "experiments/tables/text_table.hpp"
 
 namespace zerocount::records {

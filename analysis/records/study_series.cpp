@@ -4,8 +4,8 @@
 
 #include "analysis/records/raw_series.hpp"
 #include "core/failure/failure.hpp"
-#include "core/numerics/bisection.hpp"
-#include "core/trial/random_history.hpp"
+#include "core/numerics/roots.hpp"
+#include "core/trial/open_loop.hpp"
 #include "experiments/study/study_trial.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/all_trials_file.hpp"

@@ -7,7 +7,6 @@
 #include <fmt/ranges.h>
 
 #include "analysis/document/blocks.hpp"
-#include "analysis/document/markup.hpp"
 #include "core/hash/sha256.hpp"
 #include "results/layout/header.hpp"
 

@@ -6,13 +6,11 @@
 #include <fmt/ranges.h>
 
 #include "analysis/document/blocks.hpp"
-#include "analysis/document/markup.hpp"
 #include "analysis/report/report_sections.hpp"
 #include "analysis/summary_answer/parts.hpp"
 #include "analysis/summary_answer/summary_answer.hpp"
 #include "analysis/text/text.hpp"
-#include "core/text/counted.hpp"
-#include "core/text/shell_word.hpp"
+#include "core/text/text.hpp"
 
 namespace zerocount::report {
 namespace {

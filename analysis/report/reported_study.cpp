@@ -9,8 +9,6 @@
 #include "analysis/goal/question.hpp"
 #include "analysis/summary/cells_of_point.hpp"
 #include "analysis/summary/chosen_point.hpp"
-#include "analysis/text/percent.hpp"
-#include "analysis/text/quantity.hpp"
 #include "analysis/text/text.hpp"
 #include "core/failure/failure.hpp"
 #include "results/layout/header.hpp"

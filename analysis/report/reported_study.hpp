@@ -12,9 +12,9 @@
 #include "analysis/measures/trial_value.hpp"
 #include "analysis/summary/chosen_point.hpp"
 #include "analysis/summary/summary.hpp"
-#include "experiments/study/columns.hpp"
 #include "experiments/study/goal.hpp"
-#include "experiments/study/study_fwd.hpp"
+#include "experiments/study/grouping.hpp"
+#include "experiments/study/study.hpp"
 #include "results/reading/all_trials_file.hpp"
 
 namespace zerocount::report {

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "analysis/document/markup.hpp"
+#include "analysis/document/blocks.hpp"
 #include "analysis/goal/goal_text.hpp"
 #include "analysis/goal/question.hpp"
 #include "analysis/report/report_sections.hpp"
@@ -13,7 +13,6 @@
 #include "analysis/statistics/sample_size.hpp"
 #include "analysis/summary/cells_of_point.hpp"
 #include "analysis/summary/chosen_point.hpp"
-#include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
 
 namespace zerocount::report {

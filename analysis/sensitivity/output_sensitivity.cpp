@@ -11,7 +11,7 @@
 #include "analysis/sensitivity/sensitivity.hpp"
 #include "analysis/sensitivity/sobol_indices.hpp"
 #include "analysis/statistics/sums/moments.hpp"
-#include "experiments/designs/saltelli.hpp"
+#include "experiments/designs/designs.hpp"
 
 namespace zerocount::sensitivity {
 namespace {

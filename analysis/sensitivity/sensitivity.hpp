@@ -17,7 +17,7 @@
 #include "analysis/statistics/unknown.hpp"
 #include "core/random/random_numbers.hpp"
 #include "experiments/study/sampling.hpp"
-#include "experiments/study/study_fwd.hpp"
+#include "experiments/study/study.hpp"
 #include "results/layout/measure_table.hpp"
 #include "results/reading/all_trials_file.hpp"
 

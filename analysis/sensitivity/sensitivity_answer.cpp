@@ -6,9 +6,8 @@
 #include <fmt/ranges.h>
 
 #include "analysis/sensitivity/sensitivity.hpp"
-#include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
-#include "core/text/counted.hpp"
+#include "core/text/text.hpp"
 
 namespace zerocount::sensitivity {
 namespace {

@@ -148,7 +148,7 @@ inline BoundedNumber with_unseen(const BoundedNumber& resampled, double unseen) 
 BoundedNumber given_data_first_order(std::span<const double> x, std::span<const double> y, double confidence);
 
 /// The output of the trials of a saltelli design with k factors and N rows, finite (see
-/// experiments/designs/saltelli.hpp).
+/// experiments/designs/designs.hpp).
 struct SaltelliSample {
   std::vector<double> a;               ///< [row] of A
   std::vector<double> b;               ///< [row] of B

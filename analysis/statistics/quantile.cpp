@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "analysis/statistics/distributions.hpp"
-#include "core/numerics/bisection.hpp"
+#include "core/numerics/roots.hpp"
 
 namespace zerocount::statistics {
 

@@ -7,11 +7,11 @@
 #include <fmt/format.h>
 
 #include "analysis/statistics/clusters/rig_statistics.hpp"
-#include "analysis/statistics/confidence_sequence.hpp"
+#include "analysis/statistics/mean_bounds.hpp"
 #include "analysis/statistics/proportion.hpp"
-#include "analysis/text/percent.hpp"
+#include "analysis/text/text.hpp"
 #include "core/failure/failure.hpp"
-#include "core/numerics/bisection.hpp"
+#include "core/numerics/roots.hpp"
 
 namespace zerocount::statistics {
 namespace {

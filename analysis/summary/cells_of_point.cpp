@@ -14,7 +14,7 @@
 #include "analysis/goal/question.hpp"
 #include "analysis/statistics/clusters/clustered_proportion.hpp"
 #include "analysis/statistics/proportion.hpp"
-#include "analysis/text/percent.hpp"
+#include "analysis/text/text.hpp"
 
 namespace zerocount::summary {
 namespace {

@@ -11,8 +11,8 @@
 
 #include "analysis/goal/goal_verdict.hpp"
 #include "analysis/summary/summary.hpp"
-#include "experiments/study/columns.hpp"
-#include "experiments/study/study_fwd.hpp"
+#include "experiments/study/grouping.hpp"
+#include "experiments/study/study.hpp"
 
 /// The design point that all outputs of a study speak of.
 namespace zerocount::summary {

@@ -6,7 +6,7 @@
 
 #include "analysis/measures/point_statistics.hpp"
 #include "analysis/theory/theory_prediction.hpp"
-#include "experiments/study/study_fwd.hpp"
+#include "experiments/study/study.hpp"
 #include "results/layout/layout.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "results/timeline/timeline.hpp"

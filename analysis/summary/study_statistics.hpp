@@ -11,11 +11,11 @@
 #include "analysis/measures/undecided_moves.hpp"
 #include "analysis/theory/theory_prediction.hpp"
 #include "core/trial/outcome.hpp"
-#include "experiments/study/study_fwd.hpp"
+#include "experiments/study/study.hpp"
 #include "results/layout/point_sums.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "results/reading/results_file.hpp"
-#include "results/shards/trial_result.hpp"
+#include "results/shards/trial_columns.hpp"
 #include "results/timeline/timeline.hpp"
 
 namespace zerocount::summary {

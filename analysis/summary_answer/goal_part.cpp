@@ -8,7 +8,7 @@
 #include "analysis/statistics/sample_size.hpp"
 #include "analysis/summary/cells_of_point.hpp"
 #include "analysis/summary_answer/parts.hpp"
-#include "analysis/text/percent.hpp"
+#include "analysis/text/text.hpp"
 
 namespace zerocount::summary_answer {
 namespace {

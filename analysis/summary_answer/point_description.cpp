@@ -18,7 +18,6 @@
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/summary/chosen_point.hpp"
 #include "analysis/summary_answer/parts.hpp"
-#include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 

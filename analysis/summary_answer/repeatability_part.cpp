@@ -12,9 +12,8 @@
 #include "analysis/measures/point_columns.hpp"
 #include "analysis/statistics/clusters/tolerance.hpp"
 #include "analysis/summary_answer/parts.hpp"
-#include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
-#include "core/text/counted.hpp"
+#include "core/text/text.hpp"
 
 namespace zerocount::summary_answer {
 namespace {

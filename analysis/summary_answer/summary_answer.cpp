@@ -14,9 +14,8 @@
 #include "analysis/summary/cells_of_point.hpp"
 #include "analysis/summary/chosen_point.hpp"
 #include "analysis/summary_answer/parts.hpp"
-#include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
-#include "core/text/counted.hpp"
+#include "core/text/text.hpp"
 
 namespace zerocount::summary_answer {
 namespace {

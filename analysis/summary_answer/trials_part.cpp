@@ -9,9 +9,8 @@
 
 #include "analysis/measures/undecided_moves.hpp"
 #include "analysis/statistics/clusters/tolerance.hpp"
-#include "analysis/statistics/confidence_sequence.hpp"
+#include "analysis/statistics/mean_bounds.hpp"
 #include "analysis/summary_answer/parts.hpp"
-#include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
 
 /// What the trials of a point show beside their statistics: each part is an object of the point in data, and

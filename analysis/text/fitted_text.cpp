@@ -1,5 +1,3 @@
-#include "analysis/text/fitted_text.hpp"
-
 #include <algorithm>
 #include <utility>
 #include <vector>
@@ -8,7 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "analysis/text/text.hpp"
-#include "core/text/utf8.hpp"
+#include "core/text/text.hpp"
 
 namespace zerocount::text {
 namespace {

@@ -1,11 +1,10 @@
-#include "analysis/text/relation.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <utility>
 
-#include "core/text/trimmed.hpp"
+#include "analysis/text/text.hpp"
+#include "core/text/text.hpp"
 
 namespace zerocount::text {
 namespace {

@@ -10,6 +10,84 @@
 
 namespace zerocount::text {
 
+/// Fits sentences to the width of a terminal: lines are wrapped between words, and continue two columns
+/// further in, or below the text of an entry that follows its name after two spaces or more. Tables are made
+/// for a width (aligned_table).
+/// @param width columns of the terminal, at least 20; nothing: the text stays as it is
+std::string fitted(std::string_view text, std::optional<std::size_t> width);
+
+/// A line of parts between commas that fits into the width: parts are left out, the last but one first, and
+/// if the first is still too wide, its end. The first and the last say most.
+std::string shortened(std::string_view line, std::size_t width);
+
+/// A text whose paragraphs were wrapped by hand at about `width`, with each paragraph on one line: a line
+/// that had no room for the next word is joined with the next line, if both are indented alike
+/// and it ends no entry of a list (;).
+std::string unwrapped(std::string_view text, std::size_t width);
+
+/// Lines of sentences are not wider than this, on any terminal: longer ones are hard to read.
+inline constexpr std::size_t width_of_prose = 120;
+
+// Proportions as percentages. No bound is ever rounded towards what it does not show: a lower bound is
+// rounded down, an upper bound up.
+
+/// A proportion that was given, as a percentage with as many digits as it takes to tell it from 0 and 1:
+/// "95 %", "99.99999 %".
+std::string percent(double proportion);
+
+/// A proportion that was observed, rounded to as many digits as tell it from 0 and 1, at least one decimal:
+/// "97.4 %", "99.96 %"; "0 %" and "100 %" are exact.
+std::string percent_near(double proportion);
+
+/// A lower bound, rounded down to two significant digits of the smaller of p and 1 − p, and to one decimal if
+/// both are above 1 %. Never "100 %": no sample shows that.
+std::string percent_at_least(double proportion);
+
+/// An upper bound, rounded up to two significant digits, and to one decimal above 1 %. Never "0 %" unless it
+/// is 0.
+std::string percent_at_most(double proportion);
+
+/// A number rounded down or up to so many decimals; what rounding errors add is not rounded.
+std::string rounded_down(double value, int decimals);
+std::string rounded_up(double value, int decimals);
+
+/// "96.6, 99.1": two bounds of a proportion in percent, rounded outward.
+std::string percent_bounds(double low, double high, int decimals = 1, const char* between = ", ");
+
+// Numbers with their units, as people write them.
+
+/// A number with so many significant digits and a short exponent: "5.9e6", "0.0125"; "–" for NaN.
+std::string number_text(double value, int digits = 4);
+
+/// A number with its unit; lengths, angles, times and frequencies with a prefix: "10 nm", "1.2 mm/s",
+/// "16 kHz", "5.9e6 N/m". No unit where it is "1".
+std::string quantity_text(double value, std::string_view unit, int digits = 4);
+
+/// A range with its unit, with one prefix for both ends: "310 … 930 N s/m"; one number where they are equal.
+std::string range_text(double low, double high, std::string_view unit);
+
+/// Numbers with one unit: "20, 21, 20, 0 µm".
+std::string list_text(std::span<const double> values, std::string_view unit);
+
+// Texts such as "settling_time > 0.5" and "success_rate ≥ 0.995": what options and margins ask of a value.
+
+/// How a value lies to its limit.
+enum class Sign : std::uint8_t { below, at_most, above, at_least, equal, unequal };
+
+/// The parts of such a text, without the blanks around them.
+struct Relation {
+  std::string_view name;
+  Sign sign;
+  std::string_view written;  ///< the sign as it stands: "≥" or ">="
+  std::string_view limit;
+};
+
+/// The parts of the text by the first sign in it, one of < <= ≤ > >= ≥ = == != ≠; nothing without one.
+std::optional<Relation> parse_relation(std::string_view text);
+
+/// Whether the value lies so; never of NaN.
+bool holds(Sign sign, double value, double limit);
+
 /// k of n as a percentage with at most one decimal; "–" if n is 0. Values that would round to 0 % or 100 %
 /// are written "< 0.1 %" or "> 99.9 %".
 std::string percentage(std::int64_t successes, std::int64_t trials);

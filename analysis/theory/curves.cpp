@@ -8,14 +8,14 @@
 #include <numbers>
 #include <optional>
 
-#include "analysis/statistics/spread_over.hpp"
+#include "analysis/statistics/unknown.hpp"
 #include "analysis/theory/theory_prediction.hpp"
 #include "analysis/theory/trial_loops.hpp"
-#include "core/numerics/bisection.hpp"
-#include "core/theory/crossovers.hpp"
+#include "core/numerics/roots.hpp"
+#include "core/theory/margins.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/study_trial.hpp"
-#include "experiments/study/trial_completion.hpp"
+#include "experiments/study/trial_draws.hpp"
 
 namespace zerocount::theory {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/theory/frozen_loop.hpp"
-#include "experiments/study/study_fwd.hpp"
+#include "experiments/study/study.hpp"
 
 namespace zerocount::theory {
 

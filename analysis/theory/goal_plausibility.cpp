@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/statistics/spread_over.hpp"
+#include "analysis/statistics/unknown.hpp"
 #include "analysis/theory/plausibility.hpp"
 #include "analysis/theory/theory_prediction.hpp"
 #include "analysis/theory/trial_loops.hpp"

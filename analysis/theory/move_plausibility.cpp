@@ -12,7 +12,7 @@
 #include "core/loop/measurement.hpp"
 #include "core/loop/reference.hpp"
 #include "core/motion/disturbance.hpp"
-#include "core/theory/shortest_move.hpp"
+#include "core/theory/move_times.hpp"
 #include "experiments/parameters/study_units.hpp"
 #include "experiments/study/study.hpp"
 

@@ -8,7 +8,7 @@
 #include "core/loop/reference.hpp"
 #include "core/trial/parameters.hpp"
 #include "experiments/study/goal.hpp"
-#include "experiments/study/study_fwd.hpp"
+#include "experiments/study/study.hpp"
 
 namespace zerocount::theory {
 

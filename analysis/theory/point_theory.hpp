@@ -12,8 +12,8 @@
 #include "analysis/theory/theory_prediction.hpp"
 #include "core/friction/profile.hpp"
 #include "core/theory/frozen_loop.hpp"
-#include "experiments/study/low_end.hpp"
-#include "experiments/study/study_fwd.hpp"
+#include "experiments/study/point_limits.hpp"
+#include "experiments/study/study.hpp"
 
 namespace zerocount::theory {
 

@@ -7,11 +7,10 @@
 #include <vector>
 
 #include "core/motion/parameters.hpp"
-#include "core/theory/sampled_stability.hpp"
 #include "core/theory/stability.hpp"
 #include "core/trial/parameters.hpp"
-#include "experiments/study/study_fwd.hpp"
-#include "results/layout/row_range.hpp"
+#include "experiments/study/study.hpp"
+#include "results/layout/layout.hpp"
 
 /// Predictions by the paper's criteria (6) and (7), for each trial with its own friction.
 namespace zerocount::theory {

@@ -7,7 +7,6 @@
 #include "analysis/statistics/distributions.hpp"
 #include "analysis/two_samples/exact_tests.hpp"
 #include "core/random/random_numbers.hpp"
-#include "core/random/variates.hpp"
 
 namespace zerocount::two_samples {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "analysis/statistics/distributions.hpp"
-#include "core/numerics/bisection.hpp"
+#include "core/numerics/roots.hpp"
 
 namespace zerocount::two_samples {
 namespace {

@@ -13,7 +13,7 @@
 #include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/quantile.hpp"
 #include "analysis/two_samples/exact_tests.hpp"
-#include "core/numerics/bisection.hpp"
+#include "core/numerics/roots.hpp"
 
 namespace zerocount::two_samples {
 namespace {

@@ -7,7 +7,7 @@
 #include "analysis/measures/measure_statistics.hpp"
 #include "analysis/worlds/world_rule.hpp"
 #include "core/friction/parameters.hpp"
-#include "experiments/study/study_fwd.hpp"
+#include "experiments/study/study.hpp"
 
 namespace zerocount::worlds {
 

@@ -8,7 +8,7 @@
 
 #include "analysis/worlds/derived_quantities.hpp"
 #include "analysis/worlds/world_rule.hpp"
-#include "experiments/designs/random_key.hpp"
+#include "experiments/designs/designs.hpp"
 
 namespace zerocount::worlds {
 namespace {

@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "core/text/number_text.hpp"
-#include "experiments/designs/random_key.hpp"
+#include "core/text/text.hpp"
+#include "experiments/designs/designs.hpp"
 #include "experiments/study/group_inputs.hpp"
 
 namespace zerocount::worlds {

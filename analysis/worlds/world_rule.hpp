@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/random/random_numbers.hpp"
-#include "experiments/study/study_fwd.hpp"
+#include "experiments/study/study.hpp"
 
 /// A rule that separates bad worlds from the others.
 namespace zerocount::worlds {

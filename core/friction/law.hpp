@@ -10,7 +10,6 @@
 #include "core/friction/parameters.hpp"
 #include "core/friction/presliding/creep.hpp"
 #include "core/motion/parameters.hpp"
-#include "core/motion/plant_start.hpp"
 #include "core/motion/taylor_step.hpp"
 
 namespace zerocount::friction {

@@ -2,9 +2,8 @@
 
 #include <variant>
 
-#include "core/friction/bristles/dahl.hpp"
+#include "core/friction/bristles/bristle.hpp"
 #include "core/friction/bristles/gms.hpp"
-#include "core/friction/bristles/lugre.hpp"
 #include "core/friction/presliding/presliding.hpp"
 #include "core/friction/sliding/coulomb.hpp"
 #include "core/friction/sliding/none.hpp"

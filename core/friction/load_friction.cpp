@@ -2,9 +2,8 @@
 
 #include <cmath>
 
+#include "core/friction/bristles/bristle.hpp"
 #include "core/friction/bristles/bristle_formulas.hpp"
-#include "core/friction/bristles/dahl.hpp"
-#include "core/friction/bristles/lugre.hpp"
 #include "core/numerics/sign.hpp"
 
 namespace zerocount::friction {

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "core/numerics/elementary_functions.hpp"
-#include "core/numerics/minimum.hpp"
+#include "core/numerics/roots.hpp"
 
 namespace zerocount::friction {
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/numerics/elementary_functions.hpp"
-#include "core/random/variates.hpp"
+#include "core/random/random_numbers.hpp"
 
 namespace zerocount::loop {
 namespace {

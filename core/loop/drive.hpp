@@ -10,7 +10,6 @@
 #include "core/loop/parameters.hpp"
 #include "core/motion/torque_course.hpp"
 #include "core/random/random_numbers.hpp"
-#include "core/random/trial_randomness.hpp"
 
 namespace zerocount::loop {
 

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "core/numerics/elementary_functions.hpp"
-#include "core/random/variates.hpp"
+#include "core/random/random_numbers.hpp"
 
 namespace zerocount::loop {
 namespace {

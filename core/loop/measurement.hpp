@@ -7,7 +7,6 @@
 #include "core/loop/formulas.hpp"
 #include "core/loop/parameters.hpp"
 #include "core/random/random_numbers.hpp"
-#include "core/random/trial_randomness.hpp"
 
 namespace zerocount::loop {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/numerics/elementary_functions.hpp"
-#include "core/numerics/first_root.hpp"
+#include "core/numerics/roots.hpp"
 
 namespace zerocount::motion {
 namespace {

@@ -8,7 +8,7 @@
 #include <sleef.h>
 
 #include "core/numerics/elementary_tables.hpp"
-#include "core/numerics/ln2.hpp"
+#include "core/numerics/logarithm_by_series.hpp"
 
 namespace zerocount::numerics {
 namespace {

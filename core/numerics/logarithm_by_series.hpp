@@ -1,9 +1,12 @@
 #pragma once
 
-#include "core/numerics/ln2.hpp"
 #include "core/numerics/number.hpp"
 
 namespace zerocount::numerics {
+
+/// ln 2 as a sum. The first term is a multiple of 2⁻⁴², so its multiples up to 2¹⁰ are exact.
+inline constexpr double ln2_high = 0x1.62e42fefa3800p-1;
+inline constexpr double ln2_low = 0x1.ef35793c76730p-45;
 
 /// ln a of a normal a > 0, to some 2e-16 relative: a = m·2ᵉ with m from √½ to √2, and with s = (m − 1)/(m +
 /// 1) ln m = 2·(s + s³/3 + s⁵/5 + …).

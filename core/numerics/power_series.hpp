@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <span>
 
+#include "core/numerics/elementary_functions.hpp"
 #include "core/numerics/series_recurrences.hpp"
 
 namespace zerocount::numerics {
@@ -36,6 +37,42 @@ inline double growth_bound(std::span<const double> coefficients, double t) {
   double bound = 0.0;
   for (std::size_t k = coefficients.size(); k-- > 1;) bound = (bound + std::max(coefficients[k], 0.0)) * t;
   return bound;
+}
+
+// Divided differences of the exponential function at points that are not positive: the terms of the response
+// of a linear first-order system to exponential inputs. Accurate also where the points are close to one
+// another or to 0.
+
+/// exp[0, −x] = (1 − e^(−x))/x, x ≥ 0; 1 at x = 0.
+inline double exponential_difference(double x) {
+  return x == 0.0 ? 1.0 : -expm1(-x) / x;
+}
+
+/// exp[−x, −y] = (e^(−x) − e^(−y))/(y − x), x, y ≥ 0; e^(−x) at x = y.
+inline double exponential_difference(double x, double y) {
+  return exp(-std::min(x, y)) * exponential_difference(std::abs(x - y));
+}
+
+/// exp[0, −x, −y] = (exp[0, −x] − exp[0, −y])/(y − x), x, y ≥ 0; ½ at x = y = 0.
+inline double second_exponential_difference(double x, double y) {
+  const auto [low, high] = std::minmax(x, y);
+  constexpr double series_below = 0.5;
+  if (high >= series_below) {
+    return (exponential_difference(low) - exponential_difference(low, high)) / high;
+  }
+  // Σ (−1)^k·h_k/(k + 2)!, with h_k = Σ low^i·high^(k−i) the complete homogeneous symmetric polynomials.
+  constexpr int terms = 15;
+  double sum = 0.0;
+  double polynomial = 1.0;
+  double power = 1.0;      // low^k
+  double factorial = 2.0;  // (k + 2)!
+  for (int k = 0; k < terms; ++k) {
+    sum += (k % 2 == 0 ? polynomial : -polynomial) / factorial;
+    power *= low;
+    polynomial = high * polynomial + power;
+    factorial *= static_cast<double>(k + 3);
+  }
+  return sum;
 }
 
 }  // namespace zerocount::numerics

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "core/text/utf8.hpp"
+#include "core/text/text.hpp"
 
 namespace zerocount::plugin {
 namespace {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace zerocount::random {
 
@@ -45,5 +47,57 @@ std::uint64_t random_bits_at(const RandomStream& stream, std::uint64_t trial, st
 /// The bits as a uniform number in the open interval (0, 1): (⌊w/2¹²⌋ + ½)·2⁻⁵². Exact, so never 0 or 1, and
 /// symmetric about ½.
 double open_uniform(std::uint64_t bits);
+
+/// A standard normal number: Φ⁻¹(u) with u = open_uniform(bits). Its absolute value is below 8.21;
+/// complementary bits give exactly the negative.
+double standard_normal(std::uint64_t bits);
+
+/// A standard normal number for the noise in a running trial, by a formula that the lanes evaluate as well.
+/// It is within a relative 1e-15 of standard_normal(), which draws the parameters of manifests.
+double standard_normal_noise(std::uint64_t bits);
+
+/// A binomial number: how many of `n` independent events of probability `probability` occur. By inversion:
+/// the smallest j with F(j) ≥ u, u = open_uniform(bits), F(j) = Σ_{i≤j} C(n, i)·pⁱ·(1 − p)ⁿ⁻ⁱ.
+/// @param n not negative. @param probability p, in [0, 1].
+std::int64_t binomial_number(std::int64_t n, double probability, std::uint64_t bits);
+
+/// The random numbers of a stream one after the other, for searches that need no counter of their own.
+class NumberSource {
+ public:
+  explicit NumberSource(const RandomKey& key, std::uint32_t stream = 0) : stream_{key, stream} {}
+
+  /// In (0, 1).
+  double uniform() { return open_uniform(next()); }
+  double normal() { return standard_normal(next()); }
+  std::vector<double> normals(std::size_t count) {
+    std::vector<double> numbers(count);
+    for (double& number : numbers) number = normal();
+    return numbers;
+  }
+
+ private:
+  std::uint64_t next() { return random_bits(stream_, drawn_++, Draw::trial); }
+
+  RandomStream stream_;
+  std::uint64_t drawn_{0};
+};
+
+/// Streams of the random numbers that are drawn while a trial runs. The trial index and the stream are the
+/// counter words of the same name (random_numbers.hpp).
+struct TrialRandomness {
+  std::uint64_t trial{0};
+  std::uint32_t stream{0};
+  RandomKey history{};
+  RandomKey fine_noise{};
+  RandomKey fine_missed{};
+  RandomKey coarse_noise{};
+  RandomKey coarse_missed{};
+  RandomKey dac_noise{};
+  RandomKey missed_samples{};
+  RandomKey jitter{};
+  RandomKey spectrum{};
+  RandomKey other_noise{};
+  RandomKey other_missed{};
+};
 
 }  // namespace zerocount::random

@@ -1,9 +1,8 @@
 #pragma once
 
-#include "core/loop/controller/transfer_function.hpp"
+#include "core/loop/controller/control_block.hpp"
 #include "core/loop/parameters.hpp"
 #include "core/motion/parameters.hpp"
-#include "core/theory/held_plant.hpp"
 #include "core/theory/linear_loop.hpp"
 
 namespace zerocount::theory {

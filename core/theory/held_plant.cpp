@@ -1,9 +1,8 @@
-#include "core/theory/held_plant.hpp"
-
 #include <cmath>
 #include <numbers>
 
 #include "core/numerics/dense.hpp"
+#include "core/theory/linear_loop.hpp"
 
 namespace zerocount::theory {
 

@@ -6,12 +6,69 @@
 
 #include <Eigen/Core>
 
-#include "core/loop/controller/transfer_function.hpp"
-#include "core/theory/held_plant.hpp"
+#include "core/loop/controller/control_block.hpp"
+#include "core/loop/controller/pid.hpp"
+#include "core/loop/encoder.hpp"
+#include "core/loop/parameters.hpp"
+#include "core/motion/parameters.hpp"
+#include "core/theory/stability.hpp"
 
 /// The sampled loop made linear, assembled from the transfer functions of the controller's blocks: target 0,
 /// the count a continuous quantity, the decided torques applied after the plant's delay.
 namespace zerocount::theory {
+
+/// PID gains of the continuous loop u = kP·e + kI·∫e dt + kD·de/dt with the error in rad, as in the paper's
+/// equation (4).
+struct AnalogueGains {
+  double kp{0.0};  ///< N m/rad
+  double ki{0.0};  ///< N m/(rad s)
+  double kd{0.0};  ///< N m s/rad
+};
+
+/// T = 1/sample rate, s.
+double sample_time(const loop::ControllerParameters& controller);
+
+/// The continuous gains that a sampled controller stands for. Δx is that of the fine encoder, whichever
+/// closes the loop; the count of the coarse one is converted to fine counts.
+///
+/// kP = kp/Δx, kI = 2·ki/(Δx·T), kD = kd·T/Δx: the proportional term counts the error, the trapezoidal rule
+/// adds kI·Δx·T/2 for each of two successive errors, and the difference of successive counts is the velocity
+/// times T/Δx.
+AnalogueGains analogue_gains(const loop::ControllerParameters& controller,
+                             const loop::EncoderParameters& encoder);
+
+/// The gains of the sampled law that stand for `gains` at the sample rate of `controller`: kp = kP·Δx, ki =
+/// kI·Δx·T/2, kd = kD·Δx/T.
+loop::PidGains sampled_gains(const AnalogueGains& gains, const loop::ControllerParameters& controller,
+                             const loop::EncoderParameters& encoder);
+
+/// `controller` with these gains: the inverse of analogue_gains.
+loop::ControllerParameters with_analogue_gains(loop::ControllerParameters controller,
+                                               const AnalogueGains& gains,
+                                               const loop::EncoderParameters& encoder);
+
+/// The driven plant over sample k: x ← A·x + b·v[k − delay] + b_before·v[k − delay − 1] with x = (count,
+/// change of the count per sample at the present velocity; with a load both of the mass that the encoder does
+/// not read, its angle relative to the measured one; with an amplifier its torque), v the decided torques (N
+/// m).
+struct HeldPlant {
+  Eigen::MatrixXd A;         ///< of counts and N m
+  Eigen::VectorXd b;         ///< counts/(N m); 1 for the torque
+  Eigen::VectorXd b_before;  ///< 0 for a delay of whole samples
+  int delay{0};              ///< whole samples between deciding a torque and applying it
+  /// Counts of the encoder of the other mass in one of the fine one, where the velocity loop reads it; else
+  /// 0.
+  double other_per_count{0.0};
+};
+
+/// Exact discretisation of J·θ¨ + damping·θ˙ + stiffness·θ = u − Ts, with the load of `plant`, and the
+/// drive's input held over each sample. The coupling is in contact and without an error, the load without
+/// its friction.
+/// @param stiffness N m/rad. @param damping N m s/rad. @param plant its inertia and load.
+/// @param count_angle Δx, rad. @param sample_time T, s.
+/// @param delay samples between deciding a torque and applying it, whole or not.
+HeldPlant hold_plant(double stiffness, double damping, const motion::PlantParameters& plant,
+                     double count_angle, double sample_time, const LinearDrive& drive, double delay = 0.0);
 
 /// The one-sample map x ← M·x of the loop. Its states are those of the driven rotor, of the blocks' transfer
 /// functions (direct form II transposed; paths of a stage with the same poles share them), and the torques

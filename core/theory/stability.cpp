@@ -1,12 +1,107 @@
 #include "core/theory/stability.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <complex>
+#include <limits>
 #include <numbers>
+#include <vector>
 
 #include "core/friction/profile.hpp"
-#include "core/theory/gains.hpp"
+#include "core/loop/controller/controller.hpp"
+#include "core/numerics/dense.hpp"
+#include "core/theory/frozen_loop.hpp"
+#include "core/theory/linear_loop.hpp"
+#include "core/theory/margins.hpp"
 
 namespace zerocount::theory {
+
+namespace {
+
+FrozenLoop presliding_loop(double stiffness, const motion::PlantParameters& plant,
+                           const loop::EncoderParameters& encoder,
+                           const loop::ControllerParameters& controller, const LinearDrive& drive) {
+  return frozen_loop(stiffness, plant.presliding_damping, plant, encoder, controller, drive);
+}
+
+/// Controller is ControllerParameters, const or not.
+template <class Controller>
+auto& integral_gain_in(Controller& controller) {
+  switch (controller.blocks.structure) {
+    case loop::ControlStructure::cascade:
+      return controller.blocks.cascade.ki;
+    case loop::ControlStructure::pid:
+      break;
+  }
+  return controller.ki;
+}
+
+/// Stiffness of spring and control law without integral, in the unit of integral_gain: N m/count or N m/rad.
+double static_stiffness(double stiffness, const loop::EncoderParameters& encoder,
+                        const loop::ControllerParameters& controller) {
+  switch (controller.blocks.structure) {
+    case loop::ControlStructure::cascade:
+      return stiffness + controller.blocks.cascade.kp * controller.blocks.cascade.kv;
+    case loop::ControlStructure::pid:
+      break;
+  }
+  return stiffness * loop::fine_resolution(encoder) + controller.kp;
+}
+
+}  // namespace
+
+double sampled_spectral_radius(double stiffness, const motion::PlantParameters& plant,
+                               const loop::EncoderParameters& encoder,
+                               const loop::ControllerParameters& controller, const LinearDrive& drive) {
+  const FrozenLoop loop = presliding_loop(stiffness, plant, encoder, controller, drive);
+  return spectral_radius(loop.plant, loop.controller);
+}
+
+double slowest_time_constant(double stiffness, const motion::PlantParameters& plant,
+                             const loop::EncoderParameters& encoder,
+                             const loop::ControllerParameters& controller, const LinearDrive& drive) {
+  const FrozenLoop loop = presliding_loop(stiffness, plant, encoder, controller, drive);
+  return slowest_time_constant(poles_of(loop), loop.sample_time);
+}
+
+double integral_gain(const loop::ControllerParameters& controller) {
+  return integral_gain_in(controller);
+}
+
+double sampled_critical_integral_gain(double stiffness, const motion::PlantParameters& plant,
+                                      const loop::EncoderParameters& encoder,
+                                      loop::ControllerParameters controller, const LinearDrive& drive) {
+  double& ki = integral_gain_in(controller);
+  const double scale = static_stiffness(stiffness, encoder, controller);
+  FrozenLoop loop = presliding_loop(stiffness, plant, encoder, controller, drive);
+  const auto with_gain = [&](double gain) {
+    ki = gain;
+    loop.controller = loop::linear_chain(controller, encoder);
+    return loop;
+  };
+  const double lowest = 1e-6 * scale;
+  // Without stiffness and kp no integral gain is stable; the eigenvalue 1 of the free rotor may round
+  // below 1.
+  if (lowest == 0.0 || spectral_radius(loop.plant, with_gain(lowest).controller) >= 1.0) return 0.0;
+  const FrozenLoop with = with_gain(scale);
+  const FrozenLoop without = with_gain(0.0);
+  const OpenLoop open_with = open_loop(with);
+  const OpenLoop open_without = open_loop(without);
+  const auto gain_on_circle = [&](double angle) {
+    const std::complex<double> rest = open_without.at_angle(angle);
+    return -scale * (1.0 + rest) / (open_with.at_angle(angle) - rest);
+  };
+  std::vector<double> angles = search_angles(with);
+  add_angles_around(poles_of(without), angles);
+  double bound = std::numeric_limits<double>::infinity();
+  const auto add = [&](double angle) {
+    const double gain = gain_on_circle(angle).real();
+    if (gain > lowest) bound = std::min(bound, gain);
+  };
+  for (const double angle : phase_crossovers(sampled(gain_on_circle, angles))) add(angle);
+  add(std::numbers::pi);
+  return bound;
+}
 
 std::string_view left_out_of_criteria(const motion::PlantParameters& plant,
                                       const loop::ControllerParameters& controller) {

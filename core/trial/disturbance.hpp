@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/motion/disturbance.hpp"
-#include "core/random/trial_randomness.hpp"
+#include "core/random/random_numbers.hpp"
 
 namespace zerocount::trial {
 

@@ -2,12 +2,22 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "core/loop/dac.hpp"
 #include "core/trial/parameters.hpp"
-#include "core/trial/torque_ramp.hpp"
+#include "core/trial/torque_record.hpp"
 
 namespace zerocount::trial {
+
+/// The levels (N m) of a random history, in order. With u_k = open_uniform of number k of the history's key:
+/// the first level lies upwards where u_0 ≥ ½ and downwards otherwise, and the direction changes from level
+/// to level; level k = 1 … reversals is
+///
+///   l_k = l_{k−1} + u_k·(±torque − l_{k−1}),   l_0 = 0,
+///
+/// evenly distributed between the level before and the largest torque in its direction.
+std::vector<double> draw_history(const RandomHistory& history, const random::TrialRandomness& randomness);
 
 /// The open loop of a trial with torque levels or a recorded torque: the torque of each sample, as
 /// SampledLoop gives it in a closed loop.

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/trial/torque_ramp.hpp"
+#include "core/trial/torque_record.hpp"
 
 namespace zerocount::trial {
 

@@ -9,7 +9,7 @@
 #include "core/friction/parameters.hpp"
 #include "core/loop/parameters.hpp"
 #include "core/motion/parameters.hpp"
-#include "core/random/trial_randomness.hpp"
+#include "core/random/random_numbers.hpp"
 #include "core/trial/disturbance.hpp"
 #include "core/trial/error_bands.hpp"
 #include "core/trial/torque_record.hpp"

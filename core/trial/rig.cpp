@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "core/numerics/bisection.hpp"
-#include "core/trial/random_history.hpp"
+#include "core/numerics/roots.hpp"
+#include "core/trial/open_loop.hpp"
 
 namespace zerocount::trial {
 namespace {

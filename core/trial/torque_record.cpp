@@ -1,6 +1,7 @@
 #include "core/trial/torque_record.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 namespace zerocount::trial {
@@ -14,6 +15,18 @@ double torque_at(const TorqueRecord& record, double time) {
     if (record.time[row + 1] - time <= rounding * interval) ++row;
   }
   return record.torque[row];
+}
+
+TorqueRamp make_torque_ramp(double from, double to, double rate, double sample_rate) {
+  // A ramp of a whole number of samples must not gain one by rounding.
+  constexpr double whole = 1e-9;
+  const double samples = std::abs(to - from) / rate * sample_rate;
+  return {from, to, std::copysign(rate / sample_rate, to - from),
+          static_cast<std::int64_t>(std::ceil(samples - whole * std::fmax(samples, 1.0)))};
+}
+
+double torque_at(const TorqueRamp& ramp, std::int64_t i) {
+  return i < ramp.samples ? ramp.from + static_cast<double>(i) * ramp.per_sample : ramp.to;
 }
 
 }  // namespace zerocount::trial

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 namespace zerocount::trial {
@@ -13,5 +14,22 @@ struct TorqueRecord {
 /// The torque (N m) at `time` (s), at least 0. A time that is within 1e-6 of the record's next interval
 /// before a row counts as the row's: k·T and a written time differ by rounding.
 double torque_at(const TorqueRecord& record, double time);
+
+/// A torque that goes from one level to the next at a constant rate, sampled: each value is held until the
+/// next instant.
+struct TorqueRamp {
+  double from{0.0};        ///< N m
+  double to{0.0};          ///< N m
+  double per_sample{0.0};  ///< change from sample to sample, with its sign, N m
+  /// On the way: the first sample that has the torque `to`. With s = |to − from|/rate·sample_rate it is
+  /// ⌈s − 1e-9·max(s, 1)⌉: a whole number s must not gain a sample by rounding.
+  std::int64_t samples{0};
+};
+
+/// @param rate magnitude of the rate, N m/s, positive. @param sample_rate Hz.
+TorqueRamp make_torque_ramp(double from, double to, double rate, double sample_rate);
+
+/// The torque (N m) at sample i = 0, 1, … of the ramp: from + i·per_sample, then `to`.
+double torque_at(const TorqueRamp& ramp, std::int64_t i);
 
 }  // namespace zerocount::trial

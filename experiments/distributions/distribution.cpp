@@ -8,9 +8,9 @@
 
 #include "core/numerics/elementary_functions.hpp"
 #include "core/numerics/normal_distribution.hpp"
-#include "experiments/distributions/quantile_function.hpp"
 
 namespace zerocount::distributions {
+
 namespace {
 
 template <class... Cases>

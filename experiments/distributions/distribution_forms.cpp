@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "experiments/yaml/nearest_name.hpp"
+#include "experiments/yaml/problems.hpp"
 
 namespace zerocount::distributions {
 namespace {

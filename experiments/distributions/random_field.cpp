@@ -6,7 +6,7 @@
 
 #include "core/numerics/elementary_functions.hpp"
 #include "core/numerics/normal_distribution.hpp"
-#include "core/random/variates.hpp"
+#include "core/random/random_numbers.hpp"
 
 namespace zerocount::distributions {
 namespace {

@@ -1,5 +1,3 @@
-#include "experiments/guides/guide_friction.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -7,8 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "core/friction/presliding/measured_spring.hpp"
+#include "core/friction/presliding/spring.hpp"
 #include "core/numerics/elementary_functions.hpp"
+#include "experiments/guides/guide_manifest.hpp"
 
 namespace zerocount::guides {
 namespace {

@@ -2,10 +2,64 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
-#include "experiments/guides/guide_friction.hpp"
+#include "experiments/guides/guide_table.hpp"
 
 namespace zerocount::guides {
+
+/// Mass and preload of a guide, which scale its friction.
+struct GuideLoad {
+  double mass{0.0};     ///< kg, or kg m^2
+  double preload{0.0};  ///< N, normal to the guide, on all carriages together
+};
+
+/// A friction spring by what was measured of it: a secant of its virgin curve, and where it breaks away.
+struct MeasuredSpring {
+  double breakaway{0.0};         ///< N
+  double travel{0.0};            ///< up to breakaway, m
+  double secant_stiffness{0.0};  ///< N/m
+  double secant_travel{0.0};     ///< m
+};
+
+/// Why no spring has these values, with their numbers; empty if one has.
+std::string fault_of(const MeasuredSpring& measured);
+
+/// Final stiffnesses above it, N/m, belong to no spring with these values.
+double highest_final_stiffness(const MeasuredSpring& measured);
+
+/// The defaults of a guide.
+GuideLoad usual_load(const Guide& guide);
+
+/// The ranges of the parameters of a manifest. With the load W = preload + mass·9.81 m/s², and x~ for the
+/// geometric centre of the range of x:
+///
+///     friction.breakaway  F = friction coefficient·W + constant resistance
+///     friction.k1         (1 - early part~)·F~ / travel
+///     friction.k2         2·early part·F~ / softening length~
+///     friction.beta       1 / softening length
+///     friction.lambda     F~ⁿ / (creep part·travel~)
+///     plant.presliding_damping   2·damping ratio·sqrt((k1~ + k2~)·mass)
+///
+/// At the centres the virgin curve (core/friction/equations.md) reaches the breakaway force after the travel,
+/// if that is many softening lengths: k1·travel + k2/(2·beta) = F. The other parameters are numbers of the
+/// guide. A computed number is published if all that it is computed from is.
+///
+/// With a measured spring, friction.measured stands in place of k1, k2, beta and breakaway, with a final
+/// stiffness from 0.1 to 0.9 of highest_final_stiffness(), and F~, travel~, k1~ and k2~ are its.
+/// @param measured of a guide with a load
+std::vector<GuideNumber> guide_parameters(const Guide& guide, const GuideLoad& load,
+                                          const std::optional<MeasuredSpring>& measured = {});
+
+/// Geometric centre of a range; 0 if it begins with 0.
+double centre(const GuideNumber& number);
+
+/// Lowest and highest value of a parameter over all guides of this kind of axis with their usual loads;
+/// nothing if no guide has it.
+std::optional<std::pair<double, double>> range_over_guides(parameters::AxisKind axis,
+                                                           std::string_view parameter);
 
 /// The axis of a new study.
 struct GuideAxis {

@@ -32,7 +32,7 @@ struct GuideNumber {
   std::string source;  ///< publication and place, or the reason of an assumption
 };
 
-// Quantities from which guide_friction.hpp computes parameters.
+// Quantities from which guide_manifest.hpp computes parameters.
 inline constexpr std::string_view friction_coefficient = "friction coefficient";
 inline constexpr std::string_view constant_resistance = "constant resistance";  ///< of seals, grease, wipers
 inline constexpr std::string_view presliding_travel = "pre-sliding travel";     ///< until the guide slides

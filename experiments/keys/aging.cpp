@@ -1,5 +1,3 @@
-#include "experiments/keys/aging.hpp"
-
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -8,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "experiments/keys/values.hpp"
 #include "experiments/parameters/unknown_key.hpp"
 #include "experiments/study/study_table.hpp"
 

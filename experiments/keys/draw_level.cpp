@@ -1,5 +1,4 @@
-#include "experiments/keys/draw_level.hpp"
-
+#include "experiments/keys/values.hpp"
 #include "experiments/parameters/measured_parameters.hpp"
 
 namespace zerocount::keys {

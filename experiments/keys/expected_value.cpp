@@ -1,12 +1,11 @@
-#include "experiments/keys/expected_value.hpp"
-
 #include <cmath>
 #include <variant>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/text/number_text.hpp"
+#include "core/text/text.hpp"
+#include "experiments/keys/values.hpp"
 
 namespace zerocount::keys {
 namespace {

@@ -7,8 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "core/trial/named_measures.hpp"
-#include "experiments/keys/draw_level.hpp"
+#include "core/trial/move_measures.hpp"
 #include "experiments/keys/values.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/study.hpp"

@@ -9,9 +9,6 @@
 #include "core/friction/profile.hpp"
 #include "experiments/distributions/distribution_forms.hpp"
 #include "experiments/distributions/random_field.hpp"
-#include "experiments/keys/aging.hpp"
-#include "experiments/keys/draw_level.hpp"
-#include "experiments/keys/expected_value.hpp"
 
 namespace zerocount::keys {
 namespace {

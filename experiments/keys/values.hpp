@@ -1,18 +1,73 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "experiments/distributions/distribution.hpp"
 #include "experiments/distributions/distribution_forms.hpp"
-#include "experiments/keys/draw_level.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/grouping.hpp"
 #include "experiments/study/plan.hpp"
-#include "experiments/study/study_fwd.hpp"
+#include "experiments/study/study.hpp"
 #include "experiments/yaml/scalars.hpp"
 
 namespace zerocount::keys {
+
+/// The key beside a distribution or profile that specifies how often it is drawn.
+constexpr std::string_view per_key = "per";
+
+/// Its values, in the order of the enumeration DrawLevel.
+inline constexpr std::array<std::string_view, 5> draw_level_labels{"study", "world", "rig", "trial",
+                                                                   "contact"};
+
+/// Those that a profile may have.
+inline constexpr std::array<std::string_view, 2> draw_level_labels_of_profiles{"study", "rig"};
+
+/// The groups of trials that a study has.
+struct TrialGroups {
+  bool rigs{false};
+  bool worlds{false};
+  bool ages{false};
+};
+
+/// Kind of draw: a single value, or a profile along the rotor.
+enum class Drawn {
+  value,
+  profile,
+  interval  ///< a value without a distribution
+};
+
+/// Default of `per`. With rigs, parameters of the machine are drawn for every rig and others for every trial.
+/// Without rigs, values are drawn for every trial and profiles once for the study. Intervals are drawn for
+/// every world.
+study::DrawLevel usual_level(const parameters::Parameter& parameter, Drawn drawn, const TrialGroups& groups);
+
+/// The value of the key `per` in `field`. Reports an unknown value or one that the parameter does not allow,
+/// and returns nothing then.
+std::optional<study::DrawLevel> read_draw_level(const yaml::Field& field,
+                                                const parameters::Parameter& parameter, Drawn drawn,
+                                                const TrialGroups& groups, yaml::Problems& problems);
+
+// Texts of messages about the value of a parameter: what was expected in its place.
+
+/// ", in kg m^2"; empty if the parameter is dimensionless.
+std::string unit_text(const parameters::Parameter& parameter, const parameters::StudyUnits& units);
+
+/// ", in kg m^2, or a distribution, such as {uniform: [0.00044, 0.00066]}": what follows the range of a
+/// number. The numbers lie around the default, where there is one.
+std::string number_alternatives(const parameters::Parameter& parameter, const parameters::StudyUnits& units);
+
+/// The values that a distribution may have: "numbers greater than 0 only, in N m/rad"; or the labels.
+std::string allowed_values(const parameters::Parameter& parameter, const parameters::StudyUnits& units);
+
+/// For a normal distribution that leaves the range of its parameter, the bounded ones that are nearest to it:
+/// ": {truncated_normal: {mean: 110, sd: 15, low: 65, high: 155}} or {lognormal: {median: 110, cv: 0.136}}".
+/// Empty for other distributions, and where only whole numbers are allowed.
+std::string cure_of_normal(const distributions::Distribution& distribution,
+                           const parameters::Parameter& parameter);
 
 /// A profile in the manifest, to be realised when the seed is known.
 struct ProfileRequest {
@@ -58,5 +113,14 @@ study::Value read_value(const yaml::Field& field, std::size_t slot, Reading& rea
 
 /// `number` as a value of the parameter, checked as read_value() does; `field` is its source.
 study::Value checked_number(const yaml::Field& field, std::size_t slot, double number, Reading& reading);
+
+inline constexpr std::string_view aging_key = "aging";
+/// The form of a value that is one number, where `aging` stands beside it: {value: 3, aging: ...}.
+inline constexpr std::string_view value_key = "value";
+
+/// Reads `aging` beside the form of the value of a slot: {exponential: -0.1, scale: 1.0e+6}. The value gets
+/// its law, and Reading::rate the value of the slot of its rate, which is added to the plan. Reports errors.
+/// @param field of `aging`
+void read_aging(const yaml::Field& field, std::size_t slot, study::Value& value, Reading& reading);
 
 }  // namespace zerocount::keys

@@ -1,5 +1,3 @@
-#include "experiments/manifest/checks.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -9,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "experiments/rules/effect_rules.hpp"
+#include "experiments/manifest/manifest.hpp"
 #include "experiments/rules/value_rules.hpp"
 #include "experiments/study/study.hpp"
 #include "experiments/study/study_table.hpp"

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "experiments/manifest/checks.hpp"
+#include "experiments/manifest/manifest.hpp"
 
 namespace zerocount::manifest {
 namespace {

@@ -13,7 +13,7 @@
 #include "experiments/parameters/element_lists.hpp"
 #include "experiments/parameters/measured_parameters.hpp"
 #include "experiments/parameters/parameter_table.hpp"
-#include "experiments/sections/spacing.hpp"
+#include "experiments/sections/sections.hpp"
 #include "experiments/shapes/shape_schema.hpp"
 
 namespace zerocount::manifest {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "experiments/sections/companions.hpp"
-#include "experiments/study/study_fwd.hpp"
+#include "experiments/study/study.hpp"
 
 namespace zerocount::manifest {
 

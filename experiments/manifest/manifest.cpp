@@ -7,18 +7,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "experiments/designs/saltelli.hpp"
+#include "experiments/designs/designs.hpp"
 #include "experiments/keys/manifest_keys.hpp"
 #include "experiments/keys/values.hpp"
-#include "experiments/manifest/checks.hpp"
 #include "experiments/parameters/unknown_key.hpp"
-#include "experiments/randomness/factors.hpp"
-#include "experiments/sections/ages.hpp"
-#include "experiments/sections/conditions.hpp"
-#include "experiments/sections/goal.hpp"
-#include "experiments/sections/observations.hpp"
+#include "experiments/randomness/random_variables.hpp"
 #include "experiments/sections/sections.hpp"
-#include "experiments/sections/sweep.hpp"
 #include "experiments/study/effects.hpp"
 #include "experiments/study/study.hpp"
 

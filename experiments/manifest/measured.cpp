@@ -3,13 +3,13 @@
 
 #include <fmt/format.h>
 
-#include "experiments/manifest/checks.hpp"
+#include "experiments/manifest/manifest.hpp"
 #include "experiments/parameters/measured_parameters.hpp"
+#include "experiments/study/goal.hpp"
 #include "experiments/study/measured_machines.hpp"
 #include "experiments/study/point_limits.hpp"
 #include "experiments/study/study.hpp"
 #include "experiments/study/study_table.hpp"
-#include "experiments/study/tuning.hpp"
 
 namespace zerocount::manifest {
 namespace {

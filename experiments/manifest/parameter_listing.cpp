@@ -4,8 +4,8 @@
 #include <fmt/ranges.h>
 
 #include "experiments/distributions/distribution_forms.hpp"
-#include "experiments/guides/guide_friction.hpp"
-#include "experiments/keys/draw_level.hpp"
+#include "experiments/guides/guide_manifest.hpp"
+#include "experiments/keys/values.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/plan.hpp"
 #include "experiments/study/study.hpp"

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "experiments/parameters/study_units.hpp"
-#include "experiments/study/study_fwd.hpp"
+#include "experiments/study/study.hpp"
 
 namespace zerocount::manifest {
 

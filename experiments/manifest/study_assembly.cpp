@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "experiments/designs/random_key.hpp"
+#include "experiments/designs/designs.hpp"
 #include "experiments/manifest/manifest.hpp"
-#include "experiments/randomness/factors.hpp"
+#include "experiments/randomness/random_variables.hpp"
 #include "experiments/study/condition_study.hpp"
 #include "experiments/study/effects.hpp"
 #include "experiments/study/point_limits.hpp"

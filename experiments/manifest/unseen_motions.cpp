@@ -5,8 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/loop/encoder.hpp"
-#include "experiments/manifest/checks.hpp"
-#include "experiments/rules/plausibility.hpp"
+#include "experiments/manifest/manifest.hpp"
 #include "experiments/rules/value_rules.hpp"
 #include "experiments/study/point_limits.hpp"
 #include "experiments/study/study_trial.hpp"

@@ -10,8 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiments/distributions/distribution_forms.hpp"
-#include "experiments/keys/aging.hpp"
-#include "experiments/keys/draw_level.hpp"
+#include "experiments/keys/values.hpp"
 #include "experiments/study/aging.hpp"
 
 namespace zerocount::manifest {

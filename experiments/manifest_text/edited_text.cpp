@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/failure/failure.hpp"
-#include "experiments/manifest_text/overrides.hpp"
+#include "experiments/manifest_text/manifest_text.hpp"
 #include "experiments/yaml/problems.hpp"
 #include "experiments/yaml/yaml_tree.hpp"
 

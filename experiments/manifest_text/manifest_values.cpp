@@ -1,5 +1,3 @@
-#include "experiments/manifest_text/manifest_values.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -10,8 +8,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/text/number_text.hpp"
-#include "experiments/manifest_text/overrides.hpp"
+#include "core/text/text.hpp"
+#include "experiments/manifest_text/manifest_text.hpp"
 
 namespace zerocount::manifest_text {
 namespace {

@@ -1,5 +1,3 @@
-#include "experiments/manifest_text/overrides.hpp"
-
 #include <algorithm>
 #include <charconv>
 #include <initializer_list>
@@ -8,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "experiments/manifest_text/manifest_text.hpp"
 #include "experiments/parameters/element_lists.hpp"
 
 namespace zerocount::manifest_text {

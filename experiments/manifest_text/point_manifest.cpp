@@ -1,5 +1,3 @@
-#include "experiments/manifest_text/point_manifest.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <deque>
@@ -9,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/failure/failure.hpp"
-#include "experiments/manifest_text/overrides.hpp"
+#include "experiments/manifest_text/manifest_text.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/plan.hpp"
 #include "experiments/study/study.hpp"

@@ -3,7 +3,7 @@
 #include <span>
 #include <string_view>
 
-#include "core/text/embedded_file.hpp"
+#include "core/text/text.hpp"
 
 /// The manifests of this folder, which are part of the program.
 namespace zerocount::manifests {

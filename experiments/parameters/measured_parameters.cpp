@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/friction/presliding/measured_spring.hpp"
+#include "core/friction/presliding/spring.hpp"
 #include "core/numerics/elementary_functions.hpp"
 
 namespace zerocount::parameters {

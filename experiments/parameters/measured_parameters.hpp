@@ -41,7 +41,7 @@ struct MeasuredParameters {
 ///   friction.measured {initial_stiffness, final_stiffness, breakaway, breakaway_travel}, or
 ///   friction.measured {secant_stiffness, secant_travel, final_stiffness, breakaway, breakaway_travel}: the
 ///     spring whose virgin curve reaches breakaway after that travel (core/friction/presliding/
-///     measured_spring.hpp);
+///     presliding/spring.hpp);
 ///   friction.measured.creep {torque τ, extension x, rate, exponent}: α = rate, n = exponent, λ = τⁿ/x, with
 ///     which creep under the torque τ ends at the extension x.
 std::span<const MeasuredParameters> measured_parameters();

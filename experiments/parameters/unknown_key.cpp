@@ -8,7 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "experiments/parameters/parameter_table.hpp"
-#include "experiments/yaml/nearest_name.hpp"
+#include "experiments/yaml/problems.hpp"
 
 namespace zerocount::parameters {
 namespace {

@@ -8,10 +8,20 @@
 
 #include "experiments/distributions/distribution.hpp"
 #include "experiments/randomness/random_coordinates.hpp"
-#include "experiments/study/copula.hpp"
+#include "experiments/study/draws.hpp"
+#include "experiments/study/plan.hpp"
 #include "experiments/study/study_trial.hpp"
 
 namespace zerocount::randomness {
+
+/// The factors: quantities drawn anew in each trial at some design point. These are all values with a
+/// distribution, except those drawn once for the study, in the order of the table of parameters; and as the
+/// last factor all random numbers that a trial uses while it runs, if any. A profile is not a factor: all
+/// trials use the same rotor, and `initial.position` selects the position on it.
+study::TrialFactors find_factors(const study::StudyPlan& plan);
+
+/// The names of the factors: the dotted paths of the parameters, and within_trial_factor.
+std::vector<std::string> factor_names(const study::StudyPlan& plan);
 
 /// A random variable of a trial, in the unit of the manifest: as a random coordinate, but before it is made
 /// standard normal and independent of the others.

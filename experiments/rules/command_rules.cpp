@@ -9,7 +9,6 @@
 #include "core/loop/dac.hpp"
 #include "core/loop/reference.hpp"
 #include "experiments/parameters/parameter_rows.hpp"
-#include "experiments/rules/plausibility.hpp"
 #include "experiments/rules/value_rules.hpp"
 #include "experiments/study/study_table.hpp"
 

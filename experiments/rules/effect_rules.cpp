@@ -1,5 +1,3 @@
-#include "experiments/rules/effect_rules.hpp"
-
 #include <algorithm>
 #include <initializer_list>
 #include <iterator>
@@ -11,6 +9,7 @@
 #include "core/friction/law.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/parameters/phase_path.hpp"
+#include "experiments/rules/value_rules.hpp"
 #include "experiments/study/effects.hpp"
 
 namespace zerocount::rules {

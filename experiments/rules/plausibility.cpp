@@ -1,8 +1,7 @@
-#include "experiments/rules/plausibility.hpp"
-
 #include <numbers>
 #include <utility>
 
+#include "experiments/rules/value_rules.hpp"
 #include "experiments/study/point_limits.hpp"
 
 namespace zerocount::rules {

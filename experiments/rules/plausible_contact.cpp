@@ -4,7 +4,7 @@
 
 #include "core/friction/law.hpp"
 #include "core/friction/presliding/spring.hpp"
-#include "experiments/rules/plausibility.hpp"
+#include "experiments/rules/value_rules.hpp"
 
 namespace zerocount::rules {
 namespace {

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/friction/law.hpp"
-#include "experiments/rules/plausibility.hpp"
+#include "experiments/rules/value_rules.hpp"
 
 namespace zerocount::rules {
 namespace {

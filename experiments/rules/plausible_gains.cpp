@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include "core/loop/dac.hpp"
-#include "core/theory/gains.hpp"
+#include "core/theory/linear_loop.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/parameters/phase_path.hpp"
-#include "experiments/rules/plausibility.hpp"
+#include "experiments/rules/value_rules.hpp"
 
 namespace zerocount::rules {
 namespace {

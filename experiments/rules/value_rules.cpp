@@ -9,7 +9,6 @@
 #include "core/friction/law.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/parameters/phase_path.hpp"
-#include "experiments/rules/plausibility.hpp"
 
 namespace zerocount::rules {
 namespace {

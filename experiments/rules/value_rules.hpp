@@ -79,4 +79,68 @@ std::string first_fault(const study::StudyPlan& plan, std::size_t point);
 /// or first_fault(); empty if it can.
 std::string refusal_of(const study::PointEdit& edit);
 
+// Values that are allowed but absurd, such as an inertia in g m² that stands where kg m² are expected. Each
+// test compares a dimensionless number of the typical values of a design point (medians of distributions,
+// means of profiles) with a bound that no real axis comes near. All are warnings, reported once.
+
+/// Natural frequency on the spring of the friction: from some Hz to half the sample rate.
+std::vector<ValueRule> plausible_dynamics(const study::StudyPlan& plan);
+
+/// Pre-sliding: the spring softens before it slides, and yields by more than a few counts.
+std::vector<ValueRule> plausible_contact(const study::StudyPlan& plan);
+
+/// The delay of the loop is not one in seconds, or in microseconds.
+std::vector<ValueRule> plausible_delay(const study::StudyPlan& plan);
+
+/// Gains: one count of error is within the range of the converter.
+std::vector<ValueRule> plausible_gains(const study::StudyPlan& plan);
+
+/// All of them.
+std::vector<ValueRule> plausibility_rules(const study::StudyPlan& plan);
+
+/// A rule that warns once, at the first of `between` that the manifest gives.
+ValueRule plausibility_rule(
+    std::vector<std::string_view> between,
+    std::function<std::vector<ValueFault>(std::span<const study::ValueLimits> parameters)> find_faults);
+
+/// As plausibility_rule, with the limits as arguments of `find_faults`, see rules::between().
+template <std::size_t count, class FindFaults>
+ValueRule plausible(const std::string_view (&names)[count], FindFaults find_faults) {
+  ValueRule rule = warning(between(names, find_faults));
+  rule.once = true;
+  return rule;
+}
+
+/// The parameter with the resolution of the fine encoder.
+std::string_view fine_encoder_name(const study::StudyPlan& plan);
+
+/// Δx, rad or m. @param encoder typical value of fine_encoder_name()
+double typical_count(const study::StudyPlan& plan, double encoder);
+
+/// Keys that have an effect only under a condition. A given key is reported if the condition holds at no
+/// design point.
+struct EffectRule {
+  std::vector<std::string_view> keys{};        ///< dotted paths of parameters, or of sections for all in them
+  std::vector<std::string_view> except{};      ///< those of them to which the rule does not apply
+  std::vector<std::string_view> depends_on{};  ///< parameters that decide whether the keys have an effect
+  std::function<bool(std::span<const study::ValueLimits>)>
+      has_effect{};         ///< the condition, from the limits of those parameters in their order
+  std::string what{};       ///< first phrase of the message
+  std::string expected{};   ///< second phrase of the message; empty for a warning
+  bool off_at_zero{false};  ///< a key that is 0 at all points is not reported
+  bool warn_only{false};
+};
+
+/// The rules for a plan of this kind. If several rules match a key, the first violated one is reported.
+std::vector<EffectRule> effect_rules(const study::StudyPlan& plan);
+
+/// Whether the rule applies to the parameter with this dotted path.
+bool covers(const EffectRule& rule, std::string_view name);
+
+/// Whether the keys of the rule have an effect at some design point. True if a value could not be read.
+bool can_have_effect(const study::StudyPlan& plan, const EffectRule& rule);
+
+/// Whether the parameter with this dotted path has an effect at some design point, by all of these rules.
+bool has_effect(const study::StudyPlan& plan, std::span<const EffectRule> rules, std::string_view name);
+
 }  // namespace zerocount::rules

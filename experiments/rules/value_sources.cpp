@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "experiments/rules/effect_rules.hpp"
+#include "experiments/rules/value_rules.hpp"
 #include "experiments/study/study_table.hpp"
 
 namespace zerocount::rules {

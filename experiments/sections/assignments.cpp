@@ -1,5 +1,3 @@
-#include "experiments/sections/assignments.hpp"
-
 #include <algorithm>
 #include <set>
 
@@ -8,6 +6,7 @@
 
 #include "experiments/keys/manifest_keys.hpp"
 #include "experiments/parameters/unknown_key.hpp"
+#include "experiments/sections/sections.hpp"
 #include "experiments/study/study_table.hpp"
 
 namespace zerocount::sections {

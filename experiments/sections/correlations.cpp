@@ -6,13 +6,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "experiments/keys/draw_level.hpp"
 #include "experiments/keys/manifest_keys.hpp"
-#include "experiments/sections/joint_draws.hpp"
-#include "experiments/study/copula.hpp"
+#include "experiments/keys/values.hpp"
+#include "experiments/sections/named_tables.hpp"
+#include "experiments/study/draws.hpp"
 #include "experiments/study/point_limits.hpp"
 #include "experiments/study/study.hpp"
-#include "experiments/yaml/nearest_name.hpp"
+#include "experiments/yaml/problems.hpp"
 
 namespace zerocount::sections {
 namespace {

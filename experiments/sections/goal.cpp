@@ -1,5 +1,3 @@
-#include "experiments/sections/goal.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -9,13 +7,14 @@
 
 #include <fmt/format.h>
 
-#include "core/text/number_text.hpp"
-#include "core/trial/named_measures.hpp"
+#include "core/text/text.hpp"
+#include "core/trial/move_measures.hpp"
 #include "experiments/keys/manifest_keys.hpp"
 #include "experiments/rules/value_rules.hpp"
+#include "experiments/sections/sections.hpp"
 #include "experiments/study/point_limits.hpp"
 #include "experiments/study/study.hpp"
-#include "experiments/yaml/nearest_name.hpp"
+#include "experiments/yaml/problems.hpp"
 
 namespace zerocount::sections {
 namespace {

@@ -1,5 +1,3 @@
-#include "experiments/sections/observations.hpp"
-
 #include <algorithm>
 #include <cstddef>
 #include <map>
@@ -10,8 +8,9 @@
 #include <fmt/format.h>
 
 #include "experiments/keys/manifest_keys.hpp"
+#include "experiments/sections/sections.hpp"
 #include "experiments/study/study.hpp"
-#include "experiments/yaml/nearest_name.hpp"
+#include "experiments/yaml/problems.hpp"
 
 namespace zerocount::sections {
 namespace {

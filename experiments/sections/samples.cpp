@@ -5,10 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "experiments/keys/draw_level.hpp"
 #include "experiments/keys/manifest_keys.hpp"
-#include "experiments/manifest_text/overrides.hpp"
-#include "experiments/sections/joint_draws.hpp"
+#include "experiments/keys/values.hpp"
+#include "experiments/manifest_text/manifest_text.hpp"
 #include "experiments/sections/named_tables.hpp"
 #include "experiments/study/study.hpp"
 #include "experiments/study/study_table.hpp"

@@ -7,8 +7,8 @@
 
 #include "core/loop/reference.hpp"
 #include "experiments/distributions/distribution_forms.hpp"
-#include "experiments/keys/aging.hpp"
 #include "experiments/keys/manifest_keys.hpp"
+#include "experiments/keys/values.hpp"
 #include "experiments/parameters/unknown_key.hpp"
 #include "experiments/sections/named_tables.hpp"
 #include "experiments/study/study_table.hpp"

@@ -1,11 +1,138 @@
 #pragma once
 
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include "experiments/keys/values.hpp"
+#include "experiments/shapes/shape.hpp"
+#include "experiments/study/grouping.hpp"
+#include "experiments/study/plan.hpp"
+#include "experiments/study/study_table.hpp"
 
 namespace zerocount::sections {
+
+// Values that a sweep or a condition gives to parameters by their dotted paths.
+
+/// One factor of the product of design points: the axis for the plan, and the labels of its options.
+struct SweptAxis {
+  bool cases{false};
+  std::string name;                   ///< the swept key; "case" for the cases
+  yaml::Place place{};                ///< of its values
+  std::vector<std::string> labels{};  ///< [option]
+  study::PlanAxis axis{};
+  std::vector<yaml::Place> places{};  ///< [assignment]
+  std::vector<std::size_t> slots{};   ///< assigned by some option, in order of appearance
+};
+
+/// The slots of the entry's dotted path. Reports an unknown one, with the nearest known.
+/// @param refusal what is said of a key that is not a parameter
+std::optional<study::SlotRange> find_assigned(const yaml::Field& map, const yaml::YamlEntry& entry,
+                                              std::string_view refusal, keys::Reading& reading);
+
+/// Adds slots to those that some option assigns.
+void note_slots(SweptAxis& axis, const study::SlotRange& slots);
+void assign(SweptAxis& axis, std::size_t slot, const study::Value& value, const yaml::Place& place);
+/// Adds the values of `field` to the current option of the axis, which finish_option() ends.
+void read_assignments(const yaml::Field& field, const study::SlotRange& slots, SweptAxis& axis,
+                      keys::Reading& reading);
+void finish_option(SweptAxis& axis, std::string label);
+
+/// Lets the values that say nothing of it change with age as those of the sections do.
+void inherit_aging(study::PlanAxis& axis, const study::StudyPlan& plan);
+
+/// Noun for the values of a list.
+std::string_view noun_of(const study::SlotRange& list, const study::StudyTable& table);
+
+/// How messages name an option.
+struct OptionWords {
+  std::string_view option;   ///< "case"
+  std::string_view refusal;  ///< of a key that is not a parameter
+};
+
+/// Reads an option of the axis that is a map from dotted paths to values, such as a case.
+void read_option(const yaml::Field& options, const yaml::YamlEntry& entry, const OptionWords& words,
+                 SweptAxis& axis, keys::Reading& reading);
+
+/// Reads `ages: {at: [0, 1.0e+5], unit: cycles}` into the study and its plan. Must come before the values
+/// that change with age.
+/// @param root the manifest
+void read_ages(const yaml::Field& root, keys::Reading& reading);
+
+/// The axis of what every machine bears in turn: each condition at each age, those of an age together. Their
+/// names go to the study. An axis without options where there are neither.
+/// @param conditions of read_conditions(); without options where there are none
+SweptAxis conditions_at_ages(const SweptAxis& conditions, keys::Reading& reading);
+
+/// Reads `conditions: {NAME: {PATH: value}}` as the last axis of the plan: an override is another value of
+/// its slot, drawn as often as the parameter and with the same random number. Reports an override of a
+/// parameter that is swept. Their names go to the study.
+/// @param swept axes of the sweep. All parameters must be read already
+/// @return an axis without options, after a report, if there are none
+SweptAxis read_conditions(const yaml::Field& field, const std::vector<SweptAxis>& swept,
+                          keys::Reading& reading);
+
+/// Reports overrides of parameters that come from `samples`, or that `tune` may change.
+/// @param root the manifest. @param sampled [sampled slot of the plan] place in the header of the table
+void check_overrides(const yaml::Field& root, const SweptAxis& conditions,
+                     const std::vector<yaml::Place>& sampled, keys::Reading& reading);
+
+/// Reads `goal`, or `goals`, of the manifest. Adds their bands and tolerances to those of the plan. The
+/// study's rigs and all parameters must be read already.
+void read_goals(const yaml::Field& root, keys::Reading& reading);
+
+/// Reads the stopping rule `stop`. The manifest's `trials` become the size of a block, and the study's number
+/// of trials becomes the maximum.
+void read_stop(const yaml::Field& field, keys::Reading& reading);
+
+/// Reads `tune`. The study's goal and all parameters must be read already.
+void read_tuning(const yaml::Field& field, keys::Reading& reading);
+
+/// Reads `sweep: {grid, cases}`. The cases are the slowest axis, followed by the keys of the grid in their
+/// order, the last one fastest. If both give a value to a parameter, the grid takes precedence, with a
+/// warning. A product of more than max_points is an error, found without expanding it. `linspace: [a, b, n]`
+/// is n numbers with equal distances from a to b, both included; `logspace: [a, b, n]` is n numbers with
+/// equal ratios from a to b (values, not exponents). The values between the ends are rounded to 15
+/// significant digits.
+std::vector<SweptAxis> read_sweep(const yaml::Field& sweep, keys::Reading& reading);
+
+/// One label per point, "a, controller.kp=0"; {"all"} without axes.
+std::vector<std::string> label_points(const std::vector<SweptAxis>& axes);
+
+/// The axes of the results file: the name of the case, and one axis for every swept slot.
+std::vector<study::SweepAxis> describe_axes(const std::vector<SweptAxis>& axes, const study::StudyPlan& plan);
+
+/// Reads `observed`, a map from cases or point labels to observations on a real rig: study.observed and
+/// study.observed_counts. An observation is a text, or counts: {successes: 9, of: 10, text: what else}. That
+/// of a case applies to all its points, except those with one of their own.
+/// @param axes of the sweep, complete
+void read_observations(const yaml::Field& field, const std::vector<SweptAxis>& axes, keys::Reading& reading);
 
 /// Reads the parameter sections of the manifest `root`: the plan's list, its sequence and its base values,
 /// and their places. Missing values get their defaults.
 void read_sections(const yaml::Field& root, keys::Reading& reading, keys::PlanPlaces& places);
+
+constexpr std::size_t max_points = 1'000'000;  ///< of a sweep
+
+/// `count` numbers from `from` to `to`, both included, with equal distances or (logarithmic) equal ratios.
+struct Spacing {
+  double from{0.0};
+  double to{1.0};
+  std::size_t count{2};
+  bool logarithmic{false};
+};
+
+/// The value of the key linspace, or logspace: [first value, last value, number of values].
+shapes::Shape spacing_shape(bool logarithmic);
+
+/// The spacing in `field`, the value of that key. Reports errors and returns nothing then.
+std::optional<Spacing> read_spacing(const yaml::Field& field, bool logarithmic, yaml::Problems& problems);
+
+/// The numbers; those between the ends are rounded to 15 significant digits.
+std::vector<double> spaced_values(const Spacing& spacing);
+
+/// "name=value" for each of `values`, as short as possible but all different.
+std::vector<std::string> spaced_labels(const std::string& name, const std::vector<double>& values);
 
 }  // namespace zerocount::sections

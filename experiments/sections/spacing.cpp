@@ -1,12 +1,11 @@
-#include "experiments/sections/spacing.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "core/numerics/elementary_functions.hpp"
-#include "core/text/number_text.hpp"
+#include "core/text/text.hpp"
+#include "experiments/sections/sections.hpp"
 
 namespace zerocount::sections {
 namespace {

@@ -1,5 +1,3 @@
-#include "experiments/sections/sweep.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -10,7 +8,7 @@
 
 #include "experiments/keys/manifest_keys.hpp"
 #include "experiments/parameters/unknown_key.hpp"
-#include "experiments/sections/spacing.hpp"
+#include "experiments/sections/sections.hpp"
 #include "experiments/study/study_table.hpp"
 
 namespace zerocount::sections {

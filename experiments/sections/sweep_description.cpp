@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "experiments/sections/sweep.hpp"
+#include "experiments/sections/sections.hpp"
 #include "experiments/study/study_table.hpp"
 
 namespace zerocount::sections {

@@ -9,8 +9,8 @@
 
 #include "experiments/keys/manifest_keys.hpp"
 #include "experiments/parameters/study_units.hpp"
-#include "experiments/rules/effect_rules.hpp"
-#include "experiments/sections/goal.hpp"
+#include "experiments/rules/value_rules.hpp"
+#include "experiments/sections/sections.hpp"
 #include "experiments/study/study.hpp"
 #include "experiments/study/study_table.hpp"
 

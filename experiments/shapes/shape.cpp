@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "core/text/number_text.hpp"
+#include "core/text/text.hpp"
 #include "experiments/parameters/unknown_key.hpp"
 
 namespace zerocount::shapes {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/numerics/interval.hpp"
-#include "core/text/number_text.hpp"
+#include "core/text/text.hpp"
 #include "experiments/yaml/scalars.hpp"
 
 namespace zerocount::keys {

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "experiments/study/study_fwd.hpp"
+#include "experiments/study/study.hpp"
 
 namespace zerocount::study {
 

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/random/trial_randomness.hpp"
+#include "core/random/random_numbers.hpp"
 #include "experiments/study/plan.hpp"
 #include "experiments/study/point_limits.hpp"
 

@@ -2,8 +2,10 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "experiments/study/grouping.hpp"
 #include "experiments/study/study.hpp"
 
 namespace zerocount::study {
@@ -21,5 +23,29 @@ struct WorldValues {
 
 /// The values drawn per world at a design point, those of the sweep included; empty without worlds.
 std::vector<WorldValues> world_values(const Study& study, std::int64_t point);
+
+/// Whether a value that is drawn so often differs between machines but not between the moves of one: drawn
+/// per world or rig; without rigs also per trial, unless it is of the command or the initial conditions.
+/// @param name dotted path
+bool differs_between_machines(const Study& study, DrawLevel level, std::string_view name);
+
+/// A drawn quantity of a machine.
+struct MachineInput {
+  std::string name;                  ///< dotted path; of joint samples the paths, joined by ", "
+  std::vector<std::uint32_t> slots;  ///< that share its random number
+};
+
+/// The drawn quantities in which the machines of a point differ: those drawn per rig; without rigs those
+/// drawn per trial that are not of the command or the initial conditions. Profiles are not among them. A row
+/// of joint samples is of the machine as a whole if one of its values is.
+std::vector<MachineInput> machine_inputs(const Study& study, std::int64_t point);
+
+/// The values of an input's slots at this quantile, in the units of the manifest: (dotted path, value).
+std::vector<std::pair<std::string, double>> values_at_quantile(const Study& study, std::int64_t point,
+                                                               const MachineInput& input, double quantile);
+
+/// The quantile of each of these inputs that trial `index` has drawn.
+std::vector<double> drawn_quantiles(const Study& study, std::int64_t point, std::int64_t index,
+                                    const std::vector<MachineInput>& inputs);
 
 }  // namespace zerocount::study

@@ -1,5 +1,3 @@
-#include "experiments/study/low_end.hpp"
-
 #include <cstddef>
 #include <variant>
 

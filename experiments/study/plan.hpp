@@ -14,13 +14,12 @@
 #include "experiments/parameters/measured_parameters.hpp"
 #include "experiments/parameters/study_units.hpp"
 #include "experiments/study/aging.hpp"
-#include "experiments/study/copula.hpp"
 #include "experiments/study/draws.hpp"
 #include "experiments/study/features.hpp"
 #include "experiments/study/grouping.hpp"
 #include "experiments/study/rotors.hpp"
 #include "experiments/study/sequence.hpp"
-#include "experiments/study/study_fwd.hpp"
+#include "experiments/study/study.hpp"
 #include "experiments/study/study_table.hpp"
 
 namespace zerocount::study {

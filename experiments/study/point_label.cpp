@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/text/number_text.hpp"
+#include "core/text/text.hpp"
 
 namespace zerocount::study {
 namespace {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <string_view>
@@ -8,8 +9,26 @@
 #include <vector>
 
 #include "experiments/study/plan.hpp"
+#include "experiments/study/study.hpp"
 
 namespace zerocount::study {
+
+/// The lowest value of a parameter that a design must cover at a design point under a condition.
+struct LowEnd {
+  enum class Kind : std::uint8_t {
+    number,   ///< the parameter is one number
+    support,  ///< low end of its distribution
+    tail,     ///< 0.1 % quantile of a normal, truncated normal or lognormal distribution
+    profile  ///< the parameter varies along the rotor: use the minimum of the trial's profile; `value` is not
+             ///< set
+  };
+  Kind kind{Kind::number};
+  double value{0.0};  ///< in the parameter's unit
+};
+
+/// @param parameter name of a positive physical value, such as friction.k1.
+LowEnd low_end(const Study& study, std::int64_t point, std::string_view parameter,
+               std::int64_t condition = 0);
 
 /// Range of a value over all trials of a design point: the support of its distribution, the limits of its
 /// profile, what can follow from the draws of its sources, or the number itself. NaN for a value that could

@@ -8,7 +8,7 @@
 #include <oneapi/tbb/parallel_reduce.h>
 
 #include "core/numerics/elementary_functions.hpp"
-#include "experiments/designs/random_key.hpp"
+#include "experiments/designs/designs.hpp"
 
 namespace zerocount::study {
 namespace {
@@ -100,7 +100,8 @@ friction::Profile Rotors::rotor_with(std::int64_t rotor, std::optional<double> m
 }
 
 numerics::Interval Rotors::bounds() const {
-  // Maximum of √(ξ² + η²): standard normal variates are below 8.22 in magnitude (core/random/variates.hpp).
+  // Maximum of √(ξ² + η²): standard normal variates are below 8.22 in magnitude
+  // (core/random/random_numbers.hpp).
   constexpr double max_radius = 11.63;
   friction::Profile any = distributions::realise_profile(description_, amplitudes_, key_);
   for (std::size_t m = 0; m < amplitudes_.size(); ++m) {

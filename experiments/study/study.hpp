@@ -14,14 +14,11 @@
 #include "core/plugin/controller_plugin.hpp"
 #include "experiments/parameters/study_units.hpp"
 #include "experiments/study/aging.hpp"
-#include "experiments/study/columns.hpp"
-#include "experiments/study/execution.hpp"
 #include "experiments/study/features.hpp"
 #include "experiments/study/goal.hpp"
 #include "experiments/study/grouping.hpp"
 #include "experiments/study/sampling.hpp"
 #include "experiments/study/sequence.hpp"
-#include "experiments/study/tuning.hpp"
 
 namespace zerocount::study {
 

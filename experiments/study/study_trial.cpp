@@ -8,11 +8,9 @@
 #include <fmt/format.h>
 
 #include "core/failure/failure.hpp"
-#include "experiments/designs/saltelli.hpp"
+#include "experiments/designs/designs.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/measured_machines.hpp"
-#include "experiments/study/trial_completion.hpp"
-#include "experiments/study/trial_drawer.hpp"
 #include "experiments/study/trial_draws.hpp"
 
 namespace zerocount::study {

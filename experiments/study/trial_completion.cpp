@@ -1,14 +1,13 @@
-#include "experiments/study/trial_completion.hpp"
-
 #include <cmath>
 #include <cstdint>
 #include <numbers>
 #include <span>
 
 #include "core/loop/encoder.hpp"
-#include "core/theory/gains.hpp"
+#include "core/theory/linear_loop.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/plan.hpp"
+#include "experiments/study/trial_draws.hpp"
 
 namespace zerocount::study {
 namespace {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/failure/failure.hpp"
-#include "experiments/designs/saltelli.hpp"
+#include "experiments/designs/designs.hpp"
 
 namespace zerocount::study {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/friction/profile.hpp"
-#include "experiments/distributions/quantile_function.hpp"
+#include "experiments/distributions/distribution.hpp"
 #include "experiments/study/plan.hpp"
 #include "experiments/study/study_trial.hpp"
 
@@ -61,5 +61,33 @@ double profile_mean(const TrialDraws& draws, std::uint32_t slot, std::size_t poi
 /// The profile at the age of the point: the law multiplies all of it. @param start where the trial begins
 std::shared_ptr<const friction::Profile> profile_at_age(const TrialDraws& draws, std::uint32_t slot,
                                                         std::size_t point, double start);
+
+/// Completes the parameters of a trial after all numbers are set in the manifest's units: converts gains from
+/// SI units with the trial's sample time and encoder, and gives the coarse encoder of a linear axis the
+/// resolution of the fine one by default.
+void complete_trial(const parameters::StudyUnits& units, trial::TrialParameters& trial);
+
+/// Sets the targets of a sequence, and StudyTrial::target_positions. @param numbers [slot of the plan]
+void set_targets(const Study& study, const std::vector<double>& numbers, StudyTrial& trial);
+
+/// Targets in SI units become the nearest counts of the fine encoder of a trial that is complete otherwise.
+void complete_targets(StudyTrial& trial);
+
+/// Draws many trials of one study: study_trial() with the constants of the quantile functions and the memory
+/// of a trial kept from one draw to the next. For one thread.
+class TrialDrawer {
+ public:
+  /// @param study stays as long as this
+  explicit TrialDrawer(const Study& study);
+
+  /// Makes `trial` bitwise equal to study_trial(study, point, index).
+  void draw(std::int64_t point, std::int64_t index, StudyTrial& trial);
+
+ private:
+  const Study& study_;
+  std::shared_ptr<const StudyPlan> plan_;                                  ///< of which the functions are
+  std::vector<std::optional<distributions::QuantileFunction>> quantiles_;  ///< [distribution] once drawn
+  std::vector<double> numbers_;                                            ///< [slot]
+};
 
 }  // namespace zerocount::study

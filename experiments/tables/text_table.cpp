@@ -8,10 +8,8 @@
 #include <fmt/format.h>
 
 #include "core/failure/failure.hpp"
-#include "core/text/number_text.hpp"
-#include "core/text/trimmed.hpp"
+#include "core/text/text.hpp"
 #include "core/text/unit.hpp"
-#include "core/text/utf8.hpp"
 #include "experiments/yaml/text_file.hpp"
 
 namespace zerocount::tables {

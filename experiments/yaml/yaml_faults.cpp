@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <yaml-cpp/exceptions.h>
 
-#include "core/text/utf8.hpp"
+#include "core/text/text.hpp"
 #include "experiments/yaml/faults.hpp"
 
 namespace zerocount::yaml {

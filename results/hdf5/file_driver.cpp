@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 
 #include "core/failure/failure.hpp"
-#include "core/text/utf8.hpp"
+#include "core/text/text.hpp"
 #include "results/hdf5/hdf5_detail.hpp"
 
 namespace zerocount::hdf5 {

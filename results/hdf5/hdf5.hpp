@@ -14,7 +14,7 @@
 #include "core/failure/failure.hpp"
 #include "results/hdf5/chunk_filters.hpp"
 #include "results/hdf5/element.hpp"
-#include "results/storage/flush.hpp"
+#include "results/storage/durable_file.hpp"
 #include "results/storage/written_bytes.hpp"
 
 namespace zerocount::timeline {

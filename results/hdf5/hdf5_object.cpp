@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "core/text/utf8.hpp"
+#include "core/text/text.hpp"
 #include "results/hdf5/hdf5_detail.hpp"
 #include "results/storage/durable_file.hpp"
 

@@ -5,7 +5,6 @@
 #include <string_view>
 #include <vector>
 
-#include "experiments/study/columns.hpp"
 #include "experiments/study/grouping.hpp"
 #include "results/layout/layout.hpp"
 

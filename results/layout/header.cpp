@@ -11,17 +11,16 @@
 #include <fmt/format.h>
 
 #include "core/hash/sha256.hpp"
-#include "core/text/utf8.hpp"
+#include "core/text/text.hpp"
 #include "experiments/keys/manifest_keys.hpp"
 #include "experiments/manifest/load_study.hpp"
-#include "experiments/manifest_text/manifest_values.hpp"
+#include "experiments/manifest_text/manifest_text.hpp"
 #include "experiments/study/study.hpp"
 #include "results/hdf5/foreign_file.hpp"
 #include "results/layout/point_sums.hpp"
 #include "results/layout/recorded_values.hpp"
-#include "results/storage/checksum_trailer.hpp"
 #include "results/storage/durable_file.hpp"
-#include "results/storage/file_descriptor.hpp"
+#include "results/storage/file_contents.hpp"
 
 namespace zerocount::layout {
 namespace {

@@ -9,11 +9,10 @@
 
 #include "core/failure/failure.hpp"
 #include "core/plugin/controller_plugin.hpp"
-#include "experiments/study/execution.hpp"
-#include "experiments/study/study_fwd.hpp"
+#include "experiments/study/sampling.hpp"
+#include "experiments/study/study.hpp"
 #include "results/hdf5/hdf5.hpp"
 #include "results/layout/layout.hpp"
-#include "results/layout/row_range.hpp"
 
 namespace zerocount::layout {
 
@@ -135,7 +134,7 @@ std::filesystem::path shards_directory(const std::filesystem::path& output);
 /// Whether there can be a study with these numbers of points and trials, and a file of it with these rows.
 bool has_possible_numbers(const FileHeader& header);
 
-/// Whether a file must have its checksum trailer (see checksum_trailer.hpp) to be opened.
+/// Whether a file must have its checksum trailer (see file_contents.hpp) to be opened.
 enum class Checksum { required, not_yet };
 
 /// Opens a file of this program's format. A child process reads it first if its checksum is not checked (see

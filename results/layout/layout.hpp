@@ -13,14 +13,31 @@
 
 #include "core/trial/outcome.hpp"
 #include "core/trial/trial.hpp"
-#include "experiments/study/columns.hpp"
 #include "experiments/study/features.hpp"
+#include "experiments/study/grouping.hpp"
 #include "results/hdf5/element.hpp"
 #include "results/hdf5/hdf5.hpp"
 
 /// The layout of results files: the one description from which the writer, the reader, the CSV export and the
 /// test of the format's documentation (results/datasets.md) all derive.
 namespace zerocount::layout {
+
+/// A contiguous block of trials by global row: row = point·trials + index, so that the trials of a point are
+/// neighbours.
+struct RowRange {
+  std::int64_t first{0};
+  std::int64_t count{0};
+
+  std::int64_t end() const { return first + count; }
+  bool operator==(const RowRange&) const = default;
+};
+
+/// Number of rows of all `ranges`.
+inline std::int64_t total_rows(std::span<const RowRange> ranges) {
+  std::int64_t rows = 0;
+  for (const RowRange& range : ranges) rows += range.count;
+  return rows;
+}
 
 /// Version of the layout: files of any other are refused.
 inline constexpr std::int64_t format_version = 4;

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "results/layout/fields.hpp"
-#include "results/layout/move_measures.hpp"
+#include "results/layout/measure_table.hpp"
 
 namespace zerocount::layout {
 namespace {

@@ -8,8 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "results/layout/move_measures.hpp"
-
 namespace zerocount::layout {
 namespace {
 

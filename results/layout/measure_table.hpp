@@ -162,4 +162,13 @@ enum class ReportOrder { statistics, levels, summary, outputs };
 std::vector<const Measure*> measures_of(const MeasureTable& measures, ReportOrder order,
                                         bool (*belongs)(const Measure&));
 
+/// The measures of a move that do not depend on the study, in the order of the file.
+MeasureTable move_measures();
+
+/// The measures of the error band number `slot`, in the order of band_fields().
+std::vector<Measure> measures_of_band(const trial::ErrorBands& bands, std::size_t slot);
+
+/// The settling time of the tolerance number `slot`.
+Measure measure_of_tolerance(const trial::Tolerances& tolerances, std::size_t slot);
+
 }  // namespace zerocount::layout

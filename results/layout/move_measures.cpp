@@ -1,9 +1,8 @@
-#include "results/layout/move_measures.hpp"
-
 #include <limits>
 #include <utility>
 
 #include "results/layout/fields.hpp"
+#include "results/layout/measure_table.hpp"
 
 namespace zerocount::layout {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/text/utf8.hpp"
+#include "core/text/text.hpp"
 #include "results/layout/header.hpp"
 
 namespace zerocount::layout {

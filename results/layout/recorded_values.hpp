@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "experiments/manifest_text/manifest_values.hpp"
-#include "experiments/study/study_fwd.hpp"
+#include "experiments/manifest_text/manifest_text.hpp"
+#include "experiments/study/study.hpp"
 #include "results/layout/header.hpp"
 
 namespace zerocount::layout {

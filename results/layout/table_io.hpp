@@ -8,11 +8,10 @@
 #include <span>
 #include <vector>
 
-#include "results/hdf5/fetched_rows.hpp"
+#include "results/hdf5/encoded_rows.hpp"
 #include "results/hdf5/hdf5.hpp"
 #include "results/layout/fields.hpp"
 #include "results/layout/layout.hpp"
-#include "results/layout/row_range.hpp"
 
 namespace zerocount::layout {
 

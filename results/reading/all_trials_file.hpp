@@ -10,7 +10,6 @@
 #include "core/trial/outcome.hpp"
 #include "experiments/study/study.hpp"
 #include "results/layout/layout.hpp"
-#include "results/layout/row_range.hpp"
 #include "results/reading/results_file.hpp"
 
 namespace zerocount::reading {

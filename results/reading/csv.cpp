@@ -1,10 +1,9 @@
-#include "results/reading/csv.hpp"
-
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include "core/text/csv_field.hpp"
+#include "core/text/text.hpp"
+#include "results/reading/export.hpp"
 
 namespace zerocount::reading {
 

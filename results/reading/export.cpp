@@ -13,7 +13,6 @@
 #include "results/layout/groupings.hpp"
 #include "results/layout/layout.hpp"
 #include "results/layout/table_io.hpp"
-#include "results/reading/csv.hpp"
 
 namespace zerocount::reading {
 namespace {

@@ -13,7 +13,6 @@
 #include "results/layout/header.hpp"
 #include "results/layout/layout.hpp"
 #include "results/layout/point_sums.hpp"
-#include "results/layout/row_range.hpp"
 #include "results/layout/table_io.hpp"
 #include "results/reading/shard_file.hpp"
 #include "results/reading/trial_tables.hpp"

@@ -11,10 +11,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/failure/failure.hpp"
-#include "core/text/utf8.hpp"
+#include "core/text/text.hpp"
 #include "results/hdf5/encoded_rows.hpp"
-#include "results/hdf5/fetched_rows.hpp"
-#include "results/storage/checksum_trailer.hpp"
 #include "results/storage/durable_file.hpp"
 #include "results/storage/file_contents.hpp"
 

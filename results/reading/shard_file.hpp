@@ -10,7 +10,7 @@
 #include "results/layout/header.hpp"
 #include "results/layout/layout.hpp"
 #include "results/layout/table_io.hpp"
-#include "results/storage/file_descriptor.hpp"
+#include "results/storage/durable_file.hpp"
 
 /// A shard: finished trials of a run that has not ended. Only the build that wrote it reads it, so that it
 /// does not say what its columns mean:
@@ -19,7 +19,7 @@
 ///     head                      ShardHead, as MessagePack
 ///     chunks                    of one column after the other, as a results file stores them
 ///                               (chunk_filters.hpp)
-///     checksum trailer          SHA-256 of all bytes before it (checksum_trailer.hpp)
+///     checksum trailer          SHA-256 of all bytes before it (file_contents.hpp)
 namespace zerocount::reading {
 
 struct ShardHead {

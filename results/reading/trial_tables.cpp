@@ -13,7 +13,7 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
-#include "core/numerics/bisection.hpp"
+#include "core/numerics/roots.hpp"
 #include "results/layout/measure_table.hpp"
 #include "results/reading/validation.hpp"
 

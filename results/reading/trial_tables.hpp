@@ -8,12 +8,11 @@
 #include <vector>
 
 #include "core/trial/outcome.hpp"
-#include "experiments/study/columns.hpp"
 #include "experiments/study/features.hpp"
+#include "experiments/study/grouping.hpp"
 #include "results/hdf5/hdf5.hpp"
 #include "results/layout/header.hpp"
 #include "results/layout/layout.hpp"
-#include "results/layout/row_range.hpp"
 #include "results/layout/table_io.hpp"
 
 namespace zerocount::reading {

@@ -11,8 +11,7 @@
 
 #include "core/failure/failure.hpp"
 #include "results/hdf5/encoded_rows.hpp"
-#include "results/hdf5/fetched_rows.hpp"
-#include "results/layout/row_range.hpp"
+#include "results/layout/layout.hpp"
 #include "results/layout/table_io.hpp"
 #include "results/reading/shard_file.hpp"
 

@@ -12,8 +12,8 @@
 #include "results/layout/table_io.hpp"
 #include "results/shards/concatenate.hpp"
 #include "results/shards/study_tables.hpp"
-#include "results/storage/checksum_trailer.hpp"
 #include "results/storage/durable_file.hpp"
+#include "results/storage/file_contents.hpp"
 
 namespace zerocount::shards {
 namespace {

@@ -7,12 +7,11 @@
 #include <vector>
 
 #include "core/hash/sha256.hpp"
-#include "experiments/study/study_fwd.hpp"
+#include "experiments/study/study.hpp"
 #include "results/hdf5/hdf5.hpp"
 #include "results/layout/header.hpp"
 #include "results/layout/layout.hpp"
 #include "results/layout/point_sums.hpp"
-#include "results/layout/row_range.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "results/shards/concatenate.hpp"
 #include "results/shards/shard.hpp"

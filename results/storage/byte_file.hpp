@@ -9,8 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "results/storage/file_descriptor.hpp"
-#include "results/storage/flush.hpp"
+#include "results/storage/durable_file.hpp"
 #include "results/storage/written_bytes.hpp"
 
 namespace zerocount::storage {

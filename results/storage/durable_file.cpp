@@ -1,7 +1,9 @@
 #include "results/storage/durable_file.hpp"
 
 #include <cerrno>
+#include <cstdlib>
 #include <optional>
+#include <string>
 #include <system_error>
 
 #include <fcntl.h>
@@ -12,6 +14,7 @@
 #include "results/storage/output_file.hpp"
 
 namespace zerocount::storage {
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -160,6 +163,20 @@ void make_directory(const fs::path& path) {
     fail_with(path, "make the directory", errno);
   }
   synchronise_name(path);
+}
+
+TemporaryFolder::TemporaryFolder() {
+  std::error_code error;
+  const std::filesystem::path place = std::filesystem::temp_directory_path(error);
+  if (error) fail_with("the folder for temporary files (TMPDIR)", "find it", error.value());
+  std::string pattern = (place / "zerocount-XXXXXX").string();
+  if (::mkdtemp(pattern.data()) == nullptr) fail_with(pattern, "make the folder", errno);
+  path_ = pattern;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
 }
 
 }  // namespace zerocount::storage

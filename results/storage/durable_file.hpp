@@ -2,10 +2,42 @@
 
 #include <filesystem>
 #include <string_view>
+#include <utility>
 
-#include "results/storage/file_descriptor.hpp"
+#include <unistd.h>
 
 namespace zerocount::storage {
+
+/// When a file that is closed is brought to the disk.
+enum class Flush {
+  now,
+  later  ///< by the caller: synchronise(), or now when it is closed again
+};
+
+/// A POSIX file descriptor that its destructor closes.
+class FileDescriptor {
+ public:
+  FileDescriptor() = default;
+  explicit FileDescriptor(int number) : number_(number) {}
+  FileDescriptor(FileDescriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+  FileDescriptor& operator=(FileDescriptor&& other) noexcept {
+    std::swap(number_, other.number_);
+    return *this;
+  }
+  FileDescriptor(const FileDescriptor&) = delete;
+  FileDescriptor& operator=(const FileDescriptor&) = delete;
+  ~FileDescriptor() { close(); }
+
+  int get() const { return number_; }
+  bool valid() const { return number_ >= 0; }
+
+  /// Returns false and sets errno on failure: some file systems report a failed write only here. A second
+  /// call does nothing.
+  bool close() { return number_ < 0 || ::close(std::exchange(number_, -1)) == 0; }
+
+ private:
+  int number_{-1};
+};
 
 /// Name of a file while it is written: PATH.part. A file named PATH is therefore always complete, even if a
 /// process that wrote it was killed.
@@ -73,5 +105,21 @@ void make_directory(const std::filesystem::path& path);
 
 /// @throws Failure (machine_failed): "PATH: cannot ACTION: reason of `error`" (an errno).
 [[noreturn]] void fail_with(const std::filesystem::path& path, std::string_view action, int error);
+
+/// A temporary folder; the destructor removes it with its contents.
+class TemporaryFolder {
+ public:
+  /// @throws Failure (machine_failed) with the path and the system's reason.
+  TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  ~TemporaryFolder();
+
+  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path operator/(const std::filesystem::path& name) const { return path_ / name; }
+
+ private:
+  std::filesystem::path path_;
+};
 
 }  // namespace zerocount::storage

@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include "core/failure/failure.hpp"
-#include "results/storage/checksum_trailer.hpp"
 #include "results/storage/file_contents.hpp"
 
 namespace zerocount::storage {

@@ -7,7 +7,6 @@
 
 #include "core/hash/sha256.hpp"
 #include "results/storage/durable_file.hpp"
-#include "results/storage/file_descriptor.hpp"
 
 namespace zerocount::storage {
 
@@ -25,7 +24,7 @@ class OutputFile {
   void write(std::string_view text);
   /// Flushes the file to the disk, reads it back and compares it with what was written. No write may follow.
   void finish();
-  /// Writes the checksum trailer (see checksum_trailer.hpp) before that.
+  /// Writes the checksum trailer (see file_contents.hpp) before that.
   void finish_with_checksum();
   /// Renames the finished file to its final name; replaces an existing file. Fails if another process has put
   /// its own file in place of this one.

@@ -16,7 +16,6 @@
 
 #include "results/storage/durable_file.hpp"
 #include "results/storage/file_contents.hpp"
-#include "results/storage/file_descriptor.hpp"
 #include "results/timeline/timeline.hpp"
 
 namespace zerocount::storage {

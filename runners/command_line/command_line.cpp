@@ -9,8 +9,8 @@
 #include <fmt/ranges.h>
 
 #include "core/failure/failure.hpp"
-#include "core/text/number_text.hpp"
-#include "experiments/yaml/nearest_name.hpp"
+#include "core/text/text.hpp"
+#include "experiments/yaml/problems.hpp"
 
 namespace zerocount::command_line {
 namespace {

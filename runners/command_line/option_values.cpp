@@ -1,13 +1,12 @@
-#include "runners/command_line/option_values.hpp"
-
 #include <charconv>
 #include <cmath>
 
 #include <fmt/format.h>
 
-#include "core/text/number_text.hpp"
+#include "core/text/text.hpp"
 #include "experiments/study/point_label.hpp"
-#include "experiments/yaml/nearest_name.hpp"
+#include "experiments/yaml/problems.hpp"
+#include "runners/command_line/command_line.hpp"
 
 namespace zerocount::command_line {
 namespace {

@@ -1,5 +1,3 @@
-#include "runners/command_line/output_place.hpp"
-
 #include <algorithm>
 #include <cstddef>
 #include <span>
@@ -13,6 +11,7 @@
 #include "core/failure/failure.hpp"
 #include "experiments/yaml/text_file.hpp"
 #include "results/storage/durable_file.hpp"
+#include "runners/command_line/command_line.hpp"
 #include "runners/standard_output/standard_output.hpp"
 
 namespace zerocount::command_line {

@@ -8,13 +8,13 @@
 #include <fmt/format.h>
 
 #include "analysis/document/answer.hpp"
-#include "analysis/document/markup.hpp"
+#include "analysis/document/blocks.hpp"
 #include "analysis/report/figures/figure.hpp"
 #include "analysis/report/page.hpp"
 #include "experiments/yaml/text_file.hpp"
 #include "results/storage/durable_file.hpp"
-#include "runners/command_line/output_place.hpp"
-#include "runners/commands/figure_picture.hpp"
+#include "runners/command_line/command_line.hpp"
+#include "runners/commands/command.hpp"
 #include "runners/status/progress.hpp"
 
 namespace zerocount::commands {

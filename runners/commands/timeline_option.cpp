@@ -6,7 +6,7 @@
 #include "results/storage/durable_file.hpp"
 #include "results/storage/file_contents.hpp"
 #include "results/timeline/timeline.hpp"
-#include "runners/command_line/output_place.hpp"
+#include "runners/command_line/command_line.hpp"
 #include "runners/status/status.hpp"
 
 namespace zerocount::commands {

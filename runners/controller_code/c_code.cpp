@@ -4,8 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/loop/dac.hpp"
-#include "runners/controller_code/chain_program.hpp"
-#include "runners/controller_code/program_text.hpp"
+#include "runners/controller_code/program.hpp"
 
 namespace zerocount::controller_code {
 namespace {

@@ -1,5 +1,3 @@
-#include "runners/controller_code/chain_program.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -15,6 +13,7 @@
 #include "core/loop/controller/pid.hpp"
 #include "core/loop/controller/torque_hold.hpp"
 #include "core/loop/dac.hpp"
+#include "runners/controller_code/program.hpp"
 
 namespace zerocount::controller_code {
 namespace {

@@ -3,11 +3,15 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "core/loop/parameters.hpp"
 #include "core/plugin/controller_plugin.hpp"
+#include "experiments/parameters/study_units.hpp"
 
 namespace zerocount::controller_code {
 
@@ -216,5 +220,68 @@ class ProgramWriter {
 
 /// The program as a control law of this process, statement by statement in its precision.
 std::shared_ptr<const plugin::ControllerPlugin> law_of(const Program& program);
+
+/// A control chain to be written as a program.
+struct ControllerToWrite {
+  loop::ControllerParameters controller;  ///< with gains per count
+  double resolution{1.0};                 ///< Δx, rad per count
+  double velocity_resolution{1.0};        ///< Δx of the encoder that a velocity loop reads, rad per count
+  loop::DacParameters dac{};              ///< whose range clamps the integral
+  double initial_integral{0.0};           ///< I before the first sample, N m
+  std::string name{};                     ///< of the study, for comments
+  parameters::AxisKind axis{parameters::AxisKind::rotary};
+  std::vector<std::string> remarks{};  ///< lines of the heading
+};
+
+/// Why the chain cannot be written; empty if it can: a plugin or two phases of control, and in single
+/// precision feedback from the coarse encoder.
+std::string_view why_not_writable(const loop::ControllerParameters& controller, Precision precision);
+
+/// The chain, with the operations in the order of loop::ControlChain, so that it computes the same bits in
+/// double precision. Terms with a gain of 0 are left out. In single precision counts are whole numbers, of
+/// which differences are taken exactly, and a dither goes by a phase in place of the number of the sample.
+Program chain_program(const ControllerToWrite& chain, Precision precision);
+
+/// The program as one C99 file without dependencies: its states in a struct, its constants by name. With
+/// ZEROCOUNT_PLUGIN defined it is a plugin for zerocount.
+/// @param chain that the program is of, for the heading
+std::string c_code(const ControllerToWrite& chain, const Program& program);
+
+/// The program as a component of LinuxCNC's HAL, for halcompile. @param component its name, which is that of
+/// the file without `.comp`.
+std::string linuxcnc_component(const ControllerToWrite& chain, const Program& program,
+                               const std::string& component);
+
+/// The program as a function block in Structured Text (IEC 61131-3).
+std::string structured_text(const ControllerToWrite& chain, const Program& program,
+                            const std::string& function_block);
+
+/// How a language writes programs. `{0}`, `{1}` … stand for the operands.
+struct Notation {
+  struct Lines {
+    std::string_view assignment{}, if_begins{}, otherwise{}, if_ends{}, remark{};
+  };
+  Precision precision{Precision::double_precision};
+  std::string_view number_suffix{};   ///< of a decimal constant
+  std::string_view input{}, state{};  ///< what stands before the names of these variables
+  std::string_view no{}, yes{};       ///< a flag that is 0, and 1
+  /// The operations that languages write in different ways.
+  std::map<Operation, std::string_view> forms{};
+  Lines lines{};
+};
+
+/// The shortest decimal number, with a point, that reads back to the same value in this precision.
+std::string decimal(double value, const Notation& notation);
+
+std::string variable_text(const Variable& variable, const Notation& notation);
+/// The value of a variable: a flag as such, otherwise a decimal number.
+std::string initial_text(const Variable& variable, const Notation& notation);
+
+/// A line for each statement. @param indent of the lines
+std::string statements_text(const Program& program, const Notation& notation, const Statements& statements,
+                            std::size_t indent);
+
+/// What stands above the code. Without comment signs.
+std::vector<std::string> heading_lines(const ControllerToWrite& chain, Precision precision);
 
 }  // namespace zerocount::controller_code

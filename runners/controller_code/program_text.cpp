@@ -1,11 +1,10 @@
-#include "runners/controller_code/program_text.hpp"
-
 #include <array>
 #include <string>
 
 #include <fmt/format.h>
 
 #include "core/loop/dac.hpp"
+#include "runners/controller_code/program.hpp"
 
 namespace zerocount::controller_code {
 namespace {

@@ -1,8 +1,7 @@
 #include <boost/algorithm/string/replace.hpp>
 #include <fmt/format.h>
 
-#include "runners/controller_code/chain_program.hpp"
-#include "runners/controller_code/program_text.hpp"
+#include "runners/controller_code/program.hpp"
 
 namespace zerocount::controller_code {
 namespace {

@@ -13,12 +13,11 @@
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/statistics/sample_size.hpp"
 #include "analysis/summary/summary.hpp"
-#include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
 #include "experiments/study/condition_study.hpp"
 #include "results/reading/all_trials_file.hpp"
-#include "runners/command_line/option_values.hpp"
-#include "runners/commands/study_argument.hpp"
+#include "runners/command_line/command_line.hpp"
+#include "runners/commands/command.hpp"
 #include "runners/design_commands/design_commands.hpp"
 
 namespace zerocount::design_commands {

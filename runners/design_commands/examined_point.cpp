@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "analysis/goal/question.hpp"
-#include "runners/command_line/option_values.hpp"
-#include "runners/commands/study_argument.hpp"
+#include "runners/command_line/command_line.hpp"
+#include "runners/commands/command.hpp"
 #include "runners/design_commands/design_commands.hpp"
 #include "runners/trials/variant.hpp"
 

@@ -12,9 +12,9 @@
 #include "analysis/goal/goal_verdict.hpp"
 #include "analysis/goal/question.hpp"
 #include "analysis/summary/chosen_point.hpp"
-#include "runners/commands/study_argument.hpp"
+#include "runners/commands/command.hpp"
 #include "runners/design_commands/design_commands.hpp"
-#include "runners/forecast/cost.hpp"
+#include "runners/forecast/forecast.hpp"
 #include "runners/status/progress.hpp"
 
 namespace zerocount::design_commands {

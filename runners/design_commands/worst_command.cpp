@@ -10,15 +10,14 @@
 
 #include "analysis/goal/question.hpp"
 #include "analysis/text/text.hpp"
-#include "core/text/shell_word.hpp"
+#include "core/text/text.hpp"
 #include "experiments/yaml/text_file.hpp"
 #include "runners/answers/answer_format.hpp"
-#include "runners/command_line/output_place.hpp"
+#include "runners/command_line/command_line.hpp"
 #include "runners/commands/command.hpp"
-#include "runners/commands/study_argument.hpp"
 #include "runners/commands/timeline_option.hpp"
 #include "runners/design_commands/design_commands.hpp"
-#include "runners/status/interruption.hpp"
+#include "runners/status/progress.hpp"
 #include "runners/tuning/worst_machines/worst_machines.hpp"
 
 namespace zerocount::design_commands {

@@ -1,5 +1,3 @@
-#include "runners/forecast/cost.hpp"
-
 #include <algorithm>
 #include <chrono>
 #include <vector>
@@ -10,6 +8,7 @@
 #include "core/batch/batch.hpp"
 #include "core/trial/trial.hpp"
 #include "experiments/study/study_trial.hpp"
+#include "runners/forecast/forecast.hpp"
 #include "runners/trials/study_runner.hpp"
 
 namespace zerocount::forecast {

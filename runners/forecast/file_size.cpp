@@ -1,5 +1,3 @@
-#include "runners/forecast/file_size.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -18,7 +16,7 @@
 #include "results/layout/layout.hpp"
 #include "results/layout/measure_table.hpp"
 #include "results/shards/trial_columns.hpp"
-#include "runners/forecast/stored_column.hpp"
+#include "runners/forecast/forecast.hpp"
 
 namespace zerocount::forecast {
 namespace {

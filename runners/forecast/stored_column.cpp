@@ -1,5 +1,3 @@
-#include "runners/forecast/stored_column.hpp"
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -11,6 +9,7 @@
 
 #include "results/hdf5/chunk_filters.hpp"
 #include "results/layout/table_io.hpp"
+#include "runners/forecast/forecast.hpp"
 
 namespace zerocount::forecast {
 namespace {

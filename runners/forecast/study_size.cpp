@@ -1,5 +1,3 @@
-#include "runners/forecast/study_size.hpp"
-
 #include <algorithm>
 #include <array>
 #include <iterator>
@@ -17,9 +15,7 @@
 #include "results/layout/layout.hpp"
 #include "results/shards/shard.hpp"
 #include "results/storage/durable_file.hpp"
-#include "runners/forecast/cost.hpp"
-#include "runners/forecast/file_size.hpp"
-#include "runners/forecast/stored_column.hpp"
+#include "runners/forecast/forecast.hpp"
 #include "runners/trials/block_source.hpp"
 #include "runners/trials/effort.hpp"
 #include "runners/trials/shard_writer.hpp"

@@ -14,15 +14,12 @@
 #include "analysis/report/figures/answer_figures.hpp"
 #include "analysis/report/page.hpp"
 #include "core/failure/failure.hpp"
-#include "core/text/number_text.hpp"
+#include "core/text/text.hpp"
 #include "experiments/study/condition_study.hpp"
 #include "runners/answers/answer_format.hpp"
-#include "runners/command_line/option_values.hpp"
-#include "runners/command_line/output_place.hpp"
+#include "runners/command_line/command_line.hpp"
 #include "runners/commands/command.hpp"
-#include "runners/commands/figure_picture.hpp"
 #include "runners/commands/stage_progress.hpp"
-#include "runners/commands/study_argument.hpp"
 #include "runners/identification_commands/identification_commands.hpp"
 
 namespace zerocount::identification_commands {

@@ -18,14 +18,11 @@
 #include "analysis/sliding_identification/sliding_identification.hpp"
 #include "experiments/yaml/text_file.hpp"
 #include "runners/answers/answer_format.hpp"
-#include "runners/command_line/option_values.hpp"
-#include "runners/command_line/output_place.hpp"
+#include "runners/command_line/command_line.hpp"
 #include "runners/commands/command.hpp"
-#include "runners/commands/figure_picture.hpp"
 #include "runners/commands/stage_progress.hpp"
 #include "runners/commands/timeline_option.hpp"
 #include "runners/identification_commands/identification_commands.hpp"
-#include "runners/identification_commands/record_options.hpp"
 #include "runners/status/status.hpp"
 
 namespace zerocount::identification_commands {

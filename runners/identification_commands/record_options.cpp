@@ -1,5 +1,3 @@
-#include "runners/identification_commands/record_options.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -13,13 +11,14 @@
 
 #include "analysis/records/dataset_file.hpp"
 #include "core/failure/failure.hpp"
-#include "core/text/number_text.hpp"
+#include "core/text/text.hpp"
 #include "experiments/tables/text_table.hpp"
 #include "experiments/yaml/text_file.hpp"
-#include "results/hdf5/array_file.hpp"
+#include "results/hdf5/foreign_file.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "results/storage/file_contents.hpp"
-#include "runners/command_line/option_values.hpp"
+#include "runners/command_line/command_line.hpp"
+#include "runners/identification_commands/identification_commands.hpp"
 #include "runners/status/status.hpp"
 
 namespace zerocount::identification_commands {

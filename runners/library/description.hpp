@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "experiments/randomness/random_variables.hpp"
-#include "experiments/study/study_fwd.hpp"
+#include "experiments/study/study.hpp"
 #include "results/hdf5/element.hpp"
 
 /// What other languages know of a study, as JSON: the library gives it by its C interface, and the program to

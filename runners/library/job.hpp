@@ -11,7 +11,7 @@
 
 #include <zerocount/zerocount.h>
 
-#include "experiments/study/study_fwd.hpp"
+#include "experiments/study/study.hpp"
 #include "results/layout/fields.hpp"
 
 namespace zerocount::library {

@@ -1,5 +1,3 @@
-#include "runners/plugins/hidden_state.hpp"
-
 #include <algorithm>
 #include <bit>
 #include <cstddef>
@@ -17,6 +15,7 @@
 #include "core/trial/rig.hpp"
 #include "core/trial/trial.hpp"
 #include "experiments/study/study_trial.hpp"
+#include "runners/plugins/plugin_library.hpp"
 
 namespace zerocount::plugins {
 namespace {

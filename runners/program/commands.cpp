@@ -3,21 +3,23 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include "analysis/parallel/parallel.hpp"
 #include "analysis/parallel/processors.hpp"
-#include "analysis/text/fitted_text.hpp"
+#include "analysis/text/report_json.hpp"
+#include "analysis/text/text.hpp"
 #include "analysis/theory/plausibility.hpp"
-#include "experiments/yaml/nearest_name.hpp"
+#include "experiments/manifest/json_schema.hpp"
+#include "experiments/yaml/problems.hpp"
 #include "results/layout/header.hpp"
-#include "runners/command_line/output_place.hpp"
+#include "runners/command_line/command_line.hpp"
 #include "runners/design_commands/design_commands.hpp"
 #include "runners/identification_commands/identification_commands.hpp"
 #include "runners/library/description.hpp"
-#include "runners/program/shell_commands.hpp"
 #include "runners/result_commands/result_commands.hpp"
 #include "runners/standard_output/standard_output.hpp"
 #include "runners/status/status.hpp"
@@ -25,6 +27,36 @@
 #include "runners/terminal/terminal.hpp"
 
 namespace zerocount::program {
+
+namespace {
+
+/// The types of the answers of all commands.
+std::vector<document::AnswerType> answer_types() {
+  std::vector<document::AnswerType> types;
+  for (const commands::Command& command : commands()) {
+    if (command.answers == nullptr) continue;
+    for (document::AnswerType& type : command.answers()) types.push_back(std::move(type));
+  }
+  return types;
+}
+
+ExitCode print_schema(const command_line::Arguments& arguments) {
+  standard_output::write(text::json_text(arguments.has("answers") ? document::json_schema(answer_types())
+                                                                  : manifest::json_schema()));
+  return ExitCode::success;
+}
+
+}  // namespace
+
+commands::Command schema_command() {
+  return {
+      {"schema", "", {{"answers", "", "the schema of what the commands answer with --format json"}}, 0, 0},
+      "print the JSON Schema of manifests, for editors, or of answers",
+      "Example: zerocount schema > zerocount.schema.json, and in the manifest's first line\n"
+      "  # yaml-language-server: $schema=zerocount.schema.json\n",
+      print_schema};
+}
+
 namespace {
 
 std::string exit_codes_help() {

@@ -1,5 +1,3 @@
-#include "runners/program/shell_commands.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -14,7 +12,6 @@
 #include "results/layout/header.hpp"
 #include "results/reading/results_file.hpp"
 #include "runners/commands/command.hpp"
-#include "runners/commands/study_argument.hpp"
 #include "runners/program/commands.hpp"
 #include "runners/standard_output/standard_output.hpp"
 

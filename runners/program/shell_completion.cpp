@@ -11,7 +11,7 @@
 #include "core/failure/failure.hpp"
 #include "experiments/keys/manifest_keys.hpp"
 #include "experiments/parameters/parameter_table.hpp"
-#include "runners/program/shell_commands.hpp"
+#include "runners/program/commands.hpp"
 #include "runners/standard_output/standard_output.hpp"
 
 namespace zerocount::program {

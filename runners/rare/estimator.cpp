@@ -12,9 +12,9 @@
 
 #include <fmt/format.h>
 
-#include "analysis/statistics/betting_bounds.hpp"
+#include "analysis/statistics/mean_bounds.hpp"
 #include "analysis/statistics/unknown.hpp"
-#include "experiments/designs/random_key.hpp"
+#include "experiments/designs/designs.hpp"
 
 namespace zerocount::rare {
 namespace {

@@ -8,7 +8,7 @@
 #include "analysis/parallel/parallel.hpp"
 #include "analysis/statistics/quantile.hpp"
 #include "core/numerics/normal_distribution.hpp"
-#include "experiments/designs/random_key.hpp"
+#include "experiments/designs/designs.hpp"
 #include "runners/rare/rare_run.hpp"
 
 namespace zerocount::rare {

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/random/number_source.hpp"
-#include "experiments/randomness/discrete_draws.hpp"
+#include "core/random/random_numbers.hpp"
+#include "experiments/randomness/random_coordinates.hpp"
 
 /// The probability of a rare failure. A trial is a function of independent standard normal coordinates, and
 /// of further random numbers that follow from its number.

@@ -12,9 +12,9 @@
 #include "analysis/goal/goal_text.hpp"
 #include "analysis/goal/question.hpp"
 #include "analysis/report/figures/figure.hpp"
-#include "analysis/text/percent.hpp"
+#include "analysis/text/text.hpp"
 #include "core/numerics/normal_distribution.hpp"
-#include "core/text/shell_word.hpp"
+#include "core/text/text.hpp"
 #include "runners/rare/rare_run.hpp"
 
 namespace zerocount::rare {

@@ -12,7 +12,6 @@
 #include "results/reading/all_trials_file.hpp"
 #include "runners/answers/answer_format.hpp"
 #include "runners/commands/command.hpp"
-#include "runners/commands/study_argument.hpp"
 #include "runners/result_commands/machine_logs.hpp"
 #include "runners/result_commands/result_commands.hpp"
 

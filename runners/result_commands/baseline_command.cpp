@@ -6,7 +6,7 @@
 
 #include "analysis/comparison/comparison.hpp"
 #include "results/storage/output_lock.hpp"
-#include "runners/command_line/output_place.hpp"
+#include "runners/command_line/command_line.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/result_commands/result_commands.hpp"
 #include "runners/standard_output/standard_output.hpp"

@@ -9,10 +9,9 @@
 #include "analysis/summary/chosen_point.hpp"
 #include "results/shards/pieces.hpp"
 #include "runners/answers/answer_format.hpp"
-#include "runners/command_line/option_values.hpp"
+#include "runners/command_line/command_line.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/commands/stage_progress.hpp"
-#include "runners/commands/study_argument.hpp"
 #include "runners/result_commands/result_commands.hpp"
 
 namespace zerocount::result_commands {

@@ -1,5 +1,3 @@
-#include "runners/result_commands/learn_command.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -14,12 +12,11 @@
 #include "analysis/goal/goal_text.hpp"
 #include "analysis/summary/cells_of_point.hpp"
 #include "analysis/summary/chosen_point.hpp"
-#include "analysis/text/percent.hpp"
+#include "analysis/text/text.hpp"
 #include "analysis/worlds/learning.hpp"
 #include "runners/answers/answer_format.hpp"
-#include "runners/command_line/option_values.hpp"
+#include "runners/command_line/command_line.hpp"
 #include "runners/commands/command.hpp"
-#include "runners/commands/study_argument.hpp"
 #include "runners/result_commands/result_commands.hpp"
 
 namespace zerocount::result_commands {

@@ -10,7 +10,7 @@
 #include "core/failure/failure.hpp"
 #include "experiments/study/condition_study.hpp"
 #include "experiments/yaml/text_file.hpp"
-#include "runners/command_line/option_values.hpp"
+#include "runners/command_line/command_line.hpp"
 
 namespace zerocount::result_commands {
 namespace {

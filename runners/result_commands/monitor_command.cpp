@@ -15,15 +15,14 @@
 #include "experiments/yaml/text_file.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "runners/answers/answer_format.hpp"
-#include "runners/command_line/option_values.hpp"
+#include "runners/command_line/command_line.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/commands/stage_progress.hpp"
-#include "runners/commands/study_argument.hpp"
 #include "runners/result_commands/changed_parameters.hpp"
 #include "runners/result_commands/machine_logs.hpp"
 #include "runners/result_commands/result_commands.hpp"
 #include "runners/standard_output/standard_output.hpp"
-#include "runners/status/interruption.hpp"
+#include "runners/status/progress.hpp"
 
 namespace zerocount::result_commands {
 namespace {

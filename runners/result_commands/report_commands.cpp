@@ -19,18 +19,14 @@
 #include "core/failure/failure.hpp"
 #include "experiments/yaml/text_file.hpp"
 #include "results/reading/all_trials_file.hpp"
-#include "runners/command_line/option_values.hpp"
-#include "runners/command_line/output_place.hpp"
+#include "runners/command_line/command_line.hpp"
 #include "runners/commands/command.hpp"
-#include "runners/commands/figure_picture.hpp"
 #include "runners/commands/live_page.hpp"
-#include "runners/commands/verified_report.hpp"
 #include "runners/design_commands/tune/tune_answer.hpp"
-#include "runners/result_commands/report_index.hpp"
 #include "runners/result_commands/report_parts.hpp"
 #include "runners/result_commands/result_commands.hpp"
 #include "runners/standard_output/standard_output.hpp"
-#include "runners/status/interruption.hpp"
+#include "runners/status/progress.hpp"
 
 namespace zerocount::result_commands {
 namespace {

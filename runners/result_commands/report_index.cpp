@@ -1,5 +1,3 @@
-#include "runners/result_commands/report_index.hpp"
-
 #include <algorithm>
 #include <string>
 #include <system_error>
@@ -15,6 +13,7 @@
 #include "core/failure/failure.hpp"
 #include "results/layout/header.hpp"
 #include "results/shards/pieces.hpp"
+#include "runners/result_commands/report_parts.hpp"
 
 namespace zerocount::result_commands {
 namespace {

@@ -10,14 +10,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "analysis/document/markup.hpp"
+#include "analysis/document/blocks.hpp"
 #include "analysis/goal/question.hpp"
 #include "analysis/report/page.hpp"
 #include "analysis/summary/chosen_point.hpp"
 #include "core/failure/failure.hpp"
-#include "runners/commands/study_argument.hpp"
+#include "runners/commands/command.hpp"
 #include "runners/design_commands/design_commands.hpp"
-#include "runners/result_commands/learn_command.hpp"
+#include "runners/result_commands/result_commands.hpp"
 #include "runners/status/progress.hpp"
 #include "runners/status/status.hpp"
 #include "runners/tuning/tune_plan.hpp"

@@ -1,8 +1,16 @@
 #pragma once
 
+#include "analysis/document/answer.hpp"
+#include "analysis/summary/chosen_point.hpp"
 #include "runners/commands/command.hpp"
 
 namespace zerocount::result_commands {
+
+/// The answer of `learn` on a point of a study.
+/// @param name of the file, for messages
+/// @throws Failure (bad_input) if nothing differs between worlds, or no move is judged
+document::Answer learned_of(const std::string& name, const summary::StudySummary& summary,
+                            const summary::ChosenPoint& chosen);
 
 commands::Command history_command();
 commands::Command report_command();

@@ -5,7 +5,7 @@
 #include "analysis/report/figures/answer_figures.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "runners/answers/answer_format.hpp"
-#include "runners/command_line/option_values.hpp"
+#include "runners/command_line/command_line.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/commands/stage_progress.hpp"
 #include "runners/result_commands/result_commands.hpp"

@@ -17,13 +17,12 @@
 #include "results/reading/all_trials_file.hpp"
 #include "results/shards/pieces.hpp"
 #include "runners/answers/answer_format.hpp"
-#include "runners/command_line/option_values.hpp"
+#include "runners/command_line/command_line.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/commands/stage_progress.hpp"
-#include "runners/commands/study_argument.hpp"
 #include "runners/result_commands/result_commands.hpp"
 #include "runners/status/status.hpp"
-#include "runners/study_run/confirmation.hpp"
+#include "runners/study_run/file_run.hpp"
 
 namespace zerocount::result_commands {
 namespace {

@@ -16,7 +16,7 @@
 #include "results/shards/pieces.hpp"
 #include "results/storage/durable_file.hpp"
 #include "results/storage/output_lock.hpp"
-#include "runners/study_run/earlier_shards.hpp"
+#include "runners/study_run/file_run.hpp"
 
 namespace zerocount::run_status {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <unistd.h>
 
-#include "core/text/utf8.hpp"
+#include "core/text/text.hpp"
 #include "runners/terminal/terminal.hpp"
 
 namespace zerocount::standard_output {

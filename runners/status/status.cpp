@@ -8,7 +8,7 @@
 
 #include <unistd.h>
 
-#include "analysis/text/fitted_text.hpp"
+#include "analysis/text/text.hpp"
 #include "runners/terminal/terminal.hpp"
 
 namespace zerocount::status {

@@ -4,7 +4,7 @@
 #include "experiments/yaml/text_file.hpp"
 #include "results/reading/export.hpp"
 #include "results/reading/results_file.hpp"
-#include "runners/command_line/output_place.hpp"
+#include "runners/command_line/command_line.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/status/status.hpp"
 #include "runners/study_commands/study_commands.hpp"

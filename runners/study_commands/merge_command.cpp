@@ -7,11 +7,11 @@
 #include "results/layout/header.hpp"
 #include "results/shards/merge.hpp"
 #include "results/storage/output_lock.hpp"
-#include "runners/command_line/output_place.hpp"
+#include "runners/command_line/command_line.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/status/status.hpp"
 #include "runners/study_commands/study_commands.hpp"
-#include "runners/study_run/assembly.hpp"
+#include "runners/study_run/file_run.hpp"
 
 namespace zerocount::study_commands {
 namespace {

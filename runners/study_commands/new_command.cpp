@@ -8,12 +8,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/text/number_text.hpp"
-#include "core/text/shell_word.hpp"
+#include "core/text/text.hpp"
 #include "experiments/guides/guide_manifest.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/manifests/shipped_manifests.hpp"
-#include "runners/command_line/output_place.hpp"
+#include "runners/command_line/command_line.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/standard_output/standard_output.hpp"
 #include "runners/status/status.hpp"

@@ -8,13 +8,12 @@
 #include <fmt/format.h>
 
 #include "analysis/document/answer.hpp"
-#include "experiments/guides/guide_friction.hpp"
+#include "experiments/guides/guide_manifest.hpp"
 #include "experiments/guides/guide_table.hpp"
 #include "experiments/keys/manifest_keys.hpp"
 #include "experiments/manifest/parameter_listing.hpp"
 #include "runners/answers/answer_format.hpp"
 #include "runners/commands/command.hpp"
-#include "runners/commands/study_argument.hpp"
 #include "runners/study_commands/study_commands.hpp"
 
 namespace zerocount::study_commands {

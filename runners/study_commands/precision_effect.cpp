@@ -1,5 +1,3 @@
-#include "runners/study_commands/precision_effect.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -10,6 +8,7 @@
 #include "analysis/statistics/quantile.hpp"
 #include "experiments/study/study_trial.hpp"
 #include "runners/controller_code/program.hpp"
+#include "runners/study_commands/study_commands.hpp"
 #include "runners/trials/effort.hpp"
 #include "runners/trials/study_runner.hpp"
 #include "runners/trials/trial_set.hpp"

@@ -13,7 +13,7 @@
 #include "analysis/summary_answer/summary_answer.hpp"
 #include "analysis/text/report_json.hpp"
 #include "core/failure/failure.hpp"
-#include "core/text/shell_word.hpp"
+#include "core/text/text.hpp"
 #include "results/shards/pieces.hpp"
 #include "runners/answers/answer_format.hpp"
 #include "runners/commands/command.hpp"

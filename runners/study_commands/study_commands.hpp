@@ -1,8 +1,27 @@
 #pragma once
 
+#include <cstdint>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "experiments/study/study.hpp"
 #include "runners/commands/command.hpp"
+#include "runners/controller_code/program.hpp"
 
 namespace zerocount::study_commands {
+
+/// What single precision changes in the trials of a point, in lines: "of 500 trials 499 meet the goal (in
+/// double precision 500), …". Simulates them with the controller in both precisions, the same machines and
+/// random numbers in both:
+///
+///     for evenly spaced trials of the point, as many as some seconds of computing time allow:
+///       run the trial with the program in double precision, and with that in single precision
+///
+/// @throws trial::Interrupted
+std::vector<std::string> effect_of_single_precision(const study::Study& study, std::int64_t point,
+                                                    const controller_code::ControllerToWrite& chain,
+                                                    const std::stop_token& stop);
 
 commands::Command new_command();
 commands::Command status_command();

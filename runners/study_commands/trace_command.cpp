@@ -7,17 +7,15 @@
 
 #include <fmt/format.h>
 
-#include "analysis/text/percent.hpp"
+#include "analysis/text/text.hpp"
 #include "core/trial/trial.hpp"
 #include "experiments/yaml/text_file.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/results_file.hpp"
 #include "results/shards/shard.hpp"
 #include "results/storage/output_file.hpp"
-#include "runners/command_line/option_values.hpp"
-#include "runners/command_line/output_place.hpp"
+#include "runners/command_line/command_line.hpp"
 #include "runners/commands/command.hpp"
-#include "runners/commands/study_argument.hpp"
 #include "runners/rare/rare_run.hpp"
 #include "runners/standard_output/standard_output.hpp"
 #include "runners/status/status.hpp"

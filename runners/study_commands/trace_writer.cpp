@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "results/layout/layout.hpp"
-#include "results/reading/csv.hpp"
+#include "results/reading/export.hpp"
 
 namespace zerocount::study_commands {
 namespace {

@@ -10,8 +10,7 @@
 #include "analysis/text/text.hpp"
 #include "runners/answers/answer_format.hpp"
 #include "runners/commands/command.hpp"
-#include "runners/commands/study_argument.hpp"
-#include "runners/status/interruption.hpp"
+#include "runners/status/progress.hpp"
 #include "runners/study_commands/study_commands.hpp"
 #include "runners/verification/verification.hpp"
 

@@ -1,5 +1,3 @@
-#include "runners/study_run/assembly.hpp"
-
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -10,6 +8,7 @@
 #include "analysis/summary/study_statistics.hpp"
 #include "core/failure/failure.hpp"
 #include "results/shards/merge.hpp"
+#include "runners/study_run/file_run.hpp"
 
 namespace zerocount::study_run {
 namespace {

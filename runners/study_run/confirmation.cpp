@@ -1,5 +1,3 @@
-#include "runners/study_run/confirmation.hpp"
-
 #include <algorithm>
 #include <optional>
 #include <span>
@@ -12,6 +10,7 @@
 #include "core/failure/failure.hpp"
 #include "experiments/study/study_trial.hpp"
 #include "results/layout/header.hpp"
+#include "runners/study_run/file_run.hpp"
 #include "runners/trials/trial_set.hpp"
 #include "runners/trials/variant.hpp"
 

@@ -1,5 +1,3 @@
-#include "runners/study_run/earlier_shards.hpp"
-
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -12,6 +10,7 @@
 #include "results/layout/header.hpp"
 #include "results/layout/recorded_values.hpp"
 #include "runners/status/status.hpp"
+#include "runners/study_run/file_run.hpp"
 
 namespace zerocount::study_run {
 namespace {

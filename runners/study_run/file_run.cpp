@@ -13,19 +13,17 @@
 
 #include "core/failure/failure.hpp"
 #include "experiments/keys/manifest_keys.hpp"
-#include "experiments/manifest_text/manifest_values.hpp"
+#include "experiments/manifest_text/manifest_text.hpp"
 #include "results/layout/header.hpp"
+#include "results/layout/layout.hpp"
 #include "results/layout/recorded_values.hpp"
-#include "results/layout/row_range.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "results/reading/results_file.hpp"
 #include "results/shards/shard.hpp"
 #include "results/storage/durable_file.hpp"
-#include "runners/forecast/study_size.hpp"
+#include "runners/forecast/forecast.hpp"
 #include "runners/status/progress.hpp"
 #include "runners/status/status.hpp"
-#include "runners/study_run/assembly.hpp"
-#include "runners/study_run/earlier_shards.hpp"
 #include "runners/trials/study_runner.hpp"
 
 namespace zerocount::study_run {

@@ -1,17 +1,90 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <map>
+#include <memory>
+#include <span>
 #include <stop_token>
 #include <string_view>
+#include <vector>
 
+#include "analysis/summary_answer/parts.hpp"
+#include "analysis/theory/theory_prediction.hpp"
 #include "core/failure/failure.hpp"
+#include "core/plugin/controller_plugin.hpp"
 #include "experiments/study/study.hpp"
-#include "results/layout/row_range.hpp"
+#include "results/layout/layout.hpp"
+#include "results/reading/results_file.hpp"
+#include "results/reading/trial_tables.hpp"
+#include "results/shards/concatenate.hpp"
+#include "results/shards/shard.hpp"
 #include "results/timeline/timeline.hpp"
 #include "runners/status/status.hpp"
-#include "runners/study_run/earlier_shards.hpp"
 
 namespace zerocount::study_run {
+
+struct AssembleSettings {
+  std::span<const theory::PointPrediction> predictions{};  ///< see theory::study_predictions
+  shards::Renumbering renumber{};                          ///< see shards::MergeOptions
+  std::stop_token stop{};
+  timeline::Timeline* timeline{nullptr};  ///< gets spans of the stages; null: none
+};
+
+/// Joins shards into the results file `output`. A file with the whole study gets the statistics of all design
+/// points.
+/// @throws Failure; see MergedFile.
+void assemble(std::span<const shards::ShardInfo> shards, const study::Study& study,
+              const std::filesystem::path& output, layout::RowRange rows,
+              const AssembleSettings& settings = {});
+
+/// Runs about `trials` new trials of a point of a results file, on all cores, and writes nothing. Everything
+/// is drawn anew, what is drawn once per study too, from a seed that follows from that of the study. The
+/// design is monte_carlo, whatever that of the file. Every machine bears every condition of the study. In a
+/// study with rigs every trial has a rig of its own, so that Clopper–Pearson bounds hold; if the study has a
+/// goal, new rigs have as many trials each as those of the file. The result does not depend on the number of
+/// cores.
+/// @param plugin the user's controller, if the study has one
+/// @throws Failure (bad_input) for a study without targets, or whose plugin is not loaded.
+summary_answer::Confirmation confirm_point(const reading::ResultsFile& file, std::int64_t point,
+                                           std::int64_t trials,
+                                           std::shared_ptr<const plugin::ControllerPlugin> plugin);
+
+/// File name extension of damaged shards, which are kept.
+inline constexpr const char* damaged_extension = ".damaged";
+
+/// The shards of earlier runs.
+struct EarlierShards {
+  std::vector<shards::ShardInfo> usable;   ///< in order of rows, without overlaps
+  std::vector<std::filesystem::path> all;  ///< all valid shards of the study
+};
+
+/// Selects shards within `wanted` that do not overlap. Shards of runs with other parts may extend beyond it
+/// or overlap; trials of unused shards are run again.
+EarlierShards choose_shards(const std::vector<shards::ShardInfo>& sound, layout::RowRange wanted);
+
+/// Treatment of shards of another study.
+enum class ForeignShards { refuse, remove };
+
+/// Finds the shards of earlier runs, whose checksums prove their values. Damaged shards are renamed and their
+/// trials run again.
+/// @throws Failure (bad_input) if the folder has shards of another study and `refuse` is given.
+EarlierShards earlier_shards(const std::filesystem::path& directory, const study::Study& study,
+                             layout::RowRange wanted, ForeignShards foreign = ForeignShards::refuse);
+
+/// Removes the shards, and their folder if it is then empty.
+void remove_shards(const std::filesystem::path& directory, const std::vector<std::filesystem::path>& shards);
+
+/// Positions of the retained trials' records in a file, by global row.
+using RecordPlaces = std::map<std::int64_t, layout::RowRange>;
+
+RecordPlaces places_of_records(const reading::TrialTables& trials);
+
+/// Reads the kept trials among `rows` with everything that is stored of them.
+/// @param first_row  row of the results that corresponds to rows.first, in the study that they are for
+/// @throws Failure as TrialTables
+std::vector<shards::TrialResult> read_trials(const reading::TrialTables& trials, layout::RowRange rows,
+                                             std::int64_t first_row, const RecordPlaces& records);
 
 /// Treatment of an existing output file.
 enum class ExistingUse {

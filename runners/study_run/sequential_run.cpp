@@ -3,13 +3,12 @@
 
 #include <fmt/format.h>
 
-#include "analysis/statistics/confidence_sequence.hpp"
+#include "analysis/statistics/mean_bounds.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "results/storage/durable_file.hpp"
 #include "runners/status/progress.hpp"
 #include "runners/status/status.hpp"
-#include "runners/study_run/assembly.hpp"
 #include "runners/study_run/file_run.hpp"
 #include "runners/trials/study_runner.hpp"
 

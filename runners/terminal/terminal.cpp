@@ -6,9 +6,8 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include "analysis/text/fitted_text.hpp"
-#include "core/text/number_text.hpp"
-#include "core/text/utf8.hpp"
+#include "analysis/text/text.hpp"
+#include "core/text/text.hpp"
 
 namespace zerocount::terminal {
 namespace {

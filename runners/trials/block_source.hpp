@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "experiments/study/study_fwd.hpp"
-#include "results/layout/row_range.hpp"
+#include "experiments/study/study.hpp"
+#include "results/layout/layout.hpp"
 
 namespace zerocount::trials {
 

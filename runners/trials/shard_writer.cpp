@@ -12,7 +12,7 @@
 
 #include "results/layout/header.hpp"
 #include "results/layout/table_io.hpp"
-#include "results/shards/encoded_shard.hpp"
+#include "results/shards/shard.hpp"
 
 namespace zerocount::trials {
 

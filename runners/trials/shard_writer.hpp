@@ -12,14 +12,12 @@
 
 #include "analysis/summary/study_statistics.hpp"
 #include "analysis/theory/theory_prediction.hpp"
-#include "experiments/study/study_fwd.hpp"
+#include "experiments/study/study.hpp"
 #include "results/hdf5/element.hpp"
 #include "results/layout/header.hpp"
-#include "results/layout/row_range.hpp"
-#include "results/shards/encoded_shard.hpp"
+#include "results/layout/layout.hpp"
 #include "results/shards/shard.hpp"
 #include "results/shards/trial_columns.hpp"
-#include "results/shards/trial_result.hpp"
 #include "results/timeline/timeline.hpp"
 #include "runners/trials/trial_runner.hpp"
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "analysis/theory/theory_prediction.hpp"
-#include "experiments/study/study_fwd.hpp"
-#include "results/layout/row_range.hpp"
+#include "experiments/study/study.hpp"
+#include "results/layout/layout.hpp"
 #include "results/shards/shard.hpp"
 #include "results/timeline/timeline.hpp"
 

@@ -10,8 +10,8 @@
 #include "analysis/theory/theory_prediction.hpp"
 #include "core/batch/batch.hpp"
 #include "experiments/study/study_trial.hpp"
-#include "experiments/study/trial_drawer.hpp"
-#include "results/layout/row_range.hpp"
+#include "experiments/study/trial_draws.hpp"
+#include "results/layout/layout.hpp"
 #include "results/shards/shard.hpp"
 
 namespace zerocount::trials {

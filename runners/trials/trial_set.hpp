@@ -8,7 +8,7 @@
 
 #include "core/trial/outcome.hpp"
 #include "core/trial/parameters.hpp"
-#include "experiments/study/execution.hpp"
+#include "experiments/study/sampling.hpp"
 #include "runners/trials/effort.hpp"
 
 /// Trials that are run to be counted and not stored: for searches, verdicts and estimates.

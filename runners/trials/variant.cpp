@@ -7,9 +7,9 @@
 
 #include "core/failure/failure.hpp"
 #include "core/random/random_numbers.hpp"
-#include "experiments/designs/random_key.hpp"
+#include "experiments/designs/designs.hpp"
 #include "experiments/manifest/load_study.hpp"
-#include "experiments/manifest_text/point_manifest.hpp"
+#include "experiments/manifest_text/manifest_text.hpp"
 #include "experiments/rules/value_rules.hpp"
 #include "experiments/study/point_edit.hpp"
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <span>
 
-#include "experiments/study/study_fwd.hpp"
+#include "experiments/study/study.hpp"
 #include "runners/trials/effort.hpp"
 #include "runners/tuning/race/search.hpp"
 #include "runners/tuning/search/study_search.hpp"

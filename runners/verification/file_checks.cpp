@@ -14,17 +14,15 @@
 #include <fmt/format.h>
 
 #include "analysis/summary/study_statistics.hpp"
-#include "core/text/counted.hpp"
+#include "core/text/text.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/plan.hpp"
 #include "results/reading/first_difference.hpp"
 #include "results/reading/results_file.hpp"
 #include "results/shards/shard.hpp"
-#include "results/storage/checksum_trailer.hpp"
 #include "results/storage/durable_file.hpp"
-#include "results/storage/temporary_folder.hpp"
-#include "runners/study_run/assembly.hpp"
-#include "runners/study_run/earlier_shards.hpp"
+#include "results/storage/file_contents.hpp"
+#include "runners/study_run/file_run.hpp"
 #include "runners/verification/replay.hpp"
 
 namespace zerocount::verification {

@@ -19,7 +19,7 @@
 #include "core/trial/trial.hpp"
 #include "results/layout/fields.hpp"
 #include "results/layout/layout.hpp"
-#include "runners/study_run/earlier_shards.hpp"
+#include "runners/study_run/file_run.hpp"
 #include "runners/trials/trial_runner.hpp"
 
 namespace zerocount::verification {

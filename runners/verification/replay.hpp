@@ -7,10 +7,9 @@
 #include <vector>
 
 #include "core/trial/parameters.hpp"
-#include "experiments/study/columns.hpp"
-#include "experiments/study/study_fwd.hpp"
+#include "experiments/study/grouping.hpp"
+#include "experiments/study/study.hpp"
 #include "results/layout/layout.hpp"
-#include "results/layout/row_range.hpp"
 #include "results/reading/results_file.hpp"
 #include "results/shards/shard.hpp"
 #include "runners/verification/verification.hpp"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/trial/outcome.hpp"
-#include "experiments/study/study_fwd.hpp"
+#include "experiments/study/study.hpp"
 #include "results/layout/layout.hpp"
 #include "tests/support/merged_file.hpp"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/trial/trial.hpp"
-#include "experiments/study/study_fwd.hpp"
+#include "experiments/study/study.hpp"
 #include "tests/support/agreement.hpp"
 
 namespace zerocount::testing {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/trial/random_history.hpp"
+#include "core/trial/open_loop.hpp"
 #include "experiments/distributions/distribution_forms.hpp"
 #include "experiments/manifest/json_schema.hpp"
 #include "experiments/study/study_trial.hpp"

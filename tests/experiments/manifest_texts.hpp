@@ -1,7 +1,7 @@
 #pragma once
 
 #include "experiments/manifest/load_study.hpp"
-#include "experiments/study/study_fwd.hpp"
+#include "experiments/study/study.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/test.hpp"
 

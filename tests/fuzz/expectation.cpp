@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/failure/failure.hpp"
-#include "core/text/utf8.hpp"
+#include "core/text/text.hpp"
 
 namespace zerocount::fuzz {
 namespace {

@@ -10,7 +10,7 @@
 #include <sys/types.h>
 
 #include "core/hash/sha256.hpp"
-#include "results/storage/checksum_trailer.hpp"
+#include "results/storage/file_contents.hpp"
 #include "tests/fuzz/hdf5_edits.hpp"
 #include "tests/fuzz/sample_files.hpp"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "results/storage/file_descriptor.hpp"
+#include "results/storage/durable_file.hpp"
 
 namespace zerocount::fuzz {
 

@@ -10,7 +10,7 @@
 #include "analysis/fit/records/checked_record.hpp"
 #include "analysis/sliding_identification/sliding_record.hpp"
 #include "experiments/tables/text_table.hpp"
-#include "runners/identification_commands/record_options.hpp"
+#include "runners/identification_commands/identification_commands.hpp"
 #include "tests/fuzz/expectation.hpp"
 #include "tests/fuzz/memory_file.hpp"
 

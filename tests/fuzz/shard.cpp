@@ -14,7 +14,7 @@
 #include "results/layout/header.hpp"
 #include "results/reading/results_file.hpp"
 #include "results/shards/merge.hpp"
-#include "runners/study_run/assembly.hpp"
+#include "runners/study_run/file_run.hpp"
 #include "tests/fuzz/expectation.hpp"
 #include "tests/fuzz/file_edits.hpp"
 #include "tests/support/temporary_folder.hpp"

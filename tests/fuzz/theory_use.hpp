@@ -1,6 +1,6 @@
 #pragma once
 
-#include "experiments/study/study_fwd.hpp"
+#include "experiments/study/study.hpp"
 
 namespace zerocount::fuzz {
 

@@ -9,7 +9,7 @@
 
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/study/study.hpp"
-#include "runners/study_run/assembly.hpp"
+#include "runners/study_run/file_run.hpp"
 #include "runners/trials/study_runner.hpp"
 #include "tests/support/temporary_folder.hpp"
 

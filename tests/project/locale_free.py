@@ -3,7 +3,7 @@
 usage: locale_free.py SOURCES BUILD
 
 An application that loads the Python extension may have called setlocale, as Qt does. Numbers go through std::from_chars and
-fmt (core/text/number_text.hpp). nlohmann::json asks the locale for its separator, so that it does not depend on it.
+fmt (core/text/text.hpp). nlohmann::json asks the locale for its separator, so that it does not depend on it.
 """
 
 import pathlib

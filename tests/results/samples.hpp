@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "experiments/study/study_fwd.hpp"
+#include "experiments/study/study.hpp"
 #include "results/shards/merge.hpp"
 #include "results/shards/shard.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -1,6 +1,6 @@
 // The README's first study: its manifest and its commands do what it says of them.
 
-#include "analysis/text/percent.hpp"
+#include "analysis/text/text.hpp"
 #include "tests/runners/program.hpp"
 
 namespace zerocount::testing {

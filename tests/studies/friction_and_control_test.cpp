@@ -5,9 +5,9 @@
 #include <set>
 #include <string>
 
-#include "core/friction/sliding/stribeck.hpp"
+#include "core/friction/sliding/sliding.hpp"
 #include "core/loop/encoder.hpp"
-#include "core/theory/gains.hpp"
+#include "core/theory/linear_loop.hpp"
 #include "experiments/study/study.hpp"
 #include "tests/studies/proportion_bounds.hpp"
 #include "tests/studies/shipped_study.hpp"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/trial/trial.hpp"
-#include "experiments/study/study_fwd.hpp"
+#include "experiments/study/study.hpp"
 
 namespace zerocount::testing {
 

@@ -4,7 +4,7 @@
 #include <functional>
 #include <span>
 
-#include "experiments/study/study_fwd.hpp"
+#include "experiments/study/study.hpp"
 #include "results/layout/layout.hpp"
 #include "results/shards/merge.hpp"
 

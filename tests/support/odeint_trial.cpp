@@ -5,7 +5,7 @@
 #include <deque>
 #include <numbers>
 
-#include "core/trial/random_history.hpp"
+#include "core/trial/open_loop.hpp"
 
 namespace zerocount::testing {
 

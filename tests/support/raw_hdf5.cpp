@@ -2,7 +2,7 @@
 
 #include <hdf5.h>
 
-#include "results/storage/checksum_trailer.hpp"
+#include "results/storage/file_contents.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount::testing {

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "results/storage/temporary_folder.hpp"
+#include "results/storage/durable_file.hpp"
 
 namespace zerocount::testing {
 

@@ -9,7 +9,7 @@
 
 #include "analysis/fit/presliding/identification.hpp"
 #include "analysis/text/text.hpp"
-#include "core/text/number_text.hpp"
+#include "core/text/text.hpp"
 
 namespace zerocount::fit {
 

@@ -8,7 +8,7 @@
 
 #include "analysis/comparison/comparison.hpp"
 #include "analysis/report/report_sections.hpp"
-#include "analysis/text/percent.hpp"
+#include "analysis/text/text.hpp"
 
 namespace zerocount::report {
 namespace {

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/failure/failure.hpp"
-#include "core/text/number_text.hpp"
+#include "core/text/text.hpp"
 
 namespace zerocount::report {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "analysis/document/figure.hpp"
-#include "core/text/embedded_file.hpp"
+#include "core/text/text.hpp"
 #include "experiments/parameters/study_units.hpp"
 
 /// Figures: data with the names and units of their columns, a caption, and an embedded specification, a

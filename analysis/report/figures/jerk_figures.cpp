@@ -4,7 +4,7 @@
 
 #include "analysis/jerks/jerk_statistics.hpp"
 #include "analysis/report/figures/report_figures.hpp"
-#include "analysis/statistics/spread_over.hpp"
+#include "analysis/statistics/unknown.hpp"
 #include "analysis/text/text.hpp"
 #include "core/numerics/sign.hpp"
 

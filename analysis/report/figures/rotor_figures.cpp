@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "analysis/report/figures/report_figures.hpp"
-#include "analysis/statistics/spread_over.hpp"
+#include "analysis/statistics/unknown.hpp"
 #include "results/layout/layout.hpp"
 
 namespace zerocount::report {

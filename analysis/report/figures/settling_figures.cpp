@@ -5,11 +5,9 @@
 
 #include "analysis/goal/goal_text.hpp"
 #include "analysis/report/figures/report_figures.hpp"
-#include "analysis/statistics/spread_over.hpp"
 #include "analysis/statistics/sums/histogram.hpp"
+#include "analysis/statistics/unknown.hpp"
 #include "analysis/summary/cells_of_point.hpp"
-#include "analysis/text/percent.hpp"
-#include "analysis/text/quantity.hpp"
 #include "analysis/text/text.hpp"
 #include "experiments/study/condition_study.hpp"
 

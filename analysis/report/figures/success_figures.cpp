@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "analysis/report/figures/report_figures.hpp"
-#include "analysis/statistics/spread_over.hpp"
+#include "analysis/statistics/unknown.hpp"
 #include "analysis/summary/cells_of_point.hpp"
 #include "analysis/theory/curves.hpp"
 #include "experiments/study/condition_study.hpp"

@@ -5,7 +5,7 @@
 
 #include "analysis/goal/goal_text.hpp"
 #include "analysis/report/figures/report_figures.hpp"
-#include "analysis/text/quantity.hpp"
+#include "analysis/text/text.hpp"
 #include "core/loop/encoder.hpp"
 #include "experiments/study/study_trial.hpp"
 

@@ -8,13 +8,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "analysis/document/markup.hpp"
+#include "analysis/document/blocks.hpp"
 #include "analysis/report/figures/figure.hpp"
 #include "analysis/report/first_screen/first_screen.hpp"
 #include "core/friction/law.hpp"
 #include "core/loop/dac.hpp"
 #include "core/loop/encoder.hpp"
-#include "core/text/counted.hpp"
+#include "core/text/text.hpp"
 #include "experiments/study/plan.hpp"
 #include "experiments/study/study_trial.hpp"
 

@@ -7,10 +7,9 @@
 #include <fmt/ranges.h>
 
 #include "analysis/document/blocks.hpp"
-#include "analysis/document/markup.hpp"
 #include "analysis/report/report_sections.hpp"
 #include "analysis/summary/move_behaviour.hpp"
-#include "analysis/text/percent.hpp"
+#include "analysis/text/text.hpp"
 #include "analysis/theory/point_theory.hpp"
 #include "analysis/theory/theory_prediction.hpp"
 #include "experiments/rules/value_sources.hpp"

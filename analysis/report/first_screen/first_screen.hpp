@@ -14,7 +14,7 @@
 #include "core/trial/parameters.hpp"
 #include "experiments/study/goal.hpp"
 #include "experiments/study/point_limits.hpp"
-#include "experiments/study/study_fwd.hpp"
+#include "experiments/study/study.hpp"
 
 /// The first screen of a page: the verdict, the axis as a diagram, the requirements with their verdicts, the
 /// gains with the margins of the loops, and the assumptions.

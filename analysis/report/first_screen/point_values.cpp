@@ -5,7 +5,7 @@
 #include <fmt/ranges.h>
 
 #include "analysis/report/first_screen/first_screen.hpp"
-#include "analysis/text/quantity.hpp"
+#include "analysis/text/text.hpp"
 #include "experiments/study/plan.hpp"
 
 namespace zerocount::report {

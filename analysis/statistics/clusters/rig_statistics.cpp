@@ -7,7 +7,7 @@
 #include <boost/math/tools/toms748_solve.hpp>
 #include <fmt/format.h>
 
-#include "analysis/text/percent.hpp"
+#include "analysis/text/text.hpp"
 
 namespace zerocount::statistics {
 namespace {

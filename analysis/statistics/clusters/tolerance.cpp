@@ -5,13 +5,12 @@
 
 #include <fmt/format.h>
 
-#include "analysis/statistics/confidence_sequence.hpp"
 #include "analysis/statistics/distributions.hpp"
+#include "analysis/statistics/mean_bounds.hpp"
 #include "analysis/statistics/quantile.hpp"
 #include "analysis/statistics/unknown.hpp"
-#include "analysis/text/percent.hpp"
 #include "analysis/text/text.hpp"
-#include "core/numerics/bisection.hpp"
+#include "core/numerics/roots.hpp"
 
 namespace zerocount::statistics {
 std::int64_t tolerance_rank(std::int64_t observations, double content, double confidence) {

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <span>
 
-#include "analysis/statistics/known_values.hpp"
+#include "analysis/statistics/unknown.hpp"
 
 namespace zerocount::statistics {
 

@@ -2,7 +2,6 @@
 
 #include "core/batch/kernels/lane_group.hpp"
 #include "core/batch/kernels/series.hpp"
-#include "core/batch/kernels/trigonometry.hpp"
 #include "core/motion/disturbance_formulas.hpp"
 
 /// The torque on the rotor as a series in the fraction of a step.

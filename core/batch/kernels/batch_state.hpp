@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/batch/kernels/lane_set.hpp"
-#include "core/friction/presliding/oscillation_formulas.hpp"
+#include "core/friction/presliding/presliding_formulas.hpp"
 #include "core/loop/controller/block_formulas.hpp"
 #include "core/loop/formulas.hpp"
 #include "core/trial/running_measures.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/batch/kernels/lane_group.hpp"
-#include "core/batch/kernels/trigonometry.hpp"
+#include "core/batch/kernels/series.hpp"
 
 namespace zerocount::batch {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/batch/kernels/lane_group.hpp"
-#include "core/batch/kernels/random_numbers.hpp"
+#include "core/batch/kernels/noise.hpp"
 
 namespace zerocount::batch {
 

@@ -246,4 +246,29 @@ ZEROCOUNT_ALWAYS_INLINE P events_where(const typename P::Mask& mask, LaneEvent e
   return select(mask, P(static_cast<double>(event)), P(0.0));
 }
 
+/// Measures `passed` samples with zero error.
+template <class P, class At>
+ZEROCOUNT_ALWAYS_INLINE void measure_passed(BatchState& batch, const At& at, const P& passed) {
+  MeasureLanes& q = batch.measures;
+  trial::ArrivalMeasures<P> arrival;
+  trial::for_each_of_arrival(LoadEach<At>{at}, arrival, q);
+  trial::measure_zeros(arrival, at.load(q.limits.dwell), passed);
+  trial::for_each_of_arrival(StoreEach<At>{at}, q, arrival);
+}
+
+// Step control of all motions.
+
+/// The step h, or half of the time to the stop where h would leave only a little of it.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE P without_short_remainder(const P& h, const P& time_to_stop) {
+  return select((h < time_to_stop) & (time_to_stop < P(1.4) * h), time_to_stop * P(0.5), h);
+}
+
+/// The step after one of h (s) that was too long: by `factor`, which its truncation error suggests, or half
+/// of h where it was too long for another reason than being `inexact`.
+template <class P>
+ZEROCOUNT_ALWAYS_INLINE P shorter_step(const P& h, const typename P::Mask& inexact, const P& factor) {
+  return select(inexact, h * min(max(factor, P(0.05)), P(0.8)), h * P(0.5));
+}
+
 }  // namespace zerocount::batch

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "core/batch/kernels/creep_ahead_kernel.hpp"
-#include "core/batch/kernels/noisy_reading.hpp"
-#include "core/batch/kernels/passed_measures.hpp"
+#include "core/batch/kernels/lane_group.hpp"
+#include "core/batch/kernels/noise.hpp"
 
 namespace zerocount::batch {
 

@@ -2,7 +2,7 @@
 
 #include "core/batch/kernels/lane_blocks.hpp"
 #include "core/batch/kernels/lane_group.hpp"
-#include "core/batch/kernels/noisy_reading.hpp"
+#include "core/batch/kernels/noise.hpp"
 #include "core/loop/formulas.hpp"
 
 namespace zerocount::batch {

@@ -7,7 +7,6 @@
 #include <immintrin.h>
 #endif
 
-#include "core/numerics/ln2.hpp"
 #include "core/numerics/logarithm_by_series.hpp"
 #include "core/numerics/number.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/batch/kernels/passed_measures.hpp"
+#include "core/batch/kernels/lane_group.hpp"
 #include "core/batch/kernels/velocity_step.hpp"
 
 namespace zerocount::batch {

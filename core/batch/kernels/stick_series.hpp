@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/batch/kernels/coupled_torque.hpp"
-#include "core/batch/kernels/torque_power.hpp"
+#include "core/batch/kernels/series.hpp"
 
 namespace zerocount::batch {
 

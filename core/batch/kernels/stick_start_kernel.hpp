@@ -1,8 +1,8 @@
 #pragma once
 
 #include "core/batch/kernels/coupled_torque.hpp"
-#include "core/batch/kernels/torque_power.hpp"
-#include "core/friction/presliding/spring_branch.hpp"
+#include "core/batch/kernels/series.hpp"
+#include "core/friction/presliding/presliding_formulas.hpp"
 
 namespace zerocount::batch {
 

@@ -2,7 +2,6 @@
 
 #include "core/batch/kernels/coupled_torque.hpp"
 #include "core/batch/kernels/lane_group.hpp"
-#include "core/batch/kernels/step_control.hpp"
 #include "core/batch/kernels/stick_series.hpp"
 
 namespace zerocount::batch {

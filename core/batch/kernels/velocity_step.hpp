@@ -1,8 +1,8 @@
 #pragma once
 
 #include "core/batch/kernels/coupled_torque.hpp"
-#include "core/batch/kernels/step_control.hpp"
-#include "core/friction/sliding/stribeck_series.hpp"
+#include "core/batch/kernels/lane_group.hpp"
+#include "core/friction/sliding/slide_formulas.hpp"
 
 /// Steps of motions without a hook that sticks: slides, bristles, elements, and rotors without friction. The
 /// series of such a motion has `position`, the travel since the start of the step (rad), and `omega`, ω·h.

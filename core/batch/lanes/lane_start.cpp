@@ -5,7 +5,7 @@
 #include "core/batch/lanes/running_batch.hpp"
 #include "core/friction/bristles/bristle.hpp"
 #include "core/friction/bristles/gms.hpp"
-#include "core/friction/sliding/free_motion.hpp"
+#include "core/friction/sliding/none.hpp"
 #include "core/loop/controller/controller.hpp"
 #include "core/loop/controller/pid.hpp"
 #include "core/loop/dac.hpp"

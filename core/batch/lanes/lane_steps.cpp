@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "core/batch/lanes/running_batch.hpp"
-#include "core/friction/sliding/free_motion.hpp"
+#include "core/friction/sliding/none.hpp"
 
 namespace zerocount::batch {
 namespace {

@@ -1,15 +1,16 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
 #include "core/friction/bristles/bristle_formulas.hpp"
 #include "core/friction/law.hpp"
-#include "core/friction/sliding/stribeck.hpp"
+#include "core/friction/sliding/sliding.hpp"
 
 namespace zerocount::friction {
 
-/// With the velocities 8·ωs and 6.5·ωs (stribeck_series.hpp).
+/// With the velocities 8·ωs and 6.5·ωs (slide_formulas.hpp).
 struct BristleParameters : BristleConstants<double> {
   double fast;  ///< |ω| beyond which g(ω) = Fc to the last bit, rad/s; 0 where g is constant
   double slow;  ///< |ω| above which g(ω) = Fc to 6e-19 of Fs − Fc, rad/s; 0 where g is constant
@@ -85,6 +86,60 @@ class Bristle : public WithoutCreepAndReversals {
   double omega_;
   double deflection_;
   std::optional<double> rest_torque_;  // under which the rotor is at rest, N m
+};
+
+/// The law of Dahl (1968), with a viscous damping c:
+///
+///   dz/dt = ω − σ0·|ω|·z/Fc,   F = σ0·z + c·ω,   Fc = coulomb_ratio·breakaway.
+class DahlFriction : public Bristle {
+ public:
+  static constexpr std::string_view word = "dahl";
+  static constexpr std::array<ContactField, 3> contact_parameters{
+      &FrictionParameters::breakaway, &FrictionParameters::coulomb_ratio, &FrictionParameters::sigma0};
+  static constexpr bool has_presliding_damping = true;
+  static constexpr bool has_sliding_damping = false;
+
+  static LinearContacts linear_contacts(const motion::PlantParameters& plant, const FrictionAlongRotor&,
+                                        const FrictionParameters& contact) {
+    return {{"at sigma0", contact.sigma0, plant.presliding_damping},
+            {"while sliding", 0.0, plant.presliding_damping, true}};
+  }
+  static BristleParameters bristle(const motion::PlantParameters& plant, const FrictionParameters& contact) {
+    return bristle_parameters(contact.sigma0, 0.0, plant.presliding_damping,
+                              {stribeck_curve(contact).coulomb, 0.0, 0.0});
+  }
+
+  /// The parameters are those at the start, wherever the rotor goes.
+  DahlFriction(const motion::PlantParameters& plant, const FrictionAlongRotor& friction,
+               const motion::PlantStart& start, const motion::MotionTolerance& tolerance)
+      : Bristle(bristle(plant, friction_at(friction, start.position)), plant.inertia, start, tolerance) {}
+};
+
+/// The LuGre law (Canudas de Wit, Olsson, Åström and Lischinsky, "A new model for control of systems with
+/// friction", IEEE Trans. Automatic Control 40, 1995):
+///
+///   dz/dt = ω − σ0·|ω|·z/g(ω),   F = σ0·z + σ1·dz/dt + cs·ω,   with g of StribeckCurve.
+class LuGreFriction : public Bristle {
+ public:
+  static constexpr std::string_view word = "lugre";
+  static constexpr std::array<ContactField, 5> contact_parameters{
+      &FrictionParameters::breakaway, &FrictionParameters::coulomb_ratio,
+      &FrictionParameters::stribeck_velocity, &FrictionParameters::sigma0, &FrictionParameters::sigma1};
+  static constexpr bool has_presliding_damping = false;
+  static constexpr bool has_sliding_damping = true;
+
+  static LinearContacts linear_contacts(const motion::PlantParameters& plant, const FrictionAlongRotor&,
+                                        const FrictionParameters& contact) {
+    return {{"at sigma0", contact.sigma0, contact.sigma1 + plant.sliding_damping}, sliding_contact(plant)};
+  }
+  static BristleParameters bristle(const motion::PlantParameters& plant, const FrictionParameters& contact) {
+    return bristle_parameters(contact.sigma0, contact.sigma1, plant.sliding_damping, stribeck_curve(contact));
+  }
+
+  /// The parameters are those at the start, wherever the rotor goes.
+  LuGreFriction(const motion::PlantParameters& plant, const FrictionAlongRotor& friction,
+                const motion::PlantStart& start, const motion::MotionTolerance& tolerance)
+      : Bristle(bristle(plant, friction_at(friction, start.position)), plant.inertia, start, tolerance) {}
 };
 
 }  // namespace zerocount::friction

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "core/friction/sliding/stribeck_series.hpp"
+#include "core/friction/sliding/slide_formulas.hpp"
 
 /// The law of a bristle, for double and for the vectors of the batch engine.
 namespace zerocount::friction {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/numerics/first_root.hpp"
+#include "core/numerics/roots.hpp"
 #include "core/numerics/sign.hpp"
 
 namespace zerocount::friction {

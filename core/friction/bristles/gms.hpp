@@ -8,7 +8,7 @@
 
 #include "core/friction/bristles/gms_formulas.hpp"
 #include "core/friction/law.hpp"
-#include "core/friction/sliding/stribeck.hpp"
+#include "core/friction/sliding/sliding.hpp"
 
 namespace zerocount::friction {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/friction/sliding/stribeck_series.hpp"
+#include "core/friction/sliding/slide_formulas.hpp"
 
 /// The law of elements that stick or slip (GmsMotion), for double and for the vectors of the batch engine.
 ///

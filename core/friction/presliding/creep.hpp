@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "core/friction/parameters.hpp"
+#include "core/motion/parameters.hpp"
 #include "core/numerics/elementary_functions.hpp"
 
 namespace zerocount::friction {
@@ -57,6 +59,69 @@ inline CreepState creep_at_constant_torque(const FrictionParameters& friction, C
   if (!(remaining > 0.0)) return start;
   const double growth = -remaining * numerics::expm1(-friction.alpha * duration);
   return {start.extension + std::copysign(growth, torque), start.hardening + growth};
+}
+
+/// Quasi-static creep of the rotor under a constant torque u.
+///
+/// With s = sgn(σ), let S = |σ|, U = s·u, w = s·ω and p = dxh/dt ≥ 0. The oscillation of the rotor has ended.
+/// p decays within about 1/α, far more slowly than the rotor oscillates, and determines the other quantities:
+///
+///   dp/dt = −(g1·p + g2·p²),   S = U − s1·p − s2·p²,   w = w1·p + w2·p².
+///
+/// The coefficients are those that satisfy, power by power of p,
+///
+///   S = U − c·w − J·dw/dt,   w = p + (dS/dt)/k,   dp/dt = α·(n·Sⁿ⁻¹·(dS/dt)/λ − p),
+///
+/// which are the paper's eqs. 4 and 2, with k the tangent stiffness of the spring. From the first line:
+///
+///   p/(g1 + g2·p) = p₀/(g1 + g2·p₀)·exp(−g1·t).
+///
+/// Without creep all coefficients are zero, and S = U.
+struct CreepAtRest {
+  double balance{0.0};  ///< U, N m
+  double sign{1.0};     ///< s
+  double g1{0.0};       ///< 1/s
+  double g2{0.0};       ///< 1/rad
+  double s1{0.0};       ///< N m s/rad
+  double s2{0.0};       ///< N m s²/rad²
+  double w1{0.0};       ///< dimensionless
+  double w2{0.0};       ///< s/rad
+  double rate{0.0};     ///< p₀, at t = 0, rad/s
+};
+
+/// Creep at rest with `sign`·torque > 0. None where creep is too fast: α must be below a tenth of the rates
+/// at which the motion of the rotor decays, c/2J and k/c.
+/// @param torque u, N m. @param sign s. @param stiffness k, N m/rad. @param hardening xh at t = 0, rad, with
+/// |u|ⁿ/λ beyond it.
+std::optional<CreepAtRest> creep_at_rest(const motion::PlantParameters& plant,
+                                         const FrictionParameters& contact, double torque, double sign,
+                                         double stiffness, double hardening);
+
+/// Error bound of θ (rad): twice the contributions of p³, the first neglected power, and of the change of the
+/// tangent stiffness from k to `last_stiffness` (N m/rad, at most k) while S goes to U.
+double error_of_creep_at_rest(const CreepAtRest& rest, const motion::PlantParameters& plant,
+                              const FrictionParameters& contact, double stiffness, double last_stiffness);
+
+/// p (rad/s) after the time t (s).
+double creep_rate_after(const CreepAtRest& rest, double t);
+
+/// ∫p dt (rad), the growth of xh and |xp| until the rate has fallen to `rate` (rad/s).
+double creep_until_rate(const CreepAtRest& rest, double rate);
+
+/// The rate (rad/s) at which ∫p dt has become `growth` (rad): 0 or less where it never does.
+double rate_after_creep(const CreepAtRest& rest, double growth);
+
+/// The time (s) until the rate has fallen to `rate` (rad/s, positive).
+double time_until_rate(const CreepAtRest& rest, double rate);
+
+/// S (N m) at the rate p (rad/s).
+inline double spring_torque_at_rate(const CreepAtRest& rest, double rate) {
+  return rest.balance - rate * (rest.s1 + rate * rest.s2);
+}
+
+/// w (rad/s) at the rate p (rad/s).
+inline double velocity_at_rate(const CreepAtRest& rest, double rate) {
+  return rate * (rest.w1 + rate * rest.w2);
 }
 
 }  // namespace zerocount::friction

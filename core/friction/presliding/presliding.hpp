@@ -6,7 +6,6 @@
 
 #include "core/friction/law.hpp"
 #include "core/friction/presliding/creep.hpp"
-#include "core/friction/presliding/creep_at_rest.hpp"
 #include "core/friction/presliding/residual_oscillation.hpp"
 #include "core/friction/presliding/spring.hpp"
 #include "core/friction/presliding/sticking.hpp"

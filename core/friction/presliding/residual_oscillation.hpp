@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/friction/presliding/oscillation_formulas.hpp"
+#include "core/friction/presliding/presliding_formulas.hpp"
 #include "core/numerics/elementary_functions.hpp"
 
 namespace zerocount::friction {

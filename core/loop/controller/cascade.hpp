@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/loop/controller/count_difference.hpp"
-#include "core/loop/controller/integrator.hpp"
+#include "core/loop/controller/pid.hpp"
 
 namespace zerocount::loop {
 

@@ -11,7 +11,7 @@
 #include "core/failure/failure.hpp"
 #include "core/plugin/arithmetic_mode.hpp"
 #include "core/plugin/controller_plugin.hpp"
-#include "core/text/utf8.hpp"
+#include "core/text/text.hpp"
 
 namespace zerocount::loop {
 namespace {

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "analysis/measures/goal_counts.hpp"
-#include "core/numerics/bisection.hpp"
+#include "core/numerics/roots.hpp"
 #include "runners/design_commands/design_commands.hpp"
 #include "runners/design_commands/tune/tune_answer.hpp"
 #include "runners/tuning/effects/effects.hpp"

@@ -1,6 +1,6 @@
 #include "analysis/report/figures/figure.hpp"
-#include "analysis/text/quantity.hpp"
-#include "core/numerics/bisection.hpp"
+#include "analysis/text/text.hpp"
+#include "core/numerics/roots.hpp"
 #include "runners/design_commands/tune/tune_answer.hpp"
 
 namespace zerocount::design_commands {

@@ -12,11 +12,11 @@
 
 #include "analysis/goal/goal_text.hpp"
 #include "analysis/report/figures/figure.hpp"
-#include "analysis/statistics/spread_over.hpp"
+#include "analysis/statistics/unknown.hpp"
 #include "analysis/text/text.hpp"
 #include "core/loop/encoder.hpp"
-#include "core/text/shell_word.hpp"
-#include "core/theory/gains.hpp"
+#include "core/text/text.hpp"
+#include "core/theory/linear_loop.hpp"
 
 namespace zerocount::design_commands {
 namespace {

@@ -7,7 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "analysis/text/text.hpp"
-#include "core/text/counted.hpp"
+#include "core/text/text.hpp"
 #include "experiments/parameters/study_units.hpp"
 #include "runners/design_commands/tune/tune_answer.hpp"
 

@@ -3,13 +3,13 @@
 
 #include <fmt/format.h>
 
-#include "analysis/document/markup.hpp"
+#include "analysis/document/blocks.hpp"
 #include "analysis/report/first_screen/first_screen.hpp"
 #include "analysis/report/page.hpp"
 #include "analysis/report/report.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "results/layout/header.hpp"
-#include "runners/commands/verified_report.hpp"
+#include "runners/commands/command.hpp"
 #include "runners/design_commands/design_commands.hpp"
 #include "runners/design_commands/tune/tune_answer.hpp"
 #include "runners/tuning/tuner.hpp"

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/failure/failure.hpp"
-#include "core/numerics/bisection.hpp"
+#include "core/numerics/roots.hpp"
 #include "runners/tuning/search/proof_runner.hpp"
 #include "runners/tuning/units/unit_runner.hpp"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "analysis/goal/goal_verdict.hpp"
-#include "experiments/study/study_fwd.hpp"
+#include "experiments/study/study.hpp"
 #include "runners/trials/effort.hpp"
 #include "runners/trials/variant.hpp"
 #include "runners/tuning/units/unit_runner.hpp"

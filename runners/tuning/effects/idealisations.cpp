@@ -18,7 +18,7 @@
 #include "experiments/parameters/element_lists.hpp"
 #include "experiments/parameters/parameter_rows.hpp"
 #include "experiments/parameters/parameter_table.hpp"
-#include "experiments/rules/effect_rules.hpp"
+#include "experiments/rules/value_rules.hpp"
 #include "experiments/study/study_table.hpp"
 #include "runners/tuning/effects/effects.hpp"
 

@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "analysis/parallel/parallel.hpp"
-#include "core/random/number_source.hpp"
-#include "experiments/designs/random_key.hpp"
+#include "core/random/random_numbers.hpp"
+#include "experiments/designs/designs.hpp"
 
 namespace zerocount::tuning {
 namespace {

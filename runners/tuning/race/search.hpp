@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/study/tuning.hpp"
+#include "experiments/study/goal.hpp"
 #include "runners/trials/effort.hpp"
 #include "runners/tuning/race/candidate.hpp"
 

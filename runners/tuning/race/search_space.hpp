@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "core/random/number_source.hpp"
-#include "experiments/study/tuning.hpp"
+#include "core/random/random_numbers.hpp"
+#include "experiments/study/goal.hpp"
 
 namespace zerocount::tuning {
 

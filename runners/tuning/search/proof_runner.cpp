@@ -13,7 +13,7 @@
 #include "analysis/parallel/parallel.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/load_study.hpp"
-#include "experiments/manifest_text/overrides.hpp"
+#include "experiments/manifest_text/manifest_text.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "runners/study_run/file_run.hpp"

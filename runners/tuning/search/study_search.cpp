@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "analysis/parallel/parallel.hpp"
-#include "analysis/statistics/spread_over.hpp"
+#include "analysis/statistics/unknown.hpp"
 #include "core/loop/controller/controller.hpp"
 #include "core/trial/trial.hpp"
 #include "experiments/study/plan.hpp"

@@ -15,7 +15,7 @@
 #include "core/friction/law.hpp"
 #include "core/friction/parameters.hpp"
 #include "core/loop/controller/controller.hpp"
-#include "core/numerics/bisection.hpp"
+#include "core/numerics/roots.hpp"
 #include "core/theory/margins.hpp"
 #include "core/trial/trial.hpp"
 #include "experiments/study/plan.hpp"

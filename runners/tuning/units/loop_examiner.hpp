@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/trial/parameters.hpp"
-#include "experiments/study/study_fwd.hpp"
-#include "experiments/study/tuning.hpp"
+#include "experiments/study/goal.hpp"
+#include "experiments/study/study.hpp"
 
 /// What the machines of the margins differ in beyond what the study draws (study::LoopSpread).
 namespace zerocount::tuning {

@@ -9,7 +9,7 @@
 #include "analysis/statistics/distributions.hpp"
 #include "core/failure/failure.hpp"
 #include "core/numerics/normal_distribution.hpp"
-#include "experiments/manifest_text/point_manifest.hpp"
+#include "experiments/manifest_text/manifest_text.hpp"
 #include "experiments/study/condition_study.hpp"
 #include "experiments/study/measured_machines.hpp"
 #include "experiments/study/plan.hpp"

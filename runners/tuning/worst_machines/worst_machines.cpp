@@ -10,8 +10,8 @@
 
 #include "analysis/measures/goal_counts.hpp"
 #include "core/failure/failure.hpp"
-#include "core/random/number_source.hpp"
-#include "experiments/designs/random_key.hpp"
+#include "core/random/random_numbers.hpp"
+#include "experiments/designs/designs.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/study/condition_study.hpp"
 #include "experiments/study/group_inputs.hpp"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/trial/parameters.hpp"
-#include "experiments/study/machine_inputs.hpp"
+#include "experiments/study/group_inputs.hpp"
 #include "experiments/study/plan.hpp"
 #include "experiments/study/study_trial.hpp"
 #include "runners/trials/effort.hpp"

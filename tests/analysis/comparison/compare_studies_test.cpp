@@ -1,7 +1,7 @@
 // Two results files: what they have in common, which points belong together, and what comes of it.
 #include "analysis/comparison/comparison.hpp"
 #include "core/hash/sha256.hpp"
-#include "results/storage/checksum_trailer.hpp"
+#include "results/storage/file_contents.hpp"
 #include "tests/analysis/study_files.hpp"
 #include "tests/support/merged_file.hpp"
 #include "tests/support/refusal.hpp"

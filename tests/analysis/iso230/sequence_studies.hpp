@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/study/study_fwd.hpp"
+#include "experiments/study/study.hpp"
 #include "results/shards/shard.hpp"
 
 namespace zerocount::testing {

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "experiments/designs/random_key.hpp"
+#include "experiments/designs/designs.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "analysis/monitor/change_test.hpp"
 #include "analysis/monitor/machine_monitor.hpp"
-#include "core/random/number_source.hpp"
+#include "core/random/random_numbers.hpp"
 
 namespace zerocount::testing {
 

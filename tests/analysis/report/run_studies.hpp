@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "experiments/study/study_fwd.hpp"
+#include "experiments/study/study.hpp"
 
 namespace zerocount::testing {
 

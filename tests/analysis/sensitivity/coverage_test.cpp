@@ -3,8 +3,8 @@
 // are small, bounds may cover more. With 50 trials the normal distribution behind most bounds is rough, and
 // so much is let pass; what is lost must then not be more than 13 %.
 #include "analysis/sensitivity/correlations.hpp"
-#include "core/random/variates.hpp"
-#include "experiments/designs/random_key.hpp"
+#include "core/random/random_numbers.hpp"
+#include "experiments/designs/designs.hpp"
 #include "tests/analysis/sensitivity/test_functions.hpp"
 #include "tests/support/test.hpp"
 

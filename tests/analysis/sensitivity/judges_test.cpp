@@ -3,7 +3,7 @@
 
 #include "analysis/sensitivity/correlations.hpp"
 #include "analysis/sensitivity/sobol_indices.hpp"
-#include "experiments/designs/random_key.hpp"
+#include "experiments/designs/designs.hpp"
 #include "tests/analysis/sensitivity/test_functions.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/test.hpp"

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "experiments/designs/saltelli.hpp"
+#include "experiments/designs/designs.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/study/study_trial.hpp"
 

@@ -1,8 +1,8 @@
-#include "tests/analysis/sliding_identification/dwell_records.hpp"
-
 #include <array>
 #include <cmath>
 #include <numbers>
+
+#include "tests/analysis/sliding_identification/records.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,7 +1,5 @@
 // Dwells: the rotor creeps on its bristles under the loop's integral and does not slide, although a fine
 // encoder sees it move.
-#include "tests/analysis/sliding_identification/dwell_records.hpp"
-
 #include <cmath>
 #include <functional>
 #include <map>
@@ -12,6 +10,7 @@
 #include "analysis/sliding_identification/sliding_fit.hpp"
 #include "analysis/sliding_identification/sliding_identification.hpp"
 #include "core/failure/failure.hpp"
+#include "tests/analysis/sliding_identification/records.hpp"
 
 namespace zerocount::testing {
 namespace {

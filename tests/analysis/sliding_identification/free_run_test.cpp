@@ -10,8 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/sliding_identification/sliding_identification.hpp"
-#include "tests/analysis/sliding_identification/dwell_records.hpp"
-#include "tests/analysis/sliding_identification/motion_records.hpp"
+#include "tests/analysis/sliding_identification/records.hpp"
 
 namespace zerocount::testing {
 namespace {

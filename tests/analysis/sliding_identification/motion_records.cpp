@@ -1,10 +1,9 @@
-#include "tests/analysis/sliding_identification/motion_records.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "core/plant/plant.hpp"
+#include "tests/analysis/sliding_identification/records.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "analysis/sliding_identification/sliding_identification.hpp"
-#include "tests/analysis/sliding_identification/motion_records.hpp"
+#include "tests/analysis/sliding_identification/records.hpp"
 
 namespace zerocount::testing {
 namespace {

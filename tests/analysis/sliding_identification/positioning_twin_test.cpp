@@ -10,7 +10,7 @@
 #include "analysis/sliding_identification/sliding_fit.hpp"
 #include "analysis/sliding_identification/sliding_identification.hpp"
 #include "core/failure/failure.hpp"
-#include "tests/analysis/sliding_identification/motion_records.hpp"
+#include "tests/analysis/sliding_identification/records.hpp"
 
 namespace zerocount::testing {
 namespace {

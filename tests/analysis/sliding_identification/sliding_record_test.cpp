@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/failure/failure.hpp"
-#include "tests/analysis/sliding_identification/motion_records.hpp"
+#include "tests/analysis/sliding_identification/records.hpp"
 
 namespace zerocount::testing {
 namespace {

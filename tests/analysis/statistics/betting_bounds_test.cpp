@@ -1,5 +1,4 @@
-#include "analysis/statistics/betting_bounds.hpp"
-
+#include "analysis/statistics/mean_bounds.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount::statistics {

@@ -1,9 +1,8 @@
 // Bounds that hold at every sample size at once: by their definition, and by what they promise to who looks
 // after every block.
-#include "analysis/statistics/confidence_sequence.hpp"
-
 #include <boost/math/special_functions/beta.hpp>
 
+#include "analysis/statistics/mean_bounds.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount::testing {

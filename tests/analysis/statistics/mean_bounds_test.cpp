@@ -1,9 +1,9 @@
 #include "analysis/statistics/mean_bounds.hpp"
 
+#include "analysis/statistics/change_point.hpp"
 #include "analysis/statistics/proportion.hpp"
-#include "analysis/statistics/trend.hpp"
 #include "core/failure/failure.hpp"
-#include "results/reading/csv.hpp"
+#include "results/reading/export.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/test.hpp"
 

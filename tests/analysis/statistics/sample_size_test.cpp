@@ -1,7 +1,7 @@
 #include "analysis/statistics/sample_size.hpp"
 
 #include "analysis/statistics/clusters/rig_statistics.hpp"
-#include "analysis/statistics/confidence_sequence.hpp"
+#include "analysis/statistics/mean_bounds.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "core/failure/failure.hpp"
 #include "tests/support/test.hpp"

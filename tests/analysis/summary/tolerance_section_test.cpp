@@ -9,7 +9,7 @@
 
 #include "analysis/measures/point_accumulator.hpp"
 #include "analysis/statistics/clusters/tolerance.hpp"
-#include "analysis/text/percent.hpp"
+#include "analysis/text/text.hpp"
 #include "core/failure/failure.hpp"
 #include "tests/analysis/summary/swept_study.hpp"
 #include "tests/analysis/summary_forms.hpp"

@@ -1,6 +1,5 @@
-#include "analysis/text/relation.hpp"
-
-#include "core/text/trimmed.hpp"
+#include "analysis/text/text.hpp"
+#include "core/text/text.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount::text {

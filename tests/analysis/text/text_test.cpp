@@ -1,8 +1,5 @@
 #include "analysis/text/text.hpp"
 
-#include "analysis/text/fitted_text.hpp"
-#include "analysis/text/percent.hpp"
-#include "analysis/text/quantity.hpp"
 #include "tests/support/draws.hpp"
 #include "tests/support/test.hpp"
 

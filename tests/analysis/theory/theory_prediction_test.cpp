@@ -5,7 +5,7 @@
 #include "core/loop/encoder.hpp"
 #include "core/plant/plant.hpp"
 #include "core/theory/margins.hpp"
-#include "core/theory/sampled_stability.hpp"
+#include "core/theory/stability.hpp"
 #include "core/trial/rig.hpp"
 #include "tests/core/theory/frozen_loops.hpp"
 #include "tests/support/test.hpp"

@@ -1,5 +1,5 @@
 // The contact in the lanes: what it finds at the start, where it forms anew, and what it may be without.
-#include "tests/core/batch/expect_agreement.hpp"
+#include "tests/core/batch/batch_agreement.hpp"
 #include "tests/core/loop/random_blocks.hpp"
 #include "tests/support/test.hpp"
 

@@ -1,8 +1,8 @@
 // The batch engine against the reference, over random trials of every kind.
 #include "core/loop/encoder.hpp"
+#include "tests/core/batch/batch_agreement.hpp"
 #include "tests/core/batch/batched_trials.hpp"
 #include "tests/core/batch/bench_trials.hpp"
-#include "tests/core/batch/expect_agreement.hpp"
 #include "tests/core/loop/random_blocks.hpp"
 #include "tests/support/test.hpp"
 

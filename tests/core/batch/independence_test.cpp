@@ -1,9 +1,9 @@
 // What comes of a trial depends on its parameters alone, to the last bit: not on the number of lanes, the
 // trials beside it, the instruction set, who watches, or what the engine ran before.
 #include "core/batch/batch.hpp"
+#include "tests/core/batch/batch_agreement.hpp"
 #include "tests/core/batch/batched_trials.hpp"
 #include "tests/core/batch/bench_trials.hpp"
-#include "tests/core/batch/expect_agreement.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount::testing {

@@ -1,5 +1,3 @@
-#include "tests/core/batch/path_agreement.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -7,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/loop/encoder.hpp"
+#include "tests/core/batch/batch_agreement.hpp"
 
 namespace zerocount::testing {
 namespace {

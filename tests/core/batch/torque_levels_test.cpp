@@ -1,6 +1,6 @@
 // Torque levels and recorded torques in the lanes: counts, codes and measures are those of the reference.
 #include "core/loop/encoder.hpp"
-#include "tests/core/batch/expect_agreement.hpp"
+#include "tests/core/batch/batch_agreement.hpp"
 #include "tests/core/loop/random_blocks.hpp"
 #include "tests/support/test.hpp"
 

@@ -1,9 +1,8 @@
 // Waits between jerks with the premises of real machines. The lanes pass many samples of a wait at once,
 // where the reference takes one after the other.
 #include "core/trial/trial.hpp"
+#include "tests/core/batch/batch_agreement.hpp"
 #include "tests/core/batch/bench_trials.hpp"
-#include "tests/core/batch/expect_agreement.hpp"
-#include "tests/core/batch/path_agreement.hpp"
 #include "tests/core/loop/random_blocks.hpp"
 #include "tests/support/test.hpp"
 

@@ -12,7 +12,7 @@
 
 #include "core/loop/drive.hpp"
 #include "core/loop/measurement.hpp"
-#include "core/trial/random_history.hpp"
+#include "core/trial/open_loop.hpp"
 
 namespace zerocount {
 namespace {

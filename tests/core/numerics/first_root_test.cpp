@@ -1,8 +1,6 @@
 // The first sign change of a polynomial: found, first, and never missed.
-#include "core/numerics/first_root.hpp"
-
-#include "core/numerics/bisection.hpp"
 #include "core/numerics/power_series.hpp"
+#include "core/numerics/roots.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount::numerics {

@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <unsupported/Eigen/MatrixFunctions>
 
-#include "core/theory/held_plant.hpp"
+#include "core/theory/linear_loop.hpp"
 #include "core/trial/rig.hpp"
 #include "tests/core/plant/held_plant.hpp"
 #include "tests/support/test.hpp"

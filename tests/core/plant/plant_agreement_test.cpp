@@ -1,7 +1,7 @@
 // The plant against Boost.odeint, open loop: random torques, held or followed by a first-order amplifier, for
 // every friction model and every kind of start. What a trial adds to it is tested with the trial.
 #include "core/plant/plant.hpp"
-#include "core/trial/random_history.hpp"
+#include "core/trial/open_loop.hpp"
 #include "tests/support/draws.hpp"
 #include "tests/support/odeint_motion.hpp"
 #include "tests/support/random_trials.hpp"

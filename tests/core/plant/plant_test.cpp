@@ -1,7 +1,7 @@
 // The rotor on its contact: closed forms where there are any, and invariants where there are not.
 #include "core/plant/plant.hpp"
 
-#include "core/motion/plant_start.hpp"
+#include "core/motion/parameters.hpp"
 #include "tests/core/plant/held_plant.hpp"
 #include "tests/support/test.hpp"
 

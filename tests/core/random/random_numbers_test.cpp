@@ -1,7 +1,6 @@
 // The numbers drawn while a trial runs: one for every trial, number and stream, by Philox.
 #include "core/random/random_numbers.hpp"
 
-#include "core/random/variates.hpp"
 #include "tests/support/goodness_of_fit.hpp"
 #include "tests/support/test.hpp"
 

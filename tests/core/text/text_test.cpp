@@ -1,8 +1,5 @@
-#include "core/text/counted.hpp"
-#include "core/text/csv_field.hpp"
-#include "core/text/number_text.hpp"
-#include "core/text/shell_word.hpp"
-#include "core/text/utf8.hpp"
+#include "core/text/text.hpp"
+
 #include "tests/support/test.hpp"
 
 namespace zerocount::testing {

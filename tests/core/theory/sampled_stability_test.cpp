@@ -1,6 +1,4 @@
-#include "core/theory/sampled_stability.hpp"
-
-#include "core/theory/gains.hpp"
+#include "core/theory/linear_loop.hpp"
 #include "core/theory/stability.hpp"
 #include "tests/support/test.hpp"
 

@@ -3,10 +3,8 @@
 #include <Eigen/Dense>
 
 #include "core/loop/encoder.hpp"
-#include "core/theory/gains.hpp"
-#include "core/theory/sampled_stability.hpp"
-#include "core/theory/shortest_move.hpp"
-#include "core/theory/slow_approach.hpp"
+#include "core/theory/linear_loop.hpp"
+#include "core/theory/move_times.hpp"
 #include "core/trial/trial.hpp"
 #include "tests/core/loop/random_blocks.hpp"
 #include "tests/support/test.hpp"

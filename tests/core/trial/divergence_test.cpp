@@ -6,7 +6,7 @@
 
 #include "core/batch/batch.hpp"
 #include "core/trial/trial.hpp"
-#include "tests/core/trial/literal_command.hpp"
+#include "tests/core/trial/literal_trial.hpp"
 #include "tests/core/trial/recorded_trials.hpp"
 #include "tests/core/trial/widened_trials.hpp"
 #include "tests/support/random_trials.hpp"

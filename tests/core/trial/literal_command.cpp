@@ -1,8 +1,8 @@
-#include "tests/core/trial/literal_command.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "tests/core/trial/literal_trial.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,7 +1,7 @@
-#include "tests/core/trial/literal_control.hpp"
-
 #include <algorithm>
 #include <cmath>
+
+#include "tests/core/trial/literal_trial.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -1,6 +1,4 @@
-#include "tests/core/trial/literal_measures.hpp"
-
-#include "tests/core/trial/literal_command.hpp"
+#include "tests/core/trial/literal_trial.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount::testing {

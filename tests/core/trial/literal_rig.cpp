@@ -1,10 +1,9 @@
-#include "tests/core/trial/literal_rig.hpp"
-
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
 
-#include "core/random/variates.hpp"
+#include "core/random/random_numbers.hpp"
+#include "tests/core/trial/literal_trial.hpp"
 
 namespace zerocount::testing {
 namespace {

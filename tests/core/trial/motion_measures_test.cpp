@@ -4,7 +4,7 @@
 #include "core/loop/encoder.hpp"
 #include "core/trial/trial.hpp"
 #include "tests/core/loop/random_blocks.hpp"
-#include "tests/core/trial/literal_command.hpp"
+#include "tests/core/trial/literal_trial.hpp"
 #include "tests/core/trial/widened_trials.hpp"
 #include "tests/support/random_trials.hpp"
 #include "tests/support/test.hpp"

@@ -1,7 +1,7 @@
 // The measures of a move, against their definitions and closed forms.
 #include "core/trial/move_measures.hpp"
 
-#include "tests/core/trial/literal_measures.hpp"
+#include "tests/core/trial/literal_trial.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount::trial {

@@ -1,8 +1,7 @@
 #pragma once
 
 #include "core/trial/trial.hpp"
-#include "tests/core/trial/literal_command.hpp"
-#include "tests/core/trial/literal_control.hpp"
+#include "tests/core/trial/literal_trial.hpp"
 #include "tests/core/trial/widened_trials.hpp"
 #include "tests/support/test.hpp"
 

@@ -1,8 +1,6 @@
 // The torque between two commanded levels: a constant rate, sampled, that ends at the level itself.
-#include "core/trial/torque_ramp.hpp"
-
+#include "core/trial/open_loop.hpp"
 #include "core/trial/parameters.hpp"
-#include "core/trial/random_history.hpp"
 #include "core/trial/torque_record.hpp"
 #include "core/trial/trial.hpp"
 #include "tests/support/goodness_of_fit.hpp"

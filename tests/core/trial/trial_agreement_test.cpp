@@ -3,7 +3,7 @@
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 
 #include "core/trial/trial.hpp"
-#include "tests/core/trial/literal_rig.hpp"
+#include "tests/core/trial/literal_trial.hpp"
 #include "tests/core/trial/widened_trials.hpp"
 #include "tests/support/agreement.hpp"
 #include "tests/support/odeint_motion.hpp"

@@ -1,11 +1,8 @@
 // All of a trial around its plant, from random runs of it: what was commanded, decided and driven at every
 // sample and what the encoders showed, each computed independently from the equations in core/README.md and
 // the recorded samples.
-#include "core/trial/random_history.hpp"
-#include "tests/core/trial/literal_command.hpp"
-#include "tests/core/trial/literal_control.hpp"
-#include "tests/core/trial/literal_measures.hpp"
-#include "tests/core/trial/literal_rig.hpp"
+#include "core/trial/open_loop.hpp"
+#include "tests/core/trial/literal_trial.hpp"
 #include "tests/core/trial/recorded_trials.hpp"
 #include "tests/support/agreement.hpp"
 #include "tests/support/odeint_motion.hpp"

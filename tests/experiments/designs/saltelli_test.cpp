@@ -1,8 +1,5 @@
-#include "experiments/designs/saltelli.hpp"
-
 #include "core/hash/sha256.hpp"
-#include "experiments/designs/latin_hypercube.hpp"
-#include "experiments/designs/random_key.hpp"
+#include "experiments/designs/designs.hpp"
 #include "experiments/study/study_trial.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 

@@ -1,8 +1,6 @@
-#include "experiments/designs/sobol.hpp"
-
 #include <boost/random/sobol.hpp>
 
-#include "experiments/designs/random_key.hpp"
+#include "experiments/designs/designs.hpp"
 #include "experiments/parameters/element_lists.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "tests/support/test.hpp"

@@ -2,7 +2,7 @@
 
 #include <boost/math/distributions/normal.hpp>
 
-#include "experiments/designs/random_key.hpp"
+#include "experiments/designs/designs.hpp"
 #include "experiments/distributions/random_field.hpp"
 #include "tests/support/test.hpp"
 

@@ -1,7 +1,6 @@
 // Creep by what one measures of it: the extension at which it ends under a torque.
 #include "core/friction/presliding/spring.hpp"
 #include "experiments/study/group_inputs.hpp"
-#include "experiments/study/low_end.hpp"
 #include "experiments/study/point_limits.hpp"
 #include "experiments/study/study_trial.hpp"
 #include "tests/experiments/manifest_texts.hpp"

@@ -1,6 +1,4 @@
-#include "experiments/manifest_text/overrides.hpp"
-
-#include "experiments/manifest_text/manifest_values.hpp"
+#include "experiments/manifest_text/manifest_text.hpp"
 #include "experiments/manifests/shipped_manifests.hpp"
 #include "experiments/study/study_trial.hpp"
 #include "tests/experiments/manifest_texts.hpp"

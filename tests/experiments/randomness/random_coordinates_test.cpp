@@ -3,7 +3,6 @@
 #include "core/friction/profile.hpp"
 #include "core/numerics/normal_distribution.hpp"
 #include "experiments/manifest/load_study.hpp"
-#include "experiments/randomness/discrete_draws.hpp"
 #include "experiments/randomness/random_variables.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/test.hpp"

@@ -1,8 +1,7 @@
 // A key that would be ignored is refused.
-#include "experiments/rules/effect_rules.hpp"
-
 #include "experiments/keys/manifest_keys.hpp"
 #include "experiments/parameters/parameter_table.hpp"
+#include "experiments/rules/value_rules.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
 namespace zerocount::rules {

@@ -1,5 +1,5 @@
 // The blocks of the controller in manifests: limits that are off, the short form of the deadband, sweeps.
-#include "experiments/designs/random_key.hpp"
+#include "experiments/designs/designs.hpp"
 #include "experiments/manifest/parameter_listing.hpp"
 #include "experiments/study/plan.hpp"
 #include "experiments/study/study_trial.hpp"

@@ -1,5 +1,4 @@
-#include "experiments/sections/sweep.hpp"
-
+#include "experiments/sections/sections.hpp"
 #include "experiments/study/study_trial.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 

@@ -2,7 +2,7 @@
 // values follow the law of aging, and what is refused.
 #include "core/friction/profile.hpp"
 #include "core/trial/trial.hpp"
-#include "experiments/manifest_text/point_manifest.hpp"
+#include "experiments/manifest_text/manifest_text.hpp"
 #include "experiments/study/condition_study.hpp"
 #include "experiments/study/group_inputs.hpp"
 #include "experiments/study/study_trial.hpp"

@@ -1,14 +1,13 @@
 // Correlated parameters: the correlation of their normal scores is the stated one, and each keeps its
 // distribution, whatever the design and however often they are drawn.
-#include "experiments/study/copula.hpp"
-
 #include <Eigen/LU>
 #include <boost/math/distributions/normal.hpp>
 
-#include "core/theory/sampled_stability.hpp"
+#include "core/theory/stability.hpp"
 #include "core/trial/trial_of.hpp"
+#include "experiments/study/draws.hpp"
 #include "experiments/study/group_inputs.hpp"
-#include "experiments/study/low_end.hpp"
+#include "experiments/study/point_limits.hpp"
 #include "experiments/study/study_trial.hpp"
 #include "tests/core/friction/spring_damper.hpp"
 #include "tests/experiments/manifest_texts.hpp"

@@ -1,7 +1,7 @@
 #include "experiments/study/study_trial.hpp"
 
 #include "core/trial/trial.hpp"
-#include "experiments/designs/random_key.hpp"
+#include "experiments/designs/designs.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 

@@ -1,8 +1,7 @@
 // Draws with what trials share kept, beside single draws of the same trials.
-#include "experiments/study/trial_drawer.hpp"
-
 #include "experiments/study/plan.hpp"
 #include "experiments/study/point_edit.hpp"
+#include "experiments/study/trial_draws.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 #include "tests/support/draws.hpp"
 

@@ -3,7 +3,6 @@
 #include <oneapi/tbb/global_control.h>
 
 #include "results/hdf5/encoded_rows.hpp"
-#include "results/hdf5/fetched_rows.hpp"
 #include "results/hdf5/hdf5.hpp"
 #include "tests/results/failures.hpp"
 #include "tests/support/draws.hpp"

@@ -10,8 +10,7 @@
 #include <unistd.h>
 
 #include "core/failure/failure.hpp"
-#include "results/hdf5/array_file.hpp"
-#include "results/storage/checksum_trailer.hpp"
+#include "results/storage/file_contents.hpp"
 #include "tests/results/samples.hpp"
 #include "tests/support/test.hpp"
 

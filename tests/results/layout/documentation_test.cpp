@@ -1,6 +1,6 @@
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/load_study.hpp"
-#include "experiments/manifest_text/overrides.hpp"
+#include "experiments/manifest_text/manifest_text.hpp"
 #include "experiments/manifests/shipped_manifests.hpp"
 #include "experiments/yaml/yaml_tree.hpp"
 #include "results/layout/header.hpp"

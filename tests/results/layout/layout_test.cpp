@@ -1,6 +1,6 @@
 #include "results/layout/layout.hpp"
 
-#include "core/trial/named_measures.hpp"
+#include "core/trial/move_measures.hpp"
 #include "results/layout/header.hpp"
 #include "results/layout/measure_table.hpp"
 #include "tests/results/equality.hpp"

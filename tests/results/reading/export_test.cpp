@@ -1,7 +1,6 @@
 #include "results/reading/export.hpp"
 
 #include "results/layout/header.hpp"
-#include "results/reading/csv.hpp"
 #include "tests/results/failures.hpp"
 #include "tests/results/samples.hpp"
 #include "tests/support/merged_file.hpp"

@@ -1,6 +1,6 @@
 #include "results/hdf5/hdf5.hpp"
 #include "results/reading/all_trials_file.hpp"
-#include "results/storage/checksum_trailer.hpp"
+#include "results/storage/file_contents.hpp"
 #include "tests/results/failures.hpp"
 #include "tests/results/samples.hpp"
 #include "tests/results/walk.hpp"

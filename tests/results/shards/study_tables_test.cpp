@@ -6,7 +6,7 @@
 #include "results/hdf5/hdf5.hpp"
 #include "results/reading/export.hpp"
 #include "results/reading/first_difference.hpp"
-#include "results/storage/checksum_trailer.hpp"
+#include "results/storage/file_contents.hpp"
 #include "tests/results/failures.hpp"
 #include "tests/results/samples.hpp"
 #include "tests/support/merged_file.hpp"

@@ -5,8 +5,8 @@
 #include <sys/stat.h>
 
 #include "core/hash/sha256.hpp"
-#include "results/storage/checksum_trailer.hpp"
 #include "results/storage/durable_file.hpp"
+#include "results/storage/file_contents.hpp"
 #include "results/storage/output_file.hpp"
 #include "results/timeline/timeline.hpp"
 #include "tests/results/failures.hpp"

@@ -1,7 +1,7 @@
 // No command writes over one of its inputs, or two outputs into one file. The cases are made of the options
 // that the commands declare, so that a new command or option is among them.
 #include "core/failure/failure.hpp"
-#include "runners/command_line/output_place.hpp"
+#include "runners/command_line/command_line.hpp"
 #include "runners/program/commands.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/test.hpp"

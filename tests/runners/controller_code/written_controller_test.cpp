@@ -2,9 +2,7 @@
 // precision, as the law of which the program says what single precision changes, bit for bit.
 #include "core/loop/encoder.hpp"
 #include "core/trial/trial.hpp"
-#include "runners/controller_code/chain_program.hpp"
 #include "runners/controller_code/program.hpp"
-#include "runners/controller_code/program_text.hpp"
 #include "runners/plugins/plugin_library.hpp"
 #include "tests/core/loop/random_blocks.hpp"
 #include "tests/runners/program.hpp"

@@ -1,13 +1,11 @@
 // What a run is expected to take of the disk and of memory, beside what it takes.
-#include "runners/forecast/study_size.hpp"
-
 #include <sys/resource.h>
 
 #include "core/trial/trial.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "results/layout/header.hpp"
 #include "results/shards/shard.hpp"
-#include "runners/forecast/stored_column.hpp"
+#include "runners/forecast/forecast.hpp"
 #include "runners/trials/study_runner.hpp"
 #include "tests/runners/program.hpp"
 

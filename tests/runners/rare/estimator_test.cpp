@@ -2,7 +2,7 @@
 
 #include "core/numerics/elementary_functions.hpp"
 #include "core/numerics/normal_distribution.hpp"
-#include "experiments/designs/random_key.hpp"
+#include "experiments/designs/designs.hpp"
 #include "runners/rare/proposal.hpp"
 #include "runners/rare/rare_run.hpp"
 #include "tests/support/test.hpp"

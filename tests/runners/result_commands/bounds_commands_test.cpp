@@ -2,7 +2,7 @@
 #include <regex>
 
 #include "analysis/statistics/proportion.hpp"
-#include "analysis/text/percent.hpp"
+#include "analysis/text/text.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "tests/runners/program.hpp"
 

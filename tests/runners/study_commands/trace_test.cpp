@@ -6,7 +6,7 @@
 #include "results/reading/all_trials_file.hpp"
 #include "results/shards/shard.hpp"
 #include "runners/study_commands/trace_writer.hpp"
-#include "runners/study_run/assembly.hpp"
+#include "runners/study_run/file_run.hpp"
 #include "runners/trials/trial_runner.hpp"
 #include "tests/runners/program.hpp"
 

@@ -8,7 +8,7 @@
 #include "analysis/statistics/mean_bounds.hpp"
 #include "analysis/statistics/quantile.hpp"
 #include "core/failure/failure.hpp"
-#include "results/reading/csv.hpp"
+#include "results/reading/export.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/test.hpp"
 

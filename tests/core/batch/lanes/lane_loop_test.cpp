@@ -2,8 +2,7 @@
 // missed samples, two phases, profiles, measures of the true motion; and all together.
 #include "core/batch/lanes/lane_drive.hpp"
 #include "core/trial/disturbance.hpp"
-#include "tests/core/batch/expect_agreement.hpp"
-#include "tests/core/batch/path_agreement.hpp"
+#include "tests/core/batch/batch_agreement.hpp"
 #include "tests/core/loop/random_blocks.hpp"
 #include "tests/support/test.hpp"
 

@@ -1,7 +1,5 @@
 // Creep at rest in closed form, against the full equations of motion integrated by Boost.odeint in 64-bit
 // mantissas, over random rigs.
-#include "core/friction/presliding/creep_at_rest.hpp"
-
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <boost/numeric/odeint/integrate/integrate_adaptive.hpp>
 #include <boost/numeric/odeint/stepper/generation.hpp>

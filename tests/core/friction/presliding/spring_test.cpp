@@ -4,7 +4,6 @@
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <boost/math/special_functions/lambert_w.hpp>
 
-#include "core/friction/presliding/measured_spring.hpp"
 #include "tests/support/each_seed.hpp"
 #include "tests/support/test.hpp"
 

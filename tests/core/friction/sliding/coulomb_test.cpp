@@ -1,7 +1,7 @@
 // Amonton–Coulomb friction: it stands exactly, and moves as the closed forms say.
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
-#include "core/friction/sliding/free_motion.hpp"
+#include "core/friction/sliding/none.hpp"
 #include "core/friction/sliding/sliding.hpp"
 #include "core/plant/plant.hpp"
 #include "tests/core/plant/held_plant.hpp"

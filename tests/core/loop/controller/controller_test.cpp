@@ -5,7 +5,7 @@
 #include "core/loop/controller/control_chain.hpp"
 #include "core/loop/controller/count_difference.hpp"
 #include "core/loop/controller/filter.hpp"
-#include "core/loop/controller/integrator.hpp"
+#include "core/loop/controller/pid.hpp"
 #include "core/loop/controller/user_law.hpp"
 #include "core/plugin/controller_plugin.hpp"
 #include "tests/core/loop/random_blocks.hpp"

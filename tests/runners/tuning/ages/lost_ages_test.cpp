@@ -1,7 +1,7 @@
 // The age at which tuned values lose a goal, of machines whose rate at each age has a closed form.
 #include "runners/tuning/ages/lost_ages.hpp"
 
-#include "core/numerics/bisection.hpp"
+#include "core/numerics/roots.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "runners/tuning/units/unit_runner.hpp"
 #include "tests/support/test.hpp"

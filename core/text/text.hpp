@@ -1,0 +1,90 @@
+#pragma once
+
+#include <charconv>
+#include <concepts>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include <fmt/format.h>
+
+namespace zerocount::text {
+
+/// "1 trial", "2 trials", "0 trials". @param noun in the singular, of which the plural ends in s
+std::string counted(std::integral auto count, std::string_view noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+/// The text without these characters at both ends.
+constexpr std::string_view trimmed(std::string_view text, std::string_view blanks = " \t\n\v\f\r") {
+  const std::size_t first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return text.substr(0, 0);
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+// Numbers are read and written with std::from_chars and fmt, which know no locale. The functions of the C
+// library (strtod, printf …) and streams take the decimal separator of the process, which an application that
+// loads the extension of the Python package may have set to a comma.
+
+/// The number that is the whole text, in the form of C; nothing if it is none or does not fit.
+template <class Number>
+std::optional<Number> parse_number(std::string_view text) {
+  Number number{};
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, number);
+  if (error != std::errc{} || stop != end) return std::nullopt;
+  return number;
+}
+
+/// `value`, rounded to so many significant decimal digits: the double nearest to 2e-05, not
+/// 1.9999999999999998e-05.
+double round_to_digits(double value, int digits);
+
+/// True if a spreadsheet would take a cell of this text for a formula or a command: it begins with = or @, or
+/// with a sign before something other than a number with a unit.
+bool is_formula(std::string_view text);
+
+/// A field of CSV (RFC 4180): quoted where it holds a comma, a quote or a line break. A formula gets an
+/// apostrophe before it, so that a spreadsheet shows it as text.
+std::string csv_field(std::string_view text);
+
+/// `word` for a POSIX shell: as it is, or in single quotes.
+std::string shell_word(const std::string& word);
+
+/// The path as a word of a command. No option begins like it: "-x.yaml" is "./-x.yaml".
+std::string shell_path(const std::string& path);
+
+/// U+FFFD, the replacement character.
+inline constexpr std::string_view replacement_utf8 = "\xEF\xBF\xBD";
+
+struct CodePoint {
+  char32_t value{0xFFFD};
+  std::size_t bytes{1};
+  bool valid{false};
+};
+
+/// The code point at the start of `text` (not empty); an invalid one takes one byte. Overlong forms,
+/// surrogates and values beyond U+10FFFF are invalid (RFC 3629).
+CodePoint decode(std::string_view text);
+
+/// True for the control characters C0, DEL and C1, the line and paragraph separators, and the characters that
+/// change the direction of the text after them (Unicode Standard Annex 9: embeddings, overrides and
+/// isolates), which can make a text read as another.
+bool is_control(char32_t value);
+
+/// True if `text` is UTF-8 without control characters.
+bool is_printable(std::string_view text);
+
+/// `text` with each control character but line feeds and tabs, and each byte that is not UTF-8, replaced by
+/// U+FFFD. For messages that repeat what a file or the user says.
+std::string printable_lines(std::string_view text);
+
+/// A file that is embedded in the program when it is built (cmake/EmbedFiles.cmake).
+struct EmbeddedFile {
+  std::string_view name;  ///< "vega.min.js"
+  std::string_view bytes;
+};
+
+}  // namespace zerocount::text

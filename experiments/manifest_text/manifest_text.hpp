@@ -1,0 +1,111 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "experiments/study/study.hpp"
+#include "experiments/yaml/yaml_tree.hpp"
+
+namespace zerocount::manifest_text {
+
+/// The values of a manifest by their dotted paths, as written. A list is one value, as YAML on one line.
+/// Where the order of the keys of a map numbers design points, conditions, goals or the values that `tune`
+/// tries, it is a value too, with a key that ends in `order_of_keys`.
+using ManifestValues = std::map<std::string, std::string>;
+
+inline constexpr std::string_view order_of_keys = ", order of keys";
+
+/// @param root a manifest with its overrides applied
+ManifestValues values_of(const yaml::YamlNode& root);
+/// @param text of the manifest @param source its name in messages
+/// @throws Failure (bad_input) where it is not YAML that this program accepts
+ManifestValues values_of(const std::string& text, const std::string& source,
+                         const std::vector<std::string>& overrides);
+
+/// The value of a key that is a text or a number; `absent` where it is missing.
+std::string value_or(const ManifestValues& values, const std::string& key, const std::string& absent);
+
+/// A key that is in one manifest only, or has different values.
+struct ManifestDifference {
+  std::string key;       ///< dotted path
+  std::string baseline;  ///< YAML on one line; empty where the key is missing
+  std::string current;
+};
+
+/// The keys with different values, sorted. Comments, line ends, spacing, the order of other keys and the
+/// notation of numbers do not matter.
+std::vector<ManifestDifference> manifest_differences(const ManifestValues& baseline,
+                                                     const ManifestValues& current);
+
+/// "seed is 42 there and 43 here, …": the first five differences, and the number of others.
+std::string differences_text(const std::vector<ManifestDifference>& differences);
+
+/// A text that is equal for manifests without differences, and for them alone.
+std::string identity_text(const ManifestValues& values);
+
+/// The node at the path of keys; null if there is none.
+const yaml::YamlNode* node_at(const yaml::YamlNode& root, std::string_view path);
+
+/// The value in place of the one before, with whose `aging` it changes with age unless it says how itself.
+/// @param before null: there was none
+yaml::YamlPointer aging_like(const yaml::YamlNode* before, const yaml::YamlPointer& value);
+
+/// Applies `overrides` ("key=value", with the value as YAML) to the tree `root`, in order. Keys are dotted
+/// paths, with an index for lists: trials, plant.inertia, command.targets.0, sweep.grid.controller.kp.
+/// Missing maps are created; `zerocount` cannot be overridden. A value with `aging` keeps it (aging_like()).
+/// `sources` gets the names under which the overrides appear in messages, and must outlive the result.
+yaml::YamlPointer apply_overrides(yaml::YamlPointer root, const std::vector<std::string>& overrides,
+                                  std::deque<std::string>& sources, yaml::Problems& problems);
+
+/// Whether the text can be a dotted path: keys without empty ones among them.
+bool is_dotted_path(std::string_view text);
+
+/// A copy of the tree in which `path` has this value; missing maps are created. Null, after a report at
+/// `place`, if the path leads through a value.
+yaml::YamlPointer with_value(const yaml::YamlPointer& root, std::string_view path, yaml::YamlPointer value,
+                             const yaml::Place& place, yaml::Problems& problems);
+
+/// Whether the tree has a value at `path`, a path of keys without dots.
+bool has_value_at(const yaml::YamlNode& root, std::string_view path);
+
+/// Reports overrides in `root` without effect, because a grid or every case of the sweep gives the key at all
+/// points.
+void report_swept_overrides(const yaml::YamlNode& root, const std::vector<std::string>& overrides,
+                            std::deque<std::string>& sources, yaml::Problems& problems);
+
+/// The text of a manifest with the override "path=value" (path: dotted keys) written into it: the value at
+/// the path is replaced, or the missing keys are added. All else, comments included, stays as it is.
+/// @param value in flow style
+/// @returns nothing where the edited text would not mean the same as the override: the path leads through a
+/// list, or into a value that an alias repeats.
+std::optional<std::string> with_override(const std::string& text, std::string_view path,
+                                         std::string_view value);
+
+/// What a manifest of one design point has otherwise than its study.
+struct PointChanges {
+  std::string condition{};  ///< whose overrides the sections get, in place of `conditions`; empty: none
+  /// (dotted path of a parameter, number): in place of what the manifest gives.
+  std::vector<std::pair<std::string, double>> values{};
+  /// (key at the root, YAML): in place of what the manifest gives.
+  std::vector<std::pair<std::string, std::string>> keys{};
+  std::vector<std::string> removed{};  ///< keys at the root, or "section.key"
+  /// From which the study's manifest names its files; empty: the files that it names are not known.
+  std::filesystem::path folder{};
+};
+
+/// A manifest of one design point of a study, without its sweep and what refers to it, in flow style. The
+/// overrides of the study are part of it. Comments are lost.
+/// @throws Failure (bad_input) if a value has no place in it, or if it names a file that is not known
+std::string manifest_of_point(const study::Study& study, std::int64_t point, const PointChanges& changes);
+
+/// The override "conditions={…}" that leaves one of the study's conditions.
+std::string only_condition(const study::Study& study, const std::string& condition);
+
+}  // namespace zerocount::manifest_text

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <random>
+#include <vector>
+
+#include "analysis/records/raw_series.hpp"
+#include "core/motion/disturbance.hpp"
+
+namespace zerocount::testing {
+
+/// A linear axis whose friction is that of bristles, which yield before they slide (Dahl's law with a viscous
+/// damper); m, N, kg.
+struct BristleAxis {
+  double mass{95.0};
+  double damping{200.0};        ///< N s/m
+  double coulomb{20.0};         ///< N
+  double offset{3.0};           ///< N, against the drive
+  double bristle_travel{5e-6};  ///< over which the friction approaches its level, m
+};
+
+/// A positioning loop, its encoder and its moves.
+struct DwellLoop {
+  double sample_time{1e-3};  ///< s
+  double resolution{5e-8};   ///< m
+  double noise{0.0};         ///< of the readings, standard deviation, m
+  double bandwidth{12.0};    ///< Hz
+  double amplitude{0.05};    ///< of the moves, m
+  double move{0.5};          ///< s
+  double dwell{1.0};         ///< s
+  int moves{6};              ///< to and fro, of different lengths
+};
+
+/// Moves with dwells under a PID loop. The simulation is its own: nothing of core is in it.
+records::RawSeries dwell_record(const BristleAxis& axis, const DwellLoop& loop, std::mt19937_64& random);
+
+/// The force given beforehand, without a loop: pulses that move the axis, with rests and slow ramps below the
+/// Coulomb level between them.
+records::RawSeries pulsed_record(const BristleAxis& axis, const DwellLoop& loop, std::mt19937_64& random);
+
+/// A sliding axis; units of a linear one, m, N, kg.
+struct SlidingAxis {
+  double mass{95.1089};
+  double damping{203.5034};              ///< N s/m
+  double coulomb{20.3935};               ///< N
+  double offset{-3.1648};                ///< N, against the drive
+  double breakaway{20.3935};             ///< N
+  double stribeck_velocity{0.01};        ///< m/s
+  double bristle_stiffness{0.0};         ///< σ0 of Dahl's law in place of that of Coulomb, N/m; 0: Coulomb
+  double friction_noise{0.0};            ///< standard deviation of a force that the record does not show, N
+  bool rotary{false};                    ///< a rotary axis: N m for N and rad for m
+  std::vector<motion::Ripple> ripple{};  ///< torques that depend on the position and act on the axis
+};
+
+/// Drive, sensor and loop.
+struct AxisLoop {
+  double gain{35.15065};         ///< N/V
+  double position_gain{160.18};  ///< 1/s
+  double velocity_gain{243.45};  ///< V s/m
+  double voltage_limit{10.0};    ///< V
+  double resolution{5e-8};       ///< m
+  double sample_time{1e-3};      ///< s
+  double noise{0.0};             ///< of the readings, standard deviation, m
+};
+
+/// A move: speed (m/s) with its sign, and how long it lasts, s.
+struct Cruise {
+  double velocity;
+  double duration;
+};
+
+/// The motion of the electro-mechanical positioning system (EMPS) of A. Janot, M. Gautier and M. Brunot, Data
+/// Set and Reference Models of EMPS, 2019 Workshop on Nonlinear System Identification Benchmarks, Eindhoven:
+/// 1 kHz, trapezoidal velocities up to 0.123 m/s with 0.83 m/s², four equal laps of 6.24 s, a cascade of P
+/// position and velocity control, ±10 V, steps of 0.05 µm. The defaults above are its published parameters
+/// and gains.
+std::vector<Cruise> emps_lap();
+
+/// `laps` laps under closed loop, with the force and the position as recorded: each at its sample, the force
+/// held to the next. The motion is that of core's Plant with the law `coulomb`.
+records::RawSeries closed_loop_record(const SlidingAxis& axis, const AxisLoop& loop,
+                                      const std::vector<Cruise>& lap, int laps, std::mt19937_64& random);
+
+/// The force given beforehand: as sum of two sines. No loop.
+records::RawSeries open_loop_record(const SlidingAxis& axis, const AxisLoop& loop, double duration,
+                                    std::mt19937_64& random);
+
+}  // namespace zerocount::testing

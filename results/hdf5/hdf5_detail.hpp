@@ -13,24 +13,11 @@
 
 #include "results/hdf5/element.hpp"
 #include "results/hdf5/hdf5.hpp"
+#include "results/hdf5/library_use.hpp"
 #include "results/storage/byte_file.hpp"
 
 /// Internal declarations of the HDF5 layer; not for its users.
 namespace zerocount::hdf5 {
-
-/// A use of the HDF5 library, which is not made for threads: it has one state for all files. Uses of one
-/// thread may be inside each other.
-class LibraryUse {
- public:
-  /// @throws std::logic_error while another thread uses the library
-  LibraryUse();
-  LibraryUse(const LibraryUse&) = delete;
-  LibraryUse& operator=(const LibraryUse&) = delete;
-  ~LibraryUse();
-
- private:
-  bool is_outermost_;
-};
 
 static_assert(std::is_same_v<Id, hid_t> && std::is_same_v<Size, hsize_t> && std::is_same_v<int, herr_t>);
 

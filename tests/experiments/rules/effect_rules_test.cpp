@@ -7,6 +7,8 @@
 namespace zerocount::rules {
 namespace {
 
+using zerocount::refusal_of;  // of a manifest; that of rules is of an edit
+
 struct IdleCase {
   const char* command;
   const char* more;    // from the sixth line on

@@ -1,7 +1,7 @@
 // What was written is there, or it is said that it is not.
 #include "results/hdf5/chunk_filters.hpp"
 #include "results/hdf5/hdf5.hpp"
-#include "results/hdf5/hdf5_detail.hpp"
+#include "results/hdf5/library_use.hpp"
 #include "results/layout/table_io.hpp"
 #include "tests/results/failures.hpp"
 #include "tests/support/draws.hpp"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <Eigen/Core>
@@ -84,9 +85,9 @@ PositionWave wave_of(double periods, double pitch) {
 /// The waves to try, a usual one first.
 std::vector<PositionWave> candidates(const SlidingFit& fit) {
   const SlidingRecord& record = *fit.windows.front().record;
-  std::vector<PositionWave> waves;
-  if (record.axis == parameters::AxisKind::linear) waves.push_back({});
-  for (int periods = 1; record.pitch > 0.0 && periods <= most_periods; ++periods)
+  std::vector<PositionWave> waves = usual_waves(record);
+  for (int periods = record.axis == parameters::AxisKind::linear ? 1 : 2;
+       record.pitch > 0.0 && periods <= most_periods; ++periods)
     waves.push_back(wave_of(periods, record.pitch));
   std::erase_if(waves, [&](const PositionWave& wave) {
     return std::ranges::find(fit.waves, wave.periods, &PositionWave::periods) != fit.waves.end();
@@ -95,6 +96,11 @@ std::vector<PositionWave> candidates(const SlidingFit& fit) {
 }
 
 }  // namespace
+
+std::vector<PositionWave> usual_waves(const SlidingRecord& record) {
+  if (record.axis == parameters::AxisKind::linear) return {PositionWave{}};
+  return {wave_of(1.0, record.pitch)};
+}
 
 PositionShape shape_at(double x, std::span<const PositionWave> waves) {
   PositionShape shape{};
@@ -143,17 +149,34 @@ std::optional<PositionWave> strongest_wave(const SlidingFit& fit) {
   return ratio > visible ? std::optional(found) : std::nullopt;
 }
 
-bool is_shown(const SlidingFit& fit, std::size_t wave) {
+double visibility_of(const SlidingFit& fit, std::size_t wave) {
   const auto first = static_cast<Eigen::Index>(position_amplitudes + 2 * wave);
   const double periods = fit.waves[wave].periods;
   const Eigen::VectorXd amplitude = fit.point.segment(first, 2);
   const Eigen::MatrixXd covariance = fit.covariance.block(first, first, 2, 2);
-  if (periods == 0.0) return std::abs(amplitude[0]) >= min_excess_ratio * std::sqrt(covariance(0, 0));
+  if (periods == 0.0) return std::abs(amplitude[0]) / (min_excess_ratio * std::sqrt(covariance(0, 0)));
   const Eigen::VectorXd weighted = numerics::least_squares(covariance, amplitude);
-  // χ² of two amplitudes: 1 in 1000 by chance, and as rare among all periods that are tried.
-  const double usual = 13.8;
-  const double of_many = usual + 2.0 * std::log(most_periods);
-  return amplitude.dot(weighted) >= (periods == 1.0 ? usual : of_many);
+  // Hotelling's T² of two amplitudes, with the freedom of a jackknife over windows, which is exceeded by
+  // chance once in 1000 records, among all periods that are tried together.
+  const double chance = 1e-3 / (periods == 1.0 ? 1.0 : most_periods);
+  const double freedom = std::max(1.0, static_cast<double>(fit.windows.size()) - 1.0);
+  return amplitude.dot(weighted) / (freedom * (std::pow(chance, -2.0 / freedom) - 1.0));
+}
+
+std::optional<PositionWave> alike_wave(const SlidingFit& fit, std::size_t wave) {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const FittedWindow& fitted : fit.windows) {
+    for (const std::size_t k : {fitted.window->first, fitted.window->last}) {
+      low = std::min(low, fitted.record->origin + fitted.record->position[k]);
+      high = std::max(high, fitted.record->origin + fitted.record->position[k]);
+    }
+  }
+  for (std::size_t i = 0; i < fit.waves.size(); ++i) {
+    const double apart = std::abs(fit.waves[i].wave_number - fit.waves[wave].wave_number) * (high - low);
+    if (i != wave && apart < 2.0 * std::numbers::pi) return fit.waves[i];
+  }
+  return std::nullopt;
 }
 
 std::string name_of(const PositionWave& wave) {

@@ -40,8 +40,16 @@ void set_position_waves(std::vector<SlidingRecord>& records, std::span<const Pos
 /// and the fit's waves, with and without the wave, because the law has taken a part of it.
 std::optional<PositionWave> strongest_wave(const SlidingFit& fit);
 
-/// Whether the amplitudes of a wave of the fit exclude 0 together, by their covariance.
-bool is_shown(const SlidingFit& fit, std::size_t wave);
+/// The wave to try before all others: once a revolution, as gravity; of a linear axis proportional to the
+/// position.
+std::vector<PositionWave> usual_waves(const SlidingRecord& record);
+
+/// From 1 on the amplitudes of a wave of the fit exclude 0 together, by their covariance.
+double visibility_of(const SlidingFit& fit, std::size_t wave);
+
+/// A wave of the fit that looks like this one over the travel of the windows: their numbers of periods differ
+/// by less than one in it. Nothing if there is none.
+std::optional<PositionWave> alike_wave(const SlidingFit& fit, std::size_t wave);
 
 /// "ripple.1", with the periods; "slope" of a wave proportional to the position.
 std::string name_of(const PositionWave& wave);

@@ -102,12 +102,19 @@ std::string position_text(const SlidingIdentification& i) {
     if (wave.periods == 0.0)
       text += fmt::format("{} times the position acts, as of a spring.\n", value);
     else if (wave.periods == 1.0)
-      text += fmt::format("{} repeats {}{}.\n", value, linear ? "with the pitch" : "once in a revolution",
-                          linear ? "" : ", as gravity does");
+      text += fmt::format("{} repeats {}{}.{}\n", value, linear ? "with the pitch" : "once in a revolution",
+                          linear ? "" : ", as gravity does",
+                          i.could_be_two_periods
+                              ? " One that acts twice in it would explain these motions as well: "
+                                "amplitude and phase hold if it acts once."
+                              : "");
     else
       text += fmt::format("{} repeats {:g} times in a {}, as cogging does.\n", value, wave.periods,
                           linear ? "pitch" : "revolution");
   }
+  const bool turns = i.axis == parameters::AxisKind::rotary;
+  if (turns && std::ranges::find(i.waves, 1.0, &PositionWave::periods) == i.waves.end())
+    text += "Gravity was tried: the records do not show it.\n";
   const std::string reason = reason_of_distrust(i);
   return text + (reason.empty() ? "" : "The result must not be trusted: " + reason + ".");
 }
@@ -189,7 +196,7 @@ document::AnswerDescription<SlidingIdentification> sliding_answer() {
               "motion of the identified axis beside the readings"},
              run_description(), &SlidingIdentification::runs)
       .table({"unexplained", "What the unexplained torque repeats with",
-              "cross-validated over strokes; empty with fewer than 4 strokes"},
+              "cross-validated over strokes; empty with a single stroke"},
              force_description(), &SlidingIdentification::forces)
       .value(fit::fragment_item(), &SlidingIdentification::fragment);
   return answer;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -28,26 +29,33 @@ struct Quantity {
   Scale scale;
   /// Why it is not identifiable if its interval is too wide; {0} is the interval's upper end, {1} the unit.
   const char* vague;
+  std::string alike{};  ///< name of a torque that cannot be told from it
 };
 
 /// Amplitude and phase of the torque A·sin(κ·x + phase) that acts on the axis; or its slope.
-void add_wave(const SlidingPoint& point, const PositionWave& wave, Eigen::Index first,
-              std::vector<Quantity>& quantities) {
+void add_wave(const SlidingFit& fit, std::size_t number, std::vector<Quantity>& quantities) {
+  const PositionWave& wave = fit.waves[number];
+  const auto first = static_cast<Eigen::Index>(position_amplitudes + 2 * number);
+  const SlidingPoint& point = fit.point;
+  const std::optional<PositionWave> other = alike_wave(fit, number);
+  const std::string alike = other ? name_of(*other) : "";
   const double sine = point[first];
   const double cosine = point[first + 1];
   const SlidingPoint of_sine = SlidingPoint::Unit(first);
   const SlidingPoint of_cosine = SlidingPoint::Unit(first + 1);
   const auto coordinate = static_cast<std::size_t>(first);
   if (wave.periods == 0.0) {
-    quantities.push_back({name_of(wave), "", "N m/rad", coordinate, -sine, -of_sine, Scale::linear, ""});
+    quantities.push_back(
+        {name_of(wave), "", "N m/rad", coordinate, -sine, -of_sine, Scale::linear, "", alike});
     return;
   }
   const double amplitude = std::hypot(sine, cosine);
   const char* vague = "the record moves over too small a part of its period";
   quantities.push_back({name_of(wave) + ".amplitude", "", "N m", coordinate, amplitude,
-                        (sine * of_sine + cosine * of_cosine) / amplitude, Scale::positive, vague});
+                        (sine * of_sine + cosine * of_cosine) / amplitude, Scale::positive, vague, alike});
   quantities.push_back({name_of(wave) + ".phase", "", "rad", coordinate, std::atan2(-cosine, -sine),
-                        (sine * of_cosine - cosine * of_sine) / (amplitude * amplitude), Scale::linear, ""});
+                        (sine * of_cosine - cosine * of_sine) / (amplitude * amplitude), Scale::linear, "",
+                        alike});
 }
 
 std::vector<Quantity> quantities_of(const SlidingFit& fit) {
@@ -76,8 +84,10 @@ std::vector<Quantity> quantities_of(const SlidingFit& fit) {
        "the slow motion is too short"},
       {"offset", "", "N m", offset_torque, point[offset_torque], SlidingPoint::Unit(offset_torque),
        Scale::linear, ""}};
+  Quantity& offset = quantities.back();
   for (std::size_t i = 0; i < fit.waves.size(); ++i)
-    add_wave(point, fit.waves[i], static_cast<Eigen::Index>(position_amplitudes + 2 * i), quantities);
+    if (const auto other = alike_wave(fit, i)) offset.alike = name_of(*other);
+  for (std::size_t i = 0; i < fit.waves.size(); ++i) add_wave(fit, i, quantities);
   return quantities;
 }
 
@@ -106,6 +116,12 @@ ParameterEstimate estimate_of(const Quantity& quantity, const SlidingFit& fit, p
                    ? "the motion has one direction, in which it is part of the Coulomb level"
                    : "the friction does not visibly fall with the velocity; sliding shows no more than the "
                      "Coulomb level");
+    return estimate;
+  }
+  if (!quantity.alike.empty()) {
+    leave_open(estimate,
+               fmt::format("over so small a part of a {} it cannot be told from {}; move farther",
+                           axis == parameters::AxisKind::linear ? "pitch" : "revolution", quantity.alike));
     return estimate;
   }
   const double freedom =
@@ -182,6 +198,13 @@ std::string sliding_fragment(const SlidingIdentification& identification) {
                                     parameters::text_on(identification.axis, "$torque"),
                                     fit::with_digits(offset.value, offset), offset.unit);
   }
+  const auto is_open = [&](const PositionWave& wave) {
+    return !is_estimated(parameter(name_of(wave) + (wave.periods == 0.0 ? "" : ".amplitude")));
+  };
+  if (std::ranges::any_of(identification.waves, is_open))
+    fragment.remarks +=
+        fmt::format("# A {} that depends on the position acts, too, and is not known well enough.\n",
+                    parameters::text_on(identification.axis, "$torque"));
   fragment.plant = fit::manifest_lines(identification.parameters, "plant");
   if (!is_estimated(parameter("breakaway_level")) && is_estimated(parameter("coulomb_level"))) {
     fragment.friction = fit::manifest_line(parameter("coulomb_level"), "breakaway") +
@@ -190,7 +213,7 @@ std::string sliding_fragment(const SlidingIdentification& identification) {
     fragment.friction = fit::manifest_lines(identification.parameters, "friction");
   }
   for (const PositionWave& wave : identification.waves) {
-    if (wave.periods != 0.0) continue;
+    if (wave.periods != 0.0 || is_open(wave)) continue;
     const ParameterEstimate& slope = parameter(name_of(wave));
     fragment.remarks += fmt::format("# A {} of {} {} times the position acts, too; a manifest has none.\n",
                                     parameters::text_on(identification.axis, "$torque"),

@@ -72,11 +72,13 @@ FreeParameters parameters_without_stribeck(std::span<const SlidingRecord> record
   return free;
 }
 
-/// The fit, with the Stribeck curve if the records show one.
-SlidingFit best_fit(std::span<const SlidingRecord> records, const std::vector<PositionWave>& waves) {
+/// The fit, with the Stribeck curve if it is asked for and the records show one.
+SlidingFit best_fit(std::span<const SlidingRecord> records, const std::vector<PositionWave>& waves,
+                    bool with_stribeck) {
   FreeParameters free = parameters_without_stribeck(records, waves);
   SlidingFit without = fit_sliding(records, starting_point(records, free[offset_torque]), free, waves);
-  const std::optional<double> velocity = visible_stribeck_velocity(records, without);
+  const std::optional<double> velocity =
+      with_stribeck ? visible_stribeck_velocity(records, without) : std::nullopt;
   if (!velocity) return without;
   free[stribeck_excess] = free[log_stribeck_velocity] = true;
   SlidingPoint start = without.point;
@@ -94,49 +96,87 @@ SlidingFit best_fit(std::span<const SlidingRecord> records, const std::vector<Po
 }
 
 /// The fit in windows that are as long as the law explains to a step of the readings.
-SlidingFit fit_in_windows(std::vector<SlidingRecord>& records, const std::vector<PositionWave>& waves) {
+SlidingFit fit_in_windows(std::vector<SlidingRecord>& records, const std::vector<PositionWave>& waves,
+                          bool with_stribeck) {
   set_position_waves(records, waves);
   for (SlidingRecord& record : records) cut_windows(record, max_window_samples);
-  SlidingFit fit = best_fit(records, waves);
+  SlidingFit fit = best_fit(records, waves, with_stribeck);
   for (std::size_t samples = max_window_samples / 4; fit.misfit > 1.0 && samples >= min_window_samples;
        samples /= 4) {
     for (SlidingRecord& record : records) cut_windows(record, samples);
-    fit = best_fit(records, waves);
+    fit = best_fit(records, waves, with_stribeck);
   }
   return fit;
 }
 
-/// The waves of the fit that are shown.
-std::vector<PositionWave> shown_waves(const SlidingFit& fit) {
-  std::vector<PositionWave> waves;
-  for (std::size_t i = 0; i < fit.waves.size(); ++i)
-    if (is_shown(fit, i)) waves.push_back(fit.waves[i]);
-  return waves;
+/// The fit with those of the waves that it shows: the others go, the least visible one first.
+SlidingFit fit_of_shown(std::vector<SlidingRecord>& records, std::vector<PositionWave> waves,
+                        bool with_stribeck) {
+  for (;;) {
+    SlidingFit fit = fit_in_windows(records, waves, with_stribeck);
+    std::vector<double> visibility;
+    for (std::size_t i = 0; i < waves.size(); ++i) visibility.push_back(visibility_of(fit, i));
+    const auto least = std::ranges::min_element(visibility);
+    if (least == visibility.end() || *least >= 1.0) return fit;
+    waves.erase(waves.begin() + (least - visibility.begin()));
+  }
 }
 
-/// The fit with the torques of the position that the records show, one after the other. One that stood for
-/// another goes when that one is found.
-SlidingFit fit_with_position(std::vector<SlidingRecord>& records) {
-  SlidingFit fit = fit_in_windows(records, {});
-  constexpr std::size_t rounds = 2 * max_position_waves;
-  for (std::size_t round = 0; round < rounds && fit.waves.size() < max_position_waves; ++round) {
-    const std::optional<PositionWave> wave = strongest_wave(fit);
-    if (!wave) break;
+/// The fit with one more wave, if the records show one: that which the residuals show best, or else the usual
+/// one, which another may have hidden.
+std::optional<SlidingFit> with_another_wave(std::vector<SlidingRecord>& records, const SlidingFit& fit,
+                                            bool with_stribeck) {
+  if (fit.waves.size() == max_position_waves) return std::nullopt;
+  std::vector<PositionWave> to_try = usual_waves(records.front());
+  if (const auto strongest = strongest_wave(fit)) to_try.insert(to_try.begin(), *strongest);
+  for (const PositionWave& wave : to_try) {
+    if (std::ranges::find(fit.waves, wave.periods, &PositionWave::periods) != fit.waves.end()) continue;
     std::vector<PositionWave> waves = fit.waves;
-    waves.push_back(*wave);
+    waves.push_back(wave);
     set_position_waves(records, waves);
     const FreeParameters free = parameters_without_stribeck(records, waves);
-    const SlidingFit tried = fit_sliding(records, fit.point, free, waves);
-    if (!is_shown(tried, waves.size() - 1)) {
-      set_position_waves(records, fit.waves);
-      break;
-    }
+    const bool shown = visibility_of(fit_sliding(records, fit.point, free, waves), waves.size() - 1) >= 1.0;
+    set_position_waves(records, fit.waves);
+    if (!shown) continue;
     std::ranges::sort(waves, {}, &PositionWave::periods);
-    fit = fit_in_windows(records, waves);
-    if (const auto shown = shown_waves(fit); shown.size() < waves.size())
-      fit = fit_in_windows(records, shown);
+    return fit_of_shown(records, waves, with_stribeck);
+  }
+  return std::nullopt;
+}
+
+/// The fit with the torques of the position that the records show: the usual one from the start, since
+/// nothing else fits where it is missing, then others one after the other. A Stribeck curve comes last,
+/// because it would follow what is missing. A wave that stood for another, or for the curve, goes when that
+/// is found.
+SlidingFit fit_with_position(std::vector<SlidingRecord>& records) {
+  SlidingFit fit = fit_of_shown(records, usual_waves(records.front()), false);
+  constexpr int rounds = 2 * max_position_waves;
+  for (const bool with_stribeck : {false, true}) {
+    if (with_stribeck) fit = fit_of_shown(records, fit.waves, true);
+    for (int round = 0; round < rounds; ++round) {
+      std::optional<SlidingFit> more = with_another_wave(records, fit, with_stribeck);
+      if (!more) break;
+      const bool settled =
+          std::ranges::equal(more->waves, fit.waves, {}, &PositionWave::periods, &PositionWave::periods);
+      fit = *std::move(more);
+      if (settled) break;
+    }
   }
   return fit;
+}
+
+/// Whether a torque of two periods in place of gravity explains the records as well.
+bool looks_like_two_periods(std::vector<SlidingRecord>& records, const SlidingFit& fit) {
+  std::vector<PositionWave> waves = fit.waves;
+  const auto gravity = std::ranges::find(waves, 1.0, &PositionWave::periods);
+  if (gravity == waves.end() || std::ranges::find(waves, 2.0, &PositionWave::periods) != waves.end())
+    return false;
+  *gravity = {2.0, 2.0 * gravity->wave_number};
+  set_position_waves(records, waves);
+  constexpr double as_well = 1.05;
+  const bool alike = fit_sliding(records, fit.point, fit.free, waves).misfit < as_well * fit.misfit;
+  set_position_waves(records, fit.waves);
+  return alike;
 }
 
 void set_correlation(const SlidingFit& fit, SlidingIdentification& result) {
@@ -153,6 +193,37 @@ void set_correlation(const SlidingFit& fit, SlidingIdentification& result) {
       if (fit.free[static_cast<std::size_t>(j)]) row.push_back(fit.covariance(i, j) / (error[i] * error[j]));
     }
   }
+}
+
+/// Whether windows of the usual length show forces that the law lacks.
+bool is_cut(const SlidingIdentification& identification) {
+  return std::ranges::any_of(identification.records, [](const SlidingRecord& record) {
+    return record.window_samples < max_window_samples;
+  });
+}
+
+/// Part of the unexplained torque that the position must predict to be of account: a tenth, and where the
+/// readings alone may leave that torque, three standard deviations of what ten classes of so many windows do
+/// by chance.
+double least_explained(const SlidingIdentification& identification) {
+  constexpr double tolerated = 0.1;
+  constexpr double of_readings = 0.6;  // steps; independent errors of readings leave 0.3 to 0.5
+  if (is_cut(identification) || identification.misfit > of_readings) return tolerated;
+  double windows = 0.0;
+  for (const SlidingRecord& record : identification.records)
+    windows += static_cast<double>(record.windows.size());
+  return std::max(tolerated, 3.0 * std::sqrt(20.0) / windows);
+}
+
+/// The torques of the position that the fit has tried.
+std::string tried_text(const SlidingIdentification& identification) {
+  if (identification.waves.size() == max_position_waves)
+    return fmt::format("{} torques that depend on it are found, and more is not tried", max_position_waves);
+  if (identification.axis == parameters::AxisKind::rotary)
+    return "tried are gravity and other torques that act a whole number of times in a revolution";
+  return identification.records.front().pitch > 0.0
+             ? "tried are forces that are proportional to it or act a whole number of times in a pitch"
+             : "tried is a force proportional to it; --pitch tries those that repeat with a pitch";
 }
 
 void refuse_unexplained(const SlidingIdentification& result) {
@@ -172,13 +243,15 @@ void refuse_unexplained(const SlidingIdentification& result) {
 std::string reason_of_distrust(const SlidingIdentification& identification) {
   if (std::ranges::none_of(identification.parameters, fit::is_estimated))
     return "no parameter is identifiable from these records";
+  const std::string left =
+      fmt::format("{:.3g} {} (of {:.3g}) that the law leaves unexplained", identification.unexplained_torque,
+                  parameters::unit_on(identification.axis, "N m"), identification.torque);
+  if (identification.forces.empty())
+    return is_cut(identification) ? "one stroke does not tell whether the position explains the " + left : "";
   const auto position = std::ranges::find(identification.forces, "position", &RepeatingForce::with);
-  constexpr double tolerated = 0.1;
-  if (position == identification.forces.end() || position->predicted < tolerated) return "";
-  return fmt::format(
-      "the position explains {:.0f} % of the {:.3g} {} (of {:.3g}) that the law leaves unexplained",
-      100.0 * position->predicted, identification.unexplained_torque,
-      parameters::unit_on(identification.axis, "N m"), identification.torque);
+  if (position->predicted < least_explained(identification)) return "";
+  return fmt::format("the position explains {:.0f} % of the {}; {}", 100.0 * position->predicted, left,
+                     tried_text(identification));
 }
 
 SlidingIdentification identify_sliding(std::vector<SlidingRecord> records) {
@@ -187,6 +260,7 @@ SlidingIdentification identify_sliding(std::vector<SlidingRecord> records) {
   result.axis = records.front().axis;
   result.parameters = estimates_of(fit, result.axis);
   result.waves = fit.waves;
+  result.could_be_two_periods = looks_like_two_periods(records, fit);
   result.misfit = fit.misfit;
   result.unexplained_torque = fit.unexplained_torque;
   result.torque = torque_rms(records);

@@ -18,8 +18,11 @@ namespace zerocount::sliding_identification {
 /// stribeck_velocity, offset, and for each torque that depends on the position its amplitude and phase, or
 /// its slope.
 struct SlidingIdentification : fit::FitReport {
-  std::vector<SlidingRecord> records;        ///< with the windows of the fit
-  std::vector<PositionWave> waves;           ///< torques that depend on the position
+  std::vector<SlidingRecord> records;  ///< with the windows of the fit
+  std::vector<PositionWave> waves;     ///< torques that depend on the position
+  /// Whether a torque that acts twice in a revolution or pitch would explain the records as well as one that
+  /// acts once.
+  bool could_be_two_periods{false};
   double misfit{0.0};                        ///< root mean square of the residuals, in resolutions
   double unexplained_torque{0.0};            ///< root mean square over the windows, N m or N
   double torque{0.0};                        ///< root mean square of the torque in the strokes, N m or N

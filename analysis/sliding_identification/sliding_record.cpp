@@ -166,6 +166,7 @@ SlidingRecord sliding_record(const records::RawSeries& series, double pitch) {
 
 void cut_windows(SlidingRecord& record, std::size_t samples) {
   record.windows.clear();
+  record.window_samples = samples;
   for (const Window& stroke : record.strokes) {
     const std::size_t length = samples_of(stroke);
     const auto by_travel =

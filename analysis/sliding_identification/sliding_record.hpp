@@ -43,6 +43,7 @@ struct SlidingRecord {
   std::size_t waves{0};  ///< torques that depend on the position (set_position_waves())
   std::vector<PositionShape> shape{};  ///< [sample]; empty without such torques
   std::size_t smoothing{1};
+  std::size_t window_samples{0};  ///< about which the windows have
   double presliding_travel{0.0};  ///< from a standstill or a reversal, before the axis slides; 0: not seen
   std::vector<Window> strokes;
   std::vector<Window> windows;

@@ -87,7 +87,7 @@ std::vector<FreeRun> free_runs(const SlidingFit& fit) {
 
 namespace {
 
-constexpr std::size_t min_strokes = 4;
+constexpr std::size_t min_strokes = 2;
 constexpr int classes = 10;
 
 struct Sum {
@@ -178,6 +178,7 @@ RepeatingForce repeats_with(std::string name, const std::vector<Residual>& resid
     left += (one.torque - predicted) * (one.torque - predicted);
     total += (one.torque - mean) * (one.torque - mean);
   }
+  if (force.low > force.high) force.low = force.high = std::numeric_limits<double>::quiet_NaN();
   force.predicted = total > 0.0 ? 1.0 - left / total : 0.0;
   return force;
 }

@@ -46,7 +46,7 @@ struct RepeatingForce {
 /// Windows of one stroke depend on each other, so the variance within a sample says nothing. Each window is
 /// predicted by the mean of its class over all *other strokes*; predicted = 1 − Σ(r − r̂)²/Σ(r − r̄)² with r̄
 /// the mean over all windows of other strokes. Classes that one stroke alone has are predicted by r̄. Empty
-/// with fewer than 4 strokes.
+/// with a single stroke.
 std::vector<RepeatingForce> repeating_forces(const SlidingFit& fit);
 
 }  // namespace zerocount::sliding_identification

@@ -10,6 +10,7 @@
 #include "analysis/sliding_identification/sliding_fit.hpp"
 #include "analysis/sliding_identification/sliding_identification.hpp"
 #include "core/failure/failure.hpp"
+#include "tests/analysis/sliding_identification/coverage.hpp"
 #include "tests/analysis/sliding_identification/records.hpp"
 
 namespace zerocount::testing {
@@ -19,10 +20,6 @@ using sliding_identification::SlidingIdentification;
 
 SlidingIdentification identified_dwells(const records::RawSeries& series) {
   return sliding_identification::identify_sliding({sliding_identification::sliding_record(series)});
-}
-
-double log_uniform(std::mt19937_64& random, double low, double high) {
-  return low * std::pow(high / low, std::uniform_real_distribution<double>()(random));
 }
 
 BristleAxis random_bristle_axis(std::mt19937_64& random) {

@@ -8,16 +8,13 @@
 #include <gtest/gtest.h>
 
 #include "analysis/sliding_identification/sliding_identification.hpp"
+#include "tests/analysis/sliding_identification/coverage.hpp"
 #include "tests/analysis/sliding_identification/records.hpp"
 
 namespace zerocount::testing {
 namespace {
 
 using sliding_identification::SlidingIdentification;
-
-double uniform(std::mt19937_64& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
 
 /// A joint of the benchmark's size that swings by up to a radian under gravity.
 SlidingAxis joint(std::mt19937_64& random) {
@@ -45,11 +42,6 @@ AxisLoop joint_loop() {
 SlidingIdentification identified(const SlidingAxis& axis, std::mt19937_64& random, double pitch = 0.0) {
   return sliding_identification::identify_sliding({sliding_identification::sliding_record(
       closed_loop_record(axis, joint_loop(), swings(), 1, random), pitch)});
-}
-
-const fit::ParameterEstimate* estimate(const SlidingIdentification& found, const std::string& name) {
-  const auto place = std::ranges::find(found.parameters, name, &fit::ParameterEstimate::name);
-  return place == found.parameters.end() ? nullptr : &*place;
 }
 
 /// Intervals that hold the truth, of those that are estimated.
@@ -90,8 +82,7 @@ void expect_gravity_and_ripple_covered(int axes) {
     EXPECT_EQ(found.waves.back().periods, periods) << i;
     held.add(found, name_of(found.waves.back()) + ".amplitude", axis.ripple.back().amplitude);
   }
-  // A binomial proportion of 0.95 lies above this in 99.9 % of the cases.
-  EXPECT_GE(held.held, 0.95 * held.estimated - 3.1 * std::sqrt(0.95 * 0.05 * held.estimated) - 0.5);
+  EXPECT_GE(held.held, least_expected(held.estimated));
   EXPECT_GE(held.estimated, 4 * axes);
 }
 

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "analysis/sliding_identification/sliding_identification.hpp"
+#include "tests/analysis/sliding_identification/coverage.hpp"
 #include "tests/analysis/sliding_identification/records.hpp"
 
 namespace zerocount::testing {
@@ -60,12 +61,6 @@ CoverageOf coverage(int axes,
     }
   }
   return coverage;
-}
-
-/// A binomial proportion of 0.95 lies above this in 99.9 % of the cases. The 72
-/// intervals of six parameters of 12 axes fall below it in half of the cases if they hold the truth in 87 %.
-double least_expected(int count) {
-  return 0.95 * count - 3.1 * std::sqrt(0.95 * 0.05 * count) - 0.5;
 }
 
 void expect_coverage(const CoverageOf& coverage, int axes, const std::string& what) {

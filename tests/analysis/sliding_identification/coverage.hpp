@@ -1,0 +1,32 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+
+#include "analysis/sliding_identification/sliding_identification.hpp"
+
+namespace zerocount::testing {
+
+inline double uniform(std::mt19937_64& random, double low, double high) {
+  return std::uniform_real_distribution<double>(low, high)(random);
+}
+
+inline double log_uniform(std::mt19937_64& random, double low, double high) {
+  return low * std::pow(high / low, std::uniform_real_distribution<double>()(random));
+}
+
+/// Nothing if there is no such parameter.
+inline const fit::ParameterEstimate* estimate(const sliding_identification::SlidingIdentification& found,
+                                              const std::string& name) {
+  const auto place = std::ranges::find(found.parameters, name, &fit::ParameterEstimate::name);
+  return place == found.parameters.end() ? nullptr : &*place;
+}
+
+/// A binomial proportion of 0.95 lies above this in 99.9 % of the cases.
+inline double least_expected(int count) {
+  return 0.95 * count - 3.1 * std::sqrt(0.95 * 0.05 * count) - 0.5;
+}
+
+}  // namespace zerocount::testing

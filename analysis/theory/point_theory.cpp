@@ -10,7 +10,7 @@
 #include "analysis/theory/theory_prediction.hpp"
 #include "analysis/theory/trial_loops.hpp"
 #include "core/loop/controller/controller.hpp"
-#include "core/theory/linear_loop.hpp"
+#include "core/theory/gains.hpp"
 #include "core/theory/margins.hpp"
 #include "core/theory/move_times.hpp"
 #include "core/theory/stability.hpp"

@@ -7,6 +7,7 @@
 #include "core/loop/controller/controller.hpp"
 #include "core/loop/encoder.hpp"
 #include "core/numerics/dense.hpp"
+#include "core/theory/gains.hpp"
 #include "core/theory/linear_loop.hpp"
 
 namespace zerocount::theory {

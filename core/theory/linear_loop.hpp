@@ -7,8 +7,6 @@
 #include <Eigen/Core>
 
 #include "core/loop/controller/control_block.hpp"
-#include "core/loop/controller/pid.hpp"
-#include "core/loop/encoder.hpp"
 #include "core/loop/parameters.hpp"
 #include "core/motion/parameters.hpp"
 #include "core/theory/stability.hpp"
@@ -16,36 +14,6 @@
 /// The sampled loop made linear, assembled from the transfer functions of the controller's blocks: target 0,
 /// the count a continuous quantity, the decided torques applied after the plant's delay.
 namespace zerocount::theory {
-
-/// PID gains of the continuous loop u = kP·e + kI·∫e dt + kD·de/dt with the error in rad, as in the paper's
-/// equation (4).
-struct AnalogueGains {
-  double kp{0.0};  ///< N m/rad
-  double ki{0.0};  ///< N m/(rad s)
-  double kd{0.0};  ///< N m s/rad
-};
-
-/// T = 1/sample rate, s.
-double sample_time(const loop::ControllerParameters& controller);
-
-/// The continuous gains that a sampled controller stands for. Δx is that of the fine encoder, whichever
-/// closes the loop; the count of the coarse one is converted to fine counts.
-///
-/// kP = kp/Δx, kI = 2·ki/(Δx·T), kD = kd·T/Δx: the proportional term counts the error, the trapezoidal rule
-/// adds kI·Δx·T/2 for each of two successive errors, and the difference of successive counts is the velocity
-/// times T/Δx.
-AnalogueGains analogue_gains(const loop::ControllerParameters& controller,
-                             const loop::EncoderParameters& encoder);
-
-/// The gains of the sampled law that stand for `gains` at the sample rate of `controller`: kp = kP·Δx, ki =
-/// kI·Δx·T/2, kd = kD·Δx/T.
-loop::PidGains sampled_gains(const AnalogueGains& gains, const loop::ControllerParameters& controller,
-                             const loop::EncoderParameters& encoder);
-
-/// `controller` with these gains: the inverse of analogue_gains.
-loop::ControllerParameters with_analogue_gains(loop::ControllerParameters controller,
-                                               const AnalogueGains& gains,
-                                               const loop::EncoderParameters& encoder);
 
 /// The driven plant over sample k: x ← A·x + b·v[k − delay] + b_before·v[k − delay − 1] with x = (count,
 /// change of the count per sample at the present velocity; with a load both of the mass that the encoder does

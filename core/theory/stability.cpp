@@ -11,7 +11,7 @@
 #include "core/loop/controller/controller.hpp"
 #include "core/numerics/dense.hpp"
 #include "core/theory/frozen_loop.hpp"
-#include "core/theory/linear_loop.hpp"
+#include "core/theory/gains.hpp"
 #include "core/theory/margins.hpp"
 
 namespace zerocount::theory {

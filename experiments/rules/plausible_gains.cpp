@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/loop/dac.hpp"
-#include "core/theory/linear_loop.hpp"
+#include "core/theory/gains.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/parameters/phase_path.hpp"
 #include "experiments/rules/value_rules.hpp"

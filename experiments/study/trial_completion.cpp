@@ -4,7 +4,7 @@
 #include <span>
 
 #include "core/loop/encoder.hpp"
-#include "core/theory/linear_loop.hpp"
+#include "core/theory/gains.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/plan.hpp"
 #include "experiments/study/trial_draws.hpp"

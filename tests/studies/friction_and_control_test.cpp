@@ -7,7 +7,7 @@
 
 #include "core/friction/sliding/sliding.hpp"
 #include "core/loop/encoder.hpp"
-#include "core/theory/linear_loop.hpp"
+#include "core/theory/gains.hpp"
 #include "experiments/study/study.hpp"
 #include "tests/studies/proportion_bounds.hpp"
 #include "tests/studies/shipped_study.hpp"

@@ -16,7 +16,7 @@
 #include "analysis/text/text.hpp"
 #include "core/loop/encoder.hpp"
 #include "core/text/text.hpp"
-#include "core/theory/linear_loop.hpp"
+#include "core/theory/gains.hpp"
 
 namespace zerocount::design_commands {
 namespace {

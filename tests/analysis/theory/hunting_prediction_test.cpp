@@ -2,7 +2,7 @@
 #include "analysis/theory/point_theory.hpp"
 #include "core/friction/law.hpp"
 #include "core/loop/encoder.hpp"
-#include "core/theory/linear_loop.hpp"
+#include "core/theory/gains.hpp"
 #include "core/trial/trial.hpp"
 #include "tests/core/loop/random_blocks.hpp"
 #include "tests/support/test.hpp"

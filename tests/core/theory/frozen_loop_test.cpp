@@ -5,6 +5,7 @@
 
 #include "core/loop/controller/control_chain.hpp"
 #include "core/loop/controller/controller.hpp"
+#include "core/theory/gains.hpp"
 #include "core/theory/linear_loop.hpp"
 #include "core/theory/margins.hpp"
 #include "tests/core/loop/random_blocks.hpp"

@@ -1,4 +1,4 @@
-#include "core/theory/linear_loop.hpp"
+#include "core/theory/gains.hpp"
 #include "core/theory/stability.hpp"
 #include "tests/support/test.hpp"
 

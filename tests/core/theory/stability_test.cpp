@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 
 #include "core/loop/encoder.hpp"
-#include "core/theory/linear_loop.hpp"
+#include "core/theory/gains.hpp"
 #include "core/theory/move_times.hpp"
 #include "core/trial/trial.hpp"
 #include "tests/core/loop/random_blocks.hpp"

@@ -1,6 +1,6 @@
 // Targets in SI units are the same moves with every encoder, to the nearest of its counts.
 #include "core/loop/encoder.hpp"
-#include "core/theory/linear_loop.hpp"
+#include "core/theory/gains.hpp"
 #include "experiments/study/sequence.hpp"
 #include "experiments/study/study_trial.hpp"
 #include "tests/experiments/manifest_texts.hpp"

@@ -174,7 +174,12 @@ bool looks_like_two_periods(std::vector<SlidingRecord>& records, const SlidingFi
   *gravity = {2.0, 2.0 * gravity->wave_number};
   set_position_waves(records, waves);
   constexpr double as_well = 1.05;
-  const bool alike = fit_sliding(records, fit.point, fit.free, waves).misfit < as_well * fit.misfit;
+  bool alike = false;
+  try {
+    alike = fit_sliding(records, fit.point, fit.free, waves).misfit < as_well * fit.misfit;
+  } catch (const Failure&) {
+    alike = false;  // no motion with two periods fits
+  }
   set_position_waves(records, fit.waves);
   return alike;
 }

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "analysis/goal/question.hpp"
 #include "analysis/iso230/columns.hpp"
 #include "analysis/iso230/repeatability.hpp"
 #include "analysis/measures/goal_counts.hpp"
@@ -26,12 +27,6 @@ namespace {
 
 /// [machine][move that a goal is about] whether it meets the goal.
 using MetMoves = std::vector<std::vector<bool>>;
-
-/// The measure that says when a move is within the band, or the tolerance, of the goal for good.
-std::string settling_measure_of(const study::Goal& goal) {
-  return goal.tolerance ? layout::name_of_tolerance("tolerance_settling_time", *goal.tolerance)
-                        : layout::name_of_band("band_settling_time", goal.band);
-}
 
 /// @param axis of the study
 const std::vector<double>& values_of(const monitor::MoveLog& log, const std::string& measure,
@@ -73,13 +68,13 @@ std::vector<bool> met_moves(const study::Goal& goal, const monitor::MoveLog& log
   std::vector<bool> asked;
   for (std::size_t row = 0; row < static_cast<std::size_t>(log.moves); ++row)
     asked.push_back(is_asked(goal, log, row, file.moves()));
-  const std::vector<double>& times = values_of(log, settling_measure_of(goal), file.axis());
+  const std::vector<double>& times = values_of(log, goal::name_of_settling(goal), file.axis());
   // Without profiles' ends that the goal counts from no log needs them.
   const std::vector<double> travels = goal.within.after_profile ? values_of(log, "travel_time", file.axis())
                                                                 : std::vector<double>(times.size(), 0.0);
   std::vector<const std::vector<double>*> limited;
   for (const study::GoalLimit& limit : goal.limits)
-    limited.push_back(&values_of(log, limit.measure, file.axis()));
+    limited.push_back(&values_of(log, study::name_in(goal, limit.measure), file.axis()));
   std::vector<bool> met;
   for (std::size_t row = 0; row < times.size(); ++row) {
     if (!asked[row]) continue;

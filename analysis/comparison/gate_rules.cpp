@@ -73,7 +73,7 @@ std::optional<study::StudyFeatures> features_with_limit(std::string_view name) {
     return features;
   }
   const auto tolerance = number_in<double>(name);
-  if (!tolerance || !std::isfinite(*tolerance) || *tolerance == 0.0 || !name.starts_with("tolerance_"))
+  if (!tolerance || !std::isfinite(*tolerance) || *tolerance == 0.0 || !layout::is_of_tolerance(name))
     return std::nullopt;
   features.tolerances = {.limits = {*tolerance}, .count = 1};
   return features;
@@ -82,7 +82,7 @@ std::optional<study::StudyFeatures> features_with_limit(std::string_view name) {
 /// The name as files have it: a tolerance can be written in several ways.
 std::string name_in_files(std::string_view name) {
   const auto tolerance = number_in<double>(name);
-  if (!tolerance || !name.starts_with("tolerance_")) return std::string(name);
+  if (!tolerance || !layout::is_of_tolerance(name)) return std::string(name);
   return layout::name_of_tolerance(name.substr(0, name.find('[')), *tolerance) +
          std::string(name.substr(name.find(']') + 1));
 }

@@ -30,10 +30,10 @@ constexpr int goal_digits = 6;  // of what a goal asks for
 /// "|error| ≤ 1 count", "|position error| ≤ 10 nm".
 std::string band_text(const study::Goal& goal) {
   if (goal.tolerance)
-    return "|position error| ≤ " +
+    return fmt::format("|position error{}| ≤ ", of_mass(goal)) +
            text::quantity_text(*goal.tolerance, parameters::unit_on(goal.axis, "rad"), goal_digits);
-  if (goal.band == 0) return "error 0";
-  return fmt::format("|error| ≤ {}", text::counted(goal.band, "count"));
+  if (goal.band == 0) return fmt::format("error{} 0", of_mass(goal));
+  return fmt::format("|error{}| ≤ {}", of_mass(goal), text::counted(goal.band, "count"));
 }
 
 /// The largest value of a limit with its unit: "200 counts", "45 N", "1 µm".
@@ -125,6 +125,10 @@ std::string together_text(const Question& question, const measures::PointSummary
 
 }  // namespace
 
+std::string of_mass(const study::Goal& goal) {
+  return goal.of ? fmt::format(" of the {}", study::mass_text(*goal.of)) : "";
+}
+
 std::string after_text(const study::TimeLimit& limit, const std::string& time) {
   return limit.after_profile ? time + " after the profile" : "after " + time;
 }
@@ -181,7 +185,11 @@ std::string goals_text(const Question& question, const measures::PointSummary& p
     return (question.conditions.empty()
                 ? ""
                 : fmt::format(" {}, the worst:\n", under_text(question, of_goal.condition))) +
-           readings_text(*part.claim, counts, of_goal);
+           readings_text(*part.claim, counts, of_goal) +
+           (of_goal.of_load
+                ? fmt::format("  of the load, {} of all moves meet it: {}\n",
+                              text::percent_near(of_goal.of_load->value), with_bounds(*of_goal.of_load))
+                : "");
   };
   if (!has_several(question))
     return readings(question.parts.front(), verdict) + together_text(question, point);
@@ -268,6 +276,15 @@ document::Description<Needs> needs_description() {
   return document::Description<Needs>()
       .value(document::in_data("rigs", "machines; 0 without machines"), &Needs::rigs)
       .value(document::in_data("trials", "trials of a design point"), &Needs::trials);
+}
+
+document::Description<BoundedProportion> load_description() {
+  return document::Description<BoundedProportion>()
+      .value(document::in_data("of", "the mass"),
+             [](const BoundedProportion&) { return study::mass_text(motion::EncoderPlace::load); })
+      .value(
+          document::in_data("rate", "proportion of its moves that meet the goal, with one-sided bounds", "1"),
+          [](const BoundedProportion& rate) { return bounded(rate); });
 }
 
 const Needs* practicable(const std::optional<Needs>& needs) {

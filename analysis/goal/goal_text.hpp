@@ -14,6 +14,9 @@ namespace zerocount::goal {
 /// "after 0.05 s", "0.25 s after the profile". @param time with its unit
 std::string after_text(const study::TimeLimit& limit, const std::string& time);
 
+/// " of the load", the mass of two that a goal speaks of.
+std::string of_mass(const study::Goal& goal);
+
 /// "|error| ≤ 1 count for good after 0.05 s in at least 99 % of the moves of at least 99 % of machines, with
 /// 95 % confidence".
 std::string goal_sentence(const study::Goal& goal);
@@ -60,6 +63,8 @@ inline document::Bounded bounded(const BoundedProportion& proportion) {
 
 /// Rigs and trials; for data only, because needs_sentence() says them.
 document::Description<Needs> needs_description();
+/// The moves of the load that meet a goal of the motor (ClaimVerdict::of_load).
+document::Description<BoundedProportion> load_description();
 
 /// Needs that a study of practicable size has; nothing where none is.
 const Needs* practicable(const std::optional<Needs>& needs);

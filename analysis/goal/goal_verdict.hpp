@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -51,8 +52,9 @@ struct WorldVerdict {
 /// in one: the upper bounds have the confidence 1 − (1 − γ)/worlds (Bonferroni).
 struct ClaimVerdict : WorldVerdict {
   std::size_t goal{0};
-  std::size_t condition{0};            ///< 0 without conditions
-  std::vector<WorldVerdict> worlds{};  ///< [world]; empty without worlds
+  std::size_t condition{0};                    ///< 0 without conditions
+  std::vector<WorldVerdict> worlds{};          ///< [world]; empty without worlds
+  std::optional<BoundedProportion> of_load{};  ///< moves of the load that do, of a goal of the motor
   double margin{0.0};  ///< logit of the lower bound of what is claimed, minus that of what is asked for
 };
 

@@ -61,13 +61,6 @@ constexpr QuestionWords words_of_success{
     .rig_meaning = "proportion of machines all of whose trials ended at zero error",
     .falls_short = "are shown to succeed less often than the median world"};
 
-/// The name of the settling time that a goal is about, or of a statistic of it.
-std::string name_of_settling(const study::Goal& goal, std::string_view statistic) {
-  return goal.tolerance
-             ? layout::name_of_tolerance(fmt::format("tolerance_settling_time{}", statistic), *goal.tolerance)
-             : layout::name_of_band(fmt::format("band_settling_time{}", statistic), goal.band);
-}
-
 /// The trials that succeed, each as one move.
 measures::MoveCounts successes_of(const measures::PointSummary& point) {
   measures::MoveCounts counts{
@@ -99,6 +92,13 @@ struct CountedClaims {
 };
 
 }  // namespace
+
+std::string name_of_settling(const study::Goal& goal, std::string_view statistic) {
+  return goal.tolerance
+             ? layout::name_of_tolerance(
+                   study::name_in(goal, fmt::format("tolerance_settling_time{}", statistic)), *goal.tolerance)
+             : layout::name_of_band(fmt::format("band_settling_time{}", statistic), goal.band);
+}
 
 std::string under_text(const Question& question, std::size_t condition) {
   if (question.conditions.empty()) return "";
@@ -180,7 +180,16 @@ Badness badness_of(const Question& question, std::span<const trial::MoveOutcome>
 
 Verdict verdict_on(const Question& question, const measures::PointSummary& point, std::size_t points) {
   const CountedClaims claims(question, point);
-  return judge_goals(claims.goals, claims.counts, points);
+  Verdict verdict = judge_goals(claims.goals, claims.counts, points);
+  for (ClaimVerdict& claim : verdict.claims) {
+    const JudgedPart& part = question.parts[claim.goal];
+    if (!part.claim->beside_load || part.number >= point.for_the_load.size()) continue;
+    claim.of_load = judge_goal(study::for_the_load(*part.claim), point.for_the_load[part.number], points)
+                        .claims[claim.condition]
+                        .moves;
+  }
+  static_cast<ClaimVerdict&>(verdict) = *std::ranges::min_element(verdict.claims, is_worse);
+  return verdict;
 }
 
 std::vector<Needs> deciding_studies(const Question& question, const measures::PointSummary& point,

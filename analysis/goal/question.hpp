@@ -135,6 +135,8 @@ GoalTimes slowest_goal_times(const Question& question, const measures::PointSumm
 /// The statistics of the settling time by which points are compared: slowest_goal_times(), or of the arrival.
 const measures::MeasureStatistics& settling_of(const Question& question, const measures::PointSummary& point);
 
+/// The name of the settling time that a goal is about, or of a statistic of it.
+std::string name_of_settling(const study::Goal& goal, std::string_view statistic = "");
 /// The name of that measure of the first goal: "band_settling_time[2]", "settling_time".
 std::string settling_measure(const Question& question);
 

@@ -28,14 +28,14 @@ std::optional<std::size_t> slot_of(std::span<const Value> values, Value value) {
   return static_cast<std::size_t>(place - values.begin());
 }
 
-std::optional<CountedLimit> counted_limit(const study::GoalLimit& limit,
+std::optional<CountedLimit> counted_limit(const study::Goal& goal, const study::GoalLimit& limit,
                                           const study::StudyFeatures& features) {
   const auto named = std::ranges::find(trial::named_measures(), limit.measure, &trial::NamedMeasure::name);
   if (named != trial::named_measures().end() &&
       ((named->of_motion && !features.motion) || (named->of_position && !features.position_error)))
     return std::nullopt;
   for (const layout::Measure& measure : layout::measure_table(features)) {
-    if (measure.field.column.name == limit.measure)
+    if (measure.field.column.name == study::name_in(goal, limit.measure))
       return CountedLimit{
           [&field = measure.field](const trial::MoveOutcome& move) { return layout::value_of(field, move); },
           limit.largest};
@@ -46,7 +46,10 @@ std::optional<CountedLimit> counted_limit(const study::GoalLimit& limit,
 }  // namespace
 
 std::optional<CountedGoal> counted_by(const study::Goal& goal, const study::StudyFeatures& features) {
-  CountedGoal counted{.within = goal.within, .on = goal.on};
+  CountedGoal counted{.within = goal.within, .of_other_mass = goal.of_other_mass, .on = goal.on};
+  if (goal.of_other_mass &&
+      !(goal.of == motion::EncoderPlace::load ? features.load_error : features.motor_error))
+    return std::nullopt;
   if (goal.tolerance) {
     counted.tolerance = slot_of(features.tolerances.values(), *goal.tolerance);
   } else {
@@ -54,7 +57,7 @@ std::optional<CountedGoal> counted_by(const study::Goal& goal, const study::Stud
   }
   if (!counted.slot && !counted.tolerance) return std::nullopt;
   for (const study::GoalLimit& limit : goal.limits) {
-    const auto of_file = counted_limit(limit, features);
+    const auto of_file = counted_limit(goal, limit, features);
     if (!of_file) return std::nullopt;
     counted.limits.push_back(*of_file);
   }

@@ -36,6 +36,7 @@ struct CountedGoal {
   std::optional<std::size_t> slot{};       ///< of the band, in MoveOutcome::bands
   study::TimeLimit within{0.0};            ///< of a band or a tolerance
   std::optional<std::size_t> tolerance{};  ///< in MoveOutcome::tolerance_settling_times. Neither: it succeeds
+  bool of_other_mass{false};               ///< the tolerance is in other_tolerance_settling_times
   std::vector<std::int64_t> on{};          ///< the moves that are asked, rising; empty: all
   std::vector<CountedLimit> limits{};
 };
@@ -76,7 +77,9 @@ inline bool is_in_time(double time, double allowed) {
 /// When the move is within the goal's band, or tolerance, for good, or has arrived (of success), s; NaN if
 /// never.
 inline double settling_time(const CountedGoal& goal, const trial::MoveOutcome& move) {
-  if (goal.tolerance) return move.tolerance_settling_times[*goal.tolerance];
+  if (goal.tolerance)
+    return (goal.of_other_mass ? move.other_tolerance_settling_times
+                               : move.tolerance_settling_times)[*goal.tolerance];
   return goal.slot ? move.bands[*goal.slot].settling_time : move.arrival_time;
 }
 

@@ -63,7 +63,12 @@ void add_each(std::vector<Summand>& sums, const std::vector<Summand>& added) {
 }  // namespace
 
 MoveKind move_kind(const study::Study& study) {
-  return {.open_loop = study.open_loop, .shape = shape_of(study), .goals = counted_goals(study)};
+  MoveKind kind{.open_loop = study.open_loop, .shape = shape_of(study), .goals = counted_goals(study)};
+  if (std::ranges::none_of(study.goals, &study::Goal::beside_load)) return kind;
+  for (const study::Goal& goal : study.goals)
+    kind.for_the_load.push_back(goal.beside_load ? counted_by(study::for_the_load(goal), study.features)
+                                                 : std::nullopt);
+  return kind;
 }
 
 OutcomeCounts& OutcomeCounts::operator+=(const OutcomeCounts& other) {
@@ -100,6 +105,7 @@ PointAccumulator::PointAccumulator(const MoveKind& kind, const layout::MeasureTa
       first_trial_(first_trial),
       table_(&table),
       goals_(kind.goals.size(), CellCounts(kind.shape)),
+      for_the_load_(kind.for_the_load.size(), CellCounts(kind.shape)),
       groups_{CellCounts(kind.shape), CellCounts(kind.shape)},
       trial_settling_times_(kind.shape.rigs) {
   for (const CountedGoal& goal : kind.goals) goal_settling_.emplace_back(goal, kind.shape);
@@ -161,6 +167,9 @@ void PointAccumulator::add_moves(std::span<const trial::MoveOutcome> moves) {
     count_moves(goals_[i], kind_.goals[i], first_trial_ + counted_.trials, moves);
     goal_settling_[i].add(first_trial_ + counted_.trials, kind_.goals[i], moves);
   }
+  for (std::size_t i = 0; i < for_the_load_.size(); ++i)
+    if (kind_.for_the_load[i])
+      count_moves(for_the_load_[i], *kind_.for_the_load[i], first_trial_ + counted_.trials, moves);
   if (kind_.has_groups()) add_to_groups(moves);
 }
 
@@ -254,6 +263,7 @@ PointAccumulator& PointAccumulator::operator+=(const PointAccumulator& next) {
   }
   rigs_ += next.rigs_;
   add_each(goals_, next.goals_);
+  add_each(for_the_load_, next.for_the_load_);
   add_each(goal_settling_, next.goal_settling_);
   groups_.succeeded += next.groups_.succeeded;
   groups_.meeting += next.groups_.meeting;
@@ -272,6 +282,7 @@ template <class Self, class Archive>
 void PointAccumulator::transfer(Self& self, Archive& archive) {
   archive(self.counted_, self.rigs_);
   for (auto& counts : self.goals_) archive(counts);
+  for (auto& counts : self.for_the_load_) archive(counts);
   for (auto& settling : self.goal_settling_) archive(settling);
   archive(self.trial_settling_times_, self.jerks_, self.jerk_intervals_, self.jerk_slowing_,
           self.interval_trend_, self.one_count_jerks_);
@@ -407,6 +418,7 @@ PointSummary PointAccumulator::statistics(const StatisticsOptions& options) cons
     result.rigs = statistics::rig_statistics(rigs_.from_zero(), options.confidence);
   result.claim = claim(result, options);
   result.goals = goals_;
+  result.for_the_load = for_the_load_;
   for (const GoalSettling& settling : goal_settling_)
     result.goal_settling.push_back(settling.statistics(options.confidence));
   if (kind_.has_groups() && result.judged > 0) result.trials_of_groups = groups_;

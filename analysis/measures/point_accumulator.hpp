@@ -32,6 +32,8 @@ struct MoveKind {
   bool open_loop{false};  ///< torque levels in place of targets
   Shape shape{};
   std::vector<CountedGoal> goals{};
+  /// [goal] those with study::Goal::beside_load as goals of the load; empty where none has it
+  std::vector<std::optional<CountedGoal>> for_the_load{};
 
   bool has_groups() const { return shape.worlds > 0 || shape.conditions > 0; }
 };
@@ -179,6 +181,7 @@ class PointAccumulator {
   std::vector<std::int64_t> lost_in_levels_;             ///< [move] trials whose motion was lost
   statistics::ByCluster<statistics::RigTrials> rigs_;
   std::vector<CellCounts> goals_;                   ///< [goal]
+  std::vector<CellCounts> for_the_load_;            ///< [goal] of MoveKind::for_the_load
   std::vector<GoalSettling> goal_settling_;         ///< [goal]
   GroupTrials groups_;                              ///< empty without worlds and conditions
   statistics::TrialClusters trial_settling_times_;  ///< of each trial: of its slowest move

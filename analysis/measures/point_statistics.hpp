@@ -120,6 +120,7 @@ struct PointSummary : StatisticsOfMeasures, PointCounts {
   double jerk_one_count_share{statistics::unknown};  ///< jerks of magnitude 1 / jerks
   UndecidedMoves undecided;                          ///< only off_target is known without the study
   std::vector<CellCounts> goals;                     ///< [goal] moves that meet it
+  std::vector<CellCounts> for_the_load;              ///< [goal] likewise of the load; empty where none is
   /// [goal][condition, or 0 without conditions] settling times of the moves that it asks; empty for a goal on
   /// all moves of a study without conditions, of which the measure of its band is
   std::vector<std::vector<SettlingTimes>> goal_settling;

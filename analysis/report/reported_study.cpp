@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/goal/goal_text.hpp"
 #include "analysis/goal/question.hpp"
 #include "analysis/summary/cells_of_point.hpp"
 #include "analysis/summary/chosen_point.hpp"
@@ -99,9 +100,10 @@ std::string shown_bounds(const ReportedStudy& reported) {
 }
 
 std::string precision_text(const ReportedStudy& reported, const study::Goal& goal) {
-  return goal.tolerance
-             ? text::quantity_text(*goal.tolerance, parameters::unit_on(reported.study.units.axis, "rad"))
-             : fmt::format("{} count{}", goal.band, goal.band == 1 ? "" : "s");
+  return (goal.tolerance
+              ? text::quantity_text(*goal.tolerance, parameters::unit_on(reported.study.units.axis, "rad"))
+              : fmt::format("{} count{}", goal.band, goal.band == 1 ? "" : "s")) +
+         goal::of_mass(goal);
 }
 
 layout::RowRange rows_of(const ReportedStudy& reported, std::int64_t point) {

@@ -334,14 +334,16 @@ std::string judgement_headline(const StudySummary& summary, const JudgedPoint& j
   const goal::Question& question = summary.question;
   const std::string name = name_of_chosen(summary, judged.chosen);
   const std::string under = under_text(question, judged.verdict.condition);
+  const study::Goal& goal = worst_goal(summary, judged.verdict);
   const std::string worst =
-      has_several(question) ? fmt::format(" '{}'", worst_goal(summary, judged.verdict).name) : "";
+      (has_several(question) ? fmt::format(" '{}'", goal.name) : "") + goal::of_mass(goal);
   switch (judged.verdict.status) {
     case goal::Status::met:
       if (has_several(question))
         return fmt::format("{}: all {} goals are met,{} by the least{}", name, question.parts.size(), worst,
                            under);
-      return fmt::format("{}: the goal is met{}", name, under.empty() ? "" : ", by the least" + under);
+      return fmt::format("{}: the goal{} is met{}", name, worst,
+                         under.empty() ? "" : ", by the least" + under);
     case goal::Status::missed:
       if (const std::string all = missed_goals(question, judged.verdict); !all.empty())
         return fmt::format("{}: the goals {} are missed,{} by the most{}", name, all, worst, under);

@@ -86,6 +86,12 @@ document::Description<goal::ClaimVerdict> verdict_description(const goal::Questi
                  return statistics::trials_for_claim(claim.moves, claim.confidence, 0);
                });
   }
+  if (std::ranges::any_of(question.parts, [](const auto& part) { return part.claim->beside_load; }))
+    description.object({.key = "other_mass",
+                        .meaning = "the same of the load, which the goal of the motor does not ask",
+                        .shown = Shown::in_data,
+                        .optional = true},
+                       goal::load_description(), &goal::ClaimVerdict::of_load);
   if (on_rigs)
     description.value(document::in_data("rigs_without_miss", "machines all of whose moves meet the goal"),
                       &goal::ClaimVerdict::rigs_without_miss);

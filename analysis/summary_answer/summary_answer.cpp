@@ -228,9 +228,10 @@ StudySummary full_study() {
   full.features.motion = full.features.steps = full.features.following = full.features.reversals = true;
   full.features.travel = full.features.phases = full.features.load = full.features.drive_torque = true;
   full.features.load_count = full.features.motor_count = true;
+  full.features.load_error = full.features.motor_error = true;
   full.features.encoder_errors = full.features.final_error = full.features.stopping = true;
   full.features.own_controller = full.features.rigs = true;
-  full.question.parts.front().claim = study::Goal{.name = "goal", .machines = 0.99};
+  full.question.parts.front().claim = study::Goal{.name = "goal", .machines = 0.99, .beside_load = true};
   full.question.parts.push_back(full.question.parts.front());
   full.features.position_error = true;
   full.features.tolerances = {{1e-8}, 1};

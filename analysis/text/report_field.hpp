@@ -31,11 +31,16 @@ std::optional<double> limit_of(const ReportField<Subject>& field) {
 }
 
 /// "group_name", or "name" without a group: the field's name in flat formats. That of an error band is
-/// "band_group_name[1]", that of a tolerance "tolerance_group_name[1e-08]".
+/// "band_group_name[1]", that of a tolerance "tolerance_group_name[1e-08]", with the name of a mass before
+/// it.
 template <class Subject>
 std::string flat_name(const ReportField<Subject>& field) {
   const std::string name = field.group.empty() ? field.name : field.group + "_" + field.name;
-  if (field.tolerance) return fmt::format("tolerance_{}[{}]", name, *field.tolerance);
+  if (field.tolerance) {
+    const bool of_mass = name.starts_with("load_") || name.starts_with("motor_");
+    const std::size_t stem = of_mass ? name.find('_') + 1 : 0;
+    return fmt::format("{}tolerance_{}[{}]", name.substr(0, stem), name.substr(stem), *field.tolerance);
+  }
   return field.band ? "band_" + name + "[" + std::to_string(*field.band) + "]" : name;
 }
 

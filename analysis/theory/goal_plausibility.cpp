@@ -153,6 +153,18 @@ Doubt code_leaves_the_band(const GoalOfTrial& of) {
                   of.band_text(), of.torque(stiffness * of.width()))};
 }
 
+/// The loop holds the motor, and nothing tells it where the load is.
+Doubt load_hangs_behind(const GoalOfTrial& of) {
+  const motion::PlantParameters& plant = of.trial.plant;
+  if (of.goal.of != motion::EncoderPlace::motor || !motion::has_load(plant) ||
+      plant.load.encoder != motion::EncoderPlace::motor)
+    return {};
+  return {2.0, fmt::format(
+                   "it is of the motor, whose encoder closes the loop, and a load hangs behind it, which may "
+                   "be elsewhere; expected {}of: load, or a load that does not matter",
+                   of.goal.tolerance ? "" : "a tolerance with ")};
+}
+
 /// A test of goals: of whole trials, or of each of their moves.
 struct GoalTest {
   Doubt (*of_trial)(const GoalOfTrial&){nullptr};
@@ -160,7 +172,8 @@ struct GoalTest {
   bool needs_goal{true};
   bool holds_for_any_controller{false};
 };
-constexpr std::array<GoalTest, 10> goal_tests{{{zero_counts_are_wider},
+constexpr std::array<GoalTest, 11> goal_tests{{{load_hangs_behind},
+                                               {zero_counts_are_wider},
                                                {noise_leaves_the_band},
                                                {noise_moves_the_axis},
                                                {code_leaves_the_band},

@@ -23,7 +23,7 @@ struct PlantStart {
 };
 
 /// The mass whose angle the encoders read.
-enum class EncoderPlace { motor, load };
+enum class EncoderPlace { motor, load };  // also one of the two masses
 
 /// A second mass behind an elastic coupling. Defaults except the inertia are assumed.
 struct LoadParameters {

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/friction/load_friction.hpp"
@@ -83,6 +84,8 @@ struct VerdictParameters {
   bool position_error{false};  ///< settling within the tolerances and true overshoot are measured
   bool motion{false};          ///< the true motion is measured too (see MotionMeasures)
   double rest_band{0.0};       ///< |e| within which a move is at rest, for these measures, counts
+  /// The position error of this mass is measured too, whichever closes the loop.
+  std::optional<motion::EncoderPlace> other_mass{};
 };
 
 /// What belongs to a second mass beside its coupling.

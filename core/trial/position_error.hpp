@@ -13,8 +13,9 @@ namespace zerocount::trial {
 ///
 ///   ε_k = (r + ½ − encoder_phase)·Δx − θ_k,
 ///
-/// r the target in counts before rounding, of a sine or record that at t_k, and θ of the rotor, or of the
-/// load where the encoder is there. They do not depend on what the encoder reads.
+/// r the target in counts before rounding, of a sine or record that at t_k, and θ of the mass whose encoder
+/// closes the loop, or of the other one: r, Δx and encoder_phase are those of that encoder for both. They do
+/// not depend on what the encoder reads.
 class PositionError {
  public:
   /// @param resolution Δx of the fine encoder, rad.
@@ -38,6 +39,8 @@ class PositionError {
   /// does not exceed the overshoot so far: such samples need not be taken. Of a move whose target does not
   /// move.
   Range quiet_range() const;
+
+  double last() const { return error_; }  ///< ε of the last sample, rad
 
   /// Adds the measures of the move to its outcome, whose other measures are final.
   void finish(MoveOutcome& outcome) const;

@@ -77,7 +77,8 @@ class Rig {
     record.load_omega = plant.load_omega;
     const bool at_load = encoder_place_ == motion::EncoderPlace::load;
     last_measured_ = at_load ? record.load_theta : record.theta;
-    reading_ = measurement_.read(k, last_measured_, at_load ? record.theta : record.load_theta);
+    last_other_ = at_load ? record.theta : record.load_theta;
+    reading_ = measurement_.read(k, last_measured_, last_other_);
     record.count = reading_.fine;
     record.coarse_count = reading_.coarse;
     record.motor_count = at_load ? reading_.other : reading_.fine;
@@ -92,6 +93,7 @@ class Rig {
   const loop::EncoderReading& last_reading() const { return reading_; }
   /// The angle that closes the loop at the last reading: of the rotor, or of the load, rad.
   double last_measured() const { return last_measured_; }
+  double last_other() const { return last_other_; }  ///< that of the other mass, rad
 
   /// Sends the converter's output at t_k; completes `record`.
   void drive(const loop::DacOutput& output, SampleRecord& record) {
@@ -137,6 +139,7 @@ class Rig {
   motion::EncoderPlace encoder_place_;
   loop::EncoderReading reading_{};
   double last_measured_{0.0};
+  double last_other_{0.0};
   AnyPlant plant_;
   bool clipped_{false};
   bool failed_{false};

@@ -14,6 +14,7 @@ SampledLoop::SampledLoop(const TrialParameters& p, const loop::Measurement& meas
       resolution_(measurement.fine_resolution()) {
   if (p.verdict.motion) motion_.emplace(p, resolution_);
   if (p.verdict.position_error) position_error_.emplace(p, resolution_);
+  if (p.verdict.other_mass) other_mass_.emplace(p, resolution_);
 }
 
 void SampledLoop::start_move(std::size_t number) {
@@ -23,10 +24,11 @@ void SampledLoop::start_move(std::size_t number) {
   phase_changes_before_ = controller_.phase_changes();
   if (motion_) motion_->start_move(target_, samples_of_move(p_, number));
   if (position_error_) position_error_->start_move(number);
+  if (other_mass_) other_mass_->start_move(number);
 }
 
 SampledLoop::Decision SampledLoop::decide(std::int64_t k, std::int64_t i, const loop::EncoderReading& reading,
-                                          double theta) {
+                                          double theta, double other) {
   const double t = static_cast<double>(i) * sample_time_;
   const std::int64_t reference = reference_->at(t);
   const std::int64_t target = reference_->moves_for_ever() ? reference : target_;
@@ -45,6 +47,10 @@ SampledLoop::Decision SampledLoop::decide(std::int64_t k, std::int64_t i, const 
   }
   if (motion_) motion_->add({i, target - reading.fine, theta, output_.torque}, *reference_);
   if (position_error_) position_error_->add(i, theta, *reference_);
+  if (other_mass_) {
+    const bool closes = !motion::has_load(p_.plant) || p_.plant.load.encoder == p_.verdict.other_mass;
+    other_mass_->add(i, closes ? theta : other, *reference_);
+  }
   return {reference, target, output_, runs, t >= reference_->duration()};
 }
 
@@ -53,7 +59,14 @@ void SampledLoop::finish(MoveOutcome& outcome) {
   outcome.phase_changes = controller_.phase_changes() - phase_changes_before_;
   outcome.controller_failed = failed_;
   if (motion_) motion_->finish(outcome);
+  MoveOutcome other = outcome;
   if (position_error_) position_error_->finish(outcome);
+  if (!other_mass_) return;
+  other_mass_->finish(other);
+  outcome.other_tolerance_settling_times = other.tolerance_settling_times;
+  outcome.other_true_overshoot = other.true_overshoot;
+  outcome.other_true_error =
+      outcome.true_error + (other_mass_->last() - position_error_->last()) / resolution_;
 }
 
 }  // namespace zerocount::trial

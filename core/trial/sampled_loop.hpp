@@ -42,8 +42,9 @@ class SampledLoop {
     bool arrived;  ///< the reference stays at the target from now on
   };
   /// @param k number of the sample from the start of the trial. @param i from the start of the move.
-  /// @param theta angle that the encoders have read, rad.
-  Decision decide(std::int64_t k, std::int64_t i, const loop::EncoderReading& reading, double theta);
+  /// @param theta angle that the encoders have read, rad. @param other of the other mass, if there is one
+  Decision decide(std::int64_t k, std::int64_t i, const loop::EncoderReading& reading, double theta,
+                  double other);
 
   loop::ControlPhase phase() const { return controller_.phase(); }
   /// Whether the controller's torque was not finite at the last sample, where a torque of 0 was converted.
@@ -62,6 +63,7 @@ class SampledLoop {
   std::optional<loop::Reference> reference_{};
   std::optional<MotionMeasures> motion_{};
   std::optional<PositionError> position_error_{};
+  std::optional<PositionError> other_mass_{};  // of VerdictParameters::other_mass
   std::int64_t target_{0};
   std::optional<std::int64_t> last_target_{};  // at the last sample at which the controller ran
   loop::DacOutput output_{};                   // of that sample

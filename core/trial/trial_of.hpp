@@ -81,7 +81,7 @@ TrialOutcome follow_targets(const TrialParameters& p, const TrialObservers& obse
     loop.start_move(m);
     const auto decide = [&](std::int64_t i, SampleRecord& record) {
       const SampledLoop::Decision decision =
-          loop.decide(record.k, i, rig.last_reading(), rig.last_measured());
+          loop.decide(record.k, i, rig.last_reading(), rig.last_measured(), rig.last_other());
       record.reference = decision.reference;
       record.target = last_target = decision.target;
       record.error = record.target - record.count;

@@ -1,6 +1,7 @@
 #include "experiments/keys/manifest_keys.hpp"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -51,6 +52,7 @@ constexpr std::int64_t max_worlds = 10'000;
 // The rig is a 32-bit counter word of a rotor's random numbers.
 constexpr std::int64_t max_rigs = std::int64_t{1} << 32;
 constexpr std::int64_t max_observed_trials = 1'000'000;
+constexpr std::array<std::string_view, 2> masses{"motor", "load"};
 // Range of a relative spread.
 constexpr numerics::Interval spread{.low = 0.0, .high = 1.0, .low_included = true};
 constexpr numerics::Interval margin{.low = 0.0, .high = 1e6, .low_included = true, .high_included = true};
@@ -81,6 +83,9 @@ void store(Value& value, const Shape& shape, const yaml::Field* field) {
     value = field->node->text == "true";
   } else if constexpr (std::is_enum_v<Value>) {
     value = static_cast<Value>(std::ranges::find(shape.labels, field->node->text) - shape.labels.begin());
+  } else if constexpr (std::is_same_v<Value, std::optional<motion::EncoderPlace>>) {
+    value = static_cast<motion::EncoderPlace>(std::ranges::find(shape.labels, field->node->text) -
+                                              shape.labels.begin());
   } else if constexpr (std::is_same_v<Value, study::TimeLimit>) {
     value = {shapes::number_of(*field), shape.name == "after_profile"};
   } else if constexpr (std::is_same_v<Value, double>) {
@@ -184,7 +189,8 @@ std::vector<Shape> keys_of_goal() {
           indices({.name = "on", .min_count = 1},
                   "a list of moves of a trial, from 0, each once, such as [0, 1]", &study::Goal::on),
           limits_shape(),
-          real({"confidence"}, open_unit, &study::Goal::confidence)};
+          real({"confidence"}, open_unit, &study::Goal::confidence),
+          label({"of"}, masses, &study::Goal::of)};
 }
 
 Shape goals_shape(Shape key) {
@@ -349,7 +355,9 @@ std::span<const Shape> general_keys() {
           "`rigs`) in at least 99 % of all moves; default band 0, confidence 0.95; `tolerance` (rad) in "
           "place of band: the position error itself stays within it; `after_profile` (s) in place of within: "
           "from the end of each move's profile; on: [0, 1]: the moves that it is about "
-          "(default all); limits: {overshoot: 200, peak_torque: 45}: largest values of measures of a move"},
+          "(default all); limits: {overshoot: 200, peak_torque: 45}: largest values of measures of a move; "
+          "of: "
+          "motor or load: the mass whose position error it is, of two"},
          "goal: {band: 1, within: 0.05, moves: 0.99}", keys_of_goal()),
       goals_shape(
           {"goals",

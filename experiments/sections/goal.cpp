@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -143,6 +144,46 @@ void measure_for(const yaml::Field& field, const study::Goal& goal, keys::Readin
   measure_tolerance(field, *goal.tolerance, reading);
 }
 
+/// Whether some trial has two masses, and one whose loop is closed by the encoder of this one.
+bool closes_somewhere(const study::StudyPlan& plan, motion::EncoderPlace mass) {
+  const auto has_load = [](const study::ValueLimits& inertia) { return inertia.high > 0.0; };
+  return study::holds_somewhere(plan, "plant.load.inertia", has_load) &&
+         study::holds_somewhere(plan, study::two_encoders, [&](std::span<const study::ValueLimits> limits) {
+           return study::closes_at_load(limits) == (mass == motion::EncoderPlace::load);
+         });
+}
+
+/// Finds out which mass each goal is of, and lets the trials measure the position error of the other one.
+void choose_masses(const yaml::Field& of_goals, keys::Reading& reading,
+                   const std::function<yaml::Field(const study::Goal&)>& field_of) {
+  using enum motion::EncoderPlace;
+  const bool at_motor = closes_somewhere(reading.plan, motor), at_load = closes_somewhere(reading.plan, load);
+  std::optional<motion::EncoderPlace>& other = reading.plan.common.verdict.other_mass;
+  for (study::Goal& goal : reading.study.goals) {
+    const auto of = yaml::find_field(field_of(goal), "of");
+    if (of && !at_motor && !at_load)
+      reading.problems.add(*of, "the axis has one mass", "plant.load, or the key left out");
+    if (!at_motor && !at_load) continue;
+    if (!of && at_motor != at_load) goal.of = at_load ? load : motor;
+    goal.of_other_mass = of && (goal.of == load ? at_motor : at_load);
+    if (!goal.of_other_mass) continue;
+    if (!goal.tolerance)
+      reading.problems.add(*of, "a band is of the encoder that closes the loop, which reads the other mass",
+                           "tolerance, in place of band");
+    if (other && other != goal.of)
+      reading.problems.add(of_goals,
+                           "goals of both masses, each of one that does not close the loop somewhere",
+                           "one encoder that closes the loop everywhere");
+    other = goal.of;
+  }
+  const auto is_beside_load = [&](const study::Goal& goal) {
+    return goal.of == motor && goal.tolerance && at_motor != at_load;
+  };
+  for (study::Goal& goal : reading.study.goals) goal.beside_load = is_beside_load(goal);
+  if (at_motor && std::ranges::any_of(reading.study.goals, is_beside_load)) other = load;
+  if (other) reading.plan.common.verdict.position_error = true;
+}
+
 /// Checks a goal, and adds its band, or its tolerance, to those of the plan.
 void check_goal(const yaml::Field& field, study::Goal& goal, keys::Reading& reading) {
   for (const char* const key : {"within", "after_profile"})
@@ -168,6 +209,7 @@ void read_goals(const yaml::Field& root, keys::Reading& reading) {
     return one ? field : yaml::find_field(field, goal.name).value();
   };
   for (study::Goal& goal : goals) check_goal(field_of(goal), goal, reading);
+  choose_masses(field, reading, field_of);
   // A limit can be of the band of any goal.
   for (study::Goal& goal : goals) take_limits(field_of(goal), reading, goal);
 }

@@ -18,6 +18,8 @@ struct StudyFeatures {
   bool load{false};                                         ///< there is a second mass
   bool load_count{false};      ///< it has an encoder of its own, which does not close the (position) loop
   bool motor_count{false};     ///< it has one, which closes that loop
+  bool load_error{false};      ///< its position error has measures of its own
+  bool motor_error{false};     ///< that of the motor has
   bool drive_torque{false};    ///< the motor torque is not the (delayed) code times the resolution
   bool encoder_errors{false};  ///< an encoder may have errors
   /// Moves may end beside their targets by design: no integral control, Coulomb friction, or moves that are

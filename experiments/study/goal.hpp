@@ -3,8 +3,10 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "core/motion/parameters.hpp"
 #include "experiments/parameters/study_units.hpp"
 
 namespace zerocount::study {
@@ -46,8 +48,32 @@ struct Goal {
   double moves{0.99};
   std::optional<double> machines{};
   double confidence{0.95};
+  /// Mass that it speaks of, of two; none of a rigid axis, and where which closes the loop differs.
+  std::optional<motion::EncoderPlace> of{};
+  /// It is not the mass that closes the loop (everywhere): its position error has measures of its own.
+  bool of_other_mass{false};
+  bool beside_load{false};  ///< it is of the motor, and the same of the load is counted beside it
 };
 
+constexpr std::string_view mass_text(motion::EncoderPlace mass) {
+  return mass == motion::EncoderPlace::load ? "load" : "motor";
+}
+
+/// The name in files of a measure of a move for the goal: "load_true_overshoot", of the position error of its
+/// mass.
+inline std::string name_in(const Goal& goal, std::string_view measure) {
+  const bool of_position = measure.starts_with("true_") || measure.starts_with("tolerance_");
+  return (goal.of_other_mass && of_position ? std::string(mass_text(*goal.of)) + "_" : "") +
+         std::string(measure);
+}
+
+/// A goal with `beside_load` as one of the load.
+inline Goal for_the_load(Goal goal) {
+  goal.of = motion::EncoderPlace::load;
+  goal.of_other_mass = !goal.of_other_mass;
+  goal.beside_load = false;
+  return goal;
+}
 /// A parameter that tuning may change.
 struct FreeParameter {
   std::string name;         ///< dotted path, e.g. "controller.ki"

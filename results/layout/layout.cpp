@@ -71,13 +71,22 @@ const std::vector<RecordField<trial::BandOutcome>>& band_fields() {
   return fields;
 }
 
-const std::vector<RecordField<ToleranceRecord>>& tolerance_fields() {
-  static const std::vector<RecordField<ToleranceRecord>> fields{field<ToleranceRecord>(
-      "tolerance_settling_time", "s",
-      "time from which the position error is within the tolerance to the end, from the start of the move, "
-      "NaN "
-      "if it ends outside",
-      &ToleranceRecord::settling_time, {.expected = "a finite time, not negative, or NaN", .nan = true})};
+std::vector<RecordField<ToleranceRecord>> tolerance_fields(const study::StudyFeatures& features) {
+  const auto field_of = [](const std::string& mass, double ToleranceRecord::*member) {
+    RecordField<ToleranceRecord> one = field<ToleranceRecord>(
+        "tolerance_settling_time", "s",
+        "time from which the position error is within the tolerance to the end, from the start of the move, "
+        "NaN "
+        "if it ends outside",
+        member, {.expected = "a finite time, not negative, or NaN", .nan = true});
+    if (mass.empty()) return one;
+    one.column.name = mass + "_" + one.column.name;
+    one.column.long_name += ", of the " + mass;
+    return one;
+  };
+  std::vector<RecordField<ToleranceRecord>> fields{field_of("", &ToleranceRecord::settling_time)};
+  if (features.load_error) fields.push_back(field_of("load", &ToleranceRecord::other_settling_time));
+  if (features.motor_error) fields.push_back(field_of("motor", &ToleranceRecord::other_settling_time));
   return fields;
 }
 

@@ -108,7 +108,8 @@ const MeasureTable& measure_table(const study::StudyFeatures& features = {});
 
 /// What is measured of one tolerance of a move.
 struct ToleranceRecord {
-  double settling_time{0.0};  ///< MoveOutcome::tolerance_settling_times
+  double settling_time{0.0};        ///< MoveOutcome::tolerance_settling_times
+  double other_settling_time{0.0};  ///< MoveOutcome::other_tolerance_settling_times
 };
 
 /// A jerk, and the trial it belongs to.
@@ -133,13 +134,18 @@ const std::vector<RecordField<JerkRecord>>& jerk_fields();
 /// The columns of a sample record; those of `features` come last.
 std::vector<RecordField<TraceRecord>> trace_fields(const study::StudyFeatures& features);
 
-/// The columns of tolerance_table(): of one tolerance.
-const std::vector<RecordField<ToleranceRecord>>& tolerance_fields();
+/// The columns of tolerance_table(): of one tolerance, and of both masses if the features have the other one.
+std::vector<RecordField<ToleranceRecord>> tolerance_fields(const study::StudyFeatures& features);
 
 /// "band_settling_time_p95[1]": the name of a number of an error band.
 std::string name_of_band(std::string_view name, std::int64_t band);
 /// "tolerance_settling_time_p95[1e-08]": the name of a number of a tolerance.
 std::string name_of_tolerance(std::string_view name, double tolerance);
+
+/// Whether it is a number of a tolerance, with or without that: "load_tolerance_settling_time_p95".
+inline bool is_of_tolerance(std::string_view name) {
+  return name.find("tolerance_") != std::string_view::npos;
+}
 
 /// One number per design point, made when a study is complete. In files, columns whose names differ only in
 /// the error band at their end, as in "band_settling_time_p95[1]", are one dataset [point, band].
@@ -211,7 +217,7 @@ Table band_table(const trial::ErrorBands& bands);
 /// The dimension of error bands, with its scale.
 RootDimension band_dimension(const trial::ErrorBands& bands);
 /// The measures of tolerances: [trial, move, tolerance].
-Table tolerance_table(const trial::Tolerances& tolerances);
+Table tolerance_table(const study::StudyFeatures& features);
 /// The dimension of tolerances, with its scale.
 RootDimension tolerance_dimension(const trial::Tolerances& tolerances);
 /// The table of outcomes with the verdicts alone.

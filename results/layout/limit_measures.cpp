@@ -36,15 +36,16 @@ RecordField<M> field_of_band(const RecordField<trial::BandOutcome>& field, std::
   return {std::move(column), value, field.valid};
 }
 
-template <std::size_t Tolerance>
+template <auto Times, std::size_t Tolerance>
 double value_of_tolerance(const M& move) {
-  return move.tolerance_settling_times[Tolerance];
+  return (move.*Times)[Tolerance];
 }
 
 /// [tolerance] the functions of a move that give its settling time.
+template <auto Times>
 constexpr auto values_of_tolerances() {
   return []<std::size_t... Tolerance>(std::index_sequence<Tolerance...>) {
-    return std::array<double (*)(const M&), sizeof...(Tolerance)>{&value_of_tolerance<Tolerance>...};
+    return std::array<double (*)(const M&), sizeof...(Tolerance)>{&value_of_tolerance<Times, Tolerance>...};
   }
   (std::make_index_sequence<trial::max_tolerances>());
 }
@@ -105,35 +106,50 @@ std::vector<Measure> measures_of_band(const trial::ErrorBands& bands, std::size_
   return measures;
 }
 
-Measure measure_of_tolerance(const trial::Tolerances& tolerances, std::size_t slot) {
+std::vector<Measure> measures_of_tolerance(const trial::Tolerances& tolerances, std::size_t slot) {
   const double tolerance = tolerances.values()[slot];
-  const RecordField<ToleranceRecord>& field = tolerance_fields().front();
-  Column column = field.column;
-  const std::string name = name_of_tolerance(column.name, tolerance);
-  column.name = name;
-  return {
-      .field = {std::move(column), values_of_tolerances()[slot], field.valid},
-      .tolerance = tolerance,
-      .values = {.needs_target = true, .nan_is_late = true},
-      .reduction = MoveReduction::largest,
-      .point = {"settling_time",
-                {{{n}, "moves that ended within the tolerance, of which mean, min and max are"},
-                 {{all}, "moves with a target, of which the quantiles are"},
-                 {{mean, min, max},
-                  "{0} time until the position error is within the tolerance for good, of the moves that "
-                  "ended within it"},
-                 {{p05, p25, median, p75, p95, median_low, median_high, p95_low, p95_high},
-                  "{0} of the time until the position error is within the tolerance for good, of all moves "
-                  "with a target, NaN if not within the hold"},
-                 {{bootstrap_low, bootstrap_high},
-                  "{1} of the mean settling time: Student and studentised bootstrap"}}},
-      .summary = {.columns = {{fmt::format("within ±{:g} p95 (s)", tolerance), p95, CellText::settling_time}},
-                  .legend = slot > 0 ? ""
-                                     : "within ±t: the position error stays within the tolerance t from "
-                                       "then to the end of the move; p95 of all moves\n"},
-      .output = {{name,
-                  "time until the position error is within the tolerance for good, the longest of the "
-                  "trial's moves; a move that ends outside counts with its duration"}}};
+  const auto measure = [&](const RecordField<ToleranceRecord>& field, std::string_view mass,
+                           double (*value)(const M&), bool study::StudyFeatures::*only_with) {
+    Column column = field.column;
+    const std::string name = name_of_tolerance(column.name, tolerance);
+    column.name = name;
+    return Measure{
+        .field = {std::move(column), value, field.valid},
+        .tolerance = tolerance,
+        .only_with = only_with,
+        .values = {.needs_target = true, .nan_is_late = true},
+        .reduction = MoveReduction::largest,
+        .point = {mass.empty()     ? "settling_time"
+                  : mass == "load" ? "load_settling_time"
+                                   : "motor_settling_time",
+                  {{{n}, "moves that ended within the tolerance, of which mean, min and max are"},
+                   {{all}, "moves with a target, of which the quantiles are"},
+                   {{mean, min, max},
+                    "{0} time until the position error is within the tolerance for good, of the moves that "
+                    "ended within it"},
+                   {{p05, p25, median, p75, p95, median_low, median_high, p95_low, p95_high},
+                    "{0} of the time until the position error is within the tolerance for good, of all moves "
+                    "with a target, NaN if not within the hold"},
+                   {{bootstrap_low, bootstrap_high},
+                    "{1} of the mean settling time: Student and studentised bootstrap"}}},
+        .summary = {.use = only_with,
+                    .columns = {{fmt::format("{}{}within ±{:g} p95 (s)", mass, mass.empty() ? "" : " ",
+                                             tolerance),
+                                 p95, CellText::settling_time}},
+                    .legend = slot > 0 || !mass.empty()
+                                  ? ""
+                                  : "within ±t: the position error stays within the tolerance t from "
+                                    "then to the end of the move; p95 of all moves\n"},
+        .output = {{name,
+                    "time until the position error is within the tolerance for good, the longest of the "
+                    "trial's moves; a move that ends outside counts with its duration"}}};
+  };
+  using F = study::StudyFeatures;
+  const auto fields = tolerance_fields({.load_error = true, .motor_error = true});
+  const auto of_other = values_of_tolerances<&M::other_tolerance_settling_times>()[slot];
+  return {measure(fields[0], "", values_of_tolerances<&M::tolerance_settling_times>()[slot], nullptr),
+          measure(fields[1], "load", of_other, &F::load_error),
+          measure(fields[2], "motor", of_other, &F::motor_error)};
 }
 
 }  // namespace zerocount::layout

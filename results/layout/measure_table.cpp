@@ -17,7 +17,7 @@ MeasureTable measures_with(const trial::ErrorBands& bands, const trial::Toleranc
     for (Measure& measure : measures_of_band(bands, slot)) measures.push_back(std::move(measure));
   }
   for (std::size_t slot = 0; slot < tolerances.count; ++slot)
-    measures.push_back(measure_of_tolerance(tolerances, slot));
+    for (Measure& measure : measures_of_tolerance(tolerances, slot)) measures.push_back(std::move(measure));
   return measures;
 }
 

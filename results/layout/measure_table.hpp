@@ -169,6 +169,6 @@ MeasureTable move_measures();
 std::vector<Measure> measures_of_band(const trial::ErrorBands& bands, std::size_t slot);
 
 /// The settling time of the tolerance number `slot`.
-Measure measure_of_tolerance(const trial::Tolerances& tolerances, std::size_t slot);
+std::vector<Measure> measures_of_tolerance(const trial::Tolerances& tolerances, std::size_t slot);
 
 }  // namespace zerocount::layout

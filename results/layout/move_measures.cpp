@@ -49,9 +49,29 @@ Measure of_motion(bool study::StudyFeatures::*use, const char* name, const char*
   return measure;
 }
 
-}  // namespace
+/// The measures of the position error of a mass, whichever closes the loop.
+void add_measures_of_mass(MeasureTable& measures, bool study::StudyFeatures::*use, const char* error,
+                          const char* overshoot) {
+  measures.push_back({.field = field<M>(error, "count", "true_error of this mass", &M::other_true_error),
+                      .only_with = use,
+                      .values = {.magnitude = true},
+                      .reduction = MoveReduction::largest,
+                      .point = {error,
+                                {{{n}, "moves that have it, of which its statistics are"},
+                                 {{mean, rms, max}, "{0} of the true error of this mass"}}},
+                      .output = {{error, "largest true error of this mass"}}});
+  measures.push_back({.field = field<M>(overshoot, "rad", "true_overshoot of this mass",
+                                        &M::other_true_overshoot, an_error_or_nan),
+                      .only_with = use,
+                      .values = {.needs_target = true},
+                      .reduction = MoveReduction::largest,
+                      .point = {overshoot,
+                                {{{n}, "moves that have it, of which its statistics are"},
+                                 {{mean, p95, max}, "{0} of the true overshoot of this mass"}}},
+                      .output = {{overshoot, "largest true overshoot of this mass"}}});
+}
 
-MeasureTable move_measures() {
+MeasureTable own_measures() {
   using F = study::StudyFeatures;
   return {
       {.field = field<M>("outcome", "1", "verdict on the last window of the move", &M::outcome,
@@ -387,6 +407,16 @@ MeasureTable move_measures() {
            "reversal spike: largest magnitude of the true following error (counts) in the quarter of a "
            "period after a reversal, mean over moves\n"}),
   };
+}
+
+}  // namespace
+
+MeasureTable move_measures() {
+  using F = study::StudyFeatures;
+  MeasureTable measures = own_measures();
+  add_measures_of_mass(measures, &F::load_error, "load_true_error", "load_true_overshoot");
+  add_measures_of_mass(measures, &F::motor_error, "motor_true_error", "motor_true_overshoot");
+  return measures;
 }
 
 }  // namespace zerocount::layout

@@ -70,7 +70,7 @@ void write_point_columns(hdf5::File& file, const Table& points, std::span<const 
     TableIo table =
         TableIo::create(file, on_axis(limit_statistic_table(std::move(limits)), features.axis), io.rows(), 1);
     for (const auto& [name, all] : of_limits)
-      if (name.starts_with("tolerance_") == of_tolerances) write(table, joined_limits(all));
+      if (is_of_tolerance(name) == of_tolerances) write(table, joined_limits(all));
   };
   if (of_limits.empty()) return;
   write_all(band_dimension(features.bands), false);

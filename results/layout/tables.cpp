@@ -104,10 +104,10 @@ RootDimension tolerance_dimension(const trial::Tolerances& tolerances) {
           {tolerances.values().begin(), tolerances.values().end()}};
 }
 
-Table tolerance_table(const trial::Tolerances& tolerances) {
+Table tolerance_table(const study::StudyFeatures& features) {
   return {"outcome", whole_numbers("trial", "global row of the trial"),
-          whole_numbers("move", "index of the move"), columns_of(tolerance_fields()),
-          tolerance_dimension(tolerances)};
+          whole_numbers("move", "index of the move"), columns_of(tolerance_fields(features)),
+          tolerance_dimension(features.tolerances)};
 }
 
 Table verdict_table() {

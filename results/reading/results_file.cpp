@@ -71,7 +71,7 @@ std::vector<std::pair<std::string, hdf5::Dataset>> point_columns(const hdf5::Fil
 /// The names of the numbers of this dataset [point, band] or [point, tolerance].
 std::vector<std::string> names_by_limit(const hdf5::File& file, const std::string& name) {
   std::vector<std::string> names;
-  if (name.starts_with("tolerance_")) {
+  if (layout::is_of_tolerance(name)) {
     const trial::Tolerances tolerances = read_tolerances(file);
     for (const double one : tolerances.values()) names.push_back(layout::name_of_tolerance(name, one));
   } else {

@@ -122,8 +122,7 @@ TrialTables::TrialTables(const TrialSource& source, const layout::FileHeader& he
   if (first_row_ && trials_.rows() != header.rows.count)
     trials_.row_scale().fail("its size differs from the attribute 'trial_count'");
   if (features_.bands.count > 0) bands_ = source.open(layout::band_table(features_.bands));
-  if (features_.tolerances.count > 0)
-    tolerances_ = source.open(layout::tolerance_table(features_.tolerances));
+  if (features_.tolerances.count > 0) tolerances_ = source.open(layout::tolerance_table(features_));
   if (outcomes_.rows() != trials_.rows() || (bands_ && bands_->rows() != trials_.rows()) ||
       (tolerances_ && tolerances_->rows() != trials_.rows()))
     outcomes_.row_scale().fail("its size differs from that of the trials");
@@ -273,13 +272,16 @@ void TrialTables::take_bands(const OutcomeColumns& columns, layout::RowRange pos
 void TrialTables::take_tolerances(const OutcomeColumns& columns, layout::RowRange positions,
                                   std::span<trial::MoveOutcome> moves) const {
   const std::vector<layout::ToleranceRecord> records =
-      records_at(layout::tolerance_fields(), columns.tolerances, positions.first - columns.positions.first,
-                 positions.count, tolerances_->width());
-  validate_tolerances(*tolerances_, number_of(positions.first), records);
+      records_at(layout::tolerance_fields(features_), columns.tolerances,
+                 positions.first - columns.positions.first, positions.count, tolerances_->width());
+  validate_tolerances(*tolerances_, layout::tolerance_fields(features_), number_of(positions.first), records);
   std::size_t next = 0;
   for (trial::MoveOutcome& move : moves)
-    for (std::size_t i = 0; i < features_.tolerances.count; ++i)
-      move.tolerance_settling_times[i] = records[next++].settling_time;
+    for (std::size_t i = 0; i < features_.tolerances.count; ++i, ++next) {
+      move.tolerance_settling_times[i] = records[next].settling_time;
+      if (features_.load_error || features_.motor_error)
+        move.other_tolerance_settling_times[i] = records[next].other_settling_time;
+    }
 }
 
 std::vector<double> TrialTables::measure(std::string_view name, layout::RowRange positions) const {

@@ -150,12 +150,14 @@ void validate_bands(const layout::TableReader& table, std::int64_t first_row,
     require_valid(table, layout::band_fields(), field, bands, row_of);
 }
 
-void validate_tolerances(const layout::TableReader& table, std::int64_t first_row,
-                         std::span<const layout::ToleranceRecord> records) {
+void validate_tolerances(const layout::TableReader& table,
+                         const std::vector<layout::RecordField<layout::ToleranceRecord>>& fields,
+                         std::int64_t first_row, std::span<const layout::ToleranceRecord> records) {
   const auto row_of = [first_row, width = table.width()](std::int64_t at) {
     return fmt::format("trial {}, tolerance {} of its moves", first_row + at / width, at % width);
   };
-  require_valid(table, layout::tolerance_fields(), layout::tolerance_fields().front(), records, row_of);
+  for (const layout::RecordField<layout::ToleranceRecord>& field : fields)
+    require_valid(table, fields, field, records, row_of);
 }
 
 void validate_measure(const layout::TableReader& outcomes,

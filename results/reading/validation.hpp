@@ -35,8 +35,9 @@ void validate_bands(const layout::TableReader& table, std::int64_t first_row,
                     std::span<const trial::BandOutcome> bands);
 
 /// Requires possible values of the measures of tolerances.
-void validate_tolerances(const layout::TableReader& table, std::int64_t first_row,
-                         std::span<const layout::ToleranceRecord> records);
+void validate_tolerances(const layout::TableReader& table,
+                         const std::vector<layout::RecordField<layout::ToleranceRecord>>& fields,
+                         std::int64_t first_row, std::span<const layout::ToleranceRecord> records);
 
 /// Checks the measure `name` only; the others of `moves` are unknown.
 void validate_measure(const layout::TableReader& outcomes,

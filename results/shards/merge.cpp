@@ -145,7 +145,7 @@ storage::WrittenBytes write_trials_of(std::span<const ShardInfo> shards, const s
     join(layout::on_axis(layout::band_table(study.features.bands), study.units.axis), study.moves,
          std::nullopt);
     if (study.features.tolerances.count > 0)
-      join(layout::on_axis(layout::tolerance_table(study.features.tolerances), study.units.axis), study.moves,
+      join(layout::on_axis(layout::tolerance_table(study.features), study.units.axis), study.moves,
            std::nullopt);
     join(layout::jerk_table(), 1, 0, options.renumber);
     if (sparse) number_kept_trials(file, study);

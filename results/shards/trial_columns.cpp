@@ -68,7 +68,8 @@ std::vector<layout::ToleranceRecord> tolerance_records(std::span<const trial::Mo
   std::vector<layout::ToleranceRecord> records;
   records.reserve(moves.size() * tolerances.count);
   for (const trial::MoveOutcome* move : moves)
-    for (std::size_t i = 0; i < tolerances.count; ++i) records.push_back({move->tolerance_settling_times[i]});
+    for (std::size_t i = 0; i < tolerances.count; ++i)
+      records.push_back({move->tolerance_settling_times[i], move->other_tolerance_settling_times[i]});
   return records;
 }
 
@@ -101,8 +102,7 @@ std::vector<ShardTable> shard_tables(const study::Study& study, const layout::Me
   std::vector<ShardTable> tables{{layout::trial_table(study.columns.inputs)},
                                  {layout::outcome_table(features, measures), study.moves},
                                  {layout::band_table(features.bands), study.moves}};
-  if (features.tolerances.count > 0)
-    tables.push_back({layout::tolerance_table(features.tolerances), study.moves});
+  if (features.tolerances.count > 0) tables.push_back({layout::tolerance_table(features), study.moves});
   tables.push_back({layout::jerk_table()});
   if (!study.retained_trials.empty()) tables.push_back({layout::trace_table(features)});
   return tables;
@@ -120,7 +120,7 @@ TrialColumns columns_of(const study::Study& study, const layout::MeasureTable& m
                                       study.moves * static_cast<std::int64_t>(features.bands.count)));
   if (features.tolerances.count > 0) {
     const auto records = tolerance_records(moves, features.tolerances);
-    all.tables.push_back(record_columns(layout::tolerance_fields(), layout::pointers_to(records),
+    all.tables.push_back(record_columns(layout::tolerance_fields(features), layout::pointers_to(records),
                                         study.moves * static_cast<std::int64_t>(features.tolerances.count)));
   }
   const std::vector<layout::JerkRecord> jerks = jerk_records(results);

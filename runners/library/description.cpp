@@ -13,6 +13,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "analysis/goal/question.hpp"
 #include "analysis/measures/goal_counts.hpp"
 #include "analysis/text/report_json.hpp"
 #include "core/failure/failure.hpp"
@@ -135,7 +136,8 @@ Json goals_json(const study::Study& study) {
   Json goals = Json::array();
   for (const study::Goal& goal : study.goals) {
     Json limits = Json::object();
-    for (const study::GoalLimit& limit : goal.limits) limits[limit.measure] = limit.largest;
+    for (const study::GoalLimit& limit : goal.limits)
+      limits[study::name_in(goal, limit.measure)] = limit.largest;
     goals.push_back({{"name", goal.name},
                      {"band", goal.tolerance ? Json() : Json(goal.band)},
                      {"tolerance", json_of(goal.tolerance)},
@@ -146,7 +148,9 @@ Json goals_json(const study::Study& study) {
                      {"confidence", goal.confidence},
                      {"on", goal.on},
                      {"limits", limits},
-                     {"rounding", measures::rounding_of_times}});
+                     {"rounding", measures::rounding_of_times},
+                     {"of", goal.of ? Json(study::mass_text(*goal.of)) : Json()},
+                     {"measure", goal::name_of_settling(goal)}});
   }
   return goals;
 }

@@ -70,6 +70,7 @@ struct Judgement {
 goal::Question any_claim() {
   goal::Question question;
   question.parts.front().claim.emplace();
+  question.parts.front().claim->beside_load = true;
   return question;
 }
 
@@ -103,6 +104,11 @@ document::AnswerDescription<Judgement> judge_answer(const goal::Question& questi
           [](Of j) { return j.of_machines(j.judged.verdict.machines.low); })
       .value(document::in_data("machines_high", "its upper bound", "1"),
              [](Of j) { return j.of_machines(j.judged.verdict.machines.high); })
+      .object({.key = "other_mass",
+               .meaning = "the same of the load, which the goal of the motor does not ask",
+               .shown = Shown::in_data,
+               .optional = true},
+              goal::load_description(), [](Of j) { return j.judged.verdict.of_load; })
       .sentence([](Of j) { return summary::judgement_details(j.summary, j.judged); })
       .value(document::in_data(
                  "missed_saturated",

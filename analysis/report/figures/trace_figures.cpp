@@ -52,10 +52,13 @@ std::vector<std::int64_t> starts_of_moves(const trial::TrialParameters& paramete
 
 /// Errors of the samples, rad: of the position (trial::PositionError) where a goal has a tolerance, else of
 /// the readings.
-std::vector<double> errors_of(const ReplayedTrial& replayed, bool of_position) {
+/// @param of the mass that they are of; none: that whose encoder closes the loop
+std::vector<double> errors_of(const ReplayedTrial& replayed, bool of_position,
+                              std::optional<motion::EncoderPlace> of) {
   const trial::TrialParameters& p = replayed.parameters;
   const double resolution = loop::fine_resolution(p.encoder);
-  const bool at_load = motion::has_load(p.plant) && p.plant.load.encoder == motion::EncoderPlace::load;
+  const bool at_load =
+      motion::has_load(p.plant) && of.value_or(p.plant.load.encoder) == motion::EncoderPlace::load;
   const std::vector<std::int64_t> starts = starts_of_moves(p);
   std::vector<double> errors;
   for (const trial::SampleRecord& sample : replayed.samples) {
@@ -155,7 +158,8 @@ std::vector<Figure> response_figures(const ReportedStudy& reported, const Replay
   std::string course;
   double largest = 0.0;
   for (std::size_t i = 0; i < trials.size(); ++i) {
-    const std::vector<double> errors = errors_of(replayed[i], of_position);
+    const std::vector<double> errors =
+        errors_of(replayed[i], of_position, question.claim() ? question.claim()->of : std::nullopt);
     const double resolution = loop::fine_resolution(replayed[i].parameters.encoder);
     for (std::size_t k = 0; k < errors.size(); ++k) {
       const trial::SampleRecord& sample = replayed[i].samples[k];

@@ -308,7 +308,8 @@ std::string requirement_text(const study::Goal& goal, const study::Study& study)
   std::string text =
       (goal.tolerance ? "±" + quantity_text(*goal.tolerance, parameters::unit_on(study.units.axis, "rad"))
                       : "±" + quantity_text(static_cast<double>(goal.band), "count")) +
-      " for good " + goal::after_text(goal.within, quantity_text(goal.within.time, "s"));
+      goal::of_mass(goal) + " for good " +
+      goal::after_text(goal.within, quantity_text(goal.within.time, "s"));
   for (const study::GoalLimit& limit : goal.limits) text += "; " + limit_text(limit, study);
   const std::string moves = goal.on.empty() ? "the moves" : fmt::format("moves {}", fmt::join(goal.on, ", "));
   return text + fmt::format(

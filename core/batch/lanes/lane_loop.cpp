@@ -44,13 +44,13 @@ LaneLoop::Decision LaneLoop::decide_open(std::int64_t k, std::int64_t i, std::in
   return {count, output, torque, false, decision.stays && is_certain_};
 }
 
-std::optional<LaneLoop::Decision> LaneLoop::sample(std::int64_t i, double theta) {
+std::optional<LaneLoop::Decision> LaneLoop::sample(std::int64_t i, double theta, double other) {
   const double finest = measurement_.finest_resolution();
   if (!(std::abs(theta) < 0x1p50 * finest)) return std::nullopt;
   const std::int64_t k = first_sample_ + i;
   const loop::EncoderReading reading = measurement_.read(k, theta);
   if (open_) return decide_open(k, i, reading.fine);
-  const trial::SampledLoop::Decision decision = closed_->decide(k, i, reading, theta);
+  const trial::SampledLoop::Decision decision = closed_->decide(k, i, reading, theta, other);
   if (closed_->failed()) return std::nullopt;
   const bool twice_in_a_row = decision.ran && ran_before_;
   ran_before_ = decision.ran;

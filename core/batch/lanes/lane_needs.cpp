@@ -203,8 +203,8 @@ bool needs_drive_kernel(const trial::TrialParameters& p) {
 }
 
 bool needs_lane_loop(const trial::TrialParameters& p) {
-  return !(is_certain(p) || has_noise_alone(p)) || p.verdict.motion || p.controller.missed > 0.0 ||
-         loop::has_errors(p.dac) || loop::has_coarse_phase(p.controller) ||
+  return !(is_certain(p) || has_noise_alone(p)) || p.verdict.motion || p.verdict.other_mass ||
+         p.controller.missed > 0.0 || loop::has_errors(p.dac) || loop::has_coarse_phase(p.controller) ||
          p.controller.encoder != loop::EncoderChoice::fine ||
          p.command.profile.shape != loop::ReferenceShape::step || p.controller.user.plugin ||
          !p.command.torque.levels.empty() || p.controller.blocks.filters.size() > max_lane_filters ||

@@ -65,8 +65,10 @@ LaneSet decide_in_loops(RunningBatch& run, const LaneSet& due) {
   LoopLanes& l = run.state.loop;
   LaneSet decided = due;
   for_each_lane(due, [&](int lane) {
-    const auto decision =
-        run.trial_of(lane).loop->sample(run.samples_of(lane), theta_of(run.state, lane) - l.read_twist[lane]);
+    const double rotor = theta_of(run.state, lane);
+    const double read = rotor - l.read_twist[lane];
+    const double other = l.read_twist[lane] != 0.0 ? rotor : rotor - run.state.load.twist[lane];
+    const auto decision = run.trial_of(lane).loop->sample(run.samples_of(lane), read, other);
     if (!decision) {
       decided.erase(lane);
       fall_back_to_scalar(run, lane);

@@ -219,6 +219,27 @@ class Best(Record):
     ends_of_ranges: pandas.DataFrame
 
 
+class OtherMass(Record):
+    """The same of the load, which the goal of the motor does not ask.
+
+    Attributes
+    ----------
+    of : str
+        The mass.
+    rate : float or None
+        Proportion of its moves that meet the goal, with one-sided bounds.
+    rate_low : float or None
+        Lower bound.
+    rate_high : float or None
+        Upper bound.
+    """
+
+    of: str
+    rate: float | None
+    rate_low: float | None
+    rate_high: float | None
+
+
 class Goal(Record):
     """Whether the new trials meet the goal.
 
@@ -253,9 +274,13 @@ class Goal(Record):
     trials_of_one_machine : int or None
         Trials without a miss that show of one machine that it meets the goal; left out where the goal is not on
         machines.
+    other_mass : OtherMass or None
+        The same of the load, which the goal of the motor does not ask.
     rigs_without_miss : int or None
         Machines all of whose moves meet the goal.
     """
+
+    _records = {"other_mass": OtherMass}
 
     name: str | None
     condition: str | None
@@ -270,6 +295,7 @@ class Goal(Record):
     without_miss_low: float | None
     without_miss_high: float | None
     trials_of_one_machine: int | None
+    other_mass: OtherMass | None
     rigs_without_miss: int | None
 
 
@@ -335,8 +361,8 @@ class SummaryAnswer(Answer):
         - ``label``: label of the design point
         - ``axes``: values of the swept parameters; null where one has a distribution
         - ``goal``.* (name, condition, status, rate, rate_low, rate_high, machines, machines_low, machines_high,
-          without_miss, without_miss_low, without_miss_high, trials_of_one_machine, rigs_without_miss): whether the
-          point meets the goal, with bounds of this point alone
+          without_miss, without_miss_low, without_miss_high, trials_of_one_machine, other_mass, rigs_without_miss):
+          whether the point meets the goal, with bounds of this point alone
         - ``goals``: each of the goals, by name
           - ``name``: name of the goal: of several the worst, which all of this is of
           - ``condition``: the worst condition, which all of this is under
@@ -354,6 +380,8 @@ class SummaryAnswer(Answer):
           - ``without_miss_high``: upper bound
           - ``trials_of_one_machine``: trials without a miss that show of one machine that it meets the goal; left out
             where the goal is not on machines
+          - ``other_mass``.* (of, rate, rate_low, rate_high): the same of the load, which the goal of the motor does not
+            ask
           - ``rigs_without_miss``: machines all of whose moves meet the goal
         - ``machines_together``: proportion of machines that meet all goals on machines, as observed; nothing where only
           one claim is on machines
@@ -421,6 +449,10 @@ class SummaryAnswer(Answer):
         - ``following_error_rms``.* (n, mean, max, mean_low, mean_high): statistics of following error rms
         - ``following_error_peak``.* (n, mean, max, mean_low, mean_high): statistics of following error peak
         - ``reversal_spike``.* (n, mean, max, mean_low, mean_high): statistics of reversal spike
+        - ``load_true_error``.* (n, mean, rms, max): statistics of load true error
+        - ``load_true_overshoot``.* (n, mean, p95, max): statistics of load true overshoot
+        - ``motor_true_error``.* (n, mean, rms, max): statistics of motor true error
+        - ``motor_true_overshoot``.* (n, mean, p95, max): statistics of motor true overshoot
         - ``bands``: statistics by error band
           - ``band``: largest error of the band, count
           - ``entry_time``.* (n, moves, mean, min, p05, p25, median, median_low, median_high, p75, p95, p95_low,
@@ -432,6 +464,10 @@ class SummaryAnswer(Answer):
           - ``tolerance``: largest position error within the tolerance, rad
           - ``settling_time``.* (n, moves, mean, min, p05, p25, median, median_low, median_high, p75, p95, p95_low,
             p95_high, max, mean_low, mean_high): statistics of settling time
+          - ``load_settling_time``.* (n, moves, mean, min, p05, p25, median, median_low, median_high, p75, p95, p95_low,
+            p95_high, max, mean_low, mean_high): statistics of load settling time
+          - ``motor_settling_time``.* (n, moves, mean, min, p05, p25, median, median_low, median_high, p75, p95,
+            p95_low, p95_high, max, mean_low, mean_high): statistics of motor settling time
         - ``moves``: counts of trials by move
           - ``zero_count``: trials with this outcome of the move
           - ``one_count``: trials with this outcome of the move
@@ -1135,6 +1171,8 @@ class JudgeAnswer(Answer):
         Lower bound of the proportion of machines that meet the goal, if it is about machines.
     machines_high : float or None
         Its upper bound.
+    other_mass : OtherMass or None
+        The same of the load, which the goal of the motor does not ask.
     missed_saturated : float or None
         Proportion of the moves that miss the goal in which the converter clipped; null: the goal is met, or the file
         does not keep every trial.
@@ -1193,7 +1231,7 @@ class JudgeAnswer(Answer):
 
     """
 
-    _records = {"needed": Needed, "worlds": JudgeWorlds}
+    _records = {"other_mass": OtherMass, "needed": Needed, "worlds": JudgeWorlds}
 
     point: int
     label: str
@@ -1206,6 +1244,7 @@ class JudgeAnswer(Answer):
     rate_high: float | None
     machines_low: float | None
     machines_high: float | None
+    other_mass: OtherMass | None
     missed_saturated: float | None
     chosen_from: int
     needed: Needed | None

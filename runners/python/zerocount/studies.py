@@ -353,7 +353,7 @@ class Study:
 
     @property
     def goal(self) -> dict[str, Any] | None:
-        """The only goal: ``band`` (counts) or ``tolerance``, ``within`` or ``after_profile`` (s), ``moves``, ``machines``, ``confidence``, ``on``, ``limits``.
+        """The only goal: ``band`` (counts) or ``tolerance``, ``within`` or ``after_profile`` (s), ``moves``, ``machines``, ``confidence``, ``on``, ``limits``, ``of`` (mass), ``measure``.
 
         None where there is no goal, or several: see `goals`.
         """

@@ -76,20 +76,13 @@ class TrialColumns:
         if len(of_goals) < len(self.study.goals):
             return {}
         values = np.logical_and.reduce(of_goals)
-        like = outcome[self.settling_time(self.study.goals[0])]
+        like = outcome[self.study.goals[0]["measure"]]
         meaning = "it meets the goal of the manifest" if len(of_goals) == 1 else "it meets the goals about it"
         return {"goal_met": dataclasses.replace(like, values=values, unit="1", meaning=meaning)}
 
-    @staticmethod
-    def settling_time(goal: Mapping[str, Any]) -> str:
-        """The measure that a goal is about."""
-        if goal["tolerance"] is None:
-            return f"band_settling_time[{goal['band']}]"
-        return f"tolerance_settling_time[{goal['tolerance']}]"
-
     def meets_goal(self, goal: Mapping[str, Any], outcome: Mapping[str, Column]) -> Array | None:
         """[trial, move] whether each move meets a goal, or it is not about the move; None where it cannot be told."""
-        times = outcome.get(self.settling_time(goal))
+        times = outcome.get(goal["measure"])
         after = goal["after_profile"]
         needed = [*goal["limits"], *(["travel_time"] if after is not None else [])]
         if times is None or any(measure not in outcome for measure in needed):

@@ -27,6 +27,21 @@ struct TrialsWithTolerances {
     // The first within the target's count: at rest, creep takes the rotor into it and out of it.
     p.verdict.tolerances = {
         {draws.log_uniform(0.01, 0.5) * count, draws.uniform(0.5, 2.0) * count, 40.0 * count}, 3};
+    if (!draws.chance(0.5)) return;
+    using enum motion::EncoderPlace;
+    const double inertia = p.plant.inertia * draws.uniform(0.2, 1.0);
+    const double frequency = 2.0 * std::numbers::pi * draws.uniform(30.0, 120.0);  // of the load alone
+    p.plant.load = {.inertia = inertia,
+                    .stiffness = inertia * frequency * frequency,
+                    .damping = 0.2 * inertia * frequency,
+                    .encoder = draws.chance(0.5) ? motor : load};
+    p.verdict.other_mass = draws.chance(0.5) ? motor : load;
+  }
+
+  /// Whether ε is that of the load: of the mass that closes the loop, or of the other one that is measured.
+  bool is_of_load(bool other) const {
+    return motion::has_load(p.plant) &&
+           (other ? *p.verdict.other_mass : p.plant.load.encoder) == motion::EncoderPlace::load;
   }
 
   testing::Draws draws;
@@ -37,38 +52,50 @@ struct TrialsWithTolerances {
 };
 
 TEST_EACH_SEED(TrialsWithTolerances, SettleWhereTheErrorIsWithinForGood) {
-  std::vector<double> theta;
+  std::vector<trial::SampleRecord> records;
   trial::TrialObservers observers;
-  observers.sample = [&](const trial::SampleRecord& r) { theta.push_back(r.theta); };
+  observers.sample = [&](const trial::SampleRecord& r) { records.push_back(r); };
   const trial::TrialOutcome outcome = trial::run_trial(p, observers);
-  std::size_t first = 0;
-  for (std::size_t move = 0; move < targets.size(); ++move) {
-    const auto samples = static_cast<std::size_t>(trial::samples_of_move(p, move));
-    const trial::MoveOutcome& measured = outcome.moves[move];
-    EXPECT_EQ(measured.number, static_cast<std::int64_t>(move));
-    if (measured.outcome == trial::Outcome::nonfinite || measured.stopped) {
-      EXPECT_TRUE(std::isnan(measured.true_overshoot));
-      return;
-    }
-    const double step = targets[move] - (move == 0 ? 0.0 : targets[move - 1]);
-    double overshoot = 0.0;
-    std::vector<std::size_t> settled(3, 0);
-    for (std::size_t k = 0; k < samples; ++k) {
-      const double error = targets[move] + (0.5 - p.initial.encoder_phase) * count - theta[first + k];
-      if (step != 0.0) overshoot = std::max(overshoot, step > 0.0 ? -error : error);
-      for (std::size_t i = 0; i < settled.size(); ++i)
-        if (std::abs(error) > p.verdict.tolerances.limits[i]) settled[i] = k + 1;
-    }
-    EXPECT_NEAR(measured.true_overshoot, overshoot, 1e-9 * count + 1e-12 * std::abs(targets[move]));
-    for (std::size_t i = 0; i < settled.size(); ++i) {
-      const double time = measured.tolerance_settling_times[i];
-      if (settled[i] == samples) {
-        EXPECT_TRUE(std::isnan(time));
-      } else {
-        EXPECT_DOUBLE_EQ(time, static_cast<double>(settled[i]) / p.controller.sample_rate);
+  for (const bool other : {false, true}) {
+    if (other && !p.verdict.other_mass) return;
+    std::size_t first = 0;
+    for (std::size_t move = 0; move < targets.size(); ++move) {
+      const auto samples = static_cast<std::size_t>(trial::samples_of_move(p, move));
+      trial::MoveOutcome measured = outcome.moves[move];
+      if (other) {
+        measured.true_overshoot = measured.other_true_overshoot;
+        measured.true_error = measured.other_true_error;
+        measured.tolerance_settling_times = measured.other_tolerance_settling_times;
       }
+      EXPECT_EQ(measured.number, static_cast<std::int64_t>(move));
+      if (measured.outcome == trial::Outcome::nonfinite || measured.stopped) {
+        EXPECT_TRUE(std::isnan(measured.true_overshoot));
+        return;
+      }
+      const double step = targets[move] - (move == 0 ? 0.0 : targets[move - 1]);
+      double overshoot = 0.0, last = 0.0;
+      std::vector<std::size_t> settled(3, 0);
+      for (std::size_t k = 0; k < samples; ++k) {
+        const trial::SampleRecord& record = records[first + k];
+        const double theta = is_of_load(other) ? record.load_theta : record.theta;
+        const double error = targets[move] + (0.5 - p.initial.encoder_phase) * count - theta;
+        last = static_cast<double>(p.command.targets[move]) + 0.5 - p.initial.encoder_phase - theta / count;
+        if (step != 0.0) overshoot = std::max(overshoot, step > 0.0 ? -error : error);
+        for (std::size_t i = 0; i < settled.size(); ++i)
+          if (std::abs(error) > p.verdict.tolerances.limits[i]) settled[i] = k + 1;
+      }
+      EXPECT_NEAR(measured.true_overshoot, overshoot, 1e-9 * count + 1e-12 * std::abs(targets[move]));
+      EXPECT_NEAR(measured.true_error, last, 1e-6 + 1e-9 * std::abs(last));
+      for (std::size_t i = 0; i < settled.size(); ++i) {
+        const double time = measured.tolerance_settling_times[i];
+        if (settled[i] == samples) {
+          EXPECT_TRUE(std::isnan(time));
+        } else {
+          EXPECT_DOUBLE_EQ(time, static_cast<double>(settled[i]) / p.controller.sample_rate);
+        }
+      }
+      first += samples;
     }
-    first += samples;
   }
 }
 
@@ -79,10 +106,15 @@ TEST_EACH_SEED(TrialsWithTolerances, AreMeasuredAlikeInLanes) {
     if (one.moves[move].broke_away) return;  // motions after a slide may part
     EXPECT_EQ(one.moves[move].number, other.moves[move].number);
     EXPECT_NEAR(one.moves[move].true_overshoot, other.moves[move].true_overshoot, 1e-5 * count);
-    for (std::size_t i = 0; i < p.verdict.tolerances.count; ++i) {
-      const double a = one.moves[move].tolerance_settling_times[i];
-      const double b = other.moves[move].tolerance_settling_times[i];
-      EXPECT_TRUE((std::isnan(a) && std::isnan(b)) || a == b) << a << " and " << b;
+    if (p.verdict.other_mass) {
+      EXPECT_NEAR(one.moves[move].other_true_overshoot, other.moves[move].other_true_overshoot, 1e-5 * count);
+    }
+    for (const auto times : {&trial::MoveOutcome::tolerance_settling_times,
+                             &trial::MoveOutcome::other_tolerance_settling_times}) {
+      for (std::size_t i = 0; i < p.verdict.tolerances.count; ++i) {
+        const double a = (one.moves[move].*times)[i], b = (other.moves[move].*times)[i];
+        EXPECT_TRUE((std::isnan(a) && std::isnan(b)) || a == b) << a << " and " << b;
+      }
     }
   }
 }

@@ -39,6 +39,27 @@ TEST(Goal, CountsFromTheEndOfTheProfile) {
   EXPECT_DOUBLE_EQ(study.goals[0].within.from_start(0.25), 0.35);
 }
 
+TEST(Goal, IsOfTheMassThatClosesTheLoopUnlessItSaysWhich) {
+  using enum motion::EncoderPlace;
+  for (const bool at_load : {false, true}) {
+    for (const char* const of : {"", ", of: motor", ", of: load"}) {
+      const study::Study study = study_of(
+          minimal_manifest(fmt::format("goal: {{tolerance: 1.0e-6, within: 0.1, moves: 0.9{}}}\n"
+                                       "plant: {{load: {{inertia: 1, stiffness: 1.0e+4, encoder: {}}}}}",
+                                       of, at_load ? "load" : "motor")));
+      const study::Goal& goal = study.goals[0];
+      const bool of_load = std::string_view(of).empty() ? at_load : std::string_view(of).ends_with("load");
+      EXPECT_EQ(goal.of, of_load ? load : motor);
+      EXPECT_EQ(goal.of_other_mass, of_load != at_load);
+      EXPECT_EQ(study.features.load_error, !at_load)
+          << "the load's proportion stands beside that of the motor";
+      EXPECT_EQ(study.features.motor_error, at_load && !of_load);
+      EXPECT_EQ(goal.beside_load, !of_load);
+    }
+  }
+  EXPECT_FALSE(study_of(minimal_manifest("goal: {tolerance: 1.0e-6, within: 0.1, moves: 0.9}")).goals[0].of);
+}
+
 TEST(Goal, AddsItsBandInOrder) {
   const std::string goal = "goal: {band: 2, within: 0.1, moves: 0.9}\n";
   EXPECT_EQ(bands_of(study_of(minimal_manifest(goal))), (std::vector<std::int64_t>{0, 1, 2}));
@@ -121,6 +142,10 @@ INSTANTIATE_TEST_SUITE_P(
         GoalRefusal{"goal: {after_profile: 9, moves: 0.9}",
                     "6:23: goal.after_profile | longer than the hold"},
         GoalRefusal{"goal: {after_profile: 0, moves: 0.9}", "6:23: goal.after_profile | '0'"},
+        GoalRefusal{"goal: {within: 0.1, moves: 0.9, of: load}", "6:37: goal.of | one mass"},
+        GoalRefusal{
+            "goal: {within: 0.1, moves: 0.9, of: load}\nplant: {load: {inertia: 1, stiffness: 1.0e+4}}",
+            "6:37: goal.of | a band"},
         GoalRefusal{"goal: {within: 0.1, moves: 1}", "6:28: goal.moves | '1'"},
         GoalRefusal{"goal: {within: 9, moves: 0.9}", "6:16: goal.within | longer than the hold"},
         GoalRefusal{"goal: {within: 0.1, moves: 0.9, machines: 0.9}",

@@ -121,6 +121,54 @@ TEST_F(Judge, TimeAfterTheProfilesOfMovesAlikeIsOneFromTheirStart) {
   }
 }
 
+// The goal of the motor beside the same of the load, each counted again from the measures of its mass.
+TEST_F(Judge, OfTwoMassesSaysWhichItIsAndShowsTheLoad) {
+  const auto run = [&](const std::string& encoder, const std::string& of) {
+    folder_.write(
+        "joint.yaml",
+        "zerocount: 1\nname: joint\nseed: 7\ntrials: 60\nrigs: 20\n"
+        "plant: {inertia: 0.5, sliding_damping: 1, load: {inertia: {uniform: [0.5, 2]}, stiffness: "
+        "2.0e+4, damping: 5, encoder: " +
+            encoder +
+            "}}\nfriction: {model: lugre, breakaway: 5, coulomb_ratio: 0.8, stribeck_velocity: 0.01, "
+            "sigma0: 1.0e+5, sigma1: 100}\nencoder: {fine: 1000000}\n"
+            "command: {units: si, targets: [0.1, 0.0, 0.02], hold: 0.6, profile: {shape: "
+            "trapezoidal, velocity_limit: 1, acceleration_limit: 20}}\n"
+            "controller: {units: si, sample_rate: 4000, kp: 3.0e+4, ki: 3.0e+5, kd: 300}\n"
+            "dac: {bits: 20, range: 200}\n"
+            "goal: {tolerance: 5.0e-4, after_profile: 0.15, moves: 0.9, limits: {true_overshoot: "
+            "5.0e-3}" +
+            of + "}\n");
+    EXPECT_EQ(program({"run", "joint.yaml", "-o", "joint.h5", "-q", "--force"}).code, 0);
+    return json_of({"judge", "joint.h5"});
+  };
+  const auto rate = [&](const std::string& mass) {
+    const reading::AllTrialsFile file(folder_.path() / "joint.h5");
+    const std::vector<double> times = file.measure(mass + "tolerance_settling_time[0.0005]", file.rows());
+    const std::vector<double> overshoot = file.measure(mass + "true_overshoot", file.rows());
+    const std::vector<double> travel = file.measure("travel_time", file.rows());
+    double met = 0.0;
+    for (std::size_t i = 0; i < times.size(); ++i)
+      met += times[i] <= travel[i] + 0.15 + 1e-9 && overshoot[i] <= 5e-3 ? 1.0 : 0.0;
+    return met / static_cast<double>(times.size());
+  };
+  const Json motor = run("motor", "");
+  EXPECT_EQ(motor["rate"], rate(""));
+  EXPECT_EQ(motor["other_mass"]["of"], "load");
+  EXPECT_EQ(motor["other_mass"]["rate"], rate("load_"));
+  EXPECT_NE(motor["other_mass"]["rate"], motor["rate"]) << "else the test shows nothing";
+  EXPECT_TRUE(says(motor["headline"].get<std::string>(), "the goal of the motor"));
+  EXPECT_EQ(json_of({"summary", "joint.h5"})["points"][0]["goal"]["other_mass"], motor["other_mass"]);
+  EXPECT_TRUE(says(program({"check", "joint.yaml"}).err, "a load hangs behind it"));
+  const Json load = run("motor", ", of: load");
+  EXPECT_EQ(load["rate"], motor["other_mass"]["rate"]);
+  EXPECT_FALSE(load.contains("other_mass"));
+  EXPECT_TRUE(says(load["goal"].get<std::string>(), "|position error of the load|"));
+  const Json at_load = run("load", ", of: motor");
+  EXPECT_EQ(at_load["rate"], rate("motor_"));
+  EXPECT_EQ(at_load["other_mass"]["rate"], rate(""));
+}
+
 TEST_F(Judge, EndsWithTheCodeOfTheVerdict) {
   struct Case {
     const char* goal;

@@ -153,11 +153,20 @@ std::int64_t whole_value(const ComparedStudy& study, const std::string& key) {
   return std::stoll(value_or(study.values, key, "0"));
 }
 
+/// The goal for the loop of this file, which the encoder of the other mass may close.
+study::Goal for_loop_of(const ComparedStudy& study, study::Goal goal) {
+  const std::vector<study::Goal>& goals = study.file.study().goals;
+  const auto own = std::ranges::find_if(goals, [](const study::Goal& one) { return one.of.has_value(); });
+  if (goal.of && own != goals.end()) goal.of_other_mass = (goal.of == own->of) == own->of_other_mass;
+  return goal;
+}
+
 /// The goals as the moves of the file are counted by them.
 /// @throws Failure (bad_data) where the file does not have what it is judged by
 std::vector<GoalTrials> counted_in(const ComparedStudy& study, const std::vector<study::Goal>& goals) {
   std::vector<GoalTrials> all;
-  for (const study::Goal& goal : goals) {
+  for (const study::Goal& of_both : goals) {
+    const study::Goal goal = for_loop_of(study, of_both);
     const auto counted = measures::counted_by(goal, study.file.features());
     if (!counted)
       throw Failure(ExitCode::bad_data,
@@ -182,6 +191,7 @@ GateMeasure in_file(const AllTrialsFile& file, const GateMeasure& wanted) {
   const bool of_tolerance = wanted.measure->tolerance.has_value();
   std::vector<std::string> limits;
   for (const layout::Measure& measure : file.table()) {
+    if (!layout::is_in_file(measure, file.features())) continue;
     if (measure.field.column.name == wanted.name) return {&measure, wanted.name, wanted.unit, wanted.margin};
     if (of_tolerance && measure.tolerance) limits.push_back(fmt::format("{}", *measure.tolerance));
     if (!of_tolerance && measure.field.column.name.starts_with("band_exits"))

@@ -32,7 +32,7 @@ std::string band_text(const study::Goal& goal) {
   if (goal.tolerance)
     return fmt::format("|position error{}| ≤ ", of_mass(goal)) +
            text::quantity_text(*goal.tolerance, parameters::unit_on(goal.axis, "rad"), goal_digits);
-  if (goal.band == 0) return fmt::format("error{} 0", of_mass(goal));
+  if (goal.band == 0) return "error 0" + of_mass(goal);
   return fmt::format("|error{}| ≤ {}", of_mass(goal), text::counted(goal.band, "count"));
 }
 
@@ -53,7 +53,7 @@ std::string largest_text(const study::GoalLimit& limit, parameters::AxisKind axi
 std::string limits_text(const study::Goal& goal) {
   std::string text;
   for (const study::GoalLimit& limit : goal.limits)
-    text += fmt::format(", {} ≤ {}", limit.measure, largest_text(limit, goal.axis));
+    text += fmt::format(", {} ≤ {}", study::name_in(goal, limit.measure), largest_text(limit, goal.axis));
   return text;
 }
 
@@ -126,6 +126,7 @@ std::string together_text(const Question& question, const measures::PointSummary
 }  // namespace
 
 std::string of_mass(const study::Goal& goal) {
+  if (goal.of_either) return " of the mass whose encoder closes the loop";
   return goal.of ? fmt::format(" of the {}", study::mass_text(*goal.of)) : "";
 }
 

@@ -156,11 +156,11 @@ double visibility_of(const SlidingFit& fit, std::size_t wave) {
   const Eigen::MatrixXd covariance = fit.covariance.block(first, first, 2, 2);
   if (periods == 0.0) return std::abs(amplitude[0]) / (min_excess_ratio * std::sqrt(covariance(0, 0)));
   const Eigen::VectorXd weighted = numerics::least_squares(covariance, amplitude);
-  // Hotelling's T² of two amplitudes, with the freedom of a jackknife over windows, which is exceeded by
-  // chance once in 1000 records, among all periods that are tried together.
+  // Hotelling's T² of two amplitudes, with the freedom ν of a jackknife over windows: P(T² > t) = (1 +
+  // t/ν)^(−(ν−1)/2), by chance once in 1000 records, among all periods that are tried together.
   const double chance = 1e-3 / (periods == 1.0 ? 1.0 : most_periods);
-  const double freedom = std::max(1.0, static_cast<double>(fit.windows.size()) - 1.0);
-  return amplitude.dot(weighted) / (freedom * (std::pow(chance, -2.0 / freedom) - 1.0));
+  const double freedom = std::max(2.0, static_cast<double>(fit.windows.size()) - 1.0);
+  return amplitude.dot(weighted) / (freedom * (std::pow(chance, -2.0 / (freedom - 1.0)) - 1.0));
 }
 
 std::optional<PositionWave> alike_wave(const SlidingFit& fit, std::size_t wave) {

@@ -105,7 +105,7 @@ std::string position_text(const SlidingIdentification& i) {
       text += fmt::format("{} repeats {}{}.{}\n", value, linear ? "with the pitch" : "once in a revolution",
                           linear ? "" : ", as gravity does",
                           i.could_be_two_periods
-                              ? " One that acts twice in it would explain these motions as well: "
+                              ? " One that acts twice in it leaves at most 5 % more unexplained: "
                                 "amplitude and phase hold if it acts once."
                               : "");
     else

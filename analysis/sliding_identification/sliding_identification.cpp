@@ -134,8 +134,13 @@ std::optional<SlidingFit> with_another_wave(std::vector<SlidingRecord>& records,
     std::vector<PositionWave> waves = fit.waves;
     waves.push_back(wave);
     set_position_waves(records, waves);
-    const FreeParameters free = parameters_without_stribeck(records, waves);
-    const bool shown = visibility_of(fit_sliding(records, fit.point, free, waves), waves.size() - 1) >= 1.0;
+    bool shown = false;
+    try {
+      const FreeParameters free = parameters_without_stribeck(records, waves);
+      shown = visibility_of(fit_sliding(records, fit.point, free, waves), waves.size() - 1) >= 1.0;
+    } catch (const Failure&) {
+      shown = false;  // no motion with it fits
+    }
     set_position_waves(records, fit.waves);
     if (!shown) continue;
     std::ranges::sort(waves, {}, &PositionWave::periods);

@@ -362,6 +362,7 @@ document::AnswerType summary_type() {
   levels.features.open_loop = true;
   StudySummary without_machines = full_study();
   without_machines.features.rigs = false;
+  without_machines.features.load_error = without_machines.features.motor_error = false;
   without_machines.question.parts.front().claim->machines.reset();
   document::AnswerType type = summary_description(full_study()).complete_type();
   for (const StudySummary* other : {&without_machines, &plain, &levels})

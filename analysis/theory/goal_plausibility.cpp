@@ -160,8 +160,8 @@ Doubt load_hangs_behind(const GoalOfTrial& of) {
       plant.load.encoder != motion::EncoderPlace::motor)
     return {};
   return {2.0, fmt::format(
-                   "it is of the motor, whose encoder closes the loop, and a load hangs behind it, which may "
-                   "be elsewhere; expected {}of: load, or a load that does not matter",
+                   "the goal is of the motor, whose encoder closes the loop, and the load behind it may be "
+                   "elsewhere; expected {}of: load, or a load that does not matter",
                    of.goal.tolerance ? "" : "a tolerance with ")};
 }
 
@@ -171,8 +171,9 @@ struct GoalTest {
   Doubt (*of_move)(const MoveOfTrial&){nullptr};
   bool needs_goal{true};
   bool holds_for_any_controller{false};
+  bool is_obstacle{true};  ///< to meeting the goal, not only a doubt about what it says
 };
-constexpr std::array<GoalTest, 11> goal_tests{{{load_hangs_behind},
+constexpr std::array<GoalTest, 11> goal_tests{{{load_hangs_behind, nullptr, true, false, false},
                                                {zero_counts_are_wider},
                                                {noise_leaves_the_band},
                                                {noise_moves_the_axis},
@@ -229,8 +230,8 @@ std::optional<Doubt> doubt_of_moves(const GoalTest& test, const study::Study& st
 }
 
 /// The worst line of each test, [test]; empty where it does not fail.
-/// @param tests only those that hold for any controller
-std::vector<std::string> worst_lines(const study::Study& study, bool for_any_controller) {
+/// @param is_wanted tests that count
+std::vector<std::string> worst_lines(const study::Study& study, bool (*is_wanted)(const GoalTest&)) {
   if (study.open_loop) return {};
   std::array<Doubt, goal_tests.size()> worst;
   const study::Goal none{.within = std::numeric_limits<double>::infinity()};
@@ -251,9 +252,7 @@ std::vector<std::string> worst_lines(const study::Study& study, bool for_any_con
         trials.push_back(study::study_trial(study, point, turns.trial_of(draw, condition)).parameters);
       for (std::size_t i = 0; i < goal_tests.size(); ++i) {
         const GoalTest& test = goal_tests[i];
-        if ((study.goals.empty() && test.needs_goal) ||
-            (for_any_controller && !test.holds_for_any_controller))
-          continue;
+        if ((study.goals.empty() && test.needs_goal) || !is_wanted(test)) continue;
         for (const study::Goal& goal : goals) {
           const auto examine = test.of_trial != nullptr ? doubt_of_trials : doubt_of_moves;
           const std::optional<Doubt> doubt = examine(test, study, goal, trials);
@@ -307,11 +306,15 @@ std::string place_text(const study::Study& study, std::int64_t point, std::int64
 }
 
 std::vector<std::string> doubtful_goals(const study::Study& study) {
-  return worst_lines(study, false);
+  return worst_lines(study, [](const GoalTest&) { return true; });
+}
+
+std::vector<std::string> obstacles_to_goals(const study::Study& study) {
+  return worst_lines(study, [](const GoalTest& test) { return test.is_obstacle; });
 }
 
 std::vector<std::string> goals_out_of_reach(const study::Study& study) {
-  return worst_lines(study, true);
+  return worst_lines(study, [](const GoalTest& test) { return test.holds_for_any_controller; });
 }
 
 }  // namespace zerocount::theory

@@ -107,6 +107,9 @@ struct FrozenLoop;
 /// for more of their moves than the goal permits, by more than chance.
 std::vector<std::string> doubtful_goals(const study::Study& study);
 
+/// Those of the tests that say why a goal is not met.
+std::vector<std::string> obstacles_to_goals(const study::Study& study);
+
 /// Those of the tests that no value of the controller changes: the torque is too small for a move, its
 /// reference is still on its way at `within`, or the encoder misplaces its target.
 std::vector<std::string> goals_out_of_reach(const study::Study& study);

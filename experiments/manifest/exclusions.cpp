@@ -26,7 +26,6 @@ constexpr Exclusion exclusions[]{
     {"goal*.band", "goal*.tolerance", "the goal has a tolerance too", "one of them"},
     {"goal*.after_profile", "goal*.within", "the goal has the time from the start of a move too",
      "one of them"},
-    {"goal*.after_profile", "command.profile.shape: sine", "a sine has no end", "within"},
     {"goal*.after_profile", "command.reference", "a recorded reference has no profile", "within"},
     {"goal*.machines", "!rigs", "without machines no trials share a machine",
      "`rigs`, the number of machines, or the key left out"},

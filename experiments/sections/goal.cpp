@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "core/loop/parameters.hpp"
 #include "core/text/text.hpp"
 #include "core/trial/move_measures.hpp"
 #include "experiments/keys/manifest_keys.hpp"
@@ -165,6 +166,7 @@ void choose_masses(const yaml::Field& of_goals, keys::Reading& reading,
       reading.problems.add(*of, "the axis has one mass", "plant.load, or the key left out");
     if (!at_motor && !at_load) continue;
     if (!of && at_motor != at_load) goal.of = at_load ? load : motor;
+    goal.of_either = !goal.of && at_motor && at_load;
     goal.of_other_mass = of && (goal.of == load ? at_motor : at_load);
     if (!goal.of_other_mass) continue;
     if (!goal.tolerance)
@@ -189,6 +191,11 @@ void check_goal(const yaml::Field& field, study::Goal& goal, keys::Reading& read
   for (const char* const key : {"within", "after_profile"})
     if (const auto within = yaml::find_field(field, key))
       check_within(*within, goal.within.time, reading.plan, reading.problems);
+  const auto is_sine = [](const study::ValueLimits& shape) {
+    return shape.low == static_cast<double>(loop::ReferenceShape::sine);
+  };
+  if (goal.within.after_profile && study::holds_somewhere(reading.plan, "command.profile.shape", is_sine))
+    reading.problems.add(field, "after_profile: a sine has no end", "within");
   std::ranges::sort(goal.on);
   measure_for(field, goal, reading);
 }

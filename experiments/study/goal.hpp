@@ -52,6 +52,8 @@ struct Goal {
   std::optional<motion::EncoderPlace> of{};
   /// It is not the mass that closes the loop (everywhere): its position error has measures of its own.
   bool of_other_mass{false};
+  bool of_either{
+      false};  ///< without `of`, where which mass closes the loop differs: it is of the one that does
   bool beside_load{false};  ///< it is of the motor, and the same of the load is counted beside it
 };
 

@@ -175,7 +175,13 @@ ResultsFile::ResultsFile(const std::filesystem::path& path, Require require,
 }
 
 const study::Study& ResultsFile::study() const {
-  if (!study_) study_ = std::make_shared<const study::Study>(layout::recorded_study(header_, path_));
+  if (!study_) {
+    study::Study study = layout::recorded_study(header_, path_);
+    // Earlier builds did not measure the load beside a goal of the motor.
+    if (trials_ && !trials_->features().load_error)
+      for (study::Goal& goal : study.goals) goal.beside_load = goal.beside_load && goal.of_other_mass;
+    study_ = std::make_shared<const study::Study>(std::move(study));
+  }
   return *study_;
 }
 

@@ -112,7 +112,7 @@ Proof proof_of(study::Study study, const trials::Replicates& units, std::span<co
   proof.moves = summary::behaviour_in(file, proof.study);
   if (verdict.status == goal::Status::undecided)
     proof.needs = goal::needs_of(proof.study.goals, judged.counts, correction);
-  if (verdict.status != goal::Status::met) proof.obstacles = theory::doubtful_goals(proof.study);
+  if (verdict.status != goal::Status::met) proof.obstacles = theory::obstacles_to_goals(proof.study);
   return proof;
 }
 

@@ -25,7 +25,7 @@ WEIGHTS = {  # by the start of the header's name
     "yaml-cpp/": 0.5,
 }
 # Seconds of WEIGHTS in all units of a part of the tree.
-LIMITS = {"product": 49.0, "tests": 55.0}
+LIMITS = {"product": 49.0, "tests": 56.0}
 
 # Headers that only these files may include.
 RESERVED = {

@@ -54,8 +54,10 @@ tuning::ClaimPlace worst_claim(const goal::Verdict& verdict) {
 std::string met_headline(Of tuning) {
   const goal::Verdict& verdict = tuning.answer.proof->verdict;
   const std::string least = claim_text(tuning.study, worst_claim(verdict));
-  return fmt::format("met: {} met by {}{}", tuning.study.goals.size() > 1 ? "all goals are" : "the goal is",
-                     tuned_text(tuning), least.empty() ? "" : ", least" + least);
+  const std::vector<study::Goal>& goals = tuning.study.goals;
+  const std::string met =
+      goals.size() > 1 ? "all goals are" : "the goal" + goal::of_mass(goals.front()) + " is";
+  return fmt::format("met: {} met by {}{}", met, tuned_text(tuning), least.empty() ? "" : ", least" + least);
 }
 
 /// "at the best values found, controller.ki = 5000, 28.2 % of the moves meet the goal, and at least 47.4 %

@@ -988,7 +988,7 @@ class IdentifySlidingAnswer(Answer):
         - ``proportion``: rms over the stroke
 
     unexplained : pandas.DataFrame
-        cross-validated over strokes; empty with fewer than 4 strokes.
+        cross-validated over strokes; empty with a single stroke.
 
         - ``with``: what the unexplained torque may repeat with
         - ``predicted``: part of its variance that the means over other strokes predict; 0 or less: it does not repeat

@@ -168,7 +168,8 @@ std::optional<Criterion> motion_criterion(const study::Study& study, std::string
     bool study::StudyFeatures::*const use = measure.only_with;
     const bool is_motion = use == &study::StudyFeatures::motion || use == &study::StudyFeatures::following ||
                            use == &study::StudyFeatures::reversals;
-    if (measure.field.column.name != text.substr(0, dot)) continue;
+    if (measure.field.column.name != text.substr(0, dot) || !layout::is_in_file(measure, study.features))
+      continue;
     if (measure.tolerance || (is_motion && study.features.*use)) return Criterion{&measure, quantile->second};
   }
   return std::nullopt;

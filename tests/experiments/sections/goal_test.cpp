@@ -141,6 +141,9 @@ INSTANTIATE_TEST_SUITE_P(
         GoalRefusal{"goal: {within: 0.1, after_profile: 0.1, moves: 0.9}", "6:36: goal.after_profile | too"},
         GoalRefusal{"goal: {after_profile: 9, moves: 0.9}",
                     "6:23: goal.after_profile | longer than the hold"},
+        GoalRefusal{
+            "goal: {after_profile: 0.1, moves: 0.9}\nsweep: {grid: {command.profile.shape: [step, sine]}}",
+            "6:7: goal | no end"},
         GoalRefusal{"goal: {after_profile: 0, moves: 0.9}", "6:23: goal.after_profile | '0'"},
         GoalRefusal{"goal: {within: 0.1, moves: 0.9, of: load}", "6:37: goal.of | one mass"},
         GoalRefusal{

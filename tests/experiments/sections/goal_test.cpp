@@ -143,7 +143,7 @@ INSTANTIATE_TEST_SUITE_P(
                     "6:23: goal.after_profile | longer than the hold"},
         GoalRefusal{
             "goal: {after_profile: 0.1, moves: 0.9}\nsweep: {grid: {command.profile.shape: [step, sine]}}",
-            "6:7: goal | no end"},
+            "6:7: goal | no end\n7:46: command.hold | two periods"},
         GoalRefusal{"goal: {after_profile: 0, moves: 0.9}", "6:23: goal.after_profile | '0'"},
         GoalRefusal{"goal: {within: 0.1, moves: 0.9, of: load}", "6:37: goal.of | one mass"},
         GoalRefusal{

@@ -66,7 +66,7 @@ struct Doubt {
 /// A tolerance or band of half of a step or more: the move is within it on its way.
 Doubt band_is_half_a_step(const GoalOfTrial& of);
 
-/// What the goal allows the move after its profile is longer than its hold: it is judged when that ends.
+/// The hold ends before the time that the goal allows the move: the goal is judged at the end of the hold.
 Doubt hold_ends_before_the_goal(const MoveOfTrial& move);
 
 /// At `within` the reference of the move is still farther from its end than the band or tolerance.

@@ -21,7 +21,7 @@ constexpr std::string_view beginning = "MATLAB 5.0 MAT-file";
 constexpr std::size_t header_size = 128;
 constexpr std::size_t tag_size = 8;
 
-/// What the library says while it reads: its functions give nothing for an error and for the end alike.
+/// Whether libmatio has reported an error: its functions return null for an error and at the end of a file.
 thread_local bool complains = false;
 
 void note_complaint(int, char*) {

@@ -121,7 +121,7 @@ struct MoveOutcome {
   std::array<double, max_tolerances> tolerance_settling_times = filled_with_nan();
   /// The largest −ε_k·sgn(r − target before), at least 0, rad.
   double true_overshoot{std::numeric_limits<double>::quiet_NaN()};
-  /// The same two, and true_error, of VerdictParameters::other_mass.
+  /// Settling times (s), overshoot (rad) and true error (counts) of VerdictParameters::other_mass.
   std::array<double, max_tolerances> other_tolerance_settling_times = filled_with_nan();
   double other_true_overshoot{std::numeric_limits<double>::quiet_NaN()};
   double other_true_error{std::numeric_limits<double>::quiet_NaN()};

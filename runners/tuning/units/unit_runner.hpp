@@ -34,8 +34,7 @@ std::vector<std::string> overrides_of(std::span<const study::FreeParameter> free
 struct Criterion {
   const layout::Measure* measure{nullptr};
   double quantile{0.95};
-  /// What the goal allows a move, by which its value is divided where several goals are compared by their
-  /// settling times.
+  /// The time that the goal allows a move: settling times of several goals are compared as parts of it.
   std::optional<study::TimeLimit> scale{};
 };
 

@@ -64,7 +64,8 @@ TEST_F(MatFiles, AreReadAsThoseOfVersion73) {
   }
 }
 
-// What the library cannot read, and ends that are missing. Other changes of numbers it may not see.
+// Variables that libmatio cannot read, and missing ends, are refused. It may not notice other changed
+// numbers.
 TEST_F(MatFiles, DamageIsSaidWithItsPlace) {
   const std::string packed = folder_.read("packed.mat");
   const std::string plain = folder_.read("plain.mat");

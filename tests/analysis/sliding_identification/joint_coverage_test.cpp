@@ -76,7 +76,7 @@ struct Counts {
     add(found, "sliding_damping", joint.damping);
     add(found, "coulomb_level", joint.coulomb);
     if (joint.excess > 0.0) add(found, "breakaway_level", joint.coulomb + joint.excess);
-    // What could act twice is gravity only if the user knows that nothing else acts.
+    // A torque that may act twice per revolution is gravity only if the user knows that nothing else acts.
     if (joint.ripple > 0.0 && found.could_be_two_periods) return;
     add(found, "offset", joint.offset);
     add(found, "ripple.1.amplitude", joint.gravity);

@@ -35,7 +35,7 @@ class JointMotion {
 
   double gravity(double angle) const { return joint_.gravity * std::sin(angle + joint_.gravity_phase); }
 
-  /// What acts on the motor but its friction.
+  /// All torques on the motor except its friction, N m.
   double drive(const State& y) const {
     const double ripple = joint_.ripple * std::sin(joint_.periods * y[0] + joint_.ripple_phase);
     return torque_ - joint_.offset + ripple + (two_masses() ? -coupling(y) : gravity(y[0]));

@@ -134,9 +134,10 @@ StudyReport study_report(const reading::AllTrialsFile& file, const ReportOptions
   add(page, {"worlds", "Worlds", "", under_worst_condition(reported, world_figures(worst))});
   add(page, {"settling", "Arrival and settling", "", distribution_figures(reported)});
   add(page, zero_count_section(reported));
-  add(page, {"jerks", "Jerks", "",
-             reported.study.open_loop ? std::vector<Figure>{}
-                                      : under_worst_condition(reported, jerk_figures(worst))});
+  add(page,
+      {"jerks", "Jerks", "",
+       reported.study.open_loop || !options.jerks ? std::vector<Figure>{}
+                                                  : under_worst_condition(reported, jerk_figures(worst))});
   if (std::optional<PageSection> sensitivity = sensitivity_section(reported))
     add(page, std::move(*sensitivity));
   add(page, {"rotor", "Along the $track", "", under_worst_condition(reported, rotor_figures(worst))});

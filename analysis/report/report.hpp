@@ -28,6 +28,7 @@ struct ReportOptions {
   std::optional<comparison::StudyComparison> comparison{};  ///< with a baseline
   std::optional<history::History> history{};                ///< earlier runs of this study
   std::optional<std::int64_t> point{};  ///< design point that the page speaks of; default: the best
+  bool jerks{true};  ///< with the figures of jerks; their test of a trend takes most of the time of a report
   /// Compares a repeated trial with its record; returns the differences, one line each.
   std::function<std::vector<std::string>(const ReplayedTrial&)> check{};
 };

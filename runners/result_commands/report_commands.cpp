@@ -72,8 +72,10 @@ history::History history_of_study(const std::filesystem::path& database, const r
   return runs.size() < 2 ? history::History{} : history::history_of(runs);
 }
 
-report::StudyReport report_of(const command_line::Arguments& arguments, const reading::AllTrialsFile& file) {
+report::StudyReport report_of(const command_line::Arguments& arguments, const reading::AllTrialsFile& file,
+                              bool jerks = true) {
   report::ReportOptions options;
+  options.jerks = jerks;
   options.point = command_line::point_option(arguments, file.point_labels());
   if (const auto baseline = arguments.value("baseline")) {
     comparison::CompareOptions compare;
@@ -170,9 +172,12 @@ ExitCode plot(const command_line::Arguments& arguments) {
   }
   const std::filesystem::path output = picture_or_page(arguments, {".svg", ".png", ".html", ".json"});
   const reading::AllTrialsFile file(input);
-  const report::StudyReport report = report_of(arguments, file);
-  const report::Figure& figure = report::find_figure(report.page, arguments.required("figure"));
-  command_line::write_text(output, figure_text(figure, report.page.title, output.extension().string()));
+  const std::string name = arguments.required("figure");
+  report::ReportPage page = report_of(arguments, file, name.starts_with("jerk")).page;
+  const std::vector<std::string> known = report::figure_names(page);
+  if (std::ranges::find(known, name) == known.end()) page = report_of(arguments, file).page;  // all are named
+  const report::Figure& figure = report::find_figure(page, name);
+  command_line::write_text(output, figure_text(figure, page.title, output.extension().string()));
   return ExitCode::success;
 }
 

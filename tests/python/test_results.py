@@ -487,7 +487,7 @@ def test_a_report_and_other_commands_are_those_of_the_program(small: zc.Results,
     """The report is a page, written again without a question; a command gives what the program prints."""
     for _ in range(2):
         assert small.report(tmp_path / "r.html").read_text(encoding="utf-8").startswith("<!DOCTYPE html>")
-    assert small.command("jerks") == by_program("jerks", small.path)
+    assert small.command("summary") == by_program("summary", small.path)
     assert "8 design points" not in repr(small) and repr(small) == "<Results 'my-axis': 3 design points × 200 trials>"
     assert repr(pickle.loads(pickle.dumps(small))) == repr(small)
     assert small._repr_html_().count("<tr") == 2 + 3 and small.name in small._repr_html_()

@@ -111,16 +111,6 @@ class Contract(Batch):
         self.ended("zerocount", "merge", "elsewhere/2.h5", "1.h5", "-o", "study.h5")
         self.require_alone()
 
-    def test_a_finished_part_is_left_as_it_is(self):
-        """Once more the same command: exit code 0, and the file is not touched; another part or study does not replace it."""
-        self.ended(*self.part(1, 8, "1.h5"))
-        before = (self.folder / "1.h5").stat()
-        self.ended(*self.part(1, 8, "1.h5"))
-        self.ended(*self.part(2, 8, "1.h5"), code=2)
-        self.ended(*self.part(1, 8, "1.h5", "--set", "seed=12"), code=2)
-        after = (self.folder / "1.h5").stat()
-        self.assertEqual((before.st_mtime_ns, before.st_ino), (after.st_mtime_ns, after.st_ino))
-
     def test_two_of_the_same_part(self):
         """The second of two runs of a part ends with 5, and does not disturb the first."""
         first = subprocess.Popen(self.part(1, 2, "1.h5"), cwd=self.folder, env=self.env, stderr=subprocess.DEVNULL)
@@ -128,36 +118,6 @@ class Contract(Batch):
             time.sleep(0.005)
         self.assertIn("another run is writing", self.ended(*self.part(1, 2, "1.h5"), code=5))
         self.assertEqual(first.wait(), 0)
-
-    def test_a_merge_is_whole_or_refused(self):
-        """A missing part, one twice, and one of another study: exit code 4 and no file; with all parts the bytes of one machine."""
-        for number in (1, 2, 4):
-            self.ended(*self.part(number, 4, f"{number}.h5"))
-        said = self.ended("zerocount", "merge", "1.h5", "2.h5", "4.h5", "-o", "study.h5", code=4)
-        self.assertIn("40000 to 59999 are missing", said)
-        self.ended(*self.part(3, 4, "3.h5", "--set", "seed=12"))
-        self.ended("zerocount", "merge", "1.h5", "2.h5", "3.h5", "4.h5", "-o", "study.h5", code=4)
-        self.ended(*self.part(3, 4, "3.h5", "--force"))
-        self.ended("zerocount", "merge", "1.h5", "2.h5", "3.h5", "4.h5", "4.h5", "-o", "study.h5", code=4)
-        self.assertFalse((self.folder / "study.h5").exists())
-        merge = ("zerocount", "merge", "4.h5", "3.h5", "2.h5", "1.h5", "-o", "study.h5")
-        self.ended(*merge)
-        self.require_alone()
-        self.ended(*merge, code=2)  # there already
-        self.ended(*merge, "--force")
-        self.require_alone()
-
-    def test_a_damaged_part(self):
-        """It is refused by merge (4) and by its own command (2), which makes it again with --force."""
-        for number in (1, 2):
-            self.ended(*self.part(number, 2, f"{number}.h5"))
-        whole = (self.folder / "2.h5").read_bytes()
-        (self.folder / "2.h5").write_bytes(whole[:len(whole) // 2])
-        self.assertIn("2.h5", self.ended("zerocount", "merge", "1.h5", "2.h5", "-o", "study.h5", code=4))
-        self.ended(*self.part(2, 2, "2.h5"), code=2)
-        self.ended(*self.part(2, 2, "2.h5", "--force"))
-        self.ended("zerocount", "merge", "1.h5", "2.h5", "-o", "study.h5")
-        self.require_alone()
 
     def test_a_killed_merge_begins_again(self):
         """After SIGKILL there is no output, and the same command makes it."""
@@ -183,6 +143,50 @@ class Contract(Batch):
         self.ended(*self.part(1, 8, "1.h5", "--study", "0" * 64), code=2)
         self.ended(*self.part(1, 8, "1.h5", "--set", "stop={success_rate_halfwidth: 0.1, max_trials: 50000}"), code=2)
         self.assertEqual(self.names(), ["study.yaml"])
+
+
+class Parts(Batch):
+    trials = 4000
+
+    def test_a_finished_part_is_left_as_it_is(self):
+        """Once more the same command: exit code 0, and the file is not touched; another part or study does not replace it."""
+        self.ended(*self.part(1, 8, "1.h5"))
+        before = (self.folder / "1.h5").stat()
+        self.ended(*self.part(1, 8, "1.h5"))
+        self.ended(*self.part(2, 8, "1.h5"), code=2)
+        self.ended(*self.part(1, 8, "1.h5", "--set", "seed=12"), code=2)
+        after = (self.folder / "1.h5").stat()
+        self.assertEqual((before.st_mtime_ns, before.st_ino), (after.st_mtime_ns, after.st_ino))
+
+    def test_a_merge_is_whole_or_refused(self):
+        """A missing part, one twice, and one of another study: exit code 4 and no file; with all parts the bytes of one machine."""
+        for number in (1, 2, 4):
+            self.ended(*self.part(number, 4, f"{number}.h5"))
+        said = self.ended("zerocount", "merge", "1.h5", "2.h5", "4.h5", "-o", "study.h5", code=4)
+        self.assertIn("4000 to 5999 are missing", said)
+        self.ended(*self.part(3, 4, "3.h5", "--set", "seed=12"))
+        self.ended("zerocount", "merge", "1.h5", "2.h5", "3.h5", "4.h5", "-o", "study.h5", code=4)
+        self.ended(*self.part(3, 4, "3.h5", "--force"))
+        self.ended("zerocount", "merge", "1.h5", "2.h5", "3.h5", "4.h5", "4.h5", "-o", "study.h5", code=4)
+        self.assertFalse((self.folder / "study.h5").exists())
+        merge = ("zerocount", "merge", "4.h5", "3.h5", "2.h5", "1.h5", "-o", "study.h5")
+        self.ended(*merge)
+        self.require_alone()
+        self.ended(*merge, code=2)  # there already
+        self.ended(*merge, "--force")
+        self.require_alone()
+
+    def test_a_damaged_part(self):
+        """It is refused by merge (4) and by its own command (2), which makes it again with --force."""
+        for number in (1, 2):
+            self.ended(*self.part(number, 2, f"{number}.h5"))
+        whole = (self.folder / "2.h5").read_bytes()
+        (self.folder / "2.h5").write_bytes(whole[:len(whole) // 2])
+        self.assertIn("2.h5", self.ended("zerocount", "merge", "1.h5", "2.h5", "-o", "study.h5", code=4))
+        self.ended(*self.part(2, 2, "2.h5"), code=2)
+        self.ended(*self.part(2, 2, "2.h5", "--force"))
+        self.ended("zerocount", "merge", "1.h5", "2.h5", "-o", "study.h5")
+        self.require_alone()
 
 
 class Examples(Batch):

@@ -39,14 +39,18 @@ class Report : public ::testing::Test {
   }
   static void TearDownTestSuite() { delete folder; }
 
-  static TemporaryFolder* folder;
+  /// Made once for all tests.
+  static const StudyReport& report() {
+    static const StudyReport once = study_report(reading::AllTrialsFile(*folder / "rich.h5"));
+    return once;
+  }
+
+  static inline TemporaryFolder* folder = nullptr;
   reading::AllTrialsFile file{*folder / "rich.h5"};
 };
 
-TemporaryFolder* Report::folder = nullptr;
-
 TEST_F(Report, HasAFigureForAllThatTheStudyHas) {
-  const std::vector<std::string> names = figure_names(study_report(file).page);
+  const std::vector<std::string> names = figure_names(report().page);
   for (const char* name : {"success", "stability-map", "settling-time", "jerk-raster", "rotor-friction.k1",
                            "bode", "response"}) {
     EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
@@ -55,9 +59,8 @@ TEST_F(Report, HasAFigureForAllThatTheStudyHas) {
 }
 
 TEST_F(Report, EveryFigureHasACaptionAndUnitsAndATable) {
-  const StudyReport report = study_report(file);
-  for (const std::string& name : figure_names(report.page)) {
-    const Figure& figure = find_figure(report.page, name);
+  for (const std::string& name : figure_names(report().page)) {
+    const Figure& figure = find_figure(report().page, name);
     EXPECT_GT(figure.caption.size(), 60U) << name;
     ASSERT_FALSE(figure.data.empty()) << name;
     EXPECT_FALSE(figure.data.front().rows.empty()) << name;
@@ -81,7 +84,7 @@ std::vector<std::string> labels_in_figures(const reading::AllTrialsFile& file) {
 
 TEST_F(Report, TheFigureOfSuccessHasTheNumbersOfTheSummary) {
   const summary::StudySummary summary = summary::summarise(file);
-  const FigureData data = find_figure(study_report(file).page, "success").data.front();
+  const FigureData data = find_figure(report().page, "success").data.front();
   const std::vector<std::string> labels = labels_in_figures(file);
   ASSERT_EQ(data.rows.size(), summary.points.size());
   for (const auto& row : data.rows) {
@@ -96,7 +99,7 @@ TEST_F(Report, TheFigureOfSuccessHasTheNumbersOfTheSummary) {
 
 /// The distribution functions are made again from the settling times, the band from its formula.
 TEST_F(Report, TheSettlingCurvesAreDistributionFunctionsInTheirBands) {
-  const FigureData data = find_figure(study_report(file).page, "settling-time").data.front();
+  const FigureData data = find_figure(report().page, "settling-time").data.front();
   const double half_width = std::sqrt(std::log(2.0 / 0.05) / (2.0 * 40.0));
   std::map<std::string, std::vector<double>> times;
   const std::vector<std::string> labels = labels_in_figures(file);
@@ -120,7 +123,7 @@ TEST_F(Report, TheSettlingCurvesAreDistributionFunctionsInTheirBands) {
 
 /// The curves of the bands are made again from /outcome/band_settling_time.
 TEST_F(Report, TheCurvesOfBandsAreOfTheChosenPoint) {
-  const FigureData data = find_figure(study_report(file).page, "settled").data.front();
+  const FigureData data = find_figure(report().page, "settled").data.front();
   const std::int64_t point = reported_study(file).chosen.point;
   const std::vector<trial::MoveOutcome> moves = file.outcomes({point * 40, 40});
   const std::vector<double> at = column(data, "time");
@@ -167,7 +170,7 @@ TEST_F(Report, TheSampleTrialsAreWhatTheySay) {
 /// The figure's errors are those of the samples, in rad and counts.
 TEST_F(Report, TheResponseHasTheErrorsOfItsTrials) {
   const ReportedStudy reported = reported_study(file);
-  const FigureData data = find_figure(study_report(file).page, "response").data.front();
+  const FigureData data = find_figure(report().page, "response").data.front();
   const std::vector<SampleTrial> trials = sample_trials(reported);
   const std::vector<double> error = column(data, "error");
   const std::vector<double> counts = column(data, "counts");
@@ -248,14 +251,14 @@ TEST_F(Report, ShowsAllMeasuresAgainstTheirMargins) {
 }
 
 TEST_F(Report, AFigureThatIsNotThereIsRefusedWithTheNamesOfThoseThatAre) {
-  const ReportPage page = study_report(file).page;
+  const ReportPage page = report().page;
   testing::expect_failure(ExitCode::bad_input,
                           "unknown figure 'sucess'; this study has: success, stability-map",
                           [&] { find_figure(page, "sucess"); });
 }
 
 TEST_F(Report, ThePageNeedsNothingBesideIt) {
-  const std::string page = html_page(study_report(file).page);
+  const std::string page = html_page(report().page);
   EXPECT_EQ(times_in(page, "<script"), times_in(page, "</script>"));
   EXPECT_EQ(times_in(page, "<script src"), 0U);
   EXPECT_EQ(times_in(page, "<link"), 1U);  // the icon, of nothing
@@ -380,7 +383,7 @@ TEST(DependentTrials, HaveEveryBoundCalledTooNarrowButThoseOfTheIndices) {
 }
 
 TEST_F(Report, IndependentTrialsHaveNoSuchWords) {
-  const std::string page = html_page(study_report(file).page);
+  const std::string page = html_page(report().page);
   EXPECT_EQ(times_in(page, "too narrow"), 0U);
   EXPECT_GT(times_in(page, "of all axes that the manifest describes"), 0U);
 }

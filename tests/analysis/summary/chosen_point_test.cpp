@@ -78,9 +78,9 @@ TEST(ChosenPoint, AtTheEndOfASweepSaysWhatMayLieBeyond) {
 }
 
 // Of two equally good points, 5 % of studies show the one that looks worse to be so. The machines of both are
-// the same, and so a small difference is shown on few rigs.
+// the same, and so a small difference is shown on few rigs. Of 15 % in place of 5 % it sees 98 %.
 TEST(ChosenPoint, ShowsOthersToBeWorseAtItsConfidence) {
-  constexpr int rounds = 400;
+  constexpr int rounds = 200;
   int wrong = 0, found = 0;
   for (int round = 0; round < rounds; ++round) {
     std::vector<measures::PointSummary> equal{on_rigs(2 * round, 0.0, 30), on_rigs(2 * round + 1, 0.0, 30)};
@@ -88,14 +88,15 @@ TEST(ChosenPoint, ShowsOthersToBeWorseAtItsConfidence) {
     std::vector<measures::PointSummary> paired{on_rigs(round, 0.0, 30), on_rigs(round, 0.05, 30)};
     found += choose_point(swept_study(std::move(paired)), 0).as_good.empty() ? 1 : 0;
   }
-  EXPECT_LE(wrong, 0.05 * rounds + 3.0 * 4.4);  // three standard errors
+  EXPECT_LE(wrong, 0.05 * rounds + 3.0 * 3.1);  // three standard errors
   EXPECT_GE(found, 0.95 * rounds);
 }
 
+// Of 10 % in place of 5 % it sees 99 %.
 TEST(ChosenPoint, ComparesIndependentTrialsAtItsConfidence) {
   std::mt19937_64 random(36);
   for (const double rate : {0.5, 0.9, 0.99}) {
-    constexpr int rounds = 2000;
+    constexpr int rounds = 800;
     std::binomial_distribution<std::int64_t> successes(200, rate);
     int wrong = 0;
     for (int round = 0; round < rounds; ++round) {
@@ -103,7 +104,7 @@ TEST(ChosenPoint, ComparesIndependentTrialsAtItsConfidence) {
       for (int i = 0; i < 2; ++i) equal.push_back(independent(successes(random), 200));
       wrong += choose_point(swept_study(std::move(equal)), 0).as_good.empty() ? 1 : 0;
     }
-    EXPECT_LE(wrong, 0.05 * rounds + 3.0 * 9.7) << rate;
+    EXPECT_LE(wrong, 0.05 * rounds + 3.0 * 6.2) << rate;
   }
 }
 

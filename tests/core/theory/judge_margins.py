@@ -91,15 +91,13 @@ def open_loop(case):
     return lambda angle: response(np.exp(1j * np.asarray(angle)))
 
 
-def margins(case):
-    L = open_loop(case)
-    T = 1 / case["controller"]["sample_rate"]
-    angles = np.concatenate([np.geomspace(1e-6 * math.pi, 0.01, 20000), np.linspace(0.01, math.pi * (1 - 1e-9), 60000)[1:]])
-    values = L(angles)
+ANGLES = np.concatenate([np.geomspace(1e-6 * math.pi, 0.01, 20000), np.linspace(0.01, math.pi * (1 - 1e-9), 60000)[1:]])
 
+
+def margins(L, T, values):  # of the open loop at ANGLES
     def crossings(signal):
         at = np.nonzero(np.diff(np.sign(signal(values))))[0]
-        return [brentq(lambda x: float(signal(L([x]))[0]), angles[i], angles[i + 1], xtol=1e-15, rtol=1e-14) for i in at]
+        return [brentq(lambda x: float(signal(L([x]))[0]), ANGLES[i], ANGLES[i + 1], xtol=1e-15, rtol=1e-14) for i in at]
 
     gains = [(x, L([x])[0]) for x in crossings(np.imag)] + [(math.pi, L([math.pi * (1 - 1e-12)])[0])]
     gains = [(1 / abs(value), x / (2 * math.pi * T)) for x, value in gains if value.real < -1e-12]
@@ -107,18 +105,18 @@ def margins(case):
     return (min(gains, key=lambda g: abs(math.log(g[0])), default=None), min(phases, key=lambda p: abs(p[0]), default=None))
 
 
-def peak_sensitivity(case):
-    L = open_loop(case)
-    angles = np.concatenate([np.geomspace(1e-6 * math.pi, 0.01, 20000), np.linspace(0.01, math.pi * (1 - 1e-9), 60000)[1:]])
-    distances = np.abs(1 + L(angles))
-    i = min(max(int(np.argmin(distances)), 1), len(angles) - 2)
-    found = minimize_scalar(lambda x: abs(1 + L([x])[0]), bounds=(angles[i - 1], angles[i + 1]), method="bounded",
-                            options={"xatol": 1e-9 * angles[i]})
+def peak_sensitivity(L, values):
+    distances = np.abs(1 + values)
+    i = min(max(int(np.argmin(distances)), 1), len(ANGLES) - 2)
+    found = minimize_scalar(lambda x: abs(1 + L([x])[0]), bounds=(ANGLES[i - 1], ANGLES[i + 1]), method="bounded",
+                            options={"xatol": 1e-9 * ANGLES[i]})
     return 1 / min(found.fun, distances[i])
 
 
 for number, case in enumerate(json.loads(subprocess.run(sys.argv[1], check=True, capture_output=True, text=True).stdout)):
-    for kind, judged in zip(("gain", "phase"), margins(case)):
+    loop = open_loop(case)
+    values = loop(ANGLES)
+    for kind, judged in zip(("gain", "phase"), margins(loop, 1 / case["controller"]["sample_rate"], values)):
         told = case[kind + "_margin"]
         if (told is None) != (judged is None):
             sys.exit(f"loop {number} ({case['blocks']}): {kind} margin {told}, judged {judged}\n{json.dumps(case)}")
@@ -132,7 +130,7 @@ for number, case in enumerate(json.loads(subprocess.run(sys.argv[1], check=True,
             sys.exit(f"loop {number} ({case['blocks']}): {kind} margin {told}, judged {judged}\n{json.dumps(case)}")
         worst[kind] = max(worst[kind], value)
         worst["frequency"] = max(worst["frequency"], frequency)
-    value = abs(case["peak_sensitivity"][0] / peak_sensitivity(case) - 1)
+    value = abs(case["peak_sensitivity"][0] / peak_sensitivity(loop, values) - 1)
     if value > 1e-5:
         sys.exit(f"loop {number} ({case['blocks']}): peak sensitivity differs by {value}\n{json.dumps(case)}")
     worst["sensitivity"] = max(worst["sensitivity"], value)

@@ -101,7 +101,7 @@ TEST_F(LivePage, SaysThatATuningWasInterrupted) {
 
 TEST_F(LivePage, OfATuningIsItsReportAtTheEnd) {
   folder_.write("a.yaml", tunable);
-  run({"tune", "a.yaml", "-o", "a.h5", "--budget", "30000", "--report", "report.html", "--watch",
+  run({"tune", "a.yaml", "-o", "a.h5", "--budget", "10000", "--report", "report.html", "--watch",
        "watched.html"});
   const std::string page = folder_.read("watched.html");
   EXPECT_EQ(page, folder_.read("report.html"));

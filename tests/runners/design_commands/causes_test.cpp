@@ -259,6 +259,7 @@ TEST_F(Causes, AreNamedThatAreNoParameters) {
 }
 
 // Where nothing that is tried helps no cause is named, and the answer says what was tried and what was not.
+// Nothing that is missed everywhere can get worse: no effect "costs at most 1 %" there.
 TEST_F(Causes, AreNotNamedWhereNothingHelps) {
   const Json answer = limits_with({"goal.within=0.005"});
   for (const Json& one : answer["limits"]) EXPECT_FALSE(one.value("shown", false)) << one;
@@ -266,11 +267,6 @@ TEST_F(Causes, AreNotNamedWhereNothingHelps) {
   EXPECT_TRUE(says(headline, "no cause of failures is shown"));
   const std::string text = program({"limits", "axis.yaml", "--set", "goal.within=0.005"}).out;
   EXPECT_TRUE(says(text, "not tried: other values of plant, friction"));
-}
-
-// Nothing that is missed everywhere can get worse: no effect "costs at most 1 %" there.
-TEST_F(Causes, DoNotSayWhatCostsNothingWhereNothingIsMet) {
-  const Json answer = limits_with({"goal.within=0.005"});
   ASSERT_EQ(answer["limits"][0]["rate"], 0.0);
   for (const Json& one : answer["additions"]) {
     EXPECT_TRUE(one["rate"].is_null()) << one;

@@ -62,8 +62,8 @@ TEST_F(Claims, OfATuningAreThoseOfPlainRunsAtTheTunedValues) {
       "  large: {on: [0, 1], band: 1, within: 0.012, moves: 0.9, machines: 0.8}\n"
       "  small: {on: [2], band: 1, within: 0.005, moves: 0.7}\n";
   folder_.write("axis.yaml", study(two_conditions, 80, goals + std::string(three_gains)));
-  const ProgramResult result =
-      program({"tune", "axis.yaml", "-o", "tuned.h5", "--budget", "25000", "--format", "json"});
+  const ProgramResult result = program(
+      {"tune", "axis.yaml", "-o", "tuned.h5", "--budget", "16000", "--extras", "none", "--format", "json"});
   ASSERT_NE(result.code, 2) << result.err;
   const Json tuned = Json::parse(result.out);
   ASSERT_EQ(tuned["claims"].size(), 4U) << result.out;
@@ -114,8 +114,8 @@ TEST_F(Claims, TuningForAllConditionsIsNotWorseThanTuningForOne) {
     return Json::parse(program({"judge", "at.h5", "--format", "json"}).out);
   };
   const auto tune = [&](const std::string& manifest) {
-    const ProgramResult result =
-        program({"tune", manifest, "-o", "tuned.h5", "--force", "--budget", "40000", "--format", "json"});
+    const ProgramResult result = program({"tune", manifest, "-o", "tuned.h5", "--force", "--budget", "20000",
+                                          "--extras", "none", "--format", "json"});
     EXPECT_NE(result.code, 2) << result.err;
     return Json::parse(result.out)["gains"];
   };

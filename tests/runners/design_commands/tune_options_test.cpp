@@ -12,7 +12,7 @@ class TuneBudget : public Tune {};
 // keeps both, and the same command ends with the answer of a tuning without interruption.
 TEST_F(TuneBudget, GivesTheProvenAnswerBeforeTheExtrasAndKeepsIt) {
   write_axis("goal: {band: 1, within: 0.1, moves: 0.98}\n" + std::string(two_gains));
-  const std::vector<std::string> command{"tune", "axis.yaml", "-o", "tuned.h5", "--budget", "20000"};
+  const std::vector<std::string> command{"tune", "axis.yaml", "-o", "tuned.h5", "--budget", "9000"};
   const std::filesystem::path out = folder_.path() / "out.txt";
   RunningProgram running(command, folder_.path(), out);
   while (!std::filesystem::exists(folder_.path() / "tuned.h5"))
@@ -90,7 +90,7 @@ TEST_F(TuneBudget, NamesTheExtrasThatABudgetLeavesOutWithTheCommandThatMakesThem
   ASSERT_NE(names, std::string::npos) << result.out;
   const std::size_t begin = names + makes.size();
   const std::string extras = result.out.substr(begin, result.out.find(' ', begin) - begin);
-  const ProgramResult later = program({"tune", "tuned.h5", "--extras", extras, "--budget", "20000"});
+  const ProgramResult later = program({"tune", "tuned.h5", "--extras", extras, "--budget", "8000"});
   EXPECT_EQ(later.code, 0) << later.err;
   EXPECT_FALSE(says(later.out, "left out"));
   EXPECT_TRUE(says(later.out, "what limits it"));

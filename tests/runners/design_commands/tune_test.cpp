@@ -152,7 +152,7 @@ TEST_F(Tune, SaysWhatTheTunedValuesDo) {
                                  "goals: {there: {'on': [0], band: 1, within: 0.25, moves: 0.3},\n"
                                  "  back: {'on': [1], band: 2, within: 0.25, moves: 0.3}}\n" +
                                  std::string(two_gains));
-  const ProgramResult result = tune({"--extras", "none"}, "12000");
+  const ProgramResult result = tune({"--extras", "none"}, "6000");
   ASSERT_NE(result.code, 2) << result.err;
   const Json answer = Json::parse(result.out);
   ASSERT_EQ(answer["behaviour"].size(), 4U) << result.out;
@@ -244,7 +244,7 @@ TEST_F(Tune, WithoutAPointThatKeepsTheMarginsNamesTheNearest) {
   // With as much less as is missing there the point is found.
   const double kept = nearest["margins"]["gain"].get<double>();
   write("gain: " + std::to_string(kept - 0.01) + ", phase: off, delay: off");
-  EXPECT_FALSE(Json::parse(tune({}, "3000").out)["gains"].empty());
+  EXPECT_FALSE(Json::parse(tune({"--extras", "none"}, "3000").out)["gains"].empty());
 }
 
 // A tuning adds spreads that the study does not draw, and looks at every machine.
@@ -335,7 +335,7 @@ TEST_F(Tune, MinimisesTheTorqueNoiseAtRest) {
   std::vector<double> noise;
   for (const char* criterion : {"band_settling_time.p95", "rest_torque_noise.p95"}) {
     write_axis(goal + std::string(two_gains) + "  minimise: " + criterion + "\n");
-    const ProgramResult result = tune({}, "3500");
+    const ProgramResult result = tune({"--extras", "none"}, "3500");
     ASSERT_EQ(result.code, 0) << result.err;
     const Json summary = Json::parse(program({"summary", "tuned.h5", "--format", "json"}).out);
     noise.push_back(summary["points"][0]["rest_torque_noise"]["mean"].get<double>());
@@ -348,7 +348,7 @@ TEST_F(Tune, SaysWhenTheGoalIsLost) {
              std::string(two_gains));
   const std::string growing =
       "friction.k1={lognormal: {median: 130, cv: 0.2}, aging: {exponential: 0.5, scale: 1.0e+6}}";
-  const ProgramResult tuned = tune({"--set", growing, "--extras", "ages", "--report", "life.html"}, "40000");
+  const ProgramResult tuned = tune({"--set", growing, "--extras", "ages", "--report", "life.html"}, "12000");
   ASSERT_EQ(tuned.code, 0) << tuned.err;
   EXPECT_TRUE(says(folder_.read("life.html"), "figure-tuning-ages"));
   const auto answer = nlohmann::json::parse(tuned.out);

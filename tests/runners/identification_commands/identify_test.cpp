@@ -117,12 +117,15 @@ TEST_F(Identify, DrawsTheFit) {
   EXPECT_EQ(folder_.read("fit.svg").find("<svg"), 0U);
 }
 
-// From a rotor on a bristle to the law that its record follows, and to a manifest with it.
+// From a rotor on a bristle to the law that its record of 0.6 s follows, and to a manifest with it.
 TEST_F(Identify, TellsWhichLawARecordFollows) {
   std::string bristle = material_tests;
   bristle.replace(bristle.find("{k1: 130}"), 9, "{model: lugre, sigma0: 300, coulomb_ratio: 1}");
   folder_.write("tests.yaml", bristle);
-  trace("loops.csv", "0");
+  ASSERT_EQ(program({"trace", "tests.yaml", "-o", "loops.csv", "--set", "command.hold=0.05", "--set",
+                     "sweep={cases: {fast: {command.torque.rate: 1.6}}}"})
+                .code,
+            0);
   const auto identify = [&](std::vector<std::string> words) {
     words.insert(words.begin(), {"identify", "loops.csv", "--counts-per-revolution", "1620000", "--quiet"});
     return program(words);

@@ -77,10 +77,8 @@ class ConditionsOfResults : public ::testing::Test {
     return json::parse(run(words));
   }
 
-  static TemporaryFolder* folder;
+  static inline TemporaryFolder* folder = nullptr;
 };
-
-TemporaryFolder* ConditionsOfResults::folder = nullptr;
 
 /// The answer without these members, at whatever depth.
 json without(json answer, const std::set<std::string>& members) {

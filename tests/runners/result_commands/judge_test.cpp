@@ -282,10 +282,8 @@ class QuestionOfAStudy : public ::testing::Test {
     return result;
   }
 
-  static TemporaryFolder* folder;
+  static inline TemporaryFolder* folder = nullptr;
 };
-
-TemporaryFolder* QuestionOfAStudy::folder = nullptr;
 
 struct Answer {
   std::vector<std::string> words;

@@ -94,8 +94,8 @@ INSTANTIATE_TEST_SUITE_P(All, StatisticsOfStudies,
                          [](const auto& tested) { return tested.param.name; });
 
 TEST_F(KeptStatistics, OfARunThatWasInterruptedAreTheSame) {
-  folder_.write("study.yaml", small_manifest(30000, "keep: statistics\n"));
-  RunningProgram running({"run", "study.yaml", "-q", "-o", "out.h5"}, folder_.path());
+  folder_.write("study.yaml", small_manifest(16000, "keep: statistics\n"));
+  RunningProgram running({"run", "study.yaml", "-q", "-o", "out.h5", "--threads", "1"}, folder_.path());
   running.wait_for_shards(at("out.h5.shards"));
   const ProgramResult status = program({"status", "out.h5"});
   running.send(SIGINT);

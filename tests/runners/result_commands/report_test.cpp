@@ -18,10 +18,8 @@ class ReportCommand : public ::testing::Test {
     return zerocount_program(words, folder->path());
   }
 
-  static TemporaryFolder* folder;
+  static inline TemporaryFolder* folder = nullptr;
 };
-
-TemporaryFolder* ReportCommand::folder = nullptr;
 
 TEST_F(ReportCommand, IsTheSamePageEveryTime) {
   const ProgramResult one = run({"report", "a.h5", "-o", "one.html"});

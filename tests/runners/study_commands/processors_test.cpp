@@ -58,9 +58,9 @@ TEST_P(EveryProcessor, GivesTheSameTrials) {
 }
 
 INSTANTIATE_TEST_SUITE_P(ShippedStudies, EveryProcessor,
-                         ::testing::Values(ShortStudy{"paper-gains", "200", "rigs=100"},
-                                           ShortStudy{"contact-variation", "200"},
-                                           ShortStudy{"linear-stage", "200"},
+                         ::testing::Values(ShortStudy{"paper-gains", "60", "rigs=30"},
+                                           ShortStudy{"contact-variation", "50"},
+                                           ShortStudy{"linear-stage", "40"},
                                            ShortStudy{"friction-models", "20"},
                                            ShortStudy{"coarse-to-fine", "20"}, ShortStudy{"notch", "50"}),
                          [](const auto& named) {

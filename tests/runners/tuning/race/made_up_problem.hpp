@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <numbers>
 #include <string>
+#include <unordered_map>
+#include <utility>
 
 #include "core/random/random_numbers.hpp"
 #include "experiments/study/goal.hpp"
@@ -21,6 +23,8 @@ struct MadeUpProblem {
   Values fast{0.7, 0.4};
   Values widths{};  ///< of the peak of the rate, which has long slopes, where `fall` is not to be used
   study::Goal goal{.within = 1.0, .moves = 0.95};
+  mutable std::unordered_map<std::uint64_t, std::pair<double, double>>
+      machines{};  ///< luck and slowness, by unit
 
   static double squared_distance(const Values& a, const Values& b) {
     double sum = 0.0;
@@ -44,17 +48,21 @@ struct MadeUpProblem {
                             unit + (place << 20U), random::Draw::trial));
   }
 
+  double normal(std::uint64_t stream, std::uint64_t unit, const Values& at) const {
+    return std::sqrt(-2.0 * std::log(uniform(stream, unit, at))) *
+           std::cos(2.0 * std::numbers::pi * uniform(stream + 1, unit, at));
+  }
+
   /// The result of a unit: half of its luck is the machine's, the same at all points, half that of the point.
   UnitResult result(const Values& at, std::uint64_t unit) const {
-    const Values everywhere(at.size(), 0.0);
-    const auto normal = [&](std::uint64_t stream, const Values& place) {
-      const double u = uniform(stream, unit, place);
-      return std::sqrt(-2.0 * std::log(u)) *
-             std::cos(2.0 * std::numbers::pi * uniform(stream + 1, unit, place));
-    };
-    const double luck = std::sqrt(0.5) * (normal(1, everywhere) + normal(3, at));
+    auto [machine, is_new] = machines.try_emplace(unit);
+    if (is_new) {
+      const Values everywhere(at.size(), 0.0);
+      machine->second = {normal(1, unit, everywhere), std::exp(0.3 * normal(5, unit, everywhere))};
+    }
+    const double luck = std::sqrt(0.5) * (machine->second.first + normal(3, unit, at));
     const bool met = 0.5 * std::erfc(luck / std::sqrt(2.0)) < rate(at);
-    return {.claims = {{1, met ? 1 : 0, {typical_time(at) * std::exp(0.3 * normal(5, everywhere))}}}};
+    return {.claims = {{1, met ? 1 : 0, {typical_time(at) * machine->second.second}}}};
   }
 
   SearchProblem problem(std::int64_t units) const {

@@ -76,7 +76,7 @@ friction: {k1: {lognormal: {median: 130, cv: 0.2}, per: rig}}
 goal: {band: 1, within: 0.1, moves: 0.9}
 tune: {free: {controller.ki: {log: [5.0e-6, 1.0e-3]}, controller.kp: [0, 5.0e-3]}}
 `);
-  execFileSync(zerocount, ["tune", "axis.yaml", "-o", "tuned.h5", "--budget", "100000", "--extras", "room,limits,maps",
+  execFileSync(zerocount, ["tune", "axis.yaml", "-o", "tuned.h5", "--budget", "70000", "--extras", "room,limits,maps",
     "--report", "tuned.html"],
     {cwd: folder, stdio: "pipe"});
   return join(folder, "tuned.html");

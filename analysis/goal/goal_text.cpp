@@ -187,10 +187,13 @@ std::string goals_text(const Question& question, const measures::PointSummary& p
                 ? ""
                 : fmt::format(" {}, the worst:\n", under_text(question, of_goal.condition))) +
            readings_text(*part.claim, counts, of_goal) +
-           (of_goal.of_load
-                ? fmt::format("  of the load, {} of all moves meet it: {}\n",
-                              text::percent_near(of_goal.of_load->value), with_bounds(*of_goal.of_load))
-                : "");
+           (of_goal.of_load ? fmt::format("  of the load, {} of all moves meet it{}: {}\n",
+                                          text::percent_near(of_goal.of_load->value),
+                                          question.conditions.empty()
+                                              ? ""
+                                              : under_text(question, of_goal.load_condition) + ", its worst",
+                                          with_bounds(*of_goal.of_load))
+                            : "");
   };
   if (!has_several(question))
     return readings(question.parts.front(), verdict) + together_text(question, point);

@@ -52,9 +52,11 @@ struct WorldVerdict {
 /// in one: the upper bounds have the confidence 1 − (1 − γ)/worlds (Bonferroni).
 struct ClaimVerdict : WorldVerdict {
   std::size_t goal{0};
-  std::size_t condition{0};                    ///< 0 without conditions
-  std::vector<WorldVerdict> worlds{};          ///< [world]; empty without worlds
-  std::optional<BoundedProportion> of_load{};  ///< moves of the load that do, of a goal of the motor
+  std::size_t condition{0};            ///< 0 without conditions
+  std::vector<WorldVerdict> worlds{};  ///< [world]; empty without worlds
+  /// Moves of the load that meet a goal of the motor, under the condition where they are the fewest.
+  std::optional<BoundedProportion> of_load{};
+  std::size_t load_condition{0};
   double margin{0.0};  ///< logit of the lower bound of what is claimed, minus that of what is asked for
 };
 

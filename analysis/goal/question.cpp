@@ -184,9 +184,13 @@ Verdict verdict_on(const Question& question, const measures::PointSummary& point
   for (ClaimVerdict& claim : verdict.claims) {
     const JudgedPart& part = question.parts[claim.goal];
     if (!part.claim->beside_load || part.number >= point.for_the_load.size()) continue;
-    claim.of_load = judge_goal(study::for_the_load(*part.claim), point.for_the_load[part.number], points)
-                        .claims[claim.condition]
-                        .moves;
+    const Verdict load =
+        judge_goal(study::for_the_load(*part.claim), point.for_the_load[part.number], points);
+    // Under its own worst condition, which may be another than the motor's.
+    const ClaimVerdict& worst =
+        *std::ranges::min_element(load.claims, {}, [](const ClaimVerdict& one) { return one.moves.value; });
+    claim.of_load = worst.moves;
+    claim.load_condition = worst.condition;
   }
   static_cast<ClaimVerdict&>(verdict) = *std::ranges::min_element(verdict.claims, is_worse);
   return verdict;

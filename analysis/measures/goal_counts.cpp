@@ -178,15 +178,20 @@ double value_of(const layout::Measure& measure, const trial::MoveOutcome& move) 
   return std::isnan(value) && measure.values.nan_is_late ? std::numeric_limits<double>::infinity() : value;
 }
 
-/// The settling time of a goal; of several the largest, as a proportion of the time allowed.
+/// Whether the moves of the event may be allowed different times.
+bool allows_several_times(const MoveEvent& event) {
+  return event.goals.size() > 1 || event.goals.front().within.after_profile;
+}
+
+/// The settling time of a goal; as the largest proportion of the time allowed, where that may differ.
 double lateness_of(const MoveEvent& event, const trial::MoveOutcome& move) {
+  const bool by_share = allows_several_times(event);
   double latest = event.goals.size() > 1 ? 0.0 : statistics::unknown;
   for (const CountedGoal& goal : event.goals) {
     if (!asks(goal, move)) continue;
-    if (event.goals.size() == 1) return settling_time(goal, move);
     const double time = settling_time(goal, move);
-    if (std::isnan(time)) return time;
-    latest = std::max(latest, time / allowed_time(goal, move));
+    if (!by_share || std::isnan(time)) return time;
+    latest = std::fmax(latest, time / allowed_time(goal, move));
   }
   return latest;
 }
@@ -247,7 +252,7 @@ std::string name_of(MoveScore score, const MoveEvent& event) {
   switch (score) {
     case MoveScore::event:
       if (!event.text.empty()) return event.measure.field.column.name;
-      if (event.goals.size() > 1) return "settling time as a proportion of what a goal allows";
+      if (allows_several_times(event)) return "settling time as a proportion of what a goal allows";
       return event.goals.front().tolerance ? "settling time in the tolerance"
              : event.goals.front().slot    ? "settling time in the band"
                                            : "time until arrival";

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "analysis/goal/goal_verdict.hpp"
+#include "analysis/goal/question.hpp"
 #include "tests/support/draws.hpp"
 #include "tests/support/each_seed.hpp"
 
@@ -108,6 +108,43 @@ TEST_EACH_SEED(SeveralGoals, AreJudgedUnderEachConditionAlike) {
   }
   EXPECT_EQ(verdict.status == Status::met, all_met);
   EXPECT_EQ(verdict.status == Status::missed, one_missed);
+}
+
+TEST_EACH_SEED(SeveralGoals, ShowTheLoadUnderItsOwnWorstCondition) {
+  const std::int64_t conditions = draws.integer(2, 4);
+  const measures::Shape shape{.rigs = rigs, .conditions = conditions};
+  Question question{.parts = {},
+                    .conditions = std::vector<std::string>(static_cast<std::size_t>(conditions), "any")};
+  measures::PointSummary point;
+  for (std::size_t i = 0; i < goals.size(); ++i) {
+    goals[i].beside_load = draws.chance(0.7);
+    question.parts.push_back({.number = i, .claim = goals[i]});
+    point.goals.emplace_back(shape);
+    point.for_the_load.emplace_back(shape);
+    std::vector<double> rates(static_cast<std::size_t>(conditions));
+    for (double& rate : rates) rate = draws.uniform(0.5, 1.0);
+    for (std::int64_t trial = 0; trial < conditions * trials; ++trial) {
+      const std::int64_t condition = trial / std::max<std::int64_t>(rigs, 1) % conditions;
+      point.goals[i].add(trial, 1, draws.chance(0.9));
+      point.for_the_load[i].add(trial, 1, draws.chance(rates[static_cast<std::size_t>(condition)]));
+    }
+  }
+  const Verdict verdict = verdict_on(question, point);
+  for (const ClaimVerdict& claim : verdict.claims) {
+    ASSERT_EQ(claim.of_load.has_value(), goals[claim.goal].beside_load);
+    if (!claim.of_load) continue;
+    double lowest = 1.0;
+    for (std::int64_t c = 0; c < conditions; ++c) {
+      const measures::MoveCounts counts =
+          point.for_the_load[claim.goal].sum({.condition = static_cast<std::size_t>(c)});
+      const double rate = static_cast<double>(counts.met) / static_cast<double>(counts.moves);
+      lowest = std::min(lowest, rate);
+      if (static_cast<std::size_t>(c) == claim.load_condition) {
+        EXPECT_EQ(claim.of_load->value, rate);
+      }
+    }
+    EXPECT_EQ(claim.of_load->value, lowest);
+  }
 }
 
 /// Three standard deviations above a wrong claim in 5 % of the studies.

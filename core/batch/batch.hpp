@@ -8,6 +8,7 @@
 #include <stop_token>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/trial/outcome.hpp"
 #include "core/trial/parameters.hpp"
@@ -55,9 +56,9 @@ struct BatchSettings {
   InstructionSet instructions{widest_instruction_set()};
 };
 
-/// The first feature of a trial that lanes lack, as a noun phrase; empty if lanes run the trial. The engine
-/// runs such trials by run_trial (tests/benchmarks/README.md lists them).
-std::string lacking_in_lanes(const trial::TrialParameters& parameters);
+/// The features of a trial that lanes lack, as noun phrases; empty if lanes run the trial. The engine runs
+/// such trials by run_trial (tests/benchmarks/README.md lists them).
+std::vector<std::string> lacking_in_lanes(const trial::TrialParameters& parameters);
 
 /// Whether the lanes run such a trial.
 bool runs_in_lanes(const trial::TrialParameters& parameters);

@@ -116,12 +116,12 @@ PointsOnReference points_on_reference(const study::Study& study) {
   for (std::int64_t point = 0; point < use.examined; ++point) {
     bool lacking = false;
     for (std::int64_t condition = 0; condition < turns.conditions; ++condition) {
-      const std::string feature =
-          batch::lacking_in_lanes(study::study_trial(study, point, turns.trial_of(0, condition)).parameters);
-      if (feature.empty()) continue;
-      lacking = true;
-      if (std::find(use.features.begin(), use.features.end(), feature) == use.features.end())
-        use.features.push_back(feature);
+      for (const std::string& feature : batch::lacking_in_lanes(
+               study::study_trial(study, point, turns.trial_of(0, condition)).parameters)) {
+        lacking = true;
+        if (std::find(use.features.begin(), use.features.end(), feature) == use.features.end())
+          use.features.push_back(feature);
+      }
     }
     use.points += lacking;
   }

@@ -50,21 +50,22 @@ std::int64_t affordable_trials(const trials::Effort& effort, double speed) {
 
 double measured_speed(const study::Study& study, const trials::Effort& effort) {
   constexpr std::int64_t max_measured_units = 512;
-  constexpr double part_of_time = 0.05;
+  constexpr double part_of_time = 0.05, longest_without_limit = 0.5;  // s
   using Clock = std::chrono::steady_clock;
   const trials::Replicates units{trials::in_equal_worlds(study, max_measured_units),
                                  search_trials_of_machine(study)};
   const study::Study measured = trials::variant_of(study, trials::overrides_for(study, units));
-  constexpr double longest_without_limit = 0.5;  // s
-  const double seconds_left = effort.seconds_left();
   // Without a limit of time its trials do not count, because their number depends on the machine.
-  const trials::Effort part = std::isinf(seconds_left)
-                                  ? trials::Effort(effort.stop()).share({}, longest_without_limit)
-                                  : effort.share({}, part_of_time * seconds_left);
+  const bool limited = !std::isinf(effort.seconds_left());
+  const trials::Effort whole = limited ? effort : trials::Effort(effort.stop());
+  const trials::Effort part =
+      whole.share({}, limited ? part_of_time * whole.seconds_left() : longest_without_limit);
   double fastest = 0.0;
   for (std::int64_t count = 8; count <= units.count; count *= 2) {
     const Clock::time_point start = Clock::now();
-    const bool ended = trials::within(part, [&] { results_of(measured, units, count, nullptr, part); });
+    // The first ones run to their end: of trials that are cut off nobody knows how many ran.
+    const trials::Effort& limit = fastest == 0.0 ? whole : part;
+    const bool ended = trials::within(limit, [&] { results_of(measured, units, count, nullptr, limit); });
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
     const double speed = static_cast<double>(count * units.trials_each) / std::max(seconds, 1e-6);
     if (ended || fastest == 0.0) fastest = std::max(fastest, speed);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include "core/batch/batch.hpp"
 #include "core/batch/kernels/batch_state.hpp"
@@ -103,17 +104,21 @@ std::string_view lacking(const trial::DisturbanceParameters& disturbance, LaneMo
   return ripple.size() > max_lane_ripples ? "more than eight ripples" : "";
 }
 
-std::string_view lacking(const motion::LoadParameters& load, const trial::LoadSideParameters& side) {
+/// The features of the load's side, which the lanes lack altogether.
+std::vector<std::string_view> lacking(const motion::LoadParameters& load,
+                                      const trial::LoadSideParameters& side) {
   [[maybe_unused]] const auto& [inertia, stiffness, damping, encoder, gap, damping_to_ground] = load;
   [[maybe_unused]] const auto& [error, disturbance, friction] = side;
-  if (inertia == 0.0) return "";
-  if (friction.model != friction::LoadFrictionModel::none) return "plant.load.friction";
-  if (gap > 0.0) return "plant.load.gap";
-  if (!error.empty()) return "plant.load.error";
-  if (damping_to_ground > 0.0) return "plant.load.damping_to_ground";
-  const bool is_disturbed = disturbance.torque != 0.0 || !disturbance.ripple.empty() ||
-                            !disturbance.vibration.empty() || !disturbance.spectra.empty();
-  return is_disturbed ? "disturbance.load" : "";
+  std::vector<std::string_view> features;
+  if (inertia == 0.0) return features;
+  if (friction.model != friction::LoadFrictionModel::none) features.push_back("plant.load.friction");
+  if (gap > 0.0) features.push_back("plant.load.gap");
+  if (!error.empty()) features.push_back("plant.load.error");
+  if (damping_to_ground > 0.0) features.push_back("plant.load.damping_to_ground");
+  if (disturbance.torque != 0.0 || !disturbance.ripple.empty() || !disturbance.vibration.empty() ||
+      !disturbance.spectra.empty())
+    features.push_back("disturbance.load");
+  return features;
 }
 
 std::string_view lacking(const trial::CommandParameters& command) {
@@ -129,19 +134,21 @@ bool has_samples(const trial::TrialParameters& p) {
   return true;
 }
 
-/// The first feature of the trial that the lanes of its friction model lack; empty if they have all.
-std::string_view lacking(const trial::TrialParameters& p, LaneMotion motion) {
+/// The features of the trial that the lanes of its friction model lack.
+std::vector<std::string_view> lacking(const trial::TrialParameters& p, LaneMotion motion) {
   [[maybe_unused]] const auto& [plant, friction, encoder, dac, amplifier, controller, command, initial,
                                 verdict, randomness, disturbance, load_side] = p;
   // After a late sample the series must reach up to the next one.
   const double max_frequency = 0.5 / (1.0 / controller.sample_rate + controller.jitter);
+  std::vector<std::string_view> features = lacking(plant.load, load_side);
   for (const std::string_view feature :
-       {lacking(controller, encoder), lacking(command), lacking(disturbance, motion, max_frequency),
-        lacking(plant.load, load_side)}) {
-    if (!feature.empty()) return feature;
+       {lacking(controller, encoder), lacking(command), lacking(disturbance, motion, max_frequency)}) {
+    if (!feature.empty()) features.push_back(feature);
   }
-  if (friction.gms_elements.size() > max_lane_elements) return "more than sixteen elements of gms";
-  return has_samples(p) ? "" : "moves without a sample";
+  if (friction.gms_elements.size() > max_lane_elements)
+    features.push_back("more than sixteen elements of gms");
+  if (!has_samples(p)) features.push_back("moves without a sample");
+  return features;
 }
 
 }  // namespace
@@ -222,11 +229,12 @@ bool is_steady_at_zero(const trial::TrialParameters& p) {
          (!loop::has_coarse_phase(c) || !blocks_remember(c.coarse.blocks));
 }
 
-std::string lacking_in_lanes(const trial::TrialParameters& parameters) {
+std::vector<std::string> lacking_in_lanes(const trial::TrialParameters& parameters) {
   const friction::FrictionModel model = parameters.friction.model;
   const std::optional<LaneMotion> motion = lane_motion(model);
-  if (!motion) return "friction.model " + std::string(friction::traits_of(model).word);
-  return std::string(lacking(parameters, *motion));
+  if (!motion) return {"friction.model " + std::string(friction::traits_of(model).word)};
+  const std::vector<std::string_view> features = lacking(parameters, *motion);
+  return {features.begin(), features.end()};
 }
 
 bool runs_in_lanes(const trial::TrialParameters& parameters) {

@@ -98,7 +98,8 @@ TEST(TorqueLevels, LoadOtherLawsAsInTheReference) {
     const std::vector<BatchedTrial> batched = run_batch(trials);
     int parted = 0;
     for (std::size_t i = 0; i < trials.size(); ++i) {
-      ASSERT_TRUE(batch::runs_in_lanes(trials[i])) << batch::lacking_in_lanes(trials[i]);
+      ASSERT_TRUE(batch::runs_in_lanes(trials[i]))
+          << ::testing::PrintToString(batch::lacking_in_lanes(trials[i]));
       const BatchedTrial reference = run_by_reference(trials[i]);
       parted +=
           expect_same_samples(batched[i], reference, loop::fine_resolution(trials[i].encoder), i) ? 1 : 0;

@@ -278,7 +278,8 @@ TEST(LanesThatStand, GoOnAsTheReferenceDoesUnderEveryTorque) {
   int parted = 0;
   int slid = 0;
   for (std::size_t i = 0; i < trials.size(); ++i) {
-    ASSERT_TRUE(batch::runs_in_lanes(trials[i])) << batch::lacking_in_lanes(trials[i]);
+    ASSERT_TRUE(batch::runs_in_lanes(trials[i]))
+        << ::testing::PrintToString(batch::lacking_in_lanes(trials[i]));
     const BatchedTrial reference = run_by_reference(trials[i]);
     const PathAgreement path = path_agreement(trials[i], batched[i], reference);
     EXPECT_EQ(path.astray, "") << i;

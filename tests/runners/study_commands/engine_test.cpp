@@ -210,6 +210,10 @@ TEST_F(EngineOption, RunAndCheckTellWhichPointsRunOnTheReferenceEngineAndWhy) {
       engine_line(all.out),
       "all trials run on the reference engine, about ten times slower, because of a vibration above half "
       "the sample rate, disturbance.ripple without friction");
+  const ProgramResult load = program(
+      {"check", "laws.yaml", "--set", "plant.load={inertia: 1.0e-4, gap: 1.0e-4, damping_to_ground: 0.01}"});
+  EXPECT_NE(engine_line(load.out).find("plant.load.gap, plant.load.damping_to_ground"), std::string::npos)
+      << "without the gap the lanes still lack the damping: " << engine_line(load.out);
 }
 
 }  // namespace

@@ -253,7 +253,8 @@ TEST(LaneDrive, MovesOtherLawsAsTheReferenceDoes) {
       }
       const std::vector<BatchedTrial> batched = run_batch(all);
       for (std::size_t i = 0; i < all.size(); ++i, ++trials) {
-        ASSERT_TRUE(batch::runs_in_lanes(all[i])) << batch::lacking_in_lanes(all[i]);
+        ASSERT_TRUE(batch::runs_in_lanes(all[i]))
+            << ::testing::PrintToString(batch::lacking_in_lanes(all[i]));
         const PathAgreement path = path_agreement(all[i], batched[i], run_by_reference(all[i]));
         EXPECT_EQ(path.astray, "") << "law " << static_cast<int>(model) << ", kind " << static_cast<int>(kind)
                                    << ", trial " << i;

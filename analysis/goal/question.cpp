@@ -181,16 +181,19 @@ Badness badness_of(const Question& question, std::span<const trial::MoveOutcome>
 Verdict verdict_on(const Question& question, const measures::PointSummary& point, std::size_t points) {
   const CountedClaims claims(question, point);
   Verdict verdict = judge_goals(claims.goals, claims.counts, points);
-  for (ClaimVerdict& claim : verdict.claims) {
-    const JudgedPart& part = question.parts[claim.goal];
+  for (std::size_t goal = 0; goal < question.parts.size(); ++goal) {
+    const JudgedPart& part = question.parts[goal];
     if (!part.claim->beside_load || part.number >= point.for_the_load.size()) continue;
     const Verdict load =
         judge_goal(study::for_the_load(*part.claim), point.for_the_load[part.number], points);
     // Under its own worst condition, which may be another than the motor's.
     const ClaimVerdict& worst =
         *std::ranges::min_element(load.claims, {}, [](const ClaimVerdict& one) { return one.moves.value; });
-    claim.of_load = worst.moves;
-    claim.load_condition = worst.condition;
+    for (ClaimVerdict& claim : verdict.claims) {
+      if (claim.goal != goal) continue;
+      claim.of_load = worst.moves;
+      claim.load_condition = worst.condition;
+    }
   }
   static_cast<ClaimVerdict&>(verdict) = *std::ranges::min_element(verdict.claims, is_worse);
   return verdict;

@@ -92,7 +92,7 @@ TEST(ChosenPoint, ShowsOthersToBeWorseAtItsConfidence) {
   EXPECT_GE(found, 0.95 * rounds);
 }
 
-// Of 10 % in place of 5 % it sees 99 %.
+// The test fails with 99 % if the rate of errors is 10 % in place of 5 %.
 TEST(ChosenPoint, ComparesIndependentTrialsAtItsConfidence) {
   std::mt19937_64 random(36);
   for (const double rate : {0.5, 0.9, 0.99}) {

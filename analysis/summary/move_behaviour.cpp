@@ -37,17 +37,20 @@ TrialScale scale_of(const trial::TrialParameters& p) {
   }
   return scale;
 }
-void BehaviourCounter::RowValues::add(const trial::MoveOutcome& move, const TrialScale& scale) {
-  const auto overshoot = static_cast<double>(move.overshoot);
-  overshoots.push_back(overshoot);
-  lengths.push_back(overshoot * scale.resolution);
+
+void BehaviourCounter::RowValues::add(const trial::MoveOutcome& move, const TrialScale& scale,
+                                      bool of_other_mass) {
+  const double overshoot =
+      of_other_mass ? move.other_true_overshoot / scale.resolution : static_cast<double>(move.overshoot);
   const double step = scale.steps.empty() ? 0.0 : scale.steps[static_cast<std::size_t>(move.number)];
-  if (step > 0.0) {
-    of_steps.push_back(overshoot / step);
-    smallest_step = std::min(smallest_step, step);
+  if (step > 0.0) smallest_step = std::min(smallest_step, step);
+  if (std::isfinite(overshoot)) {  // not of a move that was stopped
+    overshoots.push_back(overshoot);
+    lengths.push_back(overshoot * scale.resolution);
+    if (step > 0.0) of_steps.push_back(overshoot / step);
   }
   ++moves;
-  if (std::isfinite(move.peak_torque)) {  // not of a move that was stopped
+  if (std::isfinite(move.peak_torque)) {
     peaks.push_back(move.peak_torque);
     of_ranges.push_back(move.peak_torque / scale.largest_torque);
   }
@@ -77,9 +80,9 @@ void BehaviourCounter::add(const TrialScale& scale, std::int64_t condition,
     for (std::size_t goal = 0; goal < goals_.size(); ++goal) {
       if (!measures::asks(goals_[goal], move)) continue;
       is_asked = true;
-      row(goal, condition).add(move, scale);
+      row(goal, condition).add(move, scale, goals_[goal].of_other_mass);
     }
-    if (!is_asked) row(goals_.size(), condition).add(move, scale);
+    if (!is_asked) row(goals_.size(), condition).add(move, scale, false);
   }
 }
 

@@ -31,7 +31,8 @@ struct MoveBehaviour {
   std::optional<std::string> condition{};  ///< none without conditions
   std::size_t number{0};                   ///< of the goal in the study; their number for other moves
   std::int64_t moves{0};
-  UpperValues overshoot;          ///< counts
+  /// Counts: of the readings, or of the position where the goal is of the mass that does not close the loop.
+  UpperValues overshoot;
   UpperValues overshoot_length;   ///< the same, rad
   UpperValues overshoot_of_step;  ///< the same as a proportion of the move's step; NaN where nothing steps
   double smallest_step{std::numeric_limits<double>::infinity()};  ///< counts
@@ -70,7 +71,7 @@ class BehaviourCounter {
     double power{0.0}, noise{0.0}, noise_of_range{0.0};  ///< sums of squares
     std::int64_t at_rest{0};
 
-    void add(const trial::MoveOutcome& move, const TrialScale& scale);
+    void add(const trial::MoveOutcome& move, const TrialScale& scale, bool of_other_mass);
   };
 
   RowValues& row(std::size_t goal, std::int64_t condition);

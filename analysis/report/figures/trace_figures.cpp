@@ -50,20 +50,47 @@ std::vector<std::int64_t> starts_of_moves(const trial::TrialParameters& paramete
   return starts;
 }
 
-/// Errors of the samples, rad: of the position (trial::PositionError) where a goal has a tolerance, else of
-/// the readings.
-/// @param of the mass that they are of; none: that whose encoder closes the loop
-std::vector<double> errors_of(const ReplayedTrial& replayed, bool of_position,
-                              std::optional<motion::EncoderPlace> of) {
+/// A mass whose response is shown.
+struct ShownMass {
+  std::optional<motion::EncoderPlace> mass{};  ///< none: that whose encoder closes the loop
+  bool of_position{false};  ///< its position error (trial::PositionError), not the error of the readings
+  std::vector<goal::JudgedPart> parts{};  ///< what is asked of it
+};
+
+/// The masses whose response is shown: that of the first goal, and the other one where a goal or an encoder
+/// is of it.
+std::vector<ShownMass> shown_masses(const goal::Question& question, const trial::TrialParameters& p) {
+  using enum motion::EncoderPlace;
+  const auto mass_of = [](const goal::JudgedPart& part) {
+    return part.claim ? part.claim->of : std::optional<motion::EncoderPlace>();
+  };
+  std::vector<ShownMass> shown{{.mass = mass_of(question.parts.front())}};
+  const motion::EncoderPlace closing = motion::has_load(p.plant) ? p.plant.load.encoder : motor;
+  const motion::EncoderPlace first = shown.front().mass.value_or(closing);
+  const bool of_either = question.claim() && question.claim()->of_either;
+  ShownMass other{.mass = first == motor ? load : motor, .of_position = true};
+  for (const goal::JudgedPart& part : question.parts) {
+    const bool of_other = !of_either && mass_of(part).value_or(first) != first;
+    (of_other ? other : shown.front()).parts.push_back(part);
+    if (part.claim && part.claim->beside_load && other.mass == load) other.parts.push_back(part);
+    shown.front().of_position |= !of_other && part.claim && part.claim->tolerance;
+  }
+  if (!other.parts.empty() || (!of_either && motion::has_load(p.plant) && p.encoder.other.counts > 0.0))
+    shown.push_back(std::move(other));
+  return shown;
+}
+
+/// Errors of the samples, rad.
+std::vector<double> errors_of(const ReplayedTrial& replayed, const ShownMass& shown) {
   const trial::TrialParameters& p = replayed.parameters;
   const double resolution = loop::fine_resolution(p.encoder);
   const bool at_load =
-      motion::has_load(p.plant) && of.value_or(p.plant.load.encoder) == motion::EncoderPlace::load;
+      motion::has_load(p.plant) && shown.mass.value_or(p.plant.load.encoder) == motion::EncoderPlace::load;
   const std::vector<std::int64_t> starts = starts_of_moves(p);
   std::vector<double> errors;
   for (const trial::SampleRecord& sample : replayed.samples) {
     errors.push_back(static_cast<double>(sample.error) * resolution);
-    if (!of_position || loop::moves_for_ever(p.command.profile.shape)) continue;
+    if (!shown.of_position || loop::moves_for_ever(p.command.profile.shape)) continue;
     const auto move =
         static_cast<std::size_t>(std::ranges::upper_bound(starts, sample.k) - starts.begin() - 1);
     const double target = p.command.exact_targets.empty() ? static_cast<double>(sample.target) * resolution
@@ -81,7 +108,7 @@ double half_width(const std::optional<study::Goal>& goal, double resolution) {
 }
 
 /// Goals as boxes, one for each move that they are about, from the time that they allow to its end.
-FigureData boxes_of(const goal::Question& question, const ReplayedTrial& replayed) {
+FigureData boxes_of(const std::vector<goal::JudgedPart>& parts, const ReplayedTrial& replayed) {
   const trial::TrialParameters& parameters = replayed.parameters;
   FigureData data{"goals",
                   {{"goal", "goal", ""},
@@ -91,7 +118,7 @@ FigureData boxes_of(const goal::Question& question, const ReplayedTrial& replaye
                    {"high", "to", "rad"}}};
   const double resolution = loop::fine_resolution(parameters.encoder);
   const std::vector<std::int64_t> starts = starts_of_moves(parameters);
-  for (const goal::JudgedPart& part : question.parts) {
+  for (const goal::JudgedPart& part : parts) {
     const std::vector<std::int64_t> on = part.claim ? part.claim->on : std::vector<std::int64_t>{};
     const double half = half_width(part.claim, resolution);
     for (std::size_t move = 0; move + 1 < starts.size(); ++move) {
@@ -140,14 +167,23 @@ std::vector<SampleTrial> sample_trials(const ReportedStudy& reported) {
   return trials;
 }
 
-std::vector<Figure> response_figures(const ReportedStudy& reported, const Replay& replay) {
-  const std::vector<SampleTrial> trials = sample_trials(reported);
-  if (trials.empty()) return {};
-  std::vector<ReplayedTrial> replayed(trials.size());
-  std::ranges::transform(trials, replayed.begin(), replay);
+namespace {
+
+/// "trial 12, settles in the goal's band after 27.5 ms" of each shown trial.
+std::string courses_of(const goal::Question& question, const std::vector<SampleTrial>& trials,
+                       const std::vector<ReplayedTrial>& replayed) {
+  std::string courses;
+  for (std::size_t i = 0; i < trials.size(); ++i)
+    courses += fmt::format("{}{}{}: trial {}, {}", i == 0 ? " Shown are: " : "; ", trials[i].name,
+                           trials[i].condition.empty() ? "" : ", " + trials[i].condition, trials[i].index,
+                           course_of(question, replayed[i].result.outcome.moves));
+  return courses + ".";
+}
+
+/// @param one_of_two whether the figure is of one of two shown masses
+Figure response_figure(const ReportedStudy& reported, const std::vector<SampleTrial>& trials,
+                       const std::vector<ReplayedTrial>& replayed, const ShownMass& shown, bool one_of_two) {
   const goal::Question& question = question_of(reported);
-  const bool of_position = std::ranges::any_of(
-      question.parts, [](const goal::JudgedPart& part) { return part.claim && part.claim->tolerance; });
   FigureData data{"samples",
                   {{"trial", "trial", ""},
                    {"condition", has_conditions(reported) ? "condition" : "", ""},
@@ -155,11 +191,9 @@ std::vector<Figure> response_figures(const ReportedStudy& reported, const Replay
                    {"error", "error", "rad"},
                    {"counts", "error", "count"},
                    {"torque", "$torque", "N m"}}};
-  std::string course;
   double largest = 0.0;
   for (std::size_t i = 0; i < trials.size(); ++i) {
-    const std::vector<double> errors =
-        errors_of(replayed[i], of_position, question.claim() ? question.claim()->of : std::nullopt);
+    const std::vector<double> errors = errors_of(replayed[i], shown);
     const double resolution = loop::fine_resolution(replayed[i].parameters.encoder);
     for (std::size_t k = 0; k < errors.size(); ++k) {
       const trial::SampleRecord& sample = replayed[i].samples[k];
@@ -167,34 +201,59 @@ std::vector<Figure> response_figures(const ReportedStudy& reported, const Replay
       data.rows.push_back({trials[i].name, trials[i].condition, datum(sample.t, 9), datum(errors[k]),
                            datum(errors[k] / resolution), datum(sample.torque)});
     }
-    course += fmt::format("{}{}{}: trial {}, {}", i == 0 ? " Shown are: " : "; ", trials[i].name,
-                          trials[i].condition.empty() ? "" : ", " + trials[i].condition, trials[i].index,
-                          course_of(question, replayed[i].result.outcome.moves));
   }
   const trial::TrialParameters& parameters = replayed.front().parameters;
   const double resolution = loop::fine_resolution(parameters.encoder);
   double smallest = INFINITY;
-  for (const goal::JudgedPart& part : question.parts)
+  for (const goal::JudgedPart& part : shown.parts)
     smallest = std::min(smallest, half_width(part.claim, resolution));
+  if (shown.parts.empty()) smallest = half_width(std::nullopt, resolution);
   largest = std::max(1.2 * largest, 3.0 * smallest);
   const char* const subject = reported.study.rigs > 0 ? "machine" : "trial";
+  const motion::EncoderPlace mass = shown.mass.value_or(parameters.plant.load.encoder);
+  const std::string of_mass = one_of_two ? fmt::format(" of the {}", study::mass_text(mass)) : "";
+  const bool is_beside =
+      one_of_two && !shown.parts.empty() && std::ranges::all_of(shown.parts, [&](const auto& part) {
+        return part.claim && part.claim->beside_load && part.claim->of != shown.mass;
+      });
+  const std::string boxes = shown.parts.empty() ? "No goal is of this mass."
+                            : is_beside         ? "The shaded boxes are what the goal asks of the motor."
+                            : question.claim()  ? "The goal asks that the error stay in the shaded boxes."
+                                                : "The shaded box is zero counts.";
   Figure figure = figure_of(
-      "response", "response", fmt::format("How do the median and the worst {} respond?", subject),
+      "response", "response",
+      one_of_two ? fmt::format("How does the {} respond in the median and the worst {}?",
+                               study::mass_text(mass), subject)
+                 : fmt::format("How do the median and the worst {} respond?", subject),
       fmt::format(
-          "{} of two trials of point {}{}, simulated again, and the $torque of the worst. {} Its axis is "
+          "{}{} of two trials of point {}{}, simulated again, and the $torque of the worst. {} Its axis is "
           "linear within the narrowest goal and logarithmic beyond. Samples are thinned, but all extremes "
           "are shown.{}",
-          of_position ? "Position error" : "Error of the readings", label_of(reported, reported.chosen.point),
-          has_conditions(reported) ? ", under each condition" : "",
-          question.claim() ? "The goal asks that the error stay in the shaded boxes."
-                           : "The shaded box is zero counts.",
-          course + "."),
-      {std::move(data), boxes_of(question, replayed.front())});
+          shown.of_position ? "Position error" : "Error of the readings", of_mass,
+          label_of(reported, reported.chosen.point), has_conditions(reported) ? ", under each condition" : "",
+          boxes, courses_of(question, trials, replayed)),
+      {std::move(data), boxes_of(shown.parts, replayed.front())});
   for (const SampleTrial& trial : trials)
     figure.parameters["titles"][trial.name] = fmt::format("{} {}", trial.name, subject);
   figure.parameters["error_scale"] = error_scale(smallest, largest);
   figure.parameters["count_scale"] = error_scale(smallest / resolution, largest / resolution);
-  return {std::move(figure)};
+  return figure;
+}
+
+}  // namespace
+
+std::vector<Figure> response_figures(const ReportedStudy& reported, const Replay& replay) {
+  const std::vector<SampleTrial> trials = sample_trials(reported);
+  if (trials.empty()) return {};
+  std::vector<ReplayedTrial> replayed(trials.size());
+  std::ranges::transform(trials, replayed.begin(), replay);
+  const std::vector<ShownMass> shown = shown_masses(question_of(reported), replayed.front().parameters);
+  std::vector<Figure> figures;
+  for (const ShownMass& one : shown) {
+    figures.push_back(response_figure(reported, trials, replayed, one, shown.size() > 1));
+    if (&one != &shown.front()) figures.back().name += fmt::format("-{}", study::mass_text(*one.mass));
+  }
+  return figures;
 }
 
 namespace {
@@ -382,9 +441,13 @@ void TraceThinner::add(const trial::SampleRecord& sample) {
 }
 
 void TraceThinner::close_bucket() {
-  const std::vector<SampleQuantity> quantities{
+  std::vector<SampleQuantity> quantities{
       [&](std::size_t i) { return static_cast<double>(at_hand_[i].error); },
       [&](std::size_t i) { return at_hand_[i].torque; }};
+  if (std::ranges::any_of(at_hand_, [](const auto& sample) { return sample.load_theta != sample.theta; })) {
+    quantities.push_back([&](std::size_t i) { return at_hand_[i].theta; });
+    quantities.push_back([&](std::size_t i) { return at_hand_[i].load_theta; });
+  }
   for (const std::size_t place : extreme_samples(0, at_hand_.size(), quantities)) {
     const trial::SampleRecord& sample = at_hand_[place];
     const std::size_t size = kept_.size();

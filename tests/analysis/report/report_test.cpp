@@ -4,6 +4,7 @@
 
 #include "analysis/comparison/comparison.hpp"
 #include "analysis/report/figures/report_figures.hpp"
+#include "analysis/summary/move_behaviour.hpp"
 #include "analysis/summary/stored_statistics.hpp"
 #include "analysis/summary/study_statistics.hpp"
 #include "analysis/summary/summary.hpp"
@@ -188,6 +189,46 @@ TEST_F(Report, TheResponseHasTheErrorsOfItsTrials) {
     }
   }
   EXPECT_EQ(row, data.rows.size());
+}
+
+/// Each mass has its own figure, with the boxes of its own goals, and its own overshoot.
+TEST(TwoMasses, AreShownEachByTheGoalsOfIt) {
+  const TemporaryFolder folder;
+  testing::run_study_file(
+      folder / "joint.h5",
+      "zerocount: 1\nname: joint\nseed: 7\ntrials: 12\n"
+      "plant: {inertia: 0.5, sliding_damping: 1, load: {inertia: {uniform: [0.5, 2]}, stiffness: 2.0e+4}}\n"
+      "friction: {model: coulomb, breakaway: 5, coulomb_ratio: 1}\nencoder: {fine: 1000000}\n"
+      "command: {units: si, targets: [0.1, 0.02], hold: 0.4}\ndac: {bits: 20, range: 200}\n"
+      "controller: {units: si, sample_rate: 4000, kp: 3.0e+4, ki: 3.0e+5, kd: 300}\n"
+      "goals: {near: {of: load, on: [0], tolerance: 2.0e-3, within: 0.2, moves: 0.5},\n"
+      "  sharp: {of: motor, on: [1], tolerance: 5.0e-4, within: 0.3, moves: 0.5}}\n");
+  const reading::AllTrialsFile joint(folder / "joint.h5");
+  const ReportedStudy reported = reported_study(joint);
+  const StudyReport made = study_report(joint);
+  const std::vector<SampleTrial> trials = sample_trials(reported);
+  for (const auto& [name, half, from, load] :
+       {std::tuple("response", 2e-3, 0.2, true), std::tuple("response-motor", 5e-4, 0.4 + 0.3, false)}) {
+    const std::vector<FigureData>& data = find_figure(made.page, name).data;
+    EXPECT_EQ(column(data[1], "high"), std::vector{half}) << name;
+    EXPECT_EQ(column(data[1], "from"), std::vector{from}) << name;
+    const std::vector<double> error = column(data[0], "error");
+    std::size_t row = 0;
+    for (const SampleTrial& trial : trials) {
+      const ReplayedTrial replayed = replay_trial(joint.study(), trial.point, trial.index, trial.buckets);
+      for (const trial::SampleRecord& sample : replayed.samples) {
+        const double target = sample.t < 0.4 ? 0.1 : 0.02;
+        const double expected = target - (load ? sample.load_theta : sample.theta);
+        EXPECT_NEAR(error[row++], expected, 1e-5 * std::abs(expected) + 1e-9) << name;
+      }
+    }
+    EXPECT_EQ(row, error.size());
+  }
+  const std::vector<summary::MoveBehaviour> behaviour = summary::behaviour_in(joint, joint.study());
+  const std::vector<double> overshoots = joint.measure("load_true_overshoot", joint.rows());
+  double largest = 0.0;  // of the first moves
+  for (std::size_t i = 0; i < overshoots.size(); i += 2) largest = std::max(largest, overshoots[i]);
+  EXPECT_NEAR(behaviour.front().overshoot_length.max, largest, 1e-12);
 }
 
 TEST_F(Report, TracesAreTheRecordedTrials) {

@@ -36,11 +36,12 @@ trial::TrialParameters trial_of_move(trial::TrialParameters trial, const TargetS
   return trial;
 }
 
-trial::MoveOutcome held_for(trial::TrialParameters& trial, std::int64_t samples) {
+trial::MoveOutcome held_for(trial::TrialParameters& trial, std::int64_t samples,
+                            const std::stop_token& stop) {
   trial.command.hold = static_cast<double>(samples) / trial.controller.sample_rate;
   trial.verdict.window = 0.5 * trial.command.hold;
   trial.verdict.dwell = 1.0 / trial.controller.sample_rate;
-  return trial::run_trial(trial).moves.front();
+  return trial::run_trial(trial, {.sample = {}, .jerk = {}, .stop = stop}).moves.front();
 }
 
 /// Whether the torque of a standing axis changes, so that it may break away later.
@@ -67,7 +68,8 @@ bool is_cycle(const trial::MoveOutcome& move, double amplitude_before, const tri
 
 }  // namespace
 
-std::optional<HuntingPrediction> predict_hunting(const trial::TrialParameters& trial) {
+std::optional<HuntingPrediction> predict_hunting(const trial::TrialParameters& trial,
+                                                 const std::stop_token& stop) {
   if (!trial.command.torque.levels.empty() || !friction::has_friction(trial.friction.model) ||
       loop::moves_for_ever(trial.command.profile.shape))
     return std::nullopt;
@@ -83,7 +85,12 @@ std::optional<HuntingPrediction> predict_hunting(const trial::TrialParameters& t
   if (!(3.0 * profile <= static_cast<double>(max_samples) * longer)) return prediction;
   const std::int64_t first = std::max(first_samples, static_cast<std::int64_t>(3.0 * profile));
   for (std::int64_t samples = first; samples <= std::max(max_samples, first); samples *= longer) {
-    const trial::MoveOutcome outcome = held_for(p, samples);
+    trial::MoveOutcome outcome;
+    try {
+      outcome = held_for(p, samples, stop);
+    } catch (const trial::Interrupted&) {
+      return prediction;
+    }
     prediction.duration = p.command.hold;
     if (has_come_to_rest(outcome, p) || (stays_within_a_count(outcome) && stays_within_a_count(before))) {
       prediction.state = Hunting::rests;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -145,7 +146,9 @@ struct HuntingPrediction {
 /// Without noise of the encoder and the converter, and without vibration, which move the axis by themselves.
 ///
 /// None without a loop, without friction, and where the reference does not end.
-std::optional<HuntingPrediction> predict_hunting(const trial::TrialParameters& trial);
+/// @param stop a request to stop leaves it undecided after the holds that have ended
+std::optional<HuntingPrediction> predict_hunting(const trial::TrialParameters& trial,
+                                                 const std::stop_token& stop = {});
 
 /// For data each number, for people a sentence.
 document::Description<HuntingPrediction> hunting_description();

@@ -24,6 +24,7 @@
 #include "runners/status/progress.hpp"
 #include "runners/status/status.hpp"
 #include "runners/study_commands/study_commands.hpp"
+#include "runners/trials/effort.hpp"
 #include "runners/tuning/units/unit_runner.hpp"
 
 namespace zerocount::study_commands {
@@ -49,6 +50,9 @@ constexpr const char* check_help =
     "Example: zerocount check experiments/manifests/paper-gains.yaml\n";
 
 constexpr std::int64_t points_shown = 20;
+
+/// For the hunting of a point: no more where a contact that creeps fast makes a sample take milliseconds.
+constexpr double hunting_limit = 2.0;  // s
 
 /// A design point under a condition, its theory, and the targets of its trial 0 in counts, if they are in SI
 /// units.
@@ -382,7 +386,7 @@ std::vector<PointReading> examined_points(const study::Study& study, std::int64_
                      ? std::nullopt
                      : std::optional(study.conditions[static_cast<std::size_t>(condition)]),
                  theory::examine(study, point, condition, rotors),
-                 theory::predict_hunting(trial.parameters),
+                 theory::predict_hunting(trial.parameters, trials::Effort().share({}, hunting_limit).stop()),
                  targets_text(study, trial)};
   };
   std::vector<theory::KnownRotor> of_first;

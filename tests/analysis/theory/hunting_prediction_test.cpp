@@ -210,6 +210,12 @@ TEST(HuntingPrediction, LeavesOutNoiseAndVibration) {
   EXPECT_EQ(predict_hunting(p).value().state, Hunting::rests);
 }
 
+TEST(HuntingPrediction, IsUndecidedWhereItIsStopped) {
+  std::stop_source source;
+  source.request_stop();
+  EXPECT_EQ(predict_hunting(soft_bristle(), source.get_token()).value().state, Hunting::undecided);
+}
+
 TEST(HuntingPrediction, IsNotMadeWithoutFrictionOrALoop) {
   trial::TrialParameters p = unit_mass(FrictionModel::none);
   EXPECT_FALSE(predict_hunting(p));

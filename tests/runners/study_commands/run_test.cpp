@@ -145,10 +145,10 @@ TEST_F(Run, RunsAgainWhatADamagedShardHeld) {
   expect_same_datasets(at("whole.h5"), at("new.h5"));
 }
 
-/// Trials of a million samples of a contact that creeps fast: each takes minutes.
+/// Trials of ten million samples of a contact that creeps fast: each takes minutes.
 constexpr const char* long_trials =
-    "zerocount: 1\nname: slow\nseed: 1\ntrials: 4\nfriction: {lambda: 1.0e-9}\n"
-    "command: {targets: [5], hold: 500}\n";
+    "zerocount: 1\nname: slow\nseed: 1\ntrials: 4\nfriction: {lambda: 1.0e-6}\n"
+    "command: {targets: [5], hold: 5000}\n";
 
 TEST_F(Run, ACheckOfLongTrialsEndsSoon) {
   folder_.write("slow.yaml", long_trials);

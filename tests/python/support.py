@@ -6,10 +6,12 @@ import os
 import pathlib
 import re
 import subprocess
+from collections.abc import Iterable
 from typing import Any
 
 import h5py
 import numpy as np
+import pytest
 import zerocount as zc
 
 ROOT = pathlib.Path(__file__).parents[2]
@@ -33,6 +35,14 @@ SMALL: dict[str, dict[str, Any]] = {
     "unknown-friction": {"worlds": 8, "trials": 120, "sweep.grid.controller.ki": [2e-5, 3e-5, 5e-5]},
 }
 """Shipped studies with settings that make them short."""
+
+DEAR = ("repeatability", "contact-variation")
+"""Of them those whose trials take longest."""
+
+
+def dear_by_night(places: Iterable[Any]) -> list[Any]:
+    """Names of shipped studies, or their paths, as parameters of a test: the dear ones are marked `long`."""
+    return [pytest.param(place, marks=pytest.mark.long) if pathlib.Path(place).stem in DEAR else place for place in places]
 
 
 def first_study(root: pathlib.Path, path: pathlib.Path) -> None:

@@ -322,7 +322,7 @@ def test_a_tuning_without_a_task_is_refused(axis: zc.Study, tmp_path: pathlib.Pa
 
 
 def test_what_is_identified_can_be_put_into_a_study(results_of: ResultsOf) -> None:
-    """The parameters hold the truth, and are settings of a study; of several laws those of the best are given."""
+    """The parameters hold the truth, and are settings of a study."""
     r = results_of("identification")
     found = zc.identify(r.path, point="steps")
     truth, table = zc.trial(r, 1, 0).inputs, found.table
@@ -333,7 +333,12 @@ def test_what_is_identified_can_be_put_into_a_study(results_of: ResultsOf) -> No
     study = r.study.set(**found.settings)
     assert study.trials == 10 and "friction.k1" in found.settings
     assert all(study.to_dict()[key.partition(".")[0]][key.partition(".")[2]] == value for key, value in found.settings.items())
-    several = zc.identify(r.path, point="steps", model=["spring", "dahl"])
+
+
+@pytest.mark.long
+def test_of_several_laws_the_parameters_of_the_best_are_given(results_of: ResultsOf) -> None:
+    """Two laws are compared by no exit code, and the table is that of the first."""
+    several = zc.identify(results_of("identification").path, point="steps", model=["spring", "dahl"])
     best = several["laws"][0]
     assert several.passed is None and several.table["value"].tolist() == [parameter["value"] for parameter in best["parameters"]]
 

@@ -26,7 +26,8 @@ Drawn = tuple[zc.Figure, matplotlib.figure.Figure]
 ALIKE = ("bode", "settled", "jerk-", "world-rate-2", "world-rate-3")
 """Figures that look alike in all studies: they are drawn of one."""
 NAMED = ("nominal", "ordinal")
-DRAWN = ["small", "stability-map", "unknown-friction", "paper-fig7", "k1-along-position", "paper-fig4"]
+BY_NIGHT = ["unknown-friction", "paper-fig7", "k1-along-position", "paper-fig4"]
+DRAWN = ["small", "stability-map", *(pytest.param(name, marks=pytest.mark.long) for name in BY_NIGHT)]
 
 
 @pytest.fixture(scope="module", params=DRAWN)

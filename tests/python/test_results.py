@@ -15,7 +15,7 @@ import numpy as np
 import pandas as pd
 import pytest
 import zerocount as zc
-from support import SHIPPED, by_program, program, same, same_trace
+from support import SHIPPED, by_program, dear_by_night, program, same, same_trace
 from zerocount.tables import short_name
 
 ResultsOf = Callable[[str], zc.Results]
@@ -74,7 +74,7 @@ def flat(record: dict[str, Any], prefix: str = "") -> dict[str, Any]:
     return result
 
 
-@pytest.fixture(params=["small", *CLOSED])
+@pytest.fixture(params=["small", *dear_by_night(CLOSED)])
 def results(request: pytest.FixtureRequest, small: zc.Results, results_of: ResultsOf) -> zc.Results:
     """Results of closed loops: trials on rigs, in worlds, with profiles, of a sequence, of a linear axis."""
     return small if request.param == "small" else results_of(request.param)
@@ -416,7 +416,7 @@ def test_without_a_goal_nothing_is_judged(results_of: ResultsOf) -> None:
 TRACED = ["small", "unknown-friction", "linear-stage", "contact-variation", "identification", "two-encoders", "compensators"]
 
 
-@pytest.mark.parametrize("name", TRACED)
+@pytest.mark.parametrize("name", dear_by_night(TRACED))
 def test_a_trace_is_that_of_this_process(name: str, small: zc.Results, results_of: ResultsOf) -> None:
     """A trial that the program replays and one of this process have the same values, and the recorded outcome."""
     r = small if name == "small" else results_of(name)

@@ -18,6 +18,8 @@ from zerocount import workers
 
 distributed = pytest.importorskip("distributed")
 
+pytestmark = pytest.mark.long  # workers are processes, and each of them takes seconds to start
+
 SEAL = 87
 CREATED = re.compile(rb"20\d\d-\d\d-\d\dT\d\d:\d\d:\d\dZ")
 

@@ -259,7 +259,7 @@ class Runs(Files):
         self.expect_equal("extended.h5", "fresh.h5")
 
     def test_an_interrupted_run_goes_on(self):
-        self.write("long.yaml", self.study(36000))
+        self.write("long.yaml", self.study(12024))
         shards = self.folder / "resumed.h5.shards"
         process = subprocess.Popen([PROGRAM, "run", "long.yaml", "-o", "resumed.h5", "--threads", "1", "-q"], cwd=self.folder)
         while process.poll() is None and not list(shards.glob("*.shard")):

@@ -70,7 +70,7 @@ class Terminals(unittest.TestCase):
         self.folder = tempfile.TemporaryDirectory(prefix="zerocount-terminals-")
         self.addCleanup(self.folder.cleanup)
         (pathlib.Path(self.folder.name) / "axis.yaml").write_text(MANIFEST)
-        (pathlib.Path(self.folder.name) / "short.yaml").write_text(MANIFEST.replace("400000", "60"))
+        (pathlib.Path(self.folder.name) / "short.yaml").write_text(MANIFEST.replace("400000", "10"))
 
     def piped(self, *words, **environment):
         clean = {name: value for name, value in os.environ.items() if name != "COLUMNS"}

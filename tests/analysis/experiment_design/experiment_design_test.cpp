@@ -118,7 +118,7 @@ TEST(ExperimentDesign, EachImprovementIsOne) {
 // The widths of the linear theory are those that `identify` reports of simulated records.
 TEST(ExperimentDesign, IdentifyReportsTheExpectedWidths) {
   const ExperimentDesign& design = quick_design();
-  for (const Machine& machine : drawn_machines(study_of(manifest_with()), 0, 3)) {
+  for (const Machine& machine : drawn_machines(study_of(manifest_with()), 0, 2)) {
     const SimulatedRecord record = simulate(machine, design.protocol);
     const Widths widths = expected_widths(machine, design.protocol, record);
     const auto found = identified(machine, design.protocol, record, {});

@@ -111,6 +111,27 @@ INSTANTIATE_TEST_SUITE_P(
                           "moves_of_few_rigs_alike", {.within = 0.05, .moves = 0.95}, 20, 400, 0.0, 0.96}),
     [](const auto& info) { return info.param.name; });
 
+// Student's quantile for so few machines makes their moves worth less. A plan that forgets it has fewer
+// machines, and is decided more seldom than it promises.
+TEST(GoalNeeds, AStudyOfFewMachinesIsDecidedAsOftenAsPlanned) {
+  const study::Goal goal{.within = 0.05, .moves = 0.5};
+  measures::CellCounts pilot({.rigs = 4});
+  for (std::size_t rig = 0; rig < 4; ++rig) pilot.add_rig(rig, 0, {100, 100, 57});
+  const Needs needs = needs_of(goal, pilot, 1);
+  // What 228 of 400 moves leave likely: the posterior of Jeffreys' prior.
+  const double mean = 228.5 / 401.0;
+  const Machines likely{mean, std::sqrt(mean * (1.0 - mean) / 402.0)};
+  testing::Draws draws(19);
+  constexpr int studies = 4000;
+  int decided = 0;
+  for (int i = 0; i < studies; ++i) {
+    const Machines machines{likely.draw(draws), 0.0};
+    const measures::CellCounts study = counts_of_study(draws, machines, needs.rigs, needs.trials);
+    decided += judge_goal(goal, study, 1).status == Status::undecided ? 0 : 1;
+  }
+  EXPECT_NEAR(decided, 0.9 * studies, 60) << needs.rigs;  // 3 standard deviations
+}
+
 // 58 machines without a miss do not exclude that one in twenty always fails.
 TEST(GoalNeeds, CountMachinesWhereTheyHardlyMiss) {
   const study::Goal goal{.within = 0.05, .moves = 0.95};

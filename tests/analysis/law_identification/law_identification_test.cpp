@@ -103,12 +103,15 @@ Truth rotor_of(FrictionModel law, std::mt19937_64& random) {
   }
 }
 
-/// Steps, slow loops, and holds that are long enough to show creep.
-fit::TestRecord record_of(const Truth& truth, std::mt19937_64& random,
-                          const TestInstrument& instrument = {}) {
+/// Steps, loops and holds.
+/// @param pace 1: slow loops, and holds that are long enough to show creep; the time of a fit goes with
+/// 1/pace
+fit::TestRecord record_of(const Truth& truth, std::mt19937_64& random, const TestInstrument& instrument = {},
+                          double pace = 1.0) {
   TorqueProgramme test;
   test.step(0.08).hold(0.05).step(0.0).hold(0.05);
-  test.ramp(0.1, 0.8).hold(0.3).ramp(-0.1, 0.8).ramp(0.15, 0.8).hold(0.4);
+  const double rate = 0.8 * pace;
+  test.ramp(0.1, rate).hold(0.3 / pace).ramp(-0.1, rate).ramp(0.15, rate).hold(0.4 / pace);
   return simulated_test(truth.plant, truth.friction, test, instrument, random);
 }
 
@@ -152,7 +155,7 @@ TEST(LawIdentification, DISABLED_SaysIfNoLawExplainsARecord) {
 
 TEST(LawIdentification, RefusesWhatALawDoesNotRemember) {
   std::mt19937_64 random(6);
-  const fit::TestRecord record = record_of(rotor_of(FrictionModel::spring, random), random);
+  const fit::TestRecord record = record_of(rotor_of(FrictionModel::spring, random), random, {}, 4.0);
   EXPECT_THROW(fit::compare_laws({record, record}, {{FrictionModel::spring}}), Failure);
   fit::TestRecord preloaded = record;
   preloaded.start.preload = 0.05;
@@ -164,7 +167,7 @@ TEST(LawIdentification, RefusesWhatALawDoesNotRemember) {
 
 TEST(LawIdentification, LeavesOutWhatCannotBeFittedWithItsReason) {
   std::mt19937_64 random(6);
-  fit::TestRecord record = record_of(rotor_of(FrictionModel::spring, random), random);
+  fit::TestRecord record = record_of(rotor_of(FrictionModel::spring, random), random, {}, 4.0);
   record.start.preload = 0.05;  // which the spring remembers, and Dahl's law does not
   const LawComparison found = fit::compare_laws({record}, {{FrictionModel::spring, FrictionModel::dahl}});
   ASSERT_EQ(found.laws.size(), 1u);
@@ -246,11 +249,11 @@ TEST(LawIdentification, DISABLED_FindsTheElementsOfLoopsWithManyMinima) {
   }
 }
 
-void expect_fixture_told_from_contact(FrictionModel law) {
+void expect_fixture_told_from_contact(FrictionModel law, double pace) {
   std::mt19937_64 random(21);
   Truth truth = rotor_of(law, random);
   truth.values["series_compliance"] = 1e-3;
-  const fit::TestRecord record = record_of(truth, random, {.compliance = 1e-3});
+  const fit::TestRecord record = record_of(truth, random, {.compliance = 1e-3}, pace);
   const LawComparison rigid = fit::compare_laws({record}, {{law}});
   EXPECT_FALSE(rigid.laws.front().checks.passed);
   const LawComparison found = fit::compare_laws({record}, {{law}, true});
@@ -262,11 +265,11 @@ void expect_fixture_told_from_contact(FrictionModel law) {
 }
 
 TEST(LawIdentification, TellsAFixtureThatGivesWayFromTheContact) {
-  expect_fixture_told_from_contact(FrictionModel::lugre);
+  expect_fixture_told_from_contact(FrictionModel::lugre, 4.0);  // it does not creep
 }
 
 TEST(LawIdentification, DISABLED_TellsAFixtureThatGivesWayFromTheSpring) {
-  expect_fixture_told_from_contact(FrictionModel::spring);
+  expect_fixture_told_from_contact(FrictionModel::spring, 1.0);
 }
 
 /// The law and the one that comes nearest to its records.
@@ -331,11 +334,12 @@ TEST_P(EachLaw, DISABLED_IsToldFromTheOthers) {
 constexpr auto name_of = [](const auto& law) { return std::string(friction::traits_of(law.param).word); };
 
 INSTANTIATE_TEST_SUITE_P(Laws, EachLaw,
-                         ::testing::Values(FrictionModel::spring, FrictionModel::dahl, FrictionModel::lugre,
-                                           FrictionModel::gms),
+                         ::testing::Values(FrictionModel::spring, FrictionModel::lugre, FrictionModel::gms),
                          name_of);
-// The identification has a suite of its own for this law.
-INSTANTIATE_TEST_SUITE_P(DISABLED_Laws, EachLaw, ::testing::Values(FrictionModel::presliding), name_of);
+// The identification has a suite of its own for the first; LuGre's law, which takes a third of the time, has
+// Dahl's beside it.
+INSTANTIATE_TEST_SUITE_P(DISABLED_Laws, EachLaw,
+                         ::testing::Values(FrictionModel::presliding, FrictionModel::dahl), name_of);
 
 }  // namespace
 }  // namespace zerocount::testing

@@ -91,7 +91,7 @@ def open_loop(case):
     return lambda angle: response(np.exp(1j * np.asarray(angle)))
 
 
-ANGLES = np.concatenate([np.geomspace(1e-6 * math.pi, 0.01, 20000), np.linspace(0.01, math.pi * (1 - 1e-9), 60000)[1:]])
+ANGLES = np.concatenate([np.geomspace(1e-6 * math.pi, 0.01, 5000), np.linspace(0.01, math.pi * (1 - 1e-9), 15000)[1:]])
 
 
 def margins(L, T, values):  # of the open loop at ANGLES

@@ -21,10 +21,10 @@ name: material-tests
 seed: 7
 trials: 2
 friction: {k1: 130}
-command: {torque: {levels: [0.1, -0.1, 0.12, 0.0], rate: 0.4}, hold: 0.2}
+command: {torque: {levels: [0.1, -0.1, 0.12, 0.0], rate: 1.6}, hold: 0.1}
 initial: {encoder_phase: {uniform: [0, 1]}}
 retain: {trials: [0]}
-sweep: {cases: {slow: {command.torque.rate: 0.4}, steps: {command.torque.rate: 1.0e6}}}
+sweep: {cases: {slow: {command.torque.rate: 1.6}, steps: {command.torque.rate: 1.0e6}}}
 )";
 
 class Identify : public ProgramTest {
@@ -378,7 +378,7 @@ name: slide
 seed: 7
 trials: 1
 friction: {breakaway: 0.11}
-command: {torque: {levels: [0.1, -0.1, 0.12, 0.0], rate: 0.4}, hold: 0.1}
+command: {torque: {levels: [0.1, -0.1, 0.12, 0.0], rate: 1.6}, hold: 0.1}
 retain: {trials: [0]}
 )");
   ASSERT_EQ(program({"run", "slide.yaml", "-o", "slide.h5"}).code, 0);

@@ -132,7 +132,7 @@ std::string engine_text(const PointsOnReference& use) {
   if (use.points == 0) return "";
   const std::string points =
       use.points == use.examined ? "all trials" : fmt::format("{} of {} points", use.points, use.examined);
-  return fmt::format("{} run on the reference engine, about ten times slower, because of {}", points,
+  return fmt::format("{} run on the reference engine, several times slower, because of {}", points,
                      fmt::join(use.features, ", "));
 }
 

@@ -38,7 +38,7 @@ struct PointsOnReference {
 /// Examines the first trial of each point. None are counted if the user asked for the reference engine.
 PointsOnReference points_on_reference(const study::Study& study);
 
-/// E.g. "2 of 6 points run on the reference engine, about ten times slower, because of disturbance.ripple
+/// E.g. "2 of 6 points run on the reference engine, several times slower, because of disturbance.ripple
 /// without friction".
 /// Empty if no point does.
 std::string engine_text(const PointsOnReference& use);

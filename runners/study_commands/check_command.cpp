@@ -172,16 +172,20 @@ std::string theory_text(const Plan& plan) {
                                  ? "each point"
                                  : fmt::format("each of the first {} of {} points (--all-points shows all)",
                                                plan.points_shown(), plan.all_points());
+  // Outside the paper's theory nothing but the loops is examined.
+  const bool loops_alone = std::ranges::none_of(
+      plan.points, [](const PointReading& point) { return point.theory.outside.empty(); });
   const std::string close =
-      trials <= theory::max_trials_examined_closely
+      loops_alone || trials <= theory::max_trials_examined_closely
           ? ""
           : fmt::format(
                 "; the sampled loop, time constants and margins over the first {}, and the trials with the "
                 "lowest and the highest k1",
                 theory::max_trials_examined_closely);
-  return fmt::format("The theory is of the first {} trials of {}{}, each with the friction it starts on{}",
-                     std::min(trials, theory::max_trials_examined), points,
-                     plan.study.conditions.empty() ? "" : " under each condition", close);
+  return fmt::format(
+      "The theory is of the first {} trials of {}{}, each with the friction it starts on{}",
+      std::min(trials, loops_alone ? theory::max_trials_examined_closely : theory::max_trials_examined),
+      points, plan.study.conditions.empty() ? "" : " under each condition", close);
 }
 
 /// Trials that the rule takes against a number fixed beforehand, at three success rates.

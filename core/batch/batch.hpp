@@ -57,7 +57,7 @@ struct BatchSettings {
 };
 
 /// The features of a trial that lanes lack, as noun phrases; empty if lanes run the trial. The engine runs
-/// such trials by run_trial (tests/benchmarks/README.md lists them).
+/// such trials by run_trial.
 std::vector<std::string> lacking_in_lanes(const trial::TrialParameters& parameters);
 
 /// Whether the lanes run such a trial.

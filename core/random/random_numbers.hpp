@@ -83,7 +83,7 @@ class NumberSource {
 };
 
 /// Streams of the random numbers that are drawn while a trial runs. The trial index and the stream are the
-/// counter words of the same name (random_numbers.hpp).
+/// counter words of the same name (RandomStream).
 struct TrialRandomness {
   std::uint64_t trial{0};
   std::uint32_t stream{0};

@@ -29,14 +29,14 @@ struct RunningMeasures : ArrivalMeasures<Number> {
 
 /// Calls `visit` with the same number of all `arrivals` (or all `measures`), for each number in turn.
 template <class Visit, class... Arrivals>
-ZEROCOUNT_ALWAYS_INLINE void for_each_of_arrival(Visit visit, Arrivals&... arrivals) {
+ZEROCOUNT_ALWAYS_INLINE constexpr void for_each_of_arrival(Visit visit, Arrivals&... arrivals) {
   visit(arrivals.samples...);
   visit(arrivals.zeros_in_a_row...);
   visit(arrivals.arrived...);
   visit(arrivals.arrival...);
 }
 template <class Visit, class... Measures>
-ZEROCOUNT_ALWAYS_INLINE void for_each_measure(Visit visit, Measures&... measures) {
+ZEROCOUNT_ALWAYS_INLINE constexpr void for_each_measure(Visit visit, Measures&... measures) {
   for_each_of_arrival(visit, measures...);
   visit(measures.direction...);
   visit(measures.largest_since_arrival...);
@@ -45,6 +45,14 @@ ZEROCOUNT_ALWAYS_INLINE void for_each_measure(Visit visit, Measures&... measures
   visit(measures.peak_torque...);
   visit(measures.saturated...);
 }
+static_assert(
+    [] {
+      RunningMeasures<double> measures{};
+      double visited = 0.0;
+      for_each_measure([&visited](double&) { visited += 1.0; }, measures);
+      return visited * sizeof(double) == sizeof(measures);
+    }(),
+    "a measure that is not visited would have the value of the lane's last trial");
 
 /// Maximum number of error bands of a study.
 inline constexpr int max_error_bands = 8;

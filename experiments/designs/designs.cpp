@@ -14,7 +14,7 @@ namespace zerocount::designs {
 namespace {
 
 // Enough rounds for equally likely permutations even of the smallest domains
-// (tests/experiments/designs/latin_hypercube_test.cpp).
+// (tests/experiments/designs/saltelli_test.cpp).
 constexpr std::uint32_t rounds = 8;
 
 struct Domain {

@@ -50,7 +50,7 @@ constexpr std::int64_t max_study_trials = std::int64_t{1} << 53;
 /// Maximum error band, counts: that of a target.
 constexpr std::int64_t max_band = 1'000'000'000'000;
 
-/// Maximum number of pairs of a recorded torque.
+/// Maximum number of rows of a recorded torque or reference.
 constexpr std::size_t max_record_rows = 100'000;
 
 /// The values of the key `keep`, in the order of the enumeration Retention.

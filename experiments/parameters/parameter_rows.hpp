@@ -12,10 +12,10 @@
 namespace zerocount::parameters {
 
 // The rows of the table of parameters, by section. Each has a Sobol dimension of its own, so that a new row
-// does not change the draws of the others. The next free one is beyond_moves(307);
-// beyond_moves(17) to (26) and (32) to (57) are those of the blocks of the controller. Lists have dimensions
-// from beyond_moves(80) on, as many as they may have values; the last is beyond_moves(263). A plugin has the
-// dimensions from beyond_moves(317) to beyond_moves(444), lists of the second mass those up to
+// does not change the draws of the others. The next free ones are beyond_moves(307)
+// to (316); beyond_moves(17) to (26) and (32) to (57) are those of the blocks of the controller. Lists have
+// dimensions from beyond_moves(80) on, as many as they may have values; the last is beyond_moves(263). A
+// plugin has the dimensions from beyond_moves(317) to beyond_moves(444), lists of the second mass those up to
 // beyond_moves(516).
 
 std::vector<Parameter> plant_rows();
@@ -30,7 +30,7 @@ std::vector<Parameter> command_rows();
 std::vector<Parameter> initial_rows();
 std::vector<Parameter> verdict_rows();
 
-/// Dimension i after those of the moves. Most of these parameters have labels and are never drawn.
+/// Dimension i after those of the moves.
 constexpr std::size_t beyond_moves(std::size_t i) {
   return first_sobol_dimension_beyond_moves + i;
 }

@@ -62,7 +62,7 @@ struct JointSamples {
   DrawLevel level{DrawLevel::trial};  ///< how often a row is drawn
 };
 
-/// E.g. "friction.k1, friction.k2: a row of posterior.csv (1000 draws) for each rig".
+/// E.g. "friction.k1, friction.k2: a row of posterior.csv (1000 draws) for each machine".
 std::string samples_text(const JointSamples& samples);
 
 }  // namespace zerocount::study

@@ -85,9 +85,9 @@ class TrialDrawer {
 
  private:
   const Study& study_;
-  std::shared_ptr<const StudyPlan> plan_;                                  ///< of which the functions are
-  std::vector<std::optional<distributions::QuantileFunction>> quantiles_;  ///< [distribution] once drawn
-  std::vector<double> numbers_;                                            ///< [slot]
+  std::shared_ptr<const StudyPlan> plan_;  ///< of which the functions are
+  QuantileFunctions quantiles_;            ///< [distribution] once drawn
+  std::vector<double> numbers_;            ///< [slot]
 };
 
 }  // namespace zerocount::study

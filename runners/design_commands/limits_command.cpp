@@ -14,6 +14,7 @@
 #include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/text/text.hpp"
+#include "analysis/theory/point_theory.hpp"
 #include "runners/answers/answer_format.hpp"
 #include "runners/command_line/command_line.hpp"
 #include "runners/commands/command.hpp"
@@ -115,7 +116,16 @@ std::string causes_sentence(const std::vector<Limit>& limits) {
   }
   if (tried == 0) return "";
   const std::int64_t needed = tuning::units_to_show_a_gain(tried);
-  return (units < needed ? fmt::format("{} units cannot show a cause, at least {} can\n", units, needed)
+  const tuning::ClaimNames& worst = limits.front().worst;
+  std::vector<std::string> names;
+  for (const std::optional<std::string>& name : {worst.goal, worst.condition})
+    if (name) names.push_back(*name);
+  return (names.empty()
+              ? ""
+              : fmt::format("gained, lost: in {}, the worst with nothing switched off; each rate is "
+                            "that of the worst in its row\n",
+                            fmt::join(names, ", "))) +
+         (units < needed ? fmt::format("{} units cannot show a cause, at least {} can\n", units, needed)
                          : "") +
          fmt::format(
              "not tried: other values of {} that have no ideal one, other gains, another friction law",
@@ -174,6 +184,20 @@ std::string simulated_sentence(const PointLimits& found) {
          ", in each row with the same random numbers; pairs of causes first on some of them";
 }
 
+/// What the linear theory objects to, where most moves miss: no cause that is switched off may mend it.
+std::string theory_sentence(const PointLimits& found) {
+  constexpr double most = 0.5;
+  if (found.limits.front().holds || found.limits.front().rate.value_or(0.0) > most) return "";
+  std::vector<std::string> objections;
+  for (const theory::LoopRanges& loop : theory::examine(found.study, found.units.point).loops) {
+    const std::string stability = theory::stability_text(loop);
+    if (stability != "stable") objections.push_back(fmt::format("{}: {}", loop.name, stability));
+  }
+  return objections.empty()
+             ? ""
+             : fmt::format("by the linear theory (`zerocount check`), {}", fmt::join(objections, "; "));
+}
+
 /// "96.5 % of the moves meet the goal; with no delay 100 %".
 std::string limits_headline(const PointLimits& found) {
   const Limit& base = found.limits.front();
@@ -195,6 +219,7 @@ document::AnswerDescription<PointLimits> limits_answer() {
   document::AnswerDescription<PointLimits> answer{
       {.name = "limits", .meaning = "what stands between a point and its goal", .csv_table = "limits"}, {}};
   answer.items.headline(limits_headline)
+      .sentence(theory_sentence)
       .include(limits_description("with causes of failures switched off"), &PointLimits::limits)
       .table(everywhere("additions", "with an effect added that the study may assume away",
                         "rates with an effect added to those of the study"),
@@ -210,12 +235,13 @@ double runs_of(const study::Study& study, const trials::Replicates& units) {
   return tuning::runs_of_limits(study, units.point, units.count) + additions;
 }
 
+constexpr std::int64_t fewest_units = 16;
+constexpr double part_of_speed = 0.5;  // some causes double the samples, and the speed is a guess
+
 /// So many of the units as the effort is enough for.
 /// @throws trials::Spent if these are too few to show anything
 trials::Replicates affordable_units(const study::Study& study, std::int64_t point,
                                     const trials::Effort& effort) {
-  constexpr std::int64_t fewest = 16;
-  constexpr double part_of_speed = 0.5;  // some causes double the samples, and the speed is a guess
   trials::Replicates units = trials::replicates_of(study, point);
   double speed = std::numeric_limits<double>::infinity();
   if (!std::isinf(effort.seconds_left())) speed = part_of_speed * tuning::measured_speed(study, effort);
@@ -227,9 +253,24 @@ trials::Replicates affordable_units(const study::Study& study, std::int64_t poin
     const auto affordable = static_cast<std::int64_t>(static_cast<double>(trials) / each);
     if (affordable >= units.count) return units;
     units.count = affordable / worlds * worlds;
-    if (units.count < fewest) throw trials::Spent{};
+    if (units.count < fewest_units) throw trials::Spent{};
   }
   return units;
+}
+
+/// What the least budget is.
+Failure too_small(const command_line::Budget& budget, const study::Study& study, std::int64_t point) {
+  trials::Replicates units = trials::replicates_of(study, point);
+  units.count = std::min(units.count, fewest_units);
+  const double trials = std::ceil(runs_of(study, units) * static_cast<double>(units.trials()));
+  const std::string least =
+      budget.trials ? fmt::format("{:.0f} trials", trials)
+                    : fmt::format("{:.3g} s", trials / (part_of_speed * tuning::measured_speed(study, {})));
+  return {budget.trials ? ExitCode::bad_input : ExitCode::inconclusive,
+          fmt::format("option '--budget': it is not enough: the causes of failures of this point take about "
+                      "{} trials on all its {}; expected {} or more, for the first {}",
+                      trials_of_limits(study, point), study.rigs > 0 ? "machines" : "trials", least,
+                      units.count)};
 }
 
 ExitCode limits(const command_line::Arguments& arguments) {
@@ -246,10 +287,7 @@ ExitCode limits(const command_line::Arguments& arguments) {
     });
   });
   if (ended) return answers::print(arguments, *answer);
-  throw Failure(budget.trials ? ExitCode::bad_input : ExitCode::inconclusive,
-                fmt::format("option '--budget': it is not enough: the causes of failures of this point take "
-                            "about {} trials on all its machines; expected more",
-                            trials_of_limits(examined.study, examined.point)));
+  throw too_small(budget, examined.study, examined.point);
 }
 
 }  // namespace

@@ -23,6 +23,7 @@
 #include "runners/result_commands/result_commands.hpp"
 #include "runners/standard_output/standard_output.hpp"
 #include "runners/status/progress.hpp"
+#include "runners/trials/effort.hpp"
 
 namespace zerocount::result_commands {
 namespace {
@@ -35,7 +36,8 @@ constexpr const char* monitor_help =
     "outcome, ...), with units as [ms] where they are not those of the program. An empty cell, or\n"
     "NaN, is what never happened. BASELINE is a log of earlier moves of the machine, or a results\n"
     "file: then an alarm can mean that the model is wrong, and names the parameters that explain it,\n"
-    "or says that these moves do not tell.\n"
+    "or says that these moves do not tell. For that it simulates the machines with each parameter\n"
+    "changed, for --budget at most.\n"
     "\n"
     "The test may be asked after every move: a false alarm within any number of moves has at most\n"
     "the probability --alarm, where the moves are exchangeable with those of the baseline. Moves\n"
@@ -70,7 +72,7 @@ struct LoadedBaseline {
 LoadedBaseline load_baseline(const command_line::Arguments& arguments) {
   const fs::path path = arguments.operands()[0];
   if (!commands::is_results_file(path)) {
-    for (const char* const option : {"point", "condition", "age", "rig", "unchanged"})
+    for (const char* const option : {"point", "condition", "age", "rig", "unchanged", "budget"})
       if (arguments.has(option))
         arguments.refuse(fmt::format("option '--{}': {} is a log of moves; it belongs to results files",
                                      option, path.string()));
@@ -94,15 +96,27 @@ LoadedBaseline load_baseline(const command_line::Arguments& arguments) {
 }
 
 /// What changed in the model, after an alarm; nothing beside measured moves, and with a plugin.
-std::optional<monitor::ChangeExplanation> explanation_of(const LoadedBaseline& baseline,
+std::optional<monitor::ChangeExplanation> explanation_of(const command_line::Arguments& arguments,
+                                                         const LoadedBaseline& baseline,
                                                          const monitor::MachineMonitor& machine,
                                                          const monitor::MonitorState& state,
                                                          const monitor::MoveLog& log,
                                                          const std::stop_token& stop) {
   if (!baseline.file || state.alarm == nullptr || baseline.file->header().plugin) return std::nullopt;
-  return commands::with_progress("zerocount monitor", "simulating what may have changed", [&] {
-    return explain_alarm(*baseline.file, baseline.of_file, machine, log, baseline.unchanged, stop);
+  constexpr double default_seconds = 120.0;
+  command_line::Budget budget = command_line::budget_option(arguments);
+  if (!budget.trials && !budget.seconds) budget.seconds = default_seconds;
+  const trials::Effort effort = trials::Effort(stop).share(budget.trials, budget.seconds);
+  monitor::ChangeExplanation explanation{
+      .reason =
+          "the budget ended before the machines were simulated with each parameter changed; expected a "
+          "larger --budget, or --unchanged with what cannot have changed"};
+  commands::with_progress("zerocount monitor", "simulating what may have changed", [&] {
+    return trials::within(effort, [&] {
+      explanation = explain_alarm(*baseline.file, baseline.of_file, machine, log, baseline.unchanged, effort);
+    });
   });
+  return explanation;
 }
 
 std::optional<double> change_from(const command_line::Arguments& arguments) {
@@ -130,7 +144,7 @@ ExitCode print_state(const command_line::Arguments& arguments, monitor::MachineM
                      const std::stop_token& stop) {
   machine.update(log);
   const monitor::MonitorState state = machine.state();
-  const auto explanation = explanation_of(baseline, machine, state, log, stop);
+  const auto explanation = explanation_of(arguments, baseline, machine, state, log, stop);
   const monitor::MonitorReading reading{machine, baseline.moves, state, log.name,
                                         explanation ? &*explanation : nullptr};
   const ExitCode code = monitor::exit_code_of(state.status);
@@ -211,6 +225,8 @@ commands::Command monitor_command() {
         {"age", "A", "age of a results file with ages"},
         {"rig", "R", "only this machine of a results file, from 0"},
         {"seed", "N", "of ties and of simulated changes (default 1)"},
+        {"budget", "B",
+         "of the simulations after an alarm: a number of trials, or a time such as 60s (default 2min)"},
         {"follow", "", "read the log while it grows, and print lines of JSON until the alarm"},
         needing({"follow"}, {"idle", "S", "end after S seconds without new moves (default: never)"})},
        2,

@@ -183,8 +183,8 @@ TuneAnswer tuned(const study::Study& study, const TuneSettings& settings, const 
   TuningJournal journal = open_journal(study, settings);
   const Space space =
       space_of(study, settings.budget, whole_effort(settings, journal.seconds(), stop), journal.speed());
-  if (settings.budget.seconds) journal.keep_speed(space.speed);
   const SearchPlan plan = plan_search(study, settings.budget, space.effort, space.speed);
+  if (settings.budget.seconds) journal.keep_speed(space.speed);  // a refused budget leaves no file
   Work work{settings, journal, space, {study, space.free(), plan.size, journal, space.effort}};
   tell_default(work);
   find_values(work, plan);

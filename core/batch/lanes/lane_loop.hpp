@@ -32,8 +32,7 @@ class LaneLoop {
     bool stays;     ///< the torque stays until the end of the move, and nothing is drawn
   };
   /// Sample i of the move, the mass that the encoder reads at `theta` and the other one at `other` (rad).
-  /// Empty where the encoder cannot count θ, or the
-  /// controller gives no finite torque.
+  /// Empty where the encoder cannot count θ, or the controller gives no finite torque.
   std::optional<Decision> sample(std::int64_t i, double theta, double other);
 
   /// Whether it is that of a trial with torque levels, whose errors are not measured.

@@ -32,13 +32,6 @@ bool has_queues(const loop::ControlBlocks& blocks) {
                                            c.resolution > 0.0 || std::isfinite(c.limit)));
 }
 
-bool blocks_remember(const loop::ControlBlocks& blocks) {
-  // At zero error and without motion, only memory other than the integral can change the torque.
-  return blocks.observer.bandwidth > 0.0 || !blocks.filters.empty() ||
-         std::isfinite(blocks.derivative_cutoff) || std::isfinite(blocks.integrator_leak) ||
-         has_queues(blocks);
-}
-
 /// Whether noise of the fine encoder is the only error of encoders and converter that is drawn.
 bool has_noise_alone(const trial::TrialParameters& p) {
   const loop::EncoderErrors& e = p.encoder.fine_errors;
@@ -58,6 +51,14 @@ bool lanes_have(loop::ControlStructure structure) {
       return true;
   }
   return false;
+}
+
+bool blocks_remember(const loop::ControlBlocks& blocks) {
+  [[maybe_unused]] const auto& [structure, cascade, deadband, zone, leak, window, cutoff, filters,
+                                feedforward, observer, error_deadband, hold, standstill] = blocks;
+  // At zero error and without motion, only memory other than the integral can change the torque.
+  return observer.bandwidth > 0.0 || !filters.empty() || std::isfinite(cutoff) || std::isfinite(leak) ||
+         has_queues(blocks);
 }
 
 std::string_view lacking(const loop::ControlBlocks& blocks) {
@@ -181,18 +182,20 @@ bool remembers(const trial::TrialParameters& p) {
 }
 
 bool has_blocks(const trial::TrialParameters& parameters) {
-  const loop::ControlBlocks& b = parameters.controller.blocks;
-  return b.structure != loop::ControlStructure::pid || b.deadband.enter >= 0.0 ||
-         std::isfinite(b.integrator_zone) || std::isfinite(b.integrator_leak) ||
-         std::isfinite(b.derivative_cutoff) || !b.filters.empty() || b.observer.bandwidth > 0.0 ||
-         b.error_deadband.band > 0.0 || b.hold.enter >= 0.0 || b.standstill.band >= 0.0 ||
+  // The feed-forward acts on profiles alone, and a window of counts by has_queues(): both need a LaneLoop.
+  [[maybe_unused]] const auto& [structure, cascade, deadband, zone, leak, window, cutoff, filters,
+                                feedforward, observer, error_deadband, hold, standstill] =
+      parameters.controller.blocks;
+  return structure != loop::ControlStructure::pid || deadband.enter >= 0.0 || std::isfinite(zone) ||
+         std::isfinite(leak) || std::isfinite(cutoff) || !filters.empty() || observer.bandwidth > 0.0 ||
+         error_deadband.band > 0.0 || hold.enter >= 0.0 || standstill.band >= 0.0 ||
          never_settles(parameters);
 }
 
 bool needs_lane_drive(const trial::TrialParameters& p) {
-  const trial::DisturbanceParameters& d = p.disturbance;
+  [[maybe_unused]] const auto& [torque, ripple, vibration, spectra] = p.disturbance;
   return p.controller.delay > 0.0 || p.controller.jitter > 0.0 || p.amplifier.bandwidth > 0.0 ||
-         !d.ripple.empty() || !d.vibration.empty() || !d.spectra.empty();
+         !ripple.empty() || !vibration.empty() || !spectra.empty();
 }
 
 bool needs_lane_noise(const trial::TrialParameters& p) {

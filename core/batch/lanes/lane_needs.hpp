@@ -14,11 +14,11 @@ enum class LaneMotion { contact, coulomb, bristle, elements, free };
 /// Empty for a law that the kernels lack.
 std::optional<LaneMotion> lane_motion(friction::FrictionModel model);
 
-/// Whether the controller has blocks beyond the PID law.
+/// Whether the controller has blocks beyond the PID law, or a dither or a remainder of the converter.
 bool has_blocks(const trial::TrialParameters& parameters);
 
-/// Whether the torque may change for ever while the error stays 0: by filters, a leak, a dither or a
-/// remainder.
+/// Whether the torque may change for ever while the error stays 0: by filters, a derivative filter, an
+/// observer, a leak, a queue, a dither or a remainder.
 bool remembers(const trial::TrialParameters& parameters);
 
 /// Whether the fine encoder has noise that the sampling kernels read.
@@ -26,8 +26,8 @@ bool needs_lane_noise(const trial::TrialParameters& parameters);
 
 /// Whether the sampled loop of the trial has a feature that the sampling kernels lack: errors of an encoder
 /// other than noise of the fine one, errors of the converter, missed samples, two phases, the coarse encoder,
-/// a reference with a profile, a plugin, measures of the true motion, torque levels, or more filters than
-/// they have.
+/// a reference with a profile, a plugin, measures of the true motion, torque levels, a window of counts, the
+/// queues of a cascade, a limit of the amplifier, or more filters than they have.
 bool needs_lane_loop(const trial::TrialParameters& parameters);
 
 /// Whether the angle alone decides the counts, and the code the torque.

@@ -19,6 +19,7 @@
 #include "experiments/parameters/parameter_rows.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/rules/value_rules.hpp"
+#include "experiments/study/goal.hpp"
 #include "experiments/study/study_table.hpp"
 #include "runners/tuning/effects/effects.hpp"
 
@@ -230,10 +231,36 @@ void with_finer_encoder(PointEdit& at) {
   if (encoders.coarse) refine(at, "encoder.coarse", "encoder.coarse_resolution", "encoder.coarse_errors");
   if (!encoders.fine) return;
   refine(at, "encoder.fine", "encoder.resolution", "encoder.fine_errors");
-  if (study::has_two_encoders(study::limits_at(
-          at.plan(), study::slots_named(at.plan().table, study::two_encoders), at.points().front())))
-    refine(at, "encoder.load.counts_per_revolution", "encoder.load.resolution", "encoder.load.fine_errors");
   keep_lengths_in_fine_counts(at);
+}
+
+/// With an encoder on each mass counts are those of the one that closes the position loop.
+void with_finer_encoder_of(PointEdit& at, motion::EncoderPlace mass, motion::EncoderPlace closing) {
+  if (mass == motion::EncoderPlace::motor) {
+    refine(at, "encoder.fine", "encoder.resolution", "encoder.fine_errors");
+  } else {
+    refine(at, "encoder.load.counts_per_revolution", "encoder.load.resolution", "encoder.load.fine_errors");
+  }
+  if (mass == closing) keep_lengths_in_fine_counts(at);
+}
+
+/// One effect, or with an encoder on each mass one for each.
+void add_finer_encoders(const PointEdit& at, const std::string& refusal, std::vector<Effect>& all) {
+  using enum motion::EncoderPlace;
+  const std::vector<ValueLimits> limits = study::limits_at(
+      at.plan(), study::slots_named(at.plan().table, study::two_encoders), at.points().front());
+  Effect finer{.name = std::string(parameters::finer_encoder),
+               .note = not_tuned_again,
+               .refusal = refusal,
+               .edit = with_finer_encoder};
+  if (!study::has_two_encoders(limits)) return all.push_back(std::move(finer));
+  for (const motion::EncoderPlace mass : {motor, load}) {
+    finer.name = fmt::format("an encoder of the {} 4 times finer", study::mass_text(mass));
+    finer.edit = [mass, closing = study::closes_at_load(limits) ? load : motor](PointEdit& edit) {
+      with_finer_encoder_of(edit, mass, closing);
+    };
+    all.push_back(finer);
+  }
 }
 
 // Sample rate. Times, rates and gains stay the same in s; what is given in samples, the delay, stays in
@@ -338,14 +365,15 @@ std::vector<Effect> idealisations_of(const study::Study& study, std::int64_t poi
   if (can_differ_from(0.0, at.limits("plant.load.inertia")))
     all.push_back(
         {.name = std::string(parameters::rigid_axis), .note = not_tuned_again, .change = with_a_rigid_load});
+  const auto no_friction = static_cast<double>(friction::LoadFrictionModel::none);
+  if (can_differ_from(no_friction, at.limits("plant.load.friction.model")))
+    all.push_back({.name = "no friction of the load",
+                   .change = [](trial::TrialParameters& p) { p.load_side.friction = {}; }});
   all.push_back({.name = std::string(parameters::finer_converter), .edit = with_finer_converter});
   for (const int ratio : wider_ranges)
     all.push_back({.name = fmt::format("a torque range {} times wider", ratio),
                    .edit = [ratio](PointEdit& edit) { with_wider_torque_range(edit, ratio); }});
-  all.push_back({.name = std::string(parameters::finer_encoder),
-                 .note = not_tuned_again,
-                 .refusal = belongs,
-                 .edit = with_finer_encoder});
+  add_finer_encoders(at, belongs, all);
   all.push_back({.name = std::string(parameters::faster_sampling),
                  .note = not_tuned_again,
                  .refusal = belongs,

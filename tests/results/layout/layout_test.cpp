@@ -1,5 +1,7 @@
 #include "results/layout/layout.hpp"
 
+#include <set>
+
 #include "core/trial/move_measures.hpp"
 #include "results/layout/header.hpp"
 #include "results/layout/measure_table.hpp"
@@ -184,6 +186,19 @@ TEST(NamedMeasures, AreColumnsOfTheFile) {
   for (const std::string_view named : trial::named_band_measures())
     expect_column(layout::name_of_band(named, 3));
   expect_column(layout::name_of_tolerance(trial::tolerance_measure, 1e-8));
+}
+
+TEST(NamedMeasures, AreAllMeasuresOfTheFileButHowAMoveEnded) {
+  const std::set<std::string_view> not_limited{"outcome", "stopped", "controller_failed"};
+  for (const layout::Measure& measure : layout::measure_table({})) {
+    const std::string_view name = measure.field.column.name;
+    const bool of_limit = name.ends_with(']');
+    if (of_limit || not_limited.contains(name) || name.starts_with("load_") || name.starts_with("motor_"))
+      continue;
+    EXPECT_NE(std::ranges::find(trial::named_measures(), name, &trial::NamedMeasure::name),
+              trial::named_measures().end())
+        << name;
+  }
 }
 
 // The study of a results file, by its manifest and overrides, has the trials that the file has.

@@ -93,6 +93,24 @@ initial: {encoder_phase: {uniform: [0, 1]}}
 controller: {structure: cascade, cascade: {kv: {uniform: [20, 200]}, kp: 0.3, ki: 40}, missed: 0.3}
 goal: {band: 1, within: 0.1, moves: 0.9}
 )";
+  const std::string joint = R"(zerocount: 1
+name: joint
+seed: 9
+trials: 30
+plant:
+  inertia: 0.7
+  sliding_damping: 12
+  load: {inertia: 0.5, stiffness: {uniform: [2.0e+4, 5.0e+4]}, damping: 20, encoder: load,
+    friction: {model: dahl, breakaway: {uniform: [0.5, 6]}, sigma0: 1.0e+4}}
+friction: {model: dahl, breakaway: 5, sigma0: 3.0e+4}
+encoder: {fine: 100000, load: {counts_per_revolution: 40000, fine_errors: {noise: 0.5}}}
+dac: {range: 120, bits: 14}
+controller: {sample_rate: 4000, structure: cascade,
+  cascade: {kv: 18, kp: 600, ki: 3.0e+4, position: load, velocity: motor}}
+command: {units: si, targets: [0.02], hold: 0.4}
+initial: {encoder_phase: {uniform: [0, 1]}}
+goal: {tolerance: 1.0e-4, within: 0.2, moves: 0.9}
+)";
   struct Case {
     const std::string& manifest;
     const char* cause;
@@ -135,9 +153,14 @@ goal: {band: 1, within: 0.1, moves: 0.9}
       {phases, "a torque range 2 times wider", {"dac.bits={choice: [12, 13]}", "dac.range=120"}},
       {cascade, "twice the sample rate", {"controller.sample_rate=4000"}},
       {cascade, "no missed samples", {"controller.missed=0"}},
+      {joint, "no friction of the load", {"plant.load.friction={model: none}"}},
+      {joint, "an encoder of the motor 4 times finer", {"encoder.fine=400000"}},
+      {joint,
+       "an encoder of the load 4 times finer",
+       {"encoder.load.counts_per_revolution=160000", "encoder.load.fine_errors.noise=2"}},
   };
   std::map<std::string, Json> found_for;
-  for (const std::string* manifest : {&counts, &phases, &cascade})
+  for (const std::string* manifest : {&counts, &phases, &cascade, &joint})
     found_for[*manifest] = limits_of(*manifest);
   for (const Case& one : cases) {
     const Json& limits = found_for[one.manifest];
@@ -294,6 +317,19 @@ TEST_F(LimitsOfAxis, AreOfThePointThatIsAskedFor) {
   const double swept = rate_of({"limits", "axis.yaml", "--point", "1", "--format", "json"});
   write_axis("goal: {band: 0, within: 0.05, moves: 0.98}\n");
   EXPECT_EQ(rate_of({"limits", "axis.yaml", "--format", "json"}), swept);
+}
+
+TEST_F(LimitsOfAxis, SayWhatTheTheoryObjectsToAndTheLeastBudget) {
+  write_axis("goal: {band: 0, within: 0.05, moves: 0.98}\n");
+  const std::string objection = "by the linear theory (`zerocount check`), ";
+  EXPECT_TRUE(says(program({"limits", "axis.yaml", "--set", "controller.ki=1.0e-3"}).out, objection));
+  EXPECT_FALSE(says(program({"limits", "axis.yaml", "--set", "goal.band=1000"}).out, objection));
+  const ProgramResult refused = program({"limits", "axis.yaml", "--budget", "50"});
+  EXPECT_EQ(refused.code, 2);
+  const std::string words = "expected ";
+  const std::string least = refused.err.substr(refused.err.rfind(words) + words.size());
+  const std::string trials = least.substr(0, least.find(' '));
+  EXPECT_EQ(program({"limits", "axis.yaml", "--budget", trials}).code, 0) << refused.err;
 }
 
 }  // namespace

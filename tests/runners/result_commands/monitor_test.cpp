@@ -273,6 +273,11 @@ command: {targets: [{integers: [5, 30]}, {integers: [-30, -5]}], hold: 0.2}
   EXPECT_EQ(std::ranges::count(answer["tried"], "controller.deadband.enter"), 1);
   EXPECT_TRUE(says(refusal({"monitor", "study.h5", "moves.csv", "--unchanged", "friction.k3"}),
                    "'friction.k3' is not among the parameters that are tried"));
+  // The alarm does not wait for what a budget is too small for.
+  const Json unexplained = json_of({"monitor", "study.h5", "moves.csv", "--budget", "100"}, 1);
+  EXPECT_EQ(unexplained["status"], answer["status"]);
+  EXPECT_TRUE(unexplained["parameters"].empty()) << unexplained;
+  EXPECT_TRUE(says(program({"monitor", "study.h5", "moves.csv", "--budget", "100"}).out, "the budget ended"));
   // A log as the baseline has no parameters.
   write_log("before.csv", 200);
   write_log("slower.csv", 200, 1.3);

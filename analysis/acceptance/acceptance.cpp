@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include <fmt/format.h>
@@ -31,10 +32,7 @@ using MetMoves = std::vector<std::vector<bool>>;
 /// @param axis of the study
 const std::vector<double>& values_of(const monitor::MoveLog& log, const std::string& measure,
                                      parameters::AxisKind axis) {
-  const monitor::Moves::Column* const column = log.find(measure);
-  if (column == nullptr)
-    throw Failure(ExitCode::bad_input,
-                  fmt::format("{}: has no column {}, which the goal asks for", log.name, measure));
+  const monitor::Moves::Column* const column = log.find(measure);  // require_columns()
   const std::string unit = parameters::unit_on(axis, column->measure.unit);
   if (!monitor::have_same_dimension(column->unit, unit))
     throw Failure(ExitCode::bad_input,
@@ -42,6 +40,24 @@ const std::vector<double>& values_of(const monitor::MoveLog& log, const std::str
                               "dimension",
                               log.name, measure, column->unit, unit));
   return column->values;
+}
+
+/// The measures of a log that tell whether a move meets the goal.
+std::vector<std::string> measures_of(const study::Goal& goal) {
+  std::vector<std::string> names{goal::name_of_settling(goal)};
+  if (goal.within.after_profile) names.emplace_back("travel_time");
+  for (const study::GoalLimit& limit : goal.limits) names.push_back(study::name_in(goal, limit.measure));
+  return names;
+}
+
+void require_columns(const std::vector<study::Goal>& goals, const monitor::MoveLog& log) {
+  std::set<std::string> missing;
+  for (const study::Goal& goal : goals)
+    for (const std::string& name : measures_of(goal))
+      if (log.find(name) == nullptr) missing.insert(name);
+  if (!missing.empty())
+    throw Failure(ExitCode::bad_input, fmt::format("{}: has no column {}, which the goal asks for", log.name,
+                                                   fmt::join(missing, ", ")));
 }
 
 /// Whether the goal is about this row.
@@ -369,6 +385,7 @@ Acceptance accept(const reading::AllTrialsFile& file, std::int64_t point,
     if (log.moves == 0)
       throw Failure(ExitCode::bad_data,
                     fmt::format("{}: has no moves; expected a row for each move of the machine", log.name));
+    require_columns(study.goals, log);
     acceptance.machines.push_back({.name = log.name});
   }
   const std::vector<measures::CellCounts> simulated = simulated_counts(file, point);

@@ -10,6 +10,7 @@
 
 #include "analysis/acceptance/acceptance.hpp"
 #include "analysis/goal/goal_text.hpp"
+#include "analysis/statistics/sample_size.hpp"
 #include "analysis/text/text.hpp"
 
 namespace zerocount::acceptance {
@@ -69,6 +70,17 @@ std::string reasons_to_reject(Of a) {
   return fmt::format("{}", fmt::join(reasons, "; "));
 }
 
+/// Moves, with the misses of those that there are, that show each undecided goal for these machines.
+std::int64_t moves_needed(Of a) {
+  std::int64_t needed = 0;
+  for (const Claim& claim : a.claims) {
+    if (claim.status == goal::Status::undecided)
+      needed = std::max(needed, statistics::trials_for_claim(claim.goal.moves, claim.goal.confidence,
+                                                             claim.moves - claim.met));
+  }
+  return needed;
+}
+
 std::string headline_of(Of a) {
   const std::string of = judged_text(a);
   const char* const whose = a.judged == Judged::all_machines ? "all such machines" : "these machines";
@@ -81,15 +93,18 @@ std::string headline_of(Of a) {
     case Status::undecided:
       break;
   }
-  const std::string needed =
-      a.needed_machines == 0 ? "" : fmt::format("; about {} machines would decide", a.needed_machines);
+  const std::string needed = a.needed_machines > 0
+                                 ? fmt::format("; about {} machines would decide", a.needed_machines)
+                             : a.judged == Judged::these_machines
+                                 ? fmt::format("; {} moves without another miss can", moves_needed(a))
+                                 : "";
   return fmt::format("undecided: {} are too few to show {} for {}{}", of, goals, whose, needed);
 }
 
 std::string sentences_of_goals(Of a) {
   std::string text;
   for (const Claim& claim : a.claims)
-    text += fmt::format("{}: {}\n", name_of(claim), goal::goal_sentence(claim.goal));
+    text += (claim.goal.name.empty() ? "goal: " : "") + goal::goal_sentence(claim.goal) + '\n';
   return text;
 }
 

@@ -234,11 +234,11 @@ std::string one_machine_text(const study::Goal& goal, const statistics::RigStudy
   if (at_limit <= 1.0 - goal.confidence) return {};
   const bool one_move_each = study.trials == study.moves;
   std::string text = fmt::format(
-      "{} moves{} cannot show {} of one machine: {}{} without a miss are needed; one just below it has no "
-      "miss with a probability of {}{}",
-      study.moves, one_move_each ? "" : fmt::format(" in {} trials", study.trials), text::percent(goal.moves),
-      statistics::trials_for_claim(goal.moves, goal.confidence, 0), one_move_each ? "" : " trials",
-      one_move_each ? "" : "up to ", text::percent_near(at_limit));
+      "{}{} cannot show that one machine meets it in {} of its moves: {}{} without a miss can; a machine "
+      "just below that has no miss in as few with a probability of {}{}",
+      text::counted(study.moves, "move"), one_move_each ? "" : " in " + text::counted(study.trials, "trial"),
+      text::percent(goal.moves), statistics::trials_for_claim(goal.moves, goal.confidence, 0),
+      one_move_each ? "" : " trials", one_move_each ? "" : "up to ", text::percent_near(at_limit));
   if (!verdict.worlds.empty()) return text + '\n';
   // The lowest proportion at which all machines alike show so many without a miss.
   const auto can_be_alike = [&](double p) {
@@ -247,8 +247,8 @@ std::string one_machine_text(const study::Goal& goal, const statistics::RigStudy
   const double alike = numerics::bisect({goal.moves, 0.0}, can_be_alike, numerics::within(1e-9)).holds;
   const double shown = std::ceil(1e4 * alike) * 1e-4;
   if (verdict.rigs_without_miss > 0 && at_limit >= verdict.without_miss.low && shown < goal.moves)
-    text +=
-        fmt::format("; all {} that had none may be at {}", verdict.rigs_without_miss, text::percent(shown));
+    text += fmt::format("; all {} machines that had none may be at {}", verdict.rigs_without_miss,
+                        text::percent(shown));
   return text + '\n';
 }
 

@@ -137,21 +137,26 @@ TEST(GoalText, SaysWhatTheMovesOfOneMachineLack) {
   measures::MoveCounts counts{.moves = 16000, .met = 15888, .of_trials = {}, .rigs = {}};
   for (int rig = 0; rig < 400; ++rig) counts.rigs.push_back({10, 40, rig < 372 ? 40 : 36});
   const std::string text = readings_text(goal, counts, judge_goal(goal, counts, 1));
-  EXPECT_NE(text.find("40 moves in 10 trials cannot show 99 % of one machine: 299 trials without a miss are "
-                      "needed; one just below it has no miss with a probability of up to 90.4 %"),
-            std::string::npos)
+  EXPECT_NE(
+      text.find(
+          "40 moves in 10 trials cannot show that one machine meets it in 99 % of its moves: 299 trials "
+          "without a miss can; a machine just below that has no miss in as few with a probability "
+          "of up to 90.4 %"),
+      std::string::npos)
       << text;
   EXPECT_LT(text.find("machines without a miss"), text.find("machines that meet it")) << text;
   for (statistics::RigMoves& rig : counts.rigs)
     rig = {10, 40, rig.met == 40 && &rig < &counts.rigs[330] ? 40 : 36};
   const std::string fewer = readings_text(goal, counts, judge_goal(goal, counts, 1));
-  EXPECT_NE(fewer.find("; all 330 that had none may be at 97.6"), std::string::npos) << fewer;
+  EXPECT_NE(fewer.find("; all 330 machines that had none may be at 97.6"), std::string::npos) << fewer;
   // It is so in each world, too; what all machines may be at is not said of several worlds.
   measures::CellCounts worlds({.rigs = 400, .worlds = 4});
   for (std::size_t rig = 0; rig < 400; ++rig) worlds.add_rig(rig, 0, counts.rigs[rig]);
   const std::string in_worlds = readings_text(goal, worlds.sum(), judge_goal(goal, worlds, 1));
-  EXPECT_NE(in_worlds.find("  40 moves in 10 trials cannot show 99 % of one machine: 299 trials"),
-            std::string::npos)
+  EXPECT_NE(
+      in_worlds.find(
+          "  40 moves in 10 trials cannot show that one machine meets it in 99 % of its moves: 299 trials"),
+      std::string::npos)
       << in_worlds;
   EXPECT_EQ(in_worlds.find("that had none"), std::string::npos) << in_worlds;
   for (statistics::RigMoves& rig : counts.rigs) rig = {300, 300, 300};

@@ -132,9 +132,10 @@ tune: {free: {controller.ki: {log: [1.0e-5, 1.0e-4]}, controller.kp: [0, 1.0e-3]
 )",
                                                    "axis.yaml");
   TuneAnswer answer = answer_for(study, goal::Status::undecided);
-  EXPECT_THAT(text_of(answer, study),
-              HasSubstr("\n20 moves cannot show 90 % of one machine: 29 without a miss are needed; one just "
-                        "below it has no miss with a probability of 12.2 %\n"));
+  EXPECT_THAT(
+      text_of(answer, study),
+      HasSubstr("\n20 moves cannot show that one machine meets it in 90 % of its moves: 29 without a miss "
+                "can; a machine just below that has no miss in as few with a probability of 12.2 %\n"));
 }
 
 /// A verdict on each of two goals under each of two conditions: the second goal is the worst, under the

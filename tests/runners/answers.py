@@ -108,7 +108,7 @@ QUESTIONS = [
     "parameters --manifest axis.yaml",
     "experiment axis.yaml --duration 1.2 --budget 1 --machines 1",
     "identify identification.h5 --point steps --fix friction.n=2",
-    "identify identification.h5 --point steps --model spring --model dahl",
+    "identify identification.h5 --point steps --model spring",
     "identify slide.csv --sliding",
     "learn worlds.h5",
     "tune tune.yaml -o tuned.h5 --budget 4700 --force",

@@ -109,9 +109,9 @@ TEST_F(FirstStudy, ItsCommandsDoWhatTheReadmeSays) {
 /// The best gain alone.
 constexpr const char* best_gain = "sweep={grid: {controller.ki: [1.1768e+4]}}";
 
-// Premises that docs/reliability.md names: of the position the answer survives them, of the reading it does
-// not.
-TEST_F(FirstStudy, ItsAnswerHoldsUnderThePremisesOfItsPage) {
+// Premises that docs/reliability.md names, by night: of the position the answer survives them, of the reading
+// it does not.
+TEST_F(FirstStudy, DISABLED_ItsAnswerHoldsUnderThePremisesOfItsPage) {
   const auto judged_with = [this](const std::vector<std::string>& settings) {
     std::vector<std::string> words{"run",     "my-axis.yaml", "-o",    "other.h5",
                                    "--quiet", "--force",      "--set", best_gain};

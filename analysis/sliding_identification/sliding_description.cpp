@@ -136,6 +136,15 @@ document::Description<ReversalFriction> reversal_description() {
       .value(in_data("stiffness", "0.9 swing/travel, N m/rad or N/m"), &ReversalFriction::stiffness);
 }
 
+document::Description<SecondMass> second_mass_description() {
+  using document::in_data;
+  return document::Description<SecondMass>()
+      .value(in_data("explained", "part of the squares of the residuals that it explains", "1"),
+             &SecondMass::explained)
+      .value(in_data("frequency", "of the masses against each other, Hz; 0: not well known"),
+             &SecondMass::frequency);
+}
+
 document::Description<RepeatingForce> force_description() {
   return document::Description<RepeatingForce>()
       .value({"with", "with", "what the unexplained torque may repeat with"}, &RepeatingForce::with)
@@ -189,6 +198,8 @@ document::AnswerDescription<SlidingIdentification> sliding_answer() {
             i.misfit, i.unexplained_torque, i.torque, parameters::unit_on(i.axis, "N m"));
       })
       .sentence(position_text)
+      .object(in_data("second_mass", "a second mass that the records show; null: none"),
+              second_mass_description(), &SlidingIdentification::second_mass)
       .object(in_data("reversal", "friction after reversals; null: none without a standstill"),
               reversal_description(), [](Of i) { return i.reversal ? &*i.reversal : nullptr; })
       .sentence(reversal_sentence)

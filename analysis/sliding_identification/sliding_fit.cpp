@@ -68,14 +68,8 @@ struct Score {
 };
 
 Score score_of(const FittedWindow& fitted, const SlidingPoint& point) {
-  const auto residuals = window_residuals(*fitted.record, *fitted.window);
-  Eigen::VectorXd residual(residuals->num_residuals());
-  const Eigen::Index size = residuals->parameter_block_sizes().front();
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> slopes(residual.size(), size);
-  Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> by_start(residual.size(), 2);
-  const std::array parameters{point.data(), fitted.start.data()};
-  std::array jacobians{slopes.data(), by_start.data()};
-  residuals->Evaluate(parameters.data(), residual.data(), jacobians.data());
+  auto [residual, slopes, by_start] = slopes_of(fitted, point);
+  const Eigen::Index size = slopes.cols();
   slopes -= numerics::product(by_start, numerics::least_squares(by_start, slopes));
   Score score;
   score.information.topLeftCorner(size, size) = numerics::transposed_product(slopes, slopes);
@@ -182,6 +176,18 @@ SlidingFit fit_sliding(std::span<const SlidingRecord> records, const SlidingPoin
   if (by_stroke.size() >= min_strokes) covariance = enlarged(covariance, jackknife(scale, total, by_stroke));
   fit.covariance = scaled(scale, covariance);
   return fit;
+}
+
+WindowSlopes slopes_of(const FittedWindow& fitted, const SlidingPoint& point) {
+  const auto residuals = window_residuals(*fitted.record, *fitted.window);
+  WindowSlopes slopes;
+  slopes.residual.resize(residuals->num_residuals());
+  slopes.by_point.resize(slopes.residual.size(), residuals->parameter_block_sizes().front());
+  slopes.by_start.resize(slopes.residual.size(), 2);
+  const std::array parameters{point.data(), fitted.start.data()};
+  std::array jacobians{slopes.by_point.data(), slopes.by_start.data()};
+  residuals->Evaluate(parameters.data(), slopes.residual.data(), jacobians.data());
+  return slopes;
 }
 
 double stribeck_gain(const SlidingFit& fit, double velocity) {

@@ -58,6 +58,15 @@ SlidingPoint starting_point(std::span<const SlidingRecord> records, bool both_di
 SlidingFit fit_sliding(std::span<const SlidingRecord> records, const SlidingPoint& start,
                        const FreeParameters& free, const std::vector<PositionWave>& waves = {});
 
+/// The residuals of a window and their derivatives. Row-major, as Ceres writes them.
+struct WindowSlopes {
+  Eigen::VectorXd residual;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> by_point;
+  Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> by_start;
+};
+
+WindowSlopes slopes_of(const FittedWindow& fitted, const SlidingPoint& point);
+
 /// How much of the sum of squares a Stribeck excess with this velocity (rad/s or m/s) would explain, by one
 /// Gauss–Newton step from a fit without.
 double stribeck_gain(const SlidingFit& fit, double velocity);

@@ -236,6 +236,20 @@ std::string tried_text(const SlidingIdentification& identification) {
              : "tried is a force proportional to it; --pitch tries those that repeat with a pitch";
 }
 
+std::string second_mass_text(const SecondMass& mass) {
+  const double percent = 100.0 * mass.explained;
+  constexpr const char* advice = "so the intervals may not hold; moves with less jerk excite it less";
+  if (mass.frequency > 0.0)
+    return fmt::format(
+        "a second mass behind a spring, with a resonance near {:.2g} Hz, explains {:.0f} % of the "
+        "squares that one mass leaves, {}",
+        mass.frequency, percent, advice);
+  return fmt::format(
+      "what one mass leaves follows the torque as with a second mass behind a spring, or with a "
+      "delay: that explains {:.0f} % of its squares, {}",
+      percent, advice);
+}
+
 void refuse_unexplained(const SlidingIdentification& result) {
   if (result.unexplained_torque <= max_unexplained * result.torque) return;
   const SlidingRecord& record = result.records.front();
@@ -256,12 +270,14 @@ std::string reason_of_distrust(const SlidingIdentification& identification) {
   const std::string left =
       fmt::format("{:.3g} {} (of {:.3g}) that the law leaves unexplained", identification.unexplained_torque,
                   parameters::unit_on(identification.axis, "N m"), identification.torque);
-  if (identification.forces.empty())
-    return is_cut(identification) ? "one stroke does not tell whether the position explains the " + left : "";
   const auto position = std::ranges::find(identification.forces, "position", &RepeatingForce::with);
-  if (position->predicted < least_explained(identification)) return "";
-  return fmt::format("the position explains {:.0f} % of the {}; {}", 100.0 * position->predicted, left,
-                     tried_text(identification));
+  if (position != identification.forces.end() && position->predicted >= least_explained(identification))
+    return fmt::format("the position explains {:.0f} % of the {}; {}", 100.0 * position->predicted, left,
+                       tried_text(identification));
+  if (identification.second_mass) return second_mass_text(*identification.second_mass);
+  if (identification.forces.empty() && is_cut(identification))
+    return "one stroke does not tell whether the position explains the " + left;
+  return "";
 }
 
 SlidingIdentification identify_sliding(std::vector<SlidingRecord> records) {
@@ -279,6 +295,8 @@ SlidingIdentification identify_sliding(std::vector<SlidingRecord> records) {
   result.forces = repeating_forces(fit);
   result.reversal = reversal_friction(fit);
   result.records = std::move(records);
+  // What else the law lacks would look like one.
+  if (reason_of_distrust(result).empty()) result.second_mass = visible_second_mass(fit, result.records);
   refuse_unexplained(result);
   result.fragment = sliding_fragment(result);
   return result;

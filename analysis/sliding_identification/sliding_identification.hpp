@@ -7,6 +7,7 @@
 #include "analysis/document/answer.hpp"
 #include "analysis/fit/report.hpp"
 #include "analysis/sliding_identification/reversal_friction.hpp"
+#include "analysis/sliding_identification/second_mass.hpp"
 #include "analysis/sliding_identification/sliding_record.hpp"
 #include "analysis/sliding_identification/unexplained_force.hpp"
 
@@ -23,6 +24,7 @@ struct SlidingIdentification : fit::FitReport {
   /// Whether a torque that acts twice in a revolution or pitch would explain the records as well as one that
   /// acts once.
   bool could_be_two_periods{false};
+  std::optional<SecondMass> second_mass;     ///< that the fit of one mass lacks
   double misfit{0.0};                        ///< root mean square of the residuals, in resolutions
   double unexplained_torque{0.0};            ///< root mean square over the windows, N m or N
   double torque{0.0};                        ///< root mean square of the torque in the strokes, N m or N
@@ -49,8 +51,8 @@ struct SlidingIdentification : fit::FitReport {
 /// fit leaves more than a third of the torque unexplained.
 SlidingIdentification identify_sliding(std::vector<SlidingRecord> records);
 
-/// Why the result must not be trusted: no parameter is estimated, or the position explains a tenth or more of
-/// what the law leaves unexplained. Empty if neither.
+/// Why the result must not be trusted: no parameter is estimated, the position explains a tenth or more of
+/// what the law leaves unexplained, or a second mass is shown. Empty if none of these.
 std::string reason_of_distrust(const SlidingIdentification& identification);
 
 /// The parameters as a fragment of a manifest. If sliding shows no level above the Coulomb level, the

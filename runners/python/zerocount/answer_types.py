@@ -898,6 +898,21 @@ class Correlation(Record):
     matrix: list[list[float | None]]
 
 
+class SecondMass(Record):
+    """A second mass that the records show; null: none.
+
+    Attributes
+    ----------
+    explained : float or None
+        Part of the squares of the residuals that it explains.
+    frequency : float or None
+        Of the masses against each other, Hz; 0: not well known.
+    """
+
+    explained: float | None
+    frequency: float | None
+
+
 class Reversal(Record):
     """Friction after reversals; null: none without a standstill.
 
@@ -974,6 +989,8 @@ class IdentifySlidingAnswer(Answer):
         Its root mean square over the windows, N m or N.
     torque : float or None
         Root mean square of the torque in the strokes, N m or N.
+    second_mass : SecondMass or None
+        A second mass that the records show; null: none.
     reversal : Reversal or None
         Friction after reversals; null: none without a standstill.
     simulation : pandas.DataFrame
@@ -999,7 +1016,7 @@ class IdentifySlidingAnswer(Answer):
         The parameters as a fragment of a manifest.
     """
 
-    _records = {"correlation": Correlation, "reversal": Reversal}
+    _records = {"correlation": Correlation, "second_mass": SecondMass, "reversal": Reversal}
 
     kind: str
     axis: Literal["rotary", "linear"]
@@ -1009,6 +1026,7 @@ class IdentifySlidingAnswer(Answer):
     misfit: float | None
     unexplained_torque: float | None
     torque: float | None
+    second_mass: SecondMass | None
     reversal: Reversal | None
     simulation: pandas.DataFrame
     unexplained: pandas.DataFrame

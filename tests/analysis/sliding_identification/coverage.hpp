@@ -6,6 +6,7 @@
 #include <string>
 
 #include "analysis/sliding_identification/sliding_identification.hpp"
+#include "tests/analysis/sliding_identification/joint_records.hpp"
 
 namespace zerocount::testing {
 
@@ -15,6 +16,12 @@ inline double uniform(std::mt19937_64& random, double low, double high) {
 
 inline double log_uniform(std::mt19937_64& random, double low, double high) {
   return low * std::pow(high / low, std::uniform_real_distribution<double>()(random));
+}
+
+inline sliding_identification::SlidingIdentification identified(const JointMotion& motion,
+                                                                std::mt19937_64& random) {
+  return sliding_identification::identify_sliding({sliding_identification::sliding_record(
+      joint_record(motion.joint, motion.targets, motion.speed, random))});
 }
 
 /// Nothing if there is no such parameter.

@@ -17,41 +17,6 @@ namespace {
 
 using sliding_identification::SlidingIdentification;
 
-/// A joint and the angles between which it moves.
-struct Motion {
-  Joint joint;
-  std::vector<double> targets;
-  double speed{0.0};
-};
-
-/// 2 to 14 moves within 0.3 to 8 rad.
-Motion random_motion(std::mt19937_64& random, bool with_gravity, bool with_ripple) {
-  Motion motion;
-  motion.joint = random_joint(random);
-  Joint& joint = motion.joint;
-  const double range = log_uniform(random, 0.3, 8.0);
-  const std::size_t moves = 2 + random() % 13;
-  double at = 0.0;
-  while (motion.targets.size() < moves) {
-    const double target = uniform(random, -0.5, 0.5) * range;
-    if (std::abs(target - at) < 0.15 * range) continue;
-    motion.targets.push_back(target);
-    at = target;
-  }
-  motion.speed = std::min(log_uniform(random, 0.5, 4.0), 3.0 * range);
-  if (with_gravity) joint.gravity = joint.coulomb * log_uniform(random, 0.3, 5.0);
-  joint.gravity_phase = uniform(random, -3.0, 3.0);
-  if (with_ripple) joint.ripple = joint.coulomb * log_uniform(random, 0.05, 0.5);
-  joint.periods = std::round(log_uniform(random, 3.0, 80.0));
-  joint.ripple_phase = uniform(random, -3.0, 3.0);
-  return motion;
-}
-
-SlidingIdentification identified(const Motion& motion, std::mt19937_64& random) {
-  return sliding_identification::identify_sliding({sliding_identification::sliding_record(
-      joint_record(motion.joint, motion.targets, motion.speed, random))});
-}
-
 /// Counts over records.
 struct Counts {
   int records{0};
@@ -61,7 +26,7 @@ struct Counts {
   int held{0};        ///< by their intervals
   int wrong{0};       ///< far outside, though the answer has exit code 0
 
-  void add(const Motion& motion, const SlidingIdentification& found) {
+  void add(const JointMotion& motion, const SlidingIdentification& found) {
     const Joint& joint = motion.joint;
     ++records;
     std::vector<double> periods;
@@ -97,7 +62,7 @@ Counts counts_of(int records, bool with_gravity, bool with_ripple) {
   Counts counts;
   for (int i = 0; i < records; ++i) {
     std::mt19937_64 random(static_cast<std::uint64_t>(i) * 7919 + 13);
-    const Motion motion = random_motion(random, with_gravity, with_ripple);
+    const JointMotion motion = random_joint_motion(random, with_gravity, with_ripple);
     counts.add(motion, identified(motion, random));
   }
   return counts;
@@ -121,7 +86,7 @@ TEST(JointCoverage, WithoutGravityNoneIsFound) {
 // Over a fifth of a revolution gravity and a torque of six periods may be others that act alike.
 TEST(JointCoverage, TorquesThatLookAlikeAreNotToldApart) {
   std::mt19937_64 random(13 + 22 * 7919);
-  const Motion motion = random_motion(random, true, true);
+  const JointMotion motion = random_joint_motion(random, true, true);
   ASSERT_EQ(motion.joint.periods, 6.0);
   const SlidingIdentification found = identified(motion, random);
   EXPECT_GE(found.waves.size(), 2u);

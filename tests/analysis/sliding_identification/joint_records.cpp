@@ -14,9 +14,9 @@ namespace {
 
 using State = std::array<double, 4>;  // θ, ω of the motor and of the load
 
-class JointMotion {
+class MovingJoint {
  public:
-  explicit JointMotion(const Joint& joint) : joint_(joint) {}
+  explicit MovingJoint(const Joint& joint) : joint_(joint) {}
 
   double theta() const { return state_[0]; }
 
@@ -135,11 +135,33 @@ Joint random_joint(std::mt19937_64& random) {
   return joint;
 }
 
+JointMotion random_joint_motion(std::mt19937_64& random, bool with_gravity, bool with_ripple) {
+  JointMotion motion;
+  motion.joint = random_joint(random);
+  Joint& joint = motion.joint;
+  const double range = log_uniform(random, 0.3, 8.0);
+  const std::size_t moves = 2 + random() % 13;
+  double at = 0.0;
+  while (motion.targets.size() < moves) {
+    const double target = uniform(random, -0.5, 0.5) * range;
+    if (std::abs(target - at) < 0.15 * range) continue;
+    motion.targets.push_back(target);
+    at = target;
+  }
+  motion.speed = std::min(log_uniform(random, 0.5, 4.0), 3.0 * range);
+  if (with_gravity) joint.gravity = joint.coulomb * log_uniform(random, 0.3, 5.0);
+  joint.gravity_phase = uniform(random, -3.0, 3.0);
+  if (with_ripple) joint.ripple = joint.coulomb * log_uniform(random, 0.05, 0.5);
+  joint.periods = std::round(log_uniform(random, 3.0, 80.0));
+  joint.ripple_phase = uniform(random, -3.0, 3.0);
+  return motion;
+}
+
 records::RawSeries joint_record(const Joint& joint, const std::vector<double>& targets, double speed,
                                 std::mt19937_64& random) {
   constexpr double position_gain = 25.0;   // 1/s
   constexpr double velocity_gain = 150.0;  // 1/s, times the inertia
-  JointMotion motion(joint);
+  MovingJoint motion(joint);
   records::RawSeries series;
   series.name = "joint.csv";
   std::normal_distribution<double> normal;

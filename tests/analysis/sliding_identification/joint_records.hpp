@@ -32,6 +32,16 @@ struct Joint {
 /// A joint of random size with an encoder of random fineness; without gravity, ripple and second mass.
 Joint random_joint(std::mt19937_64& random);
 
+/// A joint and the angles between which it moves.
+struct JointMotion {
+  Joint joint;
+  std::vector<double> targets;
+  double speed{0.0};
+};
+
+/// 2 to 14 moves of a random joint within 0.3 to 8 rad.
+JointMotion random_joint_motion(std::mt19937_64& random, bool with_gravity, bool with_ripple);
+
 /// The record of a joint that goes to these angles (rad) one after the other in a loop of P position and P
 /// velocity control, with trapezoids of the velocity (rad/s) and dwells of 0.1 s.
 ///

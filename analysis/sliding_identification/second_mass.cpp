@@ -1,0 +1,220 @@
+#include "analysis/sliding_identification/second_mass.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include <Eigen/Core>
+
+#include "analysis/sliding_identification/sliding_fit.hpp"
+#include "analysis/statistics/distributions.hpp"
+#include "core/failure/failure.hpp"
+#include "core/numerics/dense.hpp"
+
+namespace zerocount::sliding_identification {
+namespace {
+
+constexpr double no_scale = std::numeric_limits<double>::min();
+
+/// The columns less what combinations of others explain of them.
+Eigen::MatrixXd without(const Eigen::MatrixXd& others, const Eigen::MatrixXd& columns) {
+  return columns - numerics::product(others, numerics::least_squares(others, columns));
+}
+
+/// A window of a fit, linear about it.
+struct LinearWindow {
+  Eigen::MatrixXd by_start;         ///< derivatives by the initial position and velocity
+  Eigen::MatrixXd known;            ///< those by the free parameters, and the residuals, without these
+  std::vector<double> interval;     ///< s
+  std::vector<double> per_inertia;  ///< [interval] u/J, steps of the readings/s²
+};
+
+LinearWindow linear_window(const FittedWindow& fitted, const SlidingFit& fit) {
+  const SlidingRecord& record = *fitted.record;
+  const Window& window = *fitted.window;
+  const WindowSlopes slopes = slopes_of(fitted, fit.point);
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index j = 0; j < slopes.by_point.cols(); ++j)
+    if (fit.free[static_cast<std::size_t>(j)]) free.push_back(j);
+  Eigen::MatrixXd known(slopes.residual.size(), std::ssize(free) + 1);
+  known << slopes.by_point(Eigen::all, free), slopes.residual;
+  LinearWindow linear{slopes.by_start, without(slopes.by_start, known), {}, {}};
+  const double scale = std::exp(-fit.point[log_inertia]) / record.resolution;
+  for (std::size_t k = window.first; k < window.last; ++k) {
+    const double time = record.time[k + 1] - record.time[k];
+    double torque = motion::course_after(record.torque[k], 0.5 * time).now - fit.point[offset_torque] -
+                    window.direction * fit.point[coulomb_level] -
+                    fit.point[viscous_damping] * record.velocity[k];
+    for (std::size_t j = 0; j < position_terms && record.waves > 0; ++j)
+      torque -= record.shape[k][j] * fit.point[static_cast<Eigen::Index>(position_amplitudes + j)];
+    linear.interval.push_back(time);
+    linear.per_inertia.push_back(scale * torque);
+  }
+  return linear;
+}
+
+/// q from rest under the first torque, and two free oscillations.
+Eigen::MatrixXd oscillations(const LinearWindow& window, std::complex<double> pole) {
+  Eigen::MatrixXd columns(window.known.rows(), 3);
+  std::complex<double> driven = -window.per_inertia.front() / pole;
+  std::complex<double> own = 1.0;
+  std::complex<double> growth;
+  double interval = 0.0;
+  for (Eigen::Index i = 0;; ++i) {
+    columns.row(i) << driven.imag() / pole.imag(), own.real(), own.imag();
+    if (i + 1 == columns.rows()) return columns;
+    const auto k = static_cast<std::size_t>(i);
+    if (window.interval[k] != interval) growth = std::exp((interval = window.interval[k]) * pole);
+    driven = growth * driven + (growth - 1.0) / pole * window.per_inertia[k];
+    own *= growth;
+  }
+}
+
+/// Normal equations of the free parameters and A, in that order.
+struct Equations {
+  Eigen::MatrixXd information;
+  Eigen::VectorXd right;
+  double squares;  ///< of the residuals
+};
+
+Equations equations_of(const LinearWindow& window, std::complex<double> pole) {
+  const Eigen::MatrixXd added = without(window.by_start, oscillations(window, pole));
+  Eigen::MatrixXd columns(window.known.rows(), window.known.cols() + 1);
+  columns << added.col(0), window.known;
+  columns = without(added.rightCols(2), columns);
+  const Eigen::MatrixXd products = numerics::transposed_product(columns, columns);
+  const Eigen::Index size = products.cols() - 1;
+  return {products.topLeftCorner(size, size), products.topRightCorner(size, 1), products(size, size)};
+}
+
+/// A fit of A.
+struct Amplitude {
+  double omega{0.0};
+  double gain{0.0};       ///< squares of the residuals that it explains
+  double explained{0.0};  ///< part of them
+  double variance{0.0};   ///< of independent residuals with which A has its standard error
+};
+
+Amplitude amplitude_at(const std::vector<LinearWindow>& windows, double omega, double damping) {
+  const std::complex<double> pole = omega * std::complex(-damping, std::sqrt(1.0 - damping * damping));
+  std::vector<Equations> parts;
+  for (const LinearWindow& window : windows) parts.push_back(equations_of(window, pole));
+  Equations total = parts.front();
+  double samples = static_cast<double>(windows.front().known.rows());
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    total.information += parts[i].information;
+    total.right += parts[i].right;
+    total.squares += parts[i].squares;
+    samples += static_cast<double>(windows[i].known.rows());
+  }
+  const Eigen::VectorXd scale = total.information.diagonal().cwiseMax(no_scale).cwiseSqrt().cwiseInverse();
+  const auto scaled = [&](const Eigen::MatrixXd& matrix) -> Eigen::MatrixXd {
+    return scale.asDiagonal() * matrix * scale.asDiagonal();
+  };
+  const Eigen::MatrixXd inverse = numerics::pseudo_inverse(scaled(total.information));
+  const Eigen::VectorXd found = inverse * scale.cwiseProduct(total.right);
+  double jackknife = 0.0;
+  for (const Equations& part : parts) {
+    const Eigen::VectorXd score = scale.cwiseProduct(part.right) - scaled(part.information) * found;
+    const double change = numerics::least_squares(scaled(total.information - part.information), score)(0, 0);
+    jackknife += change * change;
+  }
+  constexpr double of_start = 4.0;
+  const double freedom =
+      samples - of_start * static_cast<double>(parts.size()) - static_cast<double>(found.size());
+  const double squares = total.squares - found.dot(scale.cwiseProduct(total.right));
+  const double variance =
+      std::max(squares / std::max(freedom, 1.0), jackknife / std::max(inverse(0, 0), no_scale));
+  const double gain = found[0] * found[0] / std::max(inverse(0, 0), no_scale);
+  return {omega, gain, gain / std::max(squares + gain, no_scale), variance};
+}
+
+/// By chance A is so many of its errors from 0 once in 1000 records, in any of the places.
+double least_ratio(std::size_t windows) {
+  constexpr double places = 100.0;
+  constexpr double chance = 1e-3 / places;
+  return statistics::student_t_quantile(std::max(2.0, static_cast<double>(windows) - 1.0),
+                                        1.0 - 0.5 * chance);
+}
+
+std::vector<Amplitude> amplitudes_of(const std::vector<LinearWindow>& windows, double slowest,
+                                     double fastest) {
+  constexpr double step = 1.12;
+  std::vector<Amplitude> amplitudes;
+  for (double omega = slowest; omega < fastest; omega *= step)
+    for (const double damping : {0.02, 0.08, 0.3})
+      amplitudes.push_back(amplitude_at(windows, omega, damping));
+  return amplitudes;
+}
+
+/// The best frequency, Hz, if only its neighbours explain nearly as much; otherwise 0.
+double well_known_frequency(const std::vector<Amplitude>& amplitudes, const Amplitude& best) {
+  double low = best.omega;
+  double high = best.omega;
+  for (const Amplitude& one : amplitudes) {
+    constexpr double visible = 20.0;  // of χ² with one degree of freedom
+    if (one.gain < best.gain - visible * best.variance) continue;
+    low = std::min(low, one.omega);
+    high = std::max(high, one.omega);
+  }
+  constexpr double well_known = 1.3;
+  const bool has_both_ends = low > amplitudes.front().omega && high < amplitudes.back().omega;
+  return has_both_ends && high < well_known * low ? best.omega / (2.0 * std::numbers::pi) : 0.0;
+}
+
+std::optional<SecondMass> shown_by(const SlidingFit& fit) {
+  std::vector<LinearWindow> windows;
+  double longest = 0.0;  // s
+  for (const FittedWindow& fitted : fit.windows) {
+    const std::vector<double>& time = fitted.record->time;
+    windows.push_back(linear_window(fitted, fit));
+    longest = std::max(longest, time[fitted.window->last] - time[fitted.window->first]);
+  }
+  const SlidingRecord& first = *fit.windows.front().record;
+  const double rate = static_cast<double>(first.time.size() - 1) / first.time.back();
+  constexpr double rad_per_sample = 1.5;
+  const std::vector<Amplitude> amplitudes =
+      amplitudes_of(windows, 2.0 * std::numbers::pi / longest, rad_per_sample * rate);
+  const auto best = std::ranges::max_element(amplitudes, {}, &Amplitude::gain);
+  constexpr double least_explained = 0.03;
+  if (best == amplitudes.end() || best->explained < least_explained ||
+      std::sqrt(best->gain / best->variance) < least_ratio(windows.size()))
+    return std::nullopt;
+  return SecondMass{best->explained, well_known_frequency(amplitudes, *best)};
+}
+
+}  // namespace
+
+std::optional<SecondMass> visible_second_mass(const SlidingFit& fit, std::vector<SlidingRecord> records) {
+  FreeParameters free = fit.free;
+  std::vector<PositionWave> waves = fit.waves;
+  // Short windows, which a second mass demands, may not have shown gravity.
+  for (const PositionWave& usual : usual_waves(records.front())) {
+    if (waves.size() == max_position_waves ||
+        std::ranges::find(waves, usual.periods, &PositionWave::periods) != waves.end())
+      continue;
+    free[position_amplitudes + 2 * waves.size()] = true;
+    free[position_amplitudes + 2 * waves.size() + 1] = usual.periods != 0.0;
+    waves.push_back(usual);
+  }
+  set_position_waves(records, waves);
+  constexpr std::size_t windows = 20;
+  std::size_t samples = 0;
+  for (const SlidingRecord& record : records)
+    for (const Window& stroke : record.strokes) samples += samples_of(stroke);
+  for (const std::size_t length : {std::clamp<std::size_t>(samples / windows, 128, 2048), 256UL, 128UL}) {
+    for (SlidingRecord& record : records) cut_windows(record, length);
+    try {
+      if (const auto shown = shown_by(fit_sliding(records, fit.point, free, waves))) return shown;
+    } catch (const Failure&) {
+      continue;  // no motion in such windows fits
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace zerocount::sliding_identification

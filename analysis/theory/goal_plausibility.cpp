@@ -173,7 +173,7 @@ struct GoalTest {
   bool holds_for_any_controller{false};
   bool is_obstacle{true};  ///< to meeting the goal, not only a doubt about what it says
 };
-constexpr std::array<GoalTest, 11> goal_tests{{{load_hangs_behind, nullptr, true, false, false},
+constexpr std::array<GoalTest, 12> goal_tests{{{load_hangs_behind, nullptr, true, false, false},
                                                {zero_counts_are_wider},
                                                {noise_leaves_the_band},
                                                {noise_moves_the_axis},
@@ -183,6 +183,7 @@ constexpr std::array<GoalTest, 11> goal_tests{{{load_hangs_behind, nullptr, true
                                                {nullptr, reference_is_on_its_way, true, true},
                                                {nullptr, torque_is_too_small_for_the_move, false, true},
                                                {nullptr, torque_is_too_small_at_the_target, false},
+                                               {nullptr, coupling_is_wound_up_unseen, true, false, false},
                                                {nullptr, encoder_misplaces_the_target, true, true}}};
 
 /// Out of reach of whole trials: in each of those examined.

@@ -102,12 +102,15 @@ double shortest_time(const MoveOfTrial& move) {
   return std::max(shortest_move(axis, sliding + run_up) - run_up_time, 0.0);
 }
 
-/// Constant torque and ripple at an angle, of the rotor and of a load that is there too, N m.
+/// Constant torque and ripple at an angle, N m.
+double standing_torque(const trial::DisturbanceParameters& of, const trial::TrialParameters& p,
+                       double theta) {
+  return of.torque + motion::value(trial::ripples_of(of.ripple, p.initial.position), theta);
+}
+
+/// That of the rotor and of a load that is there too.
 double standing_torque(const trial::TrialParameters& p, double theta) {
-  double torque = 0.0;
-  for (const trial::DisturbanceParameters* of : {&p.disturbance, &p.load_side.disturbance})
-    torque += of->torque + motion::value(trial::ripples_of(of->ripple, p.initial.position), theta);
-  return torque;
+  return standing_torque(p.disturbance, p, theta) + standing_torque(p.load_side.disturbance, p, theta);
 }
 
 }  // namespace
@@ -256,6 +259,25 @@ Doubt torque_is_too_small_at_the_target(const MoveOfTrial& move) {
                   "converter: {}; expected a larger range, or less disturbance",
                   move.name(), move.of.torque(torque), move.of.torque(range),
                   sticks ? "only friction can hold the axis there" : "nothing holds the axis there")};
+}
+
+Doubt coupling_is_wound_up_unseen(const MoveOfTrial& move) {
+  const GoalOfTrial& of = move.of;
+  const trial::TrialParameters& p = of.trial;
+  if (!motion::has_load(p.plant) || p.plant.load.encoder != motion::EncoderPlace::motor ||
+      of.goal.of != motion::EncoderPlace::load || !of.goal.tolerance)
+    return {};
+  const friction::LoadFrictionParameters& of_load = p.load_side.friction;
+  const bool rubs = of_load.model != friction::LoadFrictionModel::none;
+  const double friction = rubs ? of_load.contact.breakaway : 0.0;
+  const double disturbance = std::abs(standing_torque(p.load_side.disturbance, p, move.to));
+  const double wound = (friction + disturbance) / p.plant.load.stiffness;
+  return {wound / *of.goal.tolerance,
+          fmt::format(
+              "at the target of {} friction ({}) and disturbance ({}) of the load wind up the coupling "
+              "by up to {}, beyond {}, and the encoder of the motor closes the loop; expected a "
+              "stiffer coupling, less of them, or the encoder of the load in the position loop",
+              move.name(), of.torque(friction), of.torque(disturbance), of.length(wound), of.band_text())};
 }
 
 Doubt encoder_misplaces_the_target(const MoveOfTrial& move) {

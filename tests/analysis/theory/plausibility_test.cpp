@@ -392,6 +392,37 @@ TEST(MovePlausibility, ARippleIsJudgedAtTheTargetUnderEachCondition) {
   EXPECT_FALSE(is_told(with("{uniform: [0, 6.283]}", "0.1"), "at the target"));
 }
 
+// The warning is as wide as the simulated error: of loads with a constant torque those that miss are told.
+TEST(MovePlausibility, ALoadBehindTheEncoderIsWoundUp) {
+  for (const double torque : {0.5, 2.0, 4.0})
+    for (const double stiffness : {1.0e+4, 4.0e+4}) {
+      const auto with = [&](const std::string& encoder, const std::string& friction) {
+        return manifest::parse_study(
+            fmt::format(
+                "zerocount: 1\nname: load\nseed: 1\ntrials: 2\n"
+                "plant: {{inertia: 0.5, sliding_damping: 3, load: {{inertia: 0.3, stiffness: {}, damping: "
+                "20, encoder: {}{}}}}}\n"
+                "friction: {{model: dahl, sigma0: 3.0e+4, breakaway: 2}}\n"
+                "encoder: {{fine: 2000000}}\ndac: {{bits: 20, range: 100}}\n"
+                "controller: {{units: si, sample_rate: 4000, kp: 3000, ki: 3.0e+4, kd: 60}}\n"
+                "disturbance: {{load: {{torque: {}}}}}\n"
+                "command: {{units: si, targets: [0.01], hold: 2}}\n"
+                "goal: {{of: load, tolerance: 1.0e-4, within: 1.5, moves: 0.9}}\n",
+                stiffness, encoder, friction, torque),
+            "m.yaml", {});
+      };
+      const study::Study study = with("motor", "");
+      const trial::MoveOutcome move =
+          trial::run_trial(study::study_trial(study, 0, 0).parameters).moves.front();
+      const bool misses = !(move.other_tolerance_settling_times[0] <= 1.5);
+      EXPECT_EQ(misses, torque / stiffness > 1e-4) << torque << " " << stiffness;
+      EXPECT_EQ(is_told(study, "wind up the coupling"), misses) << torque << " " << stiffness;
+      EXPECT_FALSE(is_told(with("load", ""), "wind up the coupling"));
+      EXPECT_TRUE(is_told(with("motor", ", friction: {model: dahl, breakaway: 5, sigma0: 1.0e+4}"),
+                          "wind up the coupling"));
+    }
+}
+
 TEST(MovePlausibility, AGoalLeavesTheProfileItsTime) {
   testing::RandomBlocks draw(12);
   int told = 0;

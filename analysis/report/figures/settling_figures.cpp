@@ -140,23 +140,28 @@ std::string label_of_curve(const ReportedStudy& reported, const ReportedPart& pa
              : study::label_under(marked_label_of(reported, point), part.condition);
 }
 
-std::optional<Figure> arrival_figure(const ReportedStudy& reported) {
-  const std::vector<std::int64_t> shown = points_with_curves(reported);
-  if (shown.empty()) return std::nullopt;
-  const auto& points = reported.summary.points;
-  const std::int64_t moves_per_trial = reported.file.moves();
-  std::string caption = fmt::format(
-      "Proportion of all moves of a point that have arrived by a time: their error was first 0 for the whole "
-      "dwell (also if they left the target later). A curve that ends below 100 % has moves that never "
-      "arrived. The bands {} (Dvoretzky-Kiefer-Wolfowitz, n = "
-      "{}{}). ",
+/// What the bands about the curves are.
+std::string bands_sentence(const ReportedStudy& reported) {
+  const std::int64_t moves = reported.file.moves();
+  return fmt::format(
+      "The bands {} (Dvoretzky-Kiefer-Wolfowitz, n = {}{}): they are wider than the bounds at one time. ",
       reported.summary.features.dependent_trials
           ? "would contain the whole curve of a point with 95 % confidence if its trials were independent"
           : "contain the whole curve of a point with 95 % confidence",
       reported.study.rigs > 0 ? fmt::format("{} machines", reported.study.rigs)
                               : fmt::format("{} trials", study::draw_count(reported.study)),
-      reported.study.rigs == 0 && moves_per_trial > 1 ? fmt::format(" of {} moves each", moves_per_trial)
-                                                      : "");
+      reported.study.rigs == 0 && moves > 1 ? fmt::format(" of {} moves each", moves) : "");
+}
+
+std::optional<Figure> arrival_figure(const ReportedStudy& reported) {
+  const std::vector<std::int64_t> shown = points_with_curves(reported);
+  if (shown.empty()) return std::nullopt;
+  const auto& points = reported.summary.points;
+  std::string caption =
+      "Proportion of all moves of a point that have arrived by a time: their error was first 0 for the whole "
+      "dwell (also if they left the target later). A curve that ends below 100 % has moves that never "
+      "arrived. " +
+      bands_sentence(reported);
   const auto arriving = std::count_if(points.begin(), points.end(), [](const measures::PointSummary& point) {
     return point.of(&trial::MoveOutcome::arrival_time).n > 0;
   });
@@ -277,6 +282,7 @@ std::optional<Figure> settled_figure(const ReportedStudy& reported) {
       "Proportion of the moves of {} whose error stays within ±{} from a time on to the end of the move{}. ",
       label_of(reported, reported.chosen.point), subjects.size() == 1 ? subjects.front().precision : "b",
       has_conditions(reported) ? ", under each condition" : "");
+  caption += bands_sentence(reported);
   if (with_claim) caption += "The dashed lines are the goal: the curve must pass above their crossing. ";
   if (with_claim && subjects.size() == 1) caption += fmt::format("It asks {}. ", goal_text(subjects.front()));
   if (!with_claim) caption += "Shortly before the end there is little time left to leave a band in. ";

@@ -195,5 +195,12 @@ TEST(GoalPlan, IsTheSmallestStudyThatCanMeetTheGoal) {
   EXPECT_EQ(smallest_studies(plain, true, 1, 1).at(0).rigs, 299);
 }
 
+TEST(GoalText, SaysWhichStudyDecides) {
+  const study::Goal goal{.within = 0.05, .moves = 0.9};
+  EXPECT_TRUE(needs_sentence(goal, {0, 500}, false).starts_with("About 500 trials decide it"));
+  EXPECT_TRUE(needs_sentence(goal, {20, 400}, true).starts_with("About 20 machines with 20 trials each"));
+  EXPECT_TRUE(needs_sentence(goal, {}, true).starts_with("The proportion is so close to the goal"));
+}
+
 }  // namespace
 }  // namespace zerocount::goal

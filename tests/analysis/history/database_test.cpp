@@ -37,6 +37,24 @@ class HistoryDatabase : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
+// However little the evidence is beyond that of no change.
+TEST_F(HistoryDatabase, TheEvidenceOfAMonitorIsTheInverseOfItsChance) {
+  std::string measures;
+  for (const char* const evidence : {"0.5", "1.05", "20.0"})
+    measures += fmt::format(R"({}{{"measure": "m{}", "unit": "s", "moves": 2.0, "baseline": 1.0,
+                                "alarm_at": null, "evidence": {}}})",
+                            measures.empty() ? "" : ",", evidence, evidence);
+  folder_.write("a.json", R"({"answer": "monitor", "baseline": "b.h5", "baseline_moves": 100, "block": 1,
+                             "alarm": 1000.0, "log": "log.csv", "moves": 50, "status": "no alarm",
+                             "measures": [)" +
+                              measures + "]}");
+  const history::RunRecord run = history::monitor_record(folder_ / "a.json").value();
+  ASSERT_EQ(run.values.size(), 3U);
+  EXPECT_EQ(run.values[0].comparison->p, 1.0);
+  EXPECT_EQ(run.values[1].comparison->p, 1.0 / 1.05);
+  EXPECT_EQ(run.values[2].comparison->p, 0.05);
+}
+
 TEST_F(HistoryDatabase, GivesBackWhatWasAdded) {
   history::RunRecord compared = run_of_day(2, 0.5);
   compare_with_baseline(compared, 0.25);

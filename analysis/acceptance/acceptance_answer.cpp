@@ -70,10 +70,12 @@ std::string reasons_to_reject(Of a) {
   return fmt::format("{}", fmt::join(reasons, "; "));
 }
 
-/// Moves, with the misses of those that there are, that show each undecided goal for these machines.
+/// Moves of these machines, those that there are included, that show each undecided goal without another
+/// miss; 0 where a goal is about machines, each of which has its own number.
 std::int64_t moves_needed(Of a) {
   std::int64_t needed = 0;
   for (const Claim& claim : a.claims) {
+    if (claim.goal.machines) return 0;
     if (claim.status == goal::Status::undecided)
       needed = std::max(needed, statistics::trials_for_claim(claim.goal.moves, claim.goal.confidence,
                                                              claim.moves - claim.met));
@@ -93,11 +95,11 @@ std::string headline_of(Of a) {
     case Status::undecided:
       break;
   }
-  const std::string needed = a.needed_machines > 0
-                                 ? fmt::format("; about {} machines would decide", a.needed_machines)
-                             : a.judged == Judged::these_machines
-                                 ? fmt::format("; {} moves without another miss can", moves_needed(a))
-                                 : "";
+  const std::string needed =
+      a.needed_machines > 0 ? fmt::format("; about {} machines would decide", a.needed_machines)
+      : a.judged == Judged::these_machines && moves_needed(a) > 0
+          ? fmt::format("; {} moves in all, without another miss, can", moves_needed(a))
+          : "";
   return fmt::format("undecided: {} are too few to show {} for {}{}", of, goals, whose, needed);
 }
 

@@ -74,7 +74,7 @@ Eigen::MatrixXd oscillations(const LinearWindow& window, std::complex<double> po
   }
 }
 
-/// Normal equations of the free parameters and A, in that order.
+/// Normal equations of A and the free parameters, in that order.
 struct Equations {
   Eigen::MatrixXd information;
   Eigen::VectorXd right;

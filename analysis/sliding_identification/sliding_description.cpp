@@ -198,8 +198,10 @@ document::AnswerDescription<SlidingIdentification> sliding_answer() {
             i.misfit, i.unexplained_torque, i.torque, parameters::unit_on(i.axis, "N m"));
       })
       .sentence(position_text)
-      .object(in_data("second_mass", "a second mass that the records show; null: none"),
-              second_mass_description(), &SlidingIdentification::second_mass)
+      .object(
+          in_data("second_mass",
+                  "a second mass that the records show; null: none is shown, or another fault comes first"),
+          second_mass_description(), &SlidingIdentification::second_mass)
       .object(in_data("reversal", "friction after reversals; null: none without a standstill"),
               reversal_description(), [](Of i) { return i.reversal ? &*i.reversal : nullptr; })
       .sentence(reversal_sentence)

@@ -241,9 +241,10 @@ std::string second_mass_text(const SecondMass& mass) {
   constexpr const char* advice = "so the intervals may not hold; moves with less jerk excite it less";
   if (mass.frequency > 0.0)
     return fmt::format(
-        "a second mass behind a spring, with a resonance near {:.2g} Hz, explains {:.0f} % of the "
+        "a second mass behind a spring, with a resonance near {} Hz, explains {:.0f} % of the "
         "squares that one mass leaves, {}",
-        mass.frequency, percent, advice);
+        mass.frequency < 10.0 ? fmt::format("{:.2g}", mass.frequency) : fmt::format("{:.0f}", mass.frequency),
+        percent, advice);
   return fmt::format(
       "what one mass leaves follows the torque as with a second mass behind a spring, or with a "
       "delay: that explains {:.0f} % of its squares, {}",

@@ -52,7 +52,8 @@ struct SlidingIdentification : fit::FitReport {
 SlidingIdentification identify_sliding(std::vector<SlidingRecord> records);
 
 /// Why the result must not be trusted: no parameter is estimated, the position explains a tenth or more of
-/// what the law leaves unexplained, or a second mass is shown. Empty if none of these.
+/// what the law leaves unexplained, or a second mass is shown. Otherwise empty, or another fault of the
+/// record.
 std::string reason_of_distrust(const SlidingIdentification& identification);
 
 /// The parameters as a fragment of a manifest. If sliding shows no level above the Coulomb level, the

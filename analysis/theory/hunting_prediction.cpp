@@ -137,6 +137,7 @@ document::Description<HuntingPrediction> hunting_description() {
           case Hunting::undecided:
             break;
         }
+        if (hunting.duration == 0.0) return std::string("not decided: its simulation takes too long");
         return fmt::format("not decided: neither a cycle nor rest within {:.3g} s", hunting.duration);
       })
       .value(in_data("hunting_step", "length of that move", "count"), &HuntingPrediction::step)

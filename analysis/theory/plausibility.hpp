@@ -83,7 +83,7 @@ Doubt torque_is_too_small_for_the_move(const MoveOfTrial& move);
 Doubt torque_is_too_small_at_the_target(const MoveOfTrial& move);
 
 /// A goal of the load behind a motor whose encoder closes the loop: friction and disturbance of the load wind
-/// up the coupling, by (|τ| + F)/K at most, where nothing reads it.
+/// up the coupling, by (|τ| + F)/K at most, where nothing reads it. Only a doubt: it may stand closer.
 Doubt coupling_is_wound_up_unseen(const MoveOfTrial& move);
 
 /// The systematic errors of the encoder (eccentricity, interpolation): nowhere within the tolerance does it

@@ -184,12 +184,16 @@ std::string simulated_sentence(const PointLimits& found) {
          ", in each row with the same random numbers; pairs of causes first on some of them";
 }
 
-/// What the linear theory objects to, where most moves miss: no cause that is switched off may mend it.
+/// What the linear theory objects to, where most moves miss: perhaps no cause mends it.
 std::string theory_sentence(const PointLimits& found) {
   constexpr double most = 0.5;
   if (found.limits.front().holds || found.limits.front().rate.value_or(0.0) > most) return "";
+  const tuning::ClaimPlace worst = tuning::place_of_claim(found.study, found.limits.front().estimate.worst);
+  std::vector<theory::KnownRotor> rotors;
   std::vector<std::string> objections;
-  for (const theory::LoopRanges& loop : theory::examine(found.study, found.units.point).loops) {
+  for (const theory::LoopRanges& loop :
+       theory::examine(found.study, found.units.point, static_cast<std::int64_t>(worst.condition), rotors)
+           .loops) {
     const std::string stability = theory::stability_text(loop);
     if (stability != "stable") objections.push_back(fmt::format("{}: {}", loop.name, stability));
   }
@@ -259,13 +263,18 @@ trials::Replicates affordable_units(const study::Study& study, std::int64_t poin
 }
 
 /// What the least budget is.
-Failure too_small(const command_line::Budget& budget, const study::Study& study, std::int64_t point) {
+/// @throws trial::Interrupted
+Failure too_small(const command_line::Budget& budget, const study::Study& study, std::int64_t point,
+                  const std::stop_token& stop) {
+  constexpr double margin = 1.5;  // the speed is measured anew, in a part of the time
+  const std::int64_t worlds = std::max<std::int64_t>(study.worlds, 1);
   trials::Replicates units = trials::replicates_of(study, point);
-  units.count = std::min(units.count, fewest_units);
+  units.count = std::min(units.count, (fewest_units + worlds - 1) / worlds * worlds);
   const double trials = std::ceil(runs_of(study, units) * static_cast<double>(units.trials()));
   const std::string least =
       budget.trials ? fmt::format("{:.0f} trials", trials)
-                    : fmt::format("{:.3g} s", trials / (part_of_speed * tuning::measured_speed(study, {})));
+                    : fmt::format("about {:.2g} s",
+                                  margin * trials / (part_of_speed * tuning::measured_speed(study, stop)));
   return {budget.trials ? ExitCode::bad_input : ExitCode::inconclusive,
           fmt::format("option '--budget': it is not enough: the causes of failures of this point take about "
                       "{} trials on all its {}; expected {} or more, for the first {}",
@@ -287,7 +296,7 @@ ExitCode limits(const command_line::Arguments& arguments) {
     });
   });
   if (ended) return answers::print(arguments, *answer);
-  throw too_small(budget, examined.study, examined.point);
+  throw too_small(budget, examined.study, examined.point, interruption.token());
 }
 
 }  // namespace

@@ -52,14 +52,18 @@ void judge_overshoot(const MoveBehaviour& row, const study::Study& study, std::v
   if (!(row.overshoot_of_step.p95 > max_overshoot_of_step) ||
       !(row.overshoot.p95 > overshoot_in_band(row, study)))
     return;
-  // Whole counts, which overshoot is measured in.
-  const double limit =
-      std::floor(std::max(max_overshoot_of_step * row.smallest_step, overshoot_in_band(row, study)));
+  const double limit = std::max(max_overshoot_of_step * row.smallest_step, overshoot_in_band(row, study));
+  const bool of_other_mass = row.number < study.goals.size() && study.goals[row.number].of_other_mass;
+  const double count = row.overshoot_length.p95 / row.overshoot.p95;  // rad
+  // Readings are whole counts; those of the other mass no encoder in the loop sees.
+  const std::string remedy =
+      of_other_mass ? fmt::format("limits: {{true_overshoot: {}}}", text::short_number(limit * count))
+                    : fmt::format("limits: {{overshoot: {:g}}}", std::floor(limit));
   found.push_back(
       {"overshoot",
-       fmt::format("5 % of the moves{} overshoot by {:.3g} % of the step or more (from {} counts)",
+       fmt::format("5 % of the moves{} overshoot by {:.3g} % of the step or more (from {:.4g} counts)",
                    text_of_row(row, study), 100.0 * row.overshoot_of_step.p95, row.overshoot.p95),
-       row.overshoot_of_step.p95, max_overshoot_of_step, fmt::format("limits: {{overshoot: {:g}}}", limit)});
+       row.overshoot_of_step.p95, max_overshoot_of_step, remedy});
 }
 
 void judge_saturation(const MoveBehaviour& row, const study::Study& study, std::vector<Refusal>& found) {

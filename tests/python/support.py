@@ -37,7 +37,7 @@ SMALL: dict[str, dict[str, Any]] = {
 """Shipped studies with settings that make them short."""
 
 DEAR = ("repeatability", "contact-variation")
-"""Of them those whose trials take longest."""
+"""The shipped studies whose trials take longest."""
 
 
 def dear_by_night(places: Iterable[Any]) -> list[Any]:

@@ -337,7 +337,7 @@ def test_what_is_identified_can_be_put_into_a_study(results_of: ResultsOf) -> No
 
 @pytest.mark.long
 def test_of_several_laws_the_parameters_of_the_best_are_given(results_of: ResultsOf) -> None:
-    """Two laws are compared by no exit code, and the table is that of the first."""
+    """With two laws the exit code compares none, and the table is that of the first."""
     several = zc.identify(results_of("identification").path, point="steps", model=["spring", "dahl"])
     best = several["laws"][0]
     assert several.passed is None and several.table["value"].tolist() == [parameter["value"] for parameter in best["parameters"]]

@@ -68,12 +68,13 @@ std::vector<ShownMass> shown_masses(const goal::Question& question, const trial:
   const motion::EncoderPlace closing = motion::has_load(p.plant) ? p.plant.load.encoder : motor;
   const motion::EncoderPlace first = shown.front().mass.value_or(closing);
   const bool of_either = question.claim() && question.claim()->of_either;
-  ShownMass other{.mass = first == motor ? load : motor, .of_position = true};
+  ShownMass other{.mass = first == motor ? load : motor};
+  other.of_position = other.mass != closing;  // which no reading is of
   for (const goal::JudgedPart& part : question.parts) {
     const bool of_other = !of_either && mass_of(part).value_or(first) != first;
     (of_other ? other : shown.front()).parts.push_back(part);
     if (part.claim && part.claim->beside_load && other.mass == load) other.parts.push_back(part);
-    shown.front().of_position |= !of_other && part.claim && part.claim->tolerance;
+    (of_other ? other : shown.front()).of_position |= part.claim && part.claim->tolerance;
   }
   if (!other.parts.empty() || (!of_either && motion::has_load(p.plant) && p.encoder.other.counts > 0.0))
     shown.push_back(std::move(other));
@@ -227,11 +228,12 @@ Figure response_figure(const ReportedStudy& reported, const std::vector<SampleTr
                  : fmt::format("How do the median and the worst {} respond?", subject),
       fmt::format(
           "{}{} of two trials of point {}{}, simulated again, and the $torque of the worst. {} Its axis is "
-          "linear within the narrowest goal and logarithmic beyond. Samples are thinned, but all extremes "
+          "linear within {} and logarithmic beyond. Samples are thinned, but all extremes "
           "are shown.{}",
           shown.of_position ? "Position error" : "Error of the readings", of_mass,
           label_of(reported, reported.chosen.point), has_conditions(reported) ? ", under each condition" : "",
-          boxes, courses_of(question, trials, replayed)),
+          boxes, shown.parts.empty() ? "half a count" : "the narrowest goal",
+          courses_of(question, trials, replayed)),
       {std::move(data), boxes_of(shown.parts, replayed.front())});
   for (const SampleTrial& trial : trials)
     figure.parameters["titles"][trial.name] = fmt::format("{} {}", trial.name, subject);

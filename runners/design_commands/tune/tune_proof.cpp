@@ -307,11 +307,7 @@ std::string sanity_line(Of tuning) {
   for (const Refusal& one : refusals)
     texts.push_back(fmt::format("{}; to exclude it add {}", one.text, one.remedy));
   const std::string values = values_text(named(answer.free, answer.tuned.values));
-  if (texts.empty())
-    return fmt::format(
-        "before the proof: with {} overshoot, saturation, torque noise at rest and phase margin are within "
-        "the usual limits",
-        values);
+  if (texts.empty()) return fmt::format("before the proof: nothing is found to object to in {}", values);
   return fmt::format("before the proof: a drive engineer would refuse this of {}: {}", values,
                      fmt::join(texts, "; "));
 }

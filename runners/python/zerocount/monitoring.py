@@ -174,7 +174,7 @@ def monitor(baseline: Any, moves: Any = None, **options: Any) -> Monitor | Monit
     moves : path or table, optional
         The moves in their order. Without them the machine is watched by :meth:`Monitor.update`.
     **options
-        Of the command: ``alarm``, ``change``, ``measure`` (a list), ``block``, ``group``, ``unchanged`` (a list), ``point``, ``condition``, ``age``, ``rig``, ``seed``.
+        Of the command: ``alarm``, ``change``, ``measure`` (a list), ``block``, ``group``, ``unchanged`` (a list), ``point``, ``condition``, ``age``, ``rig``, ``seed``, ``budget``.
 
     Returns
     -------

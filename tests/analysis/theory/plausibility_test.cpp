@@ -392,7 +392,7 @@ TEST(MovePlausibility, ARippleIsJudgedAtTheTargetUnderEachCondition) {
   EXPECT_FALSE(is_told(with("{uniform: [0, 6.283]}", "0.1"), "at the target"));
 }
 
-// The warning is as wide as the simulated error: of loads with a constant torque those that miss are told.
+// A load with a constant torque on it is doubted exactly where its simulated move misses.
 TEST(MovePlausibility, ALoadBehindTheEncoderIsWoundUp) {
   for (const double torque : {0.5, 2.0, 4.0})
     for (const double stiffness : {1.0e+4, 4.0e+4}) {

@@ -255,7 +255,7 @@ summary::MoveBehaviour quiet_moves() {
 }
 
 TEST(TuneAnswer, SaysWhatAnEngineerWouldRefuseAndWhatExcludesIt) {
-  const study::Study study = axis();
+  study::Study study = axis();
   const auto remedies_of = [&](const summary::MoveBehaviour& row, double phase) {
     std::vector<std::string> remedies;
     for (const tuning::Refusal& one : tuning::refusals_of(
@@ -269,6 +269,9 @@ TEST(TuneAnswer, SaysWhatAnEngineerWouldRefuseAndWhatExcludesIt) {
   summary::MoveBehaviour row = quiet_moves();
   row.overshoot_of_step.p95 = 0.26;
   EXPECT_EQ(remedies_of(row, 41.0), Texts({"limits: {overshoot: 10}"}));
+  study.goals.front().of_other_mass = true;  // no reading is of it
+  EXPECT_EQ(remedies_of(row, 41.0), Texts({"limits: {true_overshoot: 1e-05}"}));
+  study.goals.front().of_other_mass = false;
   row.overshoot = {1.0, 1.0};  // within the goal's band of 1 count
   EXPECT_EQ(remedies_of(row, 41.0), Texts({}));
   row.saturated = 0.02;

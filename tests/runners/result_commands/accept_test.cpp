@@ -49,7 +49,7 @@ TEST_F(Accept, JudgesTheMachinesByTheGoalAndThePrediction) {
   EXPECT_EQ(bad["goals"][0]["agreement"], "differs");
   EXPECT_EQ(accepted({"few.csv"}, 3)["status"], "undecided");
   EXPECT_TRUE(says(accepted({"few.csv", "--these"}, 3)["headline"].get<std::string>(),
-                   "; 29 moves without another miss can"));
+                   "; 29 moves in all, without another miss, can"));
 }
 
 TEST_F(Accept, CountsFromTheEndOfTheProfilesInTheLog) {

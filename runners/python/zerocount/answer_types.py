@@ -899,7 +899,7 @@ class Correlation(Record):
 
 
 class SecondMass(Record):
-    """A second mass that the records show; null: none.
+    """A second mass that the records show; null: none is shown, or another fault comes first.
 
     Attributes
     ----------
@@ -990,7 +990,7 @@ class IdentifySlidingAnswer(Answer):
     torque : float or None
         Root mean square of the torque in the strokes, N m or N.
     second_mass : SecondMass or None
-        A second mass that the records show; null: none.
+        A second mass that the records show; null: none is shown, or another fault comes first.
     reversal : Reversal or None
         Friction after reversals; null: none without a standstill.
     simulation : pandas.DataFrame

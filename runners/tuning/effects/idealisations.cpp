@@ -255,7 +255,7 @@ void add_finer_encoders(const PointEdit& at, const std::string& refusal, std::ve
                .edit = with_finer_encoder};
   if (!study::has_two_encoders(limits)) return all.push_back(std::move(finer));
   for (const motion::EncoderPlace mass : {motor, load}) {
-    finer.name = fmt::format("an encoder of the {} 4 times finer", study::mass_text(mass));
+    finer.name = fmt::format("{} on the {}", parameters::finer_encoder, study::mass_text(mass));
     finer.edit = [mass, closing = study::closes_at_load(limits) ? load : motor](PointEdit& edit) {
       with_finer_encoder_of(edit, mass, closing);
     };

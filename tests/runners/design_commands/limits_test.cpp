@@ -154,9 +154,9 @@ goal: {tolerance: 1.0e-4, within: 0.2, moves: 0.9}
       {cascade, "twice the sample rate", {"controller.sample_rate=4000"}},
       {cascade, "no missed samples", {"controller.missed=0"}},
       {joint, "no friction of the load", {"plant.load.friction={model: none}"}},
-      {joint, "an encoder of the motor 4 times finer", {"encoder.fine=400000"}},
+      {joint, "an encoder 4 times finer on the motor", {"encoder.fine=400000"}},
       {joint,
-       "an encoder of the load 4 times finer",
+       "an encoder 4 times finer on the load",
        {"encoder.load.counts_per_revolution=160000", "encoder.load.fine_errors.noise=2"}},
   };
   std::map<std::string, Json> found_for;

@@ -296,7 +296,7 @@ SlidingIdentification identify_sliding(std::vector<SlidingRecord> records) {
   result.forces = repeating_forces(fit);
   result.reversal = reversal_friction(fit);
   result.records = std::move(records);
-  // What else the law lacks would look like one.
+  // Another force that the law lacks would look like a second mass.
   if (reason_of_distrust(result).empty()) result.second_mass = visible_second_mass(fit, result.records);
   refuse_unexplained(result);
   result.fragment = sliding_fragment(result);

@@ -184,7 +184,8 @@ std::string simulated_sentence(const PointLimits& found) {
          ", in each row with the same random numbers; pairs of causes first on some of them";
 }
 
-/// What the linear theory objects to, where most moves miss: perhaps no cause mends it.
+/// Names the loops that are unstable or too slow by the linear theory, where most moves miss: perhaps no
+/// cause mends them.
 std::string theory_sentence(const PointLimits& found) {
   constexpr double most = 0.5;
   if (found.limits.front().holds || found.limits.front().rate.value_or(0.0) > most) return "";
@@ -262,7 +263,7 @@ trials::Replicates affordable_units(const study::Study& study, std::int64_t poin
   return units;
 }
 
-/// What the least budget is.
+/// Refuses the budget, and names the least one that is enough.
 /// @throws trial::Interrupted
 Failure too_small(const command_line::Budget& budget, const study::Study& study, std::int64_t point,
                   const std::stop_token& stop) {

@@ -140,7 +140,7 @@ std::string label_of_curve(const ReportedStudy& reported, const ReportedPart& pa
              : study::label_under(marked_label_of(reported, point), part.condition);
 }
 
-/// What the bands about the curves are.
+/// Says which confidence the bands about the curves have, and on how many trials they rest.
 std::string bands_sentence(const ReportedStudy& reported) {
   const std::int64_t moves = reported.file.moves();
   return fmt::format(

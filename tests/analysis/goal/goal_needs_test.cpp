@@ -118,7 +118,7 @@ TEST(GoalNeeds, AStudyOfFewMachinesIsDecidedAsOftenAsPlanned) {
   measures::CellCounts pilot({.rigs = 4});
   for (std::size_t rig = 0; rig < 4; ++rig) pilot.add_rig(rig, 0, {100, 100, 57});
   const Needs needs = needs_of(goal, pilot, 1);
-  // What 228 of 400 moves leave likely: the posterior of Jeffreys' prior.
+  // The posterior after 228 of 400 moves met the goal, with Jeffreys' prior.
   const double mean = 228.5 / 401.0;
   const Machines likely{mean, std::sqrt(mean * (1.0 - mean) / 402.0)};
   testing::Draws draws(19);

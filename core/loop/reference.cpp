@@ -11,6 +11,8 @@ namespace zerocount::loop {
 
 namespace {
 
+constexpr double rounding_of_time = 1e-12;  ///< of a duration: k·T and a written time differ by rounding
+
 double position_of(const ReferenceRecord& record, std::size_t row) {
   return record.position[row];
 }
@@ -43,8 +45,8 @@ double between_rows(const ReferenceRecord& record, double t, OfRow of_row) {
 
 }  // namespace
 
-double record_duration(std::span<const double> times) {
-  return times.size() < 2 ? 0.0 : 2.0 * times.back() - times[times.size() - 2];
+double record_duration(std::span<const double> times, double sample_time) {
+  return times.empty() ? 0.0 : times.back() + sample_time;
 }
 
 Reference::Reference(const ReferenceProfile& profile, std::int64_t from, std::int64_t to, double resolution)
@@ -143,13 +145,17 @@ double Reference::distance(double t) const {
 }
 
 ReferenceMotion Reference::motion_at(double t) const {
-  if (record_) return {between_rows(*record_, t, velocity_of), between_rows(*record_, t, acceleration_of)};
+  if (record_) {
+    const double last = record_->time.back();
+    if (t > last + rounding_of_time * last) return {};
+    return {between_rows(*record_, t, velocity_of), between_rows(*record_, t, acceleration_of)};
+  }
   if (is_sine()) {
     const double velocity = amplitude_ * angular_frequency_;
     return {velocity * numerics::cos(angular_frequency_ * t),
             -velocity * angular_frequency_ * numerics::sin(angular_frequency_ * t)};
   }
-  const double rounding = 1e-12 * duration_;
+  const double rounding = rounding_of_time * duration_;
   if (t < 0.0 || t >= duration_ - rounding) return {};
   const double direction = to_ < from_ ? -1.0 : 1.0;
   const bool first_half = t < 0.5 * duration_ - rounding;

@@ -9,9 +9,9 @@
 
 namespace zerocount::loop {
 
-/// The time (s) after which a record with rows at these times (s) says nothing: its last row lasts as long as
-/// the one before.
-double record_duration(std::span<const double> times);
+/// How long a recorded reference with rows at these times (s) lasts, s: until its last row and one sample of
+/// the controller, so that one at the controller's rate has as many samples as rows.
+double record_duration(std::span<const double> times, double sample_time);
 
 /// The reference in counts during a move from rest to rest between two targets, in the least time that the
 /// limits of the profile allow:
@@ -23,7 +23,8 @@ double record_duration(std::span<const double> times);
 ///   rises and falls at the jerk limit, and stays at its own limit in between where it reaches it;
 /// - sine: amplitude·sin(2π·frequency·t) about the new target, without end;
 /// - a record: its position, and its last one after its end. ṙ and r̈ are central differences of its rows, on
-///   one side or 0 at its ends, and straight between them.
+///   one side or 0 at its ends, and straight between them; after the last row the reference stands, and both
+///   are 0.
 ///
 /// The second half of a move between two targets is the first one backwards. Source: Biagiotti & Melchiorri,
 /// "Trajectory Planning for Automatic Machines and Robots", Springer 2008, sections 3.2 and 3.4.

@@ -6,6 +6,11 @@
 
 namespace zerocount::trial {
 
+double record_duration(const TorqueRecord& record) {
+  const std::vector<double>& times = record.time;
+  return times.size() < 2 ? 0.0 : 2.0 * times.back() - times[times.size() - 2];
+}
+
 double torque_at(const TorqueRecord& record, double time) {
   constexpr double rounding = 1e-6;  // of an interval
   const auto after = std::upper_bound(record.time.begin(), record.time.end(), time);

@@ -11,6 +11,9 @@ struct TorqueRecord {
   std::vector<double> torque;  ///< [time], N m
 };
 
+/// The time (s) after which the record says nothing: its last row lasts as long as the one before.
+double record_duration(const TorqueRecord& record);
+
 /// The torque (N m) at `time` (s), at least 0. A time that is within 1e-6 of the record's next interval
 /// before a row counts as the row's: k·T and a written time differ by rounding.
 double torque_at(const TorqueRecord& record, double time);

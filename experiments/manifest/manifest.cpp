@@ -280,6 +280,8 @@ study::Study read_manifest(const yaml::YamlNode& root, bool recorded, const sect
   check_ages(m.places, m.reading);
   check_travel(m.root, m.reading);
   if (problems.empty()) check_rows(m);
+  for (std::size_t slot = 0; slot < plan->table.rows.size(); ++slot)
+    plan->given.push_back(given_place(m.places, *plan, slot).has_value());
   if (problems.empty()) assemble_study(m.reading.profiles, m.axes, *plan, study);
   if (problems.empty()) warn_of_equal_worlds(m);
   warn_of_equal_ages(m);
@@ -287,8 +289,6 @@ study::Study read_manifest(const yaml::YamlNode& root, bool recorded, const sect
   study.plan = plan;
   if (problems.empty()) check_measured_machines(study, m.places, m.reading);
   if (problems.empty()) check_unseen_motions(study, m.places, m.reading);
-  for (std::size_t slot = 0; slot < plan->table.rows.size(); ++slot)
-    plan->given.push_back(given_place(m.places, *plan, slot).has_value());
   study.premises = study::premises_of(*plan);
   study.warnings = std::move(m.reading.warnings);
   return study;

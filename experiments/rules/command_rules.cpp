@@ -163,6 +163,19 @@ ValueRule length_of_the_record(double length, std::string_view key) {
   });
 }
 
+// A hold that the study gives may cut the record of a reference. @param held without one, s
+ValueRule end_of_the_reference(double last, double held, std::string_view key) {
+  return warning(between(
+      {"command.hold", "controller.sample_rate"},
+      [last, held, key](const auto& hold, const auto& rate) -> Faults {
+        const bool reaches_last_row = hold.low * rate.low >= last * rate.low + 0.5;
+        if (hold.low == held || reaches_last_row || !(rate.low > 0.0)) return {};
+        return {{fmt::format("a hold of {:.9g} s cuts the record of {}, whose last row is at {:.9g} s",
+                             hold.low, key, last),
+                 fmt::format("command.hold at least {:.9g} s, or none", last + 1.0 / rate.low)}};
+      }));
+}
+
 // The rule of a list, as of one value between the lowest and the highest of the record.
 ValueRule of_the_record(ValueRule rule, std::span<const double> record) {
   const auto [lowest, highest] = std::ranges::minmax(record);
@@ -308,6 +321,12 @@ ValueRule time_of_travel(const study::StudyPlan& plan) {
 
 }  // namespace
 
+double hold_of_the_reference(const study::StudyPlan& plan) {
+  const std::size_t rate = study::find_slots("controller.sample_rate", plan.table).value().first;
+  const double lowest = study::limits_of(plan, plan.base[rate]).low;  // not a number where it is unreadable
+  return loop::record_duration(plan.common.command.profile.record->time, lowest > 0.0 ? 1.0 / lowest : 0.0);
+}
+
 std::string_view record_key(const study::StudyPlan& plan) {
   return plan.open_loop ? "command.torque.file" : "command.reference.file";
 }
@@ -325,7 +344,7 @@ std::vector<ValueRule> command_rules(const study::StudyPlan& plan) {
     add({limits_of_torque_levels(), lowest_rate_of_torque(), samples_of_torque_levels(),
          range_of_the_converter(parameters::unit_on(plan.units.axis, "N m"))});
     if (const auto& record = plan.common.command.torque.record)
-      add({length_of_the_record(loop::record_duration(record->time), record_key(plan)),
+      add({length_of_the_record(trial::record_duration(*record), record_key(plan)),
            of_the_record(range_of_the_converter(parameters::unit_on(plan.units.axis, "N m")),
                          record->torque)});
   } else if (!plan.sequence) {
@@ -336,7 +355,7 @@ std::vector<ValueRule> command_rules(const study::StudyPlan& plan) {
   }
   if (!plan.open_loop) add({shape_of_the_reference(plan.common.command.profile.record != nullptr)});
   if (const auto& record = plan.common.command.profile.record) {
-    add({length_of_the_record(loop::record_duration(record->time), record_key(plan)),
+    add({end_of_the_reference(record->time.back(), hold_of_the_reference(plan), record_key(plan)),
          of_the_record(reach_of_positions(plan, false), record->position)});
   } else if (si) {
     add({limits_of_positions(), reach_of_positions(plan, plan.sequence.has_value())});

@@ -51,6 +51,10 @@ inline ValueRule warning(ValueRule rule) {
   return rule;
 }
 
+/// The hold (s) of a study with a recorded reference that gives none: as long as the record, with the longest
+/// sample of the base.
+double hold_of_the_reference(const study::StudyPlan& plan);
+
 /// The key of the record that stands in place of levels or targets.
 std::string_view record_key(const study::StudyPlan& plan);
 

@@ -5,11 +5,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/loop/reference.hpp"
 #include "experiments/distributions/distribution_forms.hpp"
 #include "experiments/keys/manifest_keys.hpp"
 #include "experiments/keys/values.hpp"
 #include "experiments/parameters/unknown_key.hpp"
+#include "experiments/rules/value_rules.hpp"
 #include "experiments/sections/named_tables.hpp"
 #include "experiments/study/study_table.hpp"
 
@@ -62,7 +62,8 @@ void read_list(SectionReading& s, const yaml::Field& field, std::size_t row) {
 }
 
 // Gives a study whose manifest lacks the list of moves one with an unreadable value; that of a record the
-// level or the target 0, and a hold as long as the record.
+// level or the target 0, and a hold as long as the record. That of a recorded reference depends on the sample
+// rate, and study_trial() sets it for each trial.
 void complete_moves(SectionReading& s) {
   study::RowGroup& list = s.plan().list;
   if (list.count > 0) return;
@@ -73,9 +74,8 @@ void complete_moves(SectionReading& s) {
   s.plan().base[list.first] = study::Value{};
   const std::size_t hold = study::find_slots("command.hold", s.plan().table).value().first;
   if (s.places.written[hold]) return;
-  const std::vector<double>& times =
-      command.torque.record ? command.torque.record->time : command.profile.record->time;
-  s.plan().base[hold].number = loop::record_duration(times);
+  s.plan().base[hold].number = command.torque.record ? trial::record_duration(*command.torque.record)
+                                                     : rules::hold_of_the_reference(s.plan());
 }
 
 // Reads the record that command.torque.file or command.reference.file has in place of levels or targets. A

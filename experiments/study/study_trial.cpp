@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/failure/failure.hpp"
+#include "core/loop/reference.hpp"
 #include "experiments/designs/designs.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/measured_machines.hpp"
@@ -27,6 +28,14 @@ std::uint64_t numbers_within_trial(const Study& study, std::uint64_t index, cons
 void set_resolution(const std::vector<double>& numbers, loop::DacParameters& dac) {
   static const std::size_t range = parameters::find_parameter("dac.range").value();
   if (numbers[range] > 0.0) dac.resolution = std::ldexp(numbers[range], 1 - dac.bits);
+}
+
+// A recorded reference without a hold of its own lasts until its last row and one sample of the controller.
+void set_hold_of_record(const StudyPlan& plan, trial::TrialParameters& trial) {
+  static const std::size_t hold = parameters::find_parameter("command.hold").value();
+  if (trial.command.profile.record && !plan.given[hold])
+    trial.command.hold =
+        loop::record_duration(trial.command.profile.record->time, 1.0 / trial.controller.sample_rate);
 }
 
 /// Completes a trial of which all numbers are set.
@@ -122,6 +131,7 @@ void make_trial(const TrialDraws& draws, std::size_t point, StudyTrial& trial, s
   }
   set_targets(draws.study, t.numbers, trial);
   set_resolution(t.numbers, trial.parameters.dac);
+  set_hold_of_record(plan, trial.parameters);
   trial.inputs.reserve(plan.inputs.size());
   for (const InputSource& source : plan.inputs) {
     trial.inputs.push_back(source.profile_mean ? profile_mean(draws, source.slot, point)

@@ -326,8 +326,35 @@ TEST(Reference, ARecordIsStraightBetweenItsRows) {
   }
 }
 
-TEST(Reference, TheLastRowOfARecordLastsAsLongAsTheOneBefore) {
-  EXPECT_EQ(record_duration(std::vector{0.0, 0.5, 0.75}), 1.0);
+// At its last row a record has the velocity with which it came there; after it it stands.
+TEST(Reference, ARecordStandsAfterItsLastRow) {
+  testing::Draws draw(9);
+  for (int i = 0; i < 100; ++i) {
+    const double rate = draw.log_uniform(100.0, 20000.0);
+    const std::int64_t rows = draw.integer(2, 400);
+    ReferenceRecord record;
+    for (std::int64_t row = 0; row < rows; ++row) {
+      record.time.push_back(static_cast<double>(row) / rate);
+      record.position.push_back(draw.uniform(-1e-2, 1e-2));
+    }
+    ReferenceProfile profile{.shape = ReferenceShape::record};
+    profile.record = std::make_shared<const ReferenceRecord>(record);
+    const Reference reference(profile, 0, 0, paper_resolution);
+    const double sample_time = 1.0 / rate;
+    const auto at = [&](std::int64_t k) { return reference.motion_at(static_cast<double>(k) * sample_time); };
+    const double last = (record.position[static_cast<std::size_t>(rows - 1)] -
+                         record.position[static_cast<std::size_t>(rows - 2)]) *
+                        rate;
+    EXPECT_NEAR(at(rows - 1).velocity, last, 1e-6 * std::abs(last));
+    EXPECT_NEAR(at(rows - 1).acceleration, 0.0, 1e-8 * rate * rate);
+    for (const std::int64_t k : {rows, rows + 1, 10 * rows}) {
+      EXPECT_EQ(at(k).velocity, 0.0) << rows << " rows, sample " << k;
+      EXPECT_EQ(at(k).acceleration, 0.0);
+      EXPECT_EQ(reference.exact_at(static_cast<double>(k) * sample_time),
+                record.position.back() / paper_resolution);
+    }
+    EXPECT_EQ(std::llround(record_duration(record.time, sample_time) * rate), rows);
+  }
 }
 
 // Half a count goes to the even one: with a count of 1 rad, 0.5 is 0 and 1.5 is 2.

@@ -83,6 +83,10 @@ TEST(TorqueRecord, HoldsEachValueUntilTheNext) {
   EXPECT_EQ(torque_at(record, 1e9), 2.0);
 }
 
+TEST(TorqueRecord, ItsLastRowLastsAsLongAsTheOneBefore) {
+  EXPECT_EQ(record_duration(TorqueRecord{{0.0, 0.5, 0.75}, {0.0, 0.0, 0.0}}), 1.0);
+}
+
 // 3·0.1 is above 0.3, and 7·0.001 below a time that is written as 0.007.
 TEST(TorqueRecord, RoundingShiftsNoSample) {
   for (const double rate : {10.0, 1000.0, 2048.0, 3000.0}) {

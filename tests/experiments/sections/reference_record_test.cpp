@@ -32,7 +32,7 @@ TEST(ReferenceOfAFile, IsOneMoveAsLongAsTheRecord) {
   ASSERT_EQ(record.time.size(), 3u);
   EXPECT_NEAR(record.time[2], 0.4, 1e-12);
   EXPECT_DOUBLE_EQ(record.position[1], 0.002);
-  EXPECT_NEAR(trial.command.hold, 0.7, 1e-12);
+  EXPECT_NEAR(trial.command.hold, 0.4 + 1.0 / trial.controller.sample_rate, 1e-12);
   EXPECT_TRUE(study.features.following);
   EXPECT_FALSE(study.features.reversals) << "those of a sine";
   EXPECT_FALSE(study.features.steps);
@@ -41,13 +41,38 @@ TEST(ReferenceOfAFile, IsOneMoveAsLongAsTheRecord) {
   EXPECT_EQ(again.study_sha256, study.study_sha256) << "the study is whole without the file";
 }
 
-TEST(ReferenceOfAFile, OfPairsLastsAsLongAsTheyDoUnlessAHoldIsGiven) {
+TEST(ReferenceOfAFile, LastsUntilItsLastRowAndOneSampleUnlessAHoldIsGiven) {
   const auto hold_of = [](const std::string& more) {
     const study::Study study = followed_study(followed("{file: [[0, 0], [2, 0.001], [5, 0]]}", more));
     return study::study_trial(study, 0, 0).parameters.command.hold;
   };
-  EXPECT_EQ(hold_of(""), 8.0);
+  EXPECT_EQ(hold_of(""), 5.0 + 1.0 / 2000.0);
   EXPECT_EQ(hold_of(", hold: 3"), 3.0);
+  EXPECT_EQ(hold_of(", hold: 30"), 30.0) << "after the record the reference stands";
+}
+
+// A record at the controller's rate has as many samples as rows, whichever rate that is.
+TEST(ReferenceOfAFile, LastsOneSampleOfEachSampleRateOfTheStudyLonger) {
+  const study::Study study = followed_study(followed("{file: [[0, 0], [2, 0.001], [5, 0]]}") +
+                                            "sweep: {grid: {controller.sample_rate: [500, 2000, 7000]}}\n");
+  for (std::int64_t point = 0; point < 3; ++point) {
+    const trial::TrialParameters trial = study::study_trial(study, point, 0).parameters;
+    EXPECT_EQ(trial::samples_of_trial(trial), std::llround(5.0 * trial.controller.sample_rate) + 1);
+  }
+  EXPECT_TRUE(study.warnings.empty()) << study.warnings.front();
+}
+
+TEST(ReferenceOfAFile, IsCutByAShorterHoldWithAWarning) {
+  const auto warnings_of = [](const std::string& hold) {
+    return followed_study(followed("{file: [[0, 0], [2, 0.001], [5, 0]]}", ", hold: " + hold)).warnings;
+  };
+  ASSERT_EQ(warnings_of("4.9").size(), 1u);
+  EXPECT_TRUE(says(warnings_of("4.9").front(),
+                   "command.hold: a hold of 4.9 s cuts the record of command.reference.file, whose last row "
+                   "is at 5 s; expected command.hold at least 5.0005 s, or none"));
+  EXPECT_EQ(warnings_of("5").size(), 1u) << "its last row is no sample";
+  EXPECT_TRUE(warnings_of("5.0005").empty());
+  EXPECT_TRUE(warnings_of("9").empty());
 }
 
 TEST(ReferenceOfAFile, IsAMovingReferenceWhoseHoldMayBeSwept) {
@@ -66,9 +91,6 @@ TEST(ReferenceOfAFile, FaultsHaveTheirPlace) {
   EXPECT_TRUE(says(refusal(followed("{file: r.csv}"), "t,reference [mm]\n0,1\n1,2\n"),
                    "r.csv:1:1: command.reference.file: the column reference has the unit 'mm'; expected rad, "
                    "mrad or deg"));
-  EXPECT_TRUE(says(refusal(followed("{file: r.csv}", ", hold: 1"), table),
-                   "command.hold: the record of command.reference.file lasts 0.2 s, and the move can take 1 "
-                   "s; expected at most the record"));
   EXPECT_TRUE(says(refusal(followed("{file: r.csv}", ", profile: {shape: step}"), table),
                    "command.profile: command.reference defines the path of the reference"));
   EXPECT_TRUE(says(refusal(followed("{file: r.csv}", ", targets: [1]"), table),

@@ -13,6 +13,7 @@
 #include "results/shards/shard.hpp"
 #include "results/storage/durable_file.hpp"
 #include "runners/rare/rare_run.hpp"
+#include "runners/trials/trial_runner.hpp"
 
 namespace zerocount::rare {
 
@@ -126,9 +127,10 @@ void write_rare_file(const RareAnswer& answer) {
   const std::filesystem::path& path = answer.settings.output;
   const storage::UnfinishedFile part(path);
   hdf5::File file = hdf5::File::create(part.path());
-  layout::write_header(
-      file, layout::make_header(question.whole, layout::FileKind::rare, layout::all_rows(question.whole),
-                                layout::current_provenance()));
+  layout::FileHeader header = layout::make_header(
+      question.whole, layout::FileKind::rare, layout::all_rows(question.whole), layout::current_provenance());
+  header.engine = trials::engine_that_runs(question.whole);
+  layout::write_header(file, header);
   const document::Description<RareAnswer> items = rare_answer().items;
   nlohmann::ordered_json estimate{{"point", question.of.point},
                                   {"world", question.of.world ? Json(*question.of.world) : Json()},

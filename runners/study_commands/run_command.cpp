@@ -30,6 +30,7 @@
 #include "runners/study_commands/study_commands.hpp"
 #include "runners/study_run/file_run.hpp"
 #include "runners/trials/study_runner.hpp"
+#include "runners/trials/trial_runner.hpp"
 
 namespace zerocount::study_commands {
 namespace {
@@ -161,6 +162,7 @@ ExitCode run(const command_line::Arguments& arguments) {
   }
   const std::string engine = forecast::engine_text(forecast::points_on_reference(request.study));
   if (!engine.empty() && !request.quiet) status::tell("{}\n", engine);
+  request.study.engine = trials::engine_that_runs(request.study);
   plugins::require_no_hidden_state(request.study);
   const status::InterruptionWatch interruption;
   const storage::OutputLock lock(request.output);

@@ -41,6 +41,19 @@ bool is_retained(const study::Study& study, std::int64_t index) {
   return std::binary_search(study.retained_trials.begin(), study.retained_trials.end(), index);
 }
 
+study::Engine engine_that_runs(const study::Study& study) {
+  if (study.engine == study::Engine::reference) return study::Engine::reference;
+  const study::TrialTurns turns = study::turns_of(study);
+  for (std::int64_t point = 0; point < study::point_count(study); ++point) {
+    for (std::int64_t condition = 0; condition < turns.conditions; ++condition) {
+      const std::int64_t trial = turns.trial_of(0, condition);
+      if (batch::runs_in_lanes(study::study_trial(study, point, trial).parameters))
+        return study::Engine::batch;
+    }
+  }
+  return study::Engine::reference;
+}
+
 shards::TrialResult run_study_trial(const study::Study& study, std::int64_t row,
                                     const std::stop_token& stop) {
   return run_reference(study, row, trial_of_row(study, row), stop);

@@ -19,6 +19,12 @@ namespace zerocount::trials {
 /// True if the trials with this index, of all points, keep their traces.
 bool is_retained(const study::Study& study, std::int64_t index);
 
+/// The engine that runs the trials of the study, as its file names it: the one asked for; the reference also
+/// where the lanes of the batch engine lack a feature of every design point, by its first trial under each
+/// condition. A study with points of both kinds is run by the batch engine, which passes the trials that it
+/// lacks to the reference.
+study::Engine engine_that_runs(const study::Study& study);
+
 /// Trials that follow one another.
 struct TrialBlock {
   std::vector<shards::TrialResult> results;          ///< in order of rows

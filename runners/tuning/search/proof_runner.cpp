@@ -17,6 +17,7 @@
 #include "results/layout/header.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "runners/study_run/file_run.hpp"
+#include "runners/trials/trial_runner.hpp"
 #include "runners/tuning/race/proof.hpp"
 #include "runners/tuning/search/study_search.hpp"
 
@@ -202,6 +203,7 @@ ProofRun run_proof(const study::Study& study, std::vector<std::string> values,
   for (const std::string& one : trials::overrides_for(study, units)) values.push_back(one);
   if (layout::has_sums(study.retention)) values.emplace_back("keep=trials");
   ProofRun run{with_values_in_text(study, values), {}};
+  run.study.engine = trials::engine_that_runs(run.study);
   if (!holds_run(output, run.study)) make_run(run.study, output, threads, effort);
   run.results = results_in(reading::AllTrialsFile(output), run.study, units);
   return run;

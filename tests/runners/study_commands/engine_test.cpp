@@ -189,6 +189,26 @@ std::string engine_line(const std::string& text) {
                      text.find('\n', place) - text.find_first_not_of(' ', start));
 }
 
+/// A study of which no trial runs in lanes is the reference's, and its file says so, whatever was asked for.
+/// That of a study with points of both kinds says who passed them on.
+TEST_F(EngineOption, NamesTheEngineThatRanTheTrials) {
+  folder_.write("study.yaml", small_manifest(4));
+  const std::vector<std::string> gap{"--set", "plant.load={inertia: 1.0e-4, gap: 1.0e-4}"};
+  const auto with_gap = [&gap](std::vector<std::string> more) {
+    more.insert(more.end(), gap.begin(), gap.end());
+    return more;
+  };
+  complete("study.yaml", "gap.h5", with_gap({"--engine", "batch"}));
+  complete("study.yaml", "asked.h5", with_gap({"--engine", "reference"}));
+  EXPECT_EQ(reading::AllTrialsFile(at("gap.h5")).root().text("engine"), "reference");
+  expect_same_datasets(at("gap.h5"), at("asked.h5"));
+  EXPECT_EQ(program({"verify", "gap.h5"}).code, 0);
+  complete("study.yaml", "gap.h5", with_gap({}));  // already complete
+  complete("study.yaml", "some.h5",
+           {"--set", "plant.load={inertia: 1.0e-4}", "--set", "sweep={grid: {plant.load.gap: [0, 1.0e-4]}}"});
+  EXPECT_EQ(reading::AllTrialsFile(at("some.h5")).root().text("engine"), "batch");
+}
+
 TEST_F(EngineOption, RunAndCheckTellWhichPointsRunOnTheReferenceEngineAndWhy) {
   folder_.write(
       "laws.yaml",

@@ -202,10 +202,17 @@ Description<Judgement> measure_description() {
              &Judgement::detectable_change)
       .value(in_data("test", "test that p is of"), &Judgement::test)
       .value(in_data("p", "p-value against a change for the worse", "1"), &Judgement::p)
-      .value(in_data("adjusted_p", "p after control of the false discoveries", "1"), &Judgement::adjusted_p)
+      .value(
+          in_data("adjusted_p",
+                  "p against a change for the worse beyond the margin, with control of the false discoveries",
+                  "1"),
+          &Judgement::adjusted_p)
       .value(in_data("improvement_p", "p-value against a change for the better", "1"),
              &Judgement::improvement_p)
-      .value(in_data("adjusted_improvement_p", "improvement_p after control of the false discoveries", "1"),
+      .value(in_data(
+                 "adjusted_improvement_p",
+                 "p against a change for the better beyond the margin, with control of the false discoveries",
+                 "1"),
              &Judgement::adjusted_improvement_p)
       .value(in_data("trials_to_decide", "trials per design point that decide an inconclusive measure"),
              [](Judged m) { return whole(m.trials_to_decide); })

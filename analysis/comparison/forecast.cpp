@@ -135,7 +135,8 @@ class Simulator {
       for (std::size_t file = 0; file < sums.size(); ++file) two_samples::add(sums[file], seen[file]);
     }
     TestedMeasure tested = found;
-    static_cast<two_samples::Change&>(tested) = sample.change_of(sums, options_.confidence, !zero);
+    static_cast<two_samples::Change&>(tested) =
+        sample.change_of(sums, options_.confidence, !zero, found.margin);
     return tested;
   }
 

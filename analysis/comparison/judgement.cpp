@@ -20,10 +20,11 @@ double harmonic_number(std::size_t n) {
   return sum;
 }
 
-/// The p that a failure is judged by: against a change for the worse; where every change fails, two-sided.
+/// The p that a failure is judged by: against a change for the worse beyond the margin; where every change
+/// fails, two-sided.
 double failure_p(const TestedMeasure& measure) {
-  if (!measure.changed_fails) return measure.p;
-  return std::min(1.0, 2.0 * std::min(measure.p, measure.improvement_p));
+  const two_samples::DirectionalP& p = measure.beyond;
+  return measure.changed_fails ? std::min(1.0, 2.0 * std::min(p.worse, p.better)) : p.worse;
 }
 
 /// Failures are one family, improvements that do not fail are another. A measure of which every change fails
@@ -33,21 +34,21 @@ void adjust(std::span<TestedMeasure> tested) {
   std::vector<double> improvements;
   for (const TestedMeasure& measure : tested) {
     failures.push_back(failure_p(measure));
-    improvements.push_back(measure.improvement_p);
+    improvements.push_back(measure.beyond.better);
   }
   failures = benjamini_yekutieli(failures);
   improvements = benjamini_yekutieli(improvements);
   for (std::size_t i = 0; i < tested.size(); ++i) {
     TestedMeasure& measure = tested[i];
-    const bool worse = !measure.changed_fails || measure.p <= measure.improvement_p;
+    const bool worse = !measure.changed_fails || measure.beyond.worse <= measure.beyond.better;
     measure.adjusted_p = worse ? failures[i] : 1.0;
     measure.adjusted_improvement_p = !measure.changed_fails ? improvements[i] : worse ? 1.0 : failures[i];
   }
 }
 
 ChangeVerdict change_of(const TestedMeasure& measure, double rate) {
-  if (measure.adjusted_p <= rate && measure.effect > measure.margin) return ChangeVerdict::worse;
-  if (measure.adjusted_improvement_p <= rate && -measure.effect > measure.margin)
+  if (measure.adjusted_p <= rate && measure.bounds.low > measure.margin) return ChangeVerdict::worse;
+  if (measure.adjusted_improvement_p <= rate && measure.bounds.high < -measure.margin)
     return ChangeVerdict::better;
   if (!(measure.bounds.high < measure.margin)) return ChangeVerdict::undecided;
   return measure.bounds.low > -measure.margin ? ChangeVerdict::equivalent : ChangeVerdict::not_worse;
@@ -120,7 +121,7 @@ double detectable_change(const Judgement& measure, const GateRules& rules, std::
   double change = 0.0;
   for (int step = 0; step < detectable_steps; ++step) {
     const double spread = std::sqrt(error * error + change * per_change);
-    change = std::max(measure.margin + power * spread, needed * spread);
+    change = measure.margin + needed * spread;
   }
   return change;
 }

@@ -30,8 +30,8 @@ enum class GateVerdict {
 /// The change of one measure that the data show. The gate's verdict follows from it. With e the effect and M
 /// the margin:
 enum class ChangeVerdict {
-  worse,        ///< e > 0 is significant, and e > M
-  better,       ///< e < 0 is significant, and e < −M
+  worse,        ///< e > M is shown: by the adjusted p of e ≤ M, and by the lower bound
+  better,       ///< e < −M is shown: by the adjusted p of e ≥ −M, and by the upper bound
   equivalent,   ///< −M < e < M: both one-sided bounds are within the margin
   not_worse,    ///< e < M only: better or equivalent, which of them is open
   undecided,    ///< none of these
@@ -58,8 +58,8 @@ GateVerdict worst_of(std::span<const GateVerdict> verdicts);
 struct TestedMeasure : two_samples::Change {
   double margin{statistics::unknown};      ///< largest accepted effect
   bool changed_fails{false};               ///< a change for the better beyond the margin fails too
-  double adjusted_p{statistics::unknown};  ///< p after control of the false discoveries
-  double adjusted_improvement_p{statistics::unknown};  ///< improvement_p after it
+  double adjusted_p{statistics::unknown};  ///< beyond.worse after control of the false discoveries
+  double adjusted_improvement_p{statistics::unknown};  ///< beyond.better after it
   ChangeVerdict change{ChangeVerdict::not_measured};
 };
 
@@ -104,11 +104,13 @@ void decide(std::span<TestedMeasure> tested, double rate);
 
 /// Gives every measure its adjusted p-values and its verdicts.
 ///
-/// A measure is worse where its adjusted p is at most the rate and its effect exceeds the margin, better
-/// where the same holds for the opposite direction. It is equivalent where both bounds of its effect are
-/// within the margin (two one-sided tests: Schuirmann, Journal of Pharmacokinetics and Biopharmaceutics 15
-/// (1987), 657), and not worse where only the upper bound is below it. Worse fails the gate; the others pass,
-/// except undecided. Where every change fails, better fails too, and only equivalent passes.
+/// A measure is worse where a change of no more than the margin is rejected: where its adjusted p is at most
+/// the rate, and the lower bound exceeds the margin. An estimate beyond the margin shows nothing by itself.
+/// It is better where the same holds for the opposite direction. It is equivalent where both bounds of its
+/// effect are within the margin (two one-sided tests: Schuirmann, Journal of Pharmacokinetics and
+/// Biopharmaceutics 15 (1987), 657), and not worse where only the upper bound is below it. Worse fails the
+/// gate; the others pass, except undecided. Where every change fails, better fails too, and only equivalent
+/// passes.
 /// @param measures of all points
 /// @return the number of tests over which the false discoveries were controlled.
 std::int64_t decide(std::span<Judgement* const> measures, const GateRules& rules);
@@ -117,7 +119,7 @@ std::int64_t decide(std::span<Judgement* const> measures, const GateRules& rules
 /// M the margin and α the strictest level of the adjustment over m tests, that of a change of one measure
 /// alone, the solution of
 ///
-///   δ = max(M + z_0.8·s, (z_{1−α} + z_0.8)·s),   α = rate/(m·(1 + ½ + … + 1/m)),
+///   δ = M + (z_{1−α} + z_0.8)·s,   α = rate/(m·(1 + ½ + … + 1/m)),
 ///
 /// α/2 where every change fails. s is that of the bounds; with n pairs of a proportion s² + δ/n, because the
 /// change makes pairs differ. A normal approximation, which leaves the rank tests out.

@@ -154,9 +154,15 @@ std::string test_name(const Sample& sample, bool over_rigs) {
                      over_rigs ? ", over machines" : "");
 }
 
+/// The larger of the two parts of a margin. Nothing is a proportion of a value that is unknown or infinite.
+double margin_at(const GateMargin& margin, double baseline) {
+  return std::isfinite(baseline) ? std::max(margin.absolute, margin.relative * std::abs(baseline))
+                                 : margin.absolute;
+}
+
 /// Takes the values of the sample and, where there are enough of them, the change that they show.
 void compare_sample(Judgement& result, const GateMeasure& measure, const BothTrials& trials,
-                    double confidence) {
+                    const GateMargin& margin, double confidence) {
   const Sample sample = sample_of(trials, measure);
   const std::vector<double> before = two_samples::known(sample.baseline);
   const std::vector<double> after = two_samples::known(sample.current);
@@ -164,6 +170,7 @@ void compare_sample(Judgement& result, const GateMeasure& measure, const BothTri
   result.current_n = std::ssize(after);
   result.baseline = worsened(measure, two_samples::mean_of(before));
   result.current = worsened(measure, two_samples::mean_of(after));
+  result.margin = margin_at(margin, result.baseline);
   result.test = test_name(sample, over_rigs(trials));
   result.paired_proportion = sample.failures && sample.paired;
   if (!measure.proportion() && std::min(result.baseline_n, result.current_n) < min_values) {
@@ -172,7 +179,7 @@ void compare_sample(Judgement& result, const GateMeasure& measure, const BothTri
                     trials.paired ? " in both files" : "");
     return;
   }
-  static_cast<two_samples::Change&>(result) = two_samples::change_of(sample, confidence);
+  static_cast<two_samples::Change&>(result) = two_samples::change_of(sample, confidence, result.margin);
 }
 
 /// Probability of the quantile of the goal's settling time that is compared.
@@ -187,7 +194,8 @@ QuantileSample times_of(const BothTrials& trials, const GateMeasure& measure) {
 }
 
 void compare_quantile(Judgement& result, const GateMeasure& measure, const BothTrials& trials,
-                      double confidence) {
+                      const GateMargin& margin, double confidence) {
+  result.margin = margin_at(margin, statistics::unknown);
   const auto units = [](const PointTrials& all) {
     return all.rigs > 0 ? std::min(all.rigs, all.trials) : all.trials;
   };
@@ -202,17 +210,12 @@ void compare_quantile(Judgement& result, const GateMeasure& measure, const BothT
   const QuantileSample times = times_of(trials, measure);
   result.baseline = two_samples::quantile_of(times.baseline, judged_quantile);
   result.current = two_samples::quantile_of(times.current, judged_quantile);
+  result.margin = margin_at(margin, result.baseline);
   if (std::isnan(result.current - result.baseline)) {
     result.note = "not within the hold in either";
     return;
   }
-  static_cast<two_samples::Change&>(result) = two_samples::change_of(times, confidence);
-}
-
-/// The larger of the two parts of a margin. Nothing is a proportion of a value that is unknown or infinite.
-double margin_at(const GateMargin& margin, double baseline) {
-  return std::isfinite(baseline) ? std::max(margin.absolute, margin.relative * std::abs(baseline))
-                                 : margin.absolute;
+  static_cast<two_samples::Change&>(result) = two_samples::change_of(times, confidence, result.margin);
 }
 
 /// Bounds of a proportion of the hits among the events: `low` with one confidence, `high` with another.
@@ -336,10 +339,11 @@ std::vector<Judgement> compare_measures(const GateRules& rules, const std::strin
     Judgement& result = results.emplace_back();
     result.measure = measure.name;
     result.unit = measure.unit;
+    const GateMargin margin = margin_of(rules, label, measure);
     if (measure.statistic == GateStatistic::quantile) {
-      compare_quantile(result, measure, trials, rules.confidence);
+      compare_quantile(result, measure, trials, margin, rules.confidence);
     } else {
-      compare_sample(result, measure, trials, rules.confidence);
+      compare_sample(result, measure, trials, margin, rules.confidence);
     }
     if (measure.statistic == GateStatistic::machines) {
       const std::int64_t of_rig = common_trials_of_rig(trials, measure.goal);
@@ -347,8 +351,6 @@ std::vector<Judgement> compare_measures(const GateRules& rules, const std::strin
           of_rig * trials.current.judged[measure.goal].rigs < trials.current.trials)
         result.note = fmt::format("by the first {} trials on each", of_rig);
     }
-    const GateMargin margin = margin_of(rules, label, measure);
-    result.margin = margin_at(margin, result.baseline);
     result.changed_fails = rules.changed_fails || margin.changed_fails;
   }
   return results;

@@ -127,6 +127,18 @@ double upper_tail_of_count(double seen, double mean, double variance) {
   return statistics::normal_upper_tail((seen - mean - 0.5) / std::sqrt(variance));
 }
 
+/// The change with the p-values of a change within ± margin, by its bounds as those of a normal distribution.
+Change with_margin(Change change, double confidence, double margin) {
+  change.beyond = {change.p, change.improvement_p};
+  if (margin == 0.0) return change;
+  const double z = statistics::normal_quantile(confidence);
+  const double low = z * (change.effect - margin) / std::max(change.effect - change.bounds.low, 1e-300);
+  const double high = z * (-change.effect - margin) / std::max(change.bounds.high - change.effect, 1e-300);
+  change.beyond.worse = std::max(change.p, statistics::normal_upper_tail(low));
+  change.beyond.better = std::max(change.improvement_p, statistics::normal_upper_tail(high));
+  return change;
+}
+
 Change change_of_pairs(const PairedFailures& failures, double confidence) {
   const auto worse = static_cast<double>(failures.only_current);
   const auto better = static_cast<double>(failures.only_baseline);
@@ -321,14 +333,17 @@ void ContinuedSample::add_unseen(Sums& sums, double first_kind, double second_ki
   if (paired_) sums[squares] += second_kind;
 }
 
-Change ContinuedSample::change_of(const FileSums& sums, double confidence, bool ranks) const {
-  if (!failures_) return change_of_means(sums, confidence, ranks);
-  if (!paired_) return change_of_failures(counts_of(sums), confidence);
-  return change_of_pairs({whole(sums[0][units]), whole(sums[0][values]), whole(sums[0][squares])},
-                         confidence);
+Change ContinuedSample::change_of(const FileSums& sums, double confidence, bool ranks, double margin) const {
+  if (!failures_) return change_of_means(sums, confidence, ranks, margin);
+  const Change change =
+      paired_ ? change_of_pairs({whole(sums[0][units]), whole(sums[0][values]), whole(sums[0][squares])},
+                                confidence)
+              : change_of_failures(counts_of(sums), confidence);
+  return with_margin(change, confidence, margin);
 }
 
-Change ContinuedSample::change_of_means(const FileSums& sums, double confidence, bool ranks) const {
+Change ContinuedSample::change_of_means(const FileSums& sums, double confidence, bool ranks,
+                                        double margin) const {
   const auto difference = [&](const QuickMean& changed) {
     return paired_ ? changed : difference_of(quick_mean(sums[0]), changed);
   };
@@ -341,7 +356,7 @@ Change ContinuedSample::change_of_means(const FileSums& sums, double confidence,
                 {low.value - reach(low, confidence), high.value + reach(high, confidence)},
                 tail,
                 1.0 - tail};
-  if (!ranks) return change;
+  if (!ranks) return with_margin(change, confidence, margin);
   double worse = excess_p(sums[0], sums[1], worse_rank);
   double better = excess_p(sums[1], sums[0], better_rank);
   if (paired_) {
@@ -351,7 +366,7 @@ Change ContinuedSample::change_of_means(const FileSums& sums, double confidence,
   }
   change.p = std::max(change.p, worse);
   change.improvement_p = std::max(change.improvement_p, better);
-  return change;
+  return with_margin(change, confidence, margin);
 }
 
 statistics::ConfidenceInterval quick_bounds(const Sums& sums, double plausible, double low_confidence,

@@ -106,10 +106,10 @@ class ContinuedSample {
   /// change_of() a sample with these sums, quick enough for simulations: the p-values are approximations by
   /// the normal distribution, ranks keep the scores that they have in the sample, and the bounds of failures
   /// are exact. @param ranks whether the rank test speaks too
-  Change change_of(const FileSums& sums, double confidence, bool ranks) const;
+  Change change_of(const FileSums& sums, double confidence, bool ranks, double margin = 0.0) const;
 
  private:
-  Change change_of_means(const FileSums& sums, double confidence, bool ranks) const;
+  Change change_of_means(const FileSums& sums, double confidence, bool ranks, double margin) const;
 
   bool failures_;
   bool paired_;

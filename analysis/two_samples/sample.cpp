@@ -108,6 +108,49 @@ std::vector<double> proportions_from(const ClusteredValues& values, double x) {
   return proportions;
 }
 
+/// The difference with one more unit on the side of the lower bound, or of the upper one.
+MeanDifference cautious_difference(const Sample& sample, double unit) {
+  if (sample.paired) return mean_difference(with_one_more(known(sample.differences), unit));
+  return mean_difference(known(sample.baseline), with_one_more(known(sample.current), unit));
+}
+
+statistics::ConfidenceInterval bounds_of_failures(const Sample& sample, double confidence) {
+  return sample.paired ? tango(paired_failures(sample), confidence)
+                       : newcombe(failure_counts(sample), confidence);
+}
+
+/// The level at which the bounds of failures reach a margin on either side: ½ where the effect does not.
+DirectionalP levels_of_failures(const Sample& sample, double margin) {
+  constexpr double closest = 1e-12;     // to a confidence of 1
+  constexpr double least = 0.5 + 1e-9;  // bounds with a confidence of ½ are the estimate
+  const auto level_of = [&](const auto& is_beyond) {
+    if (!is_beyond(least)) return 0.5;
+    if (is_beyond(1.0 - closest)) return closest;
+    return 1.0 - numerics::bisect({least, 1.0 - closest}, is_beyond, numerics::within(closest)).holds;
+  };
+  return {level_of([&](double c) { return bounds_of_failures(sample, c).low > margin; }),
+          level_of([&](double c) { return bounds_of_failures(sample, c).high < -margin; })};
+}
+
+/// The level at which the bounds of a mean reach a margin on either side.
+DirectionalP levels_of_mean(const Sample& sample, double margin) {
+  MeanDifference low = cautious_difference(sample, -sample.plausible);
+  MeanDifference high = cautious_difference(sample, sample.plausible);
+  low.value -= margin;
+  high.value += margin;
+  return {p_of(low), 1.0 - p_of(high)};
+}
+
+DirectionalP larger(const DirectionalP& one, const DirectionalP& other) {
+  return {std::max(one.worse, other.worse), std::max(one.better, other.better)};
+}
+
+/// p_beyond(). @param none p_of() the sample
+DirectionalP beyond(const DirectionalP& none, const Sample& sample, double margin) {
+  if (margin == 0.0) return none;
+  return larger(none, sample.failures ? levels_of_failures(sample, margin) : levels_of_mean(sample, margin));
+}
+
 /// The proportions of values at or above the quantile of both together.
 Sample late_values(const QuantileSample& of) {
   std::vector<double> pooled(of.baseline.values.begin(), of.baseline.values.end());
@@ -144,9 +187,13 @@ DirectionalP p_of(const Sample& sample) {
   return {std::max(smirnov(baseline, current), t), std::max(smirnov(current, baseline), 1.0 - t)};
 }
 
-Change change_of(const Sample& sample, double confidence) {
+DirectionalP p_beyond(const Sample& sample, double margin) {
+  return beyond(p_of(sample), sample, margin);
+}
+
+Change change_of(const Sample& sample, double confidence, double margin) {
   const DirectionalP p = p_of(sample);
-  Change change{.p = p.worse, .improvement_p = p.better};
+  Change change{.p = p.worse, .improvement_p = p.better, .beyond = beyond(p, sample, margin)};
   if (!sample.failures) {
     change.effect = mean_difference(sample).value;
     change.bounds = sample.paired ? cautious_bounds(known(sample.differences), sample.plausible, confidence)
@@ -158,11 +205,10 @@ Change change_of(const Sample& sample, double confidence) {
     const PairedFailures pairs = paired_failures(sample);
     change.effect =
         static_cast<double>(pairs.only_current - pairs.only_baseline) / static_cast<double>(pairs.pairs);
-    change.bounds = tango(pairs, confidence);
-    return change;
+  } else {
+    change.effect = mean_of(sample.current) - mean_of(sample.baseline);
   }
-  change.effect = mean_of(sample.current) - mean_of(sample.baseline);
-  change.bounds = newcombe(failure_counts(sample), confidence);
+  change.bounds = bounds_of_failures(sample, confidence);
   return change;
 }
 
@@ -223,7 +269,7 @@ double quantile_of(const ClusteredValues& values, double probability) {
   return statistics::sample_quantile({values.values.begin(), values.values.end()}, probability);
 }
 
-Change change_of(const QuantileSample& sample, double confidence) {
+Change change_of(const QuantileSample& sample, double confidence, double margin) {
   const ClusteredValues& baseline = sample.baseline;
   std::vector<double> shifted(baseline.values.size());
   const auto p_of_shift = [&](double shift) {
@@ -233,6 +279,7 @@ Change change_of(const QuantileSample& sample, double confidence) {
     return p_of(late_values(of_shift));
   };
   const DirectionalP p = p_of_shift(0.0);
+  const DirectionalP at_margin{p_of_shift(margin).worse, p_of_shift(-margin).better};
   const double effect =
       quantile_of(sample.current, sample.probability) - quantile_of(baseline, sample.probability);
   const double range = std::max(max_finite(baseline), max_finite(sample.current)) + 1e-9;
@@ -242,7 +289,7 @@ Change change_of(const QuantileSample& sample, double confidence) {
   const double high = bound([&](double x) { return p_of_shift(x).better <= alpha; });
   // The tests are about a shift of all values; quantiles of other shapes may differ by more or less than
   // that.
-  return {effect, {std::min(low, effect), std::max(high, effect)}, p.worse, p.better};
+  return {effect, {std::min(low, effect), std::max(high, effect)}, p.worse, p.better, larger(p, at_margin)};
 }
 
 Sample linearised(const QuantileSample& sample, const Change& change, double standard_error) {

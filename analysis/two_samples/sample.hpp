@@ -30,27 +30,35 @@ struct Sample {
   std::vector<double> differences{};  ///< [unit] current − baseline; of pairs only
 };
 
-/// One-sided p-values of no change.
+/// One-sided p-values of no change, or of a change within a margin.
 struct DirectionalP {
   double worse{1.0};   ///< against a change for the worse
   double better{1.0};  ///< against a change for the better
 };
 
-/// A change, current − baseline. Its members are unknown where it was not tested.
+/// A change, current − baseline, tested against a margin of 0 or more. Its members are unknown where it was
+/// not tested.
 struct Change {
   double effect{statistics::unknown};
   statistics::ConfidenceInterval bounds{statistics::unknown, statistics::unknown};  ///< each one-sided
   double p{statistics::unknown};              ///< of no change, against one for the worse
   double improvement_p{statistics::unknown};  ///< of no change, against one for the better
+  /// p-values of a change within the margin: p_beyond().
+  DirectionalP beyond{statistics::unknown, statistics::unknown};
 };
 
-/// Of failures by McNemar's exact test, or Fisher's. Of other values the larger p of a rank test and a
-/// t-test, because both must show a change: signed ranks and the paired t, or Smirnov's test and Welch's t.
+/// The p-values of no change. Of failures by McNemar's exact test, or Fisher's. Of other values the larger p
+/// of a rank test and a t-test, because both must show a change: signed ranks and the paired t, or Smirnov's
+/// test and Welch's t.
 DirectionalP p_of(const Sample& sample);
 
-/// The change with p_of() and bounds, each with `confidence`: of failures tango(), or newcombe(); of other
-/// values cautious_bounds(). @param sample with two values or more
-Change change_of(const Sample& sample, double confidence);
+/// The p-values of a change within ± margin: the larger one of p_of() and of the level at which a bound of
+/// change_of() reaches the margin.
+DirectionalP p_beyond(const Sample& sample, double margin);
+
+/// The change with p_of(), p_beyond() and bounds, each with `confidence`: of failures tango(), or newcombe();
+/// of other values cautious_bounds(). @param sample with two values or more
+Change change_of(const Sample& sample, double confidence, double margin = 0.0);
 
 /// The values without NaN.
 std::vector<double> known(std::span<const double> values);
@@ -112,8 +120,9 @@ double quantile_of(const ClusteredValues& values, double probability);
 
 /// The change of the sample quantile: infinite where one of them is, NaN where both are. Its bounds are the
 /// differences δ that the test does not reject of the baseline's values + δ and the current ones; infinite
-/// where the test rejects no, or every, difference.
-Change change_of(const QuantileSample& sample, double confidence);
+/// where the test rejects no, or every, difference. Its p-values beyond the margin are those of the test of a
+/// shift by ± margin.
+Change change_of(const QuantileSample& sample, double confidence, double margin = 0.0);
 
 /// A sample of means that varies as the change of the quantile does, for a forecast. A quantile is to first
 /// order the mean of what each unit has to do with it (Bahadur, Annals of Mathematical Statistics 37 (1966),

@@ -2427,9 +2427,10 @@ class CompareAnswer(Answer):
           - ``detectable_change``: smallest change for the worse that these trials find
           - ``test``: test that p is of
           - ``p``: p-value against a change for the worse
-          - ``adjusted_p``: p after control of the false discoveries
+          - ``adjusted_p``: p against a change for the worse beyond the margin, with control of the false discoveries
           - ``improvement_p``: p-value against a change for the better
-          - ``adjusted_improvement_p``: improvement_p after control of the false discoveries
+          - ``adjusted_improvement_p``: p against a change for the better beyond the margin, with control of the false
+            discoveries
           - ``trials_to_decide``: trials per design point that decide an inconclusive measure
           - ``decided_margin``: any larger margin is decided by these trials
           - ``max_trials_margin``: smallest margin that max_trials_to_decide trials decide

@@ -16,6 +16,7 @@ comparison::Judgement measure(double effect, statistics::ConfidenceInterval boun
   one.margin = 0.02;
   one.p = p;
   one.improvement_p = 1.0 - p;
+  one.beyond = {p, 1.0 - p};
   return one;
 }
 
@@ -86,12 +87,44 @@ TEST(Verdict, WhereEveryChangeFailsTheTestIsTwoSided) {
 TEST(Verdict, OneSmallValueAmongManyTestsIsNoDiscovery) {
   comparison::PointComparison point;
   point.judgements.assign(50, measure(0.0, {-0.01, 0.01}, 0.5));
-  point.judgements[7] = measure(0.03, {0.002, 0.06}, 0.01);
+  point.judgements[7] = measure(0.05, {0.025, 0.075}, 0.01);
   const std::int64_t tests = comparison::decide(comparison::judgements_of({&point, 1}), {});
   EXPECT_EQ(tests, 50);
   EXPECT_EQ(point.judgements[7].verdict, comparison::GateVerdict::inconclusive);
-  EXPECT_EQ(decided(measure(0.03, {0.002, 0.06}, 0.01)).verdict,
+  EXPECT_EQ(decided(measure(0.05, {0.025, 0.075}, 0.01)).verdict,
             comparison::GateVerdict::regression);  // by itself it is
+}
+
+// A change may be certain, and its estimate beyond the margin, and still be smaller than the margin.
+TEST(Verdict, AnEstimateBeyondTheMarginIsUndecidedWhereItsBoundIsNot) {
+  const comparison::Judgement one = decided(measure(0.021, {0.012, 0.03}, 1e-6));
+  EXPECT_EQ(one.verdict, comparison::GateVerdict::inconclusive);
+  EXPECT_EQ(one.note, "beyond the margin, but not significantly");
+  comparison::Judgement better = measure(-0.021, {-0.03, -0.012}, 1.0 - 1e-6);
+  better.changed_fails = true;
+  EXPECT_EQ(decided(better).verdict, comparison::GateVerdict::inconclusive);
+}
+
+// The level at which a bound reaches the margin, found from the other side: bounds of that confidence do.
+TEST(Verdict, TheTestOfAChangeWithinTheMarginIsTheOneOfTheBounds) {
+  std::mt19937_64 random(83);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> uniform;
+  for (int i = 0; i < 60; ++i) {
+    two_samples::Sample sample{.failures = i % 2 == 0, .paired = i % 4 < 2};
+    for (int unit = 0; unit < 80; ++unit) {
+      const double before = sample.failures ? uniform(random) < 0.1 : normal(random);
+      const double after = sample.failures ? uniform(random) < 0.4 : normal(random) + 0.7;
+      sample.baseline.push_back(before);
+      sample.current.push_back(after);
+      if (sample.paired) sample.differences.push_back(after - before);
+    }
+    const double margin = 0.5 * two_samples::change_of(sample, 0.9).effect;
+    const double p = two_samples::change_of(sample, 0.9, margin).beyond.worse;
+    ASSERT_GT(p, two_samples::p_of(sample).worse) << i;
+    EXPECT_NEAR(two_samples::change_of(sample, 1.0 - p).bounds.low, margin, 1e-6) << i;
+    EXPECT_EQ(two_samples::change_of(sample, 0.9, 0.0).beyond.worse, two_samples::p_of(sample).worse);
+  }
 }
 
 TEST(Verdict, WhatWasNotMeasuredCountsNeitherWay) {

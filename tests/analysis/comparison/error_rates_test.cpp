@@ -116,6 +116,54 @@ TEST_P(NullComparisons, PassAChangeOfTheMarginNoMoreOftenThanStated) {
   expect_a_change_of_the_margin_to_fail(GetParam(), 100);
 }
 
+/// How often a measure of a single point fails at a true change of so many margins; the others do not change.
+/// @param measure success_rate with a margin of 0.05, or settling_time with a
+/// tenth of the baseline
+double failure_rate(bool paired, const std::string& measure, double margins, std::int64_t count,
+                    int comparisons) {
+  constexpr SyntheticPoint point{0.8, 0.03, 0.5};
+  std::mt19937_64 random(71);
+  comparison::GateRules rules;
+  rules.measures = {measure};
+  rules.margins["success_rate"] = {0.05, 0.0, false};
+  rules.margins["settling_time"] = {0.0, 0.1, false};
+  SyntheticPoint changed = point;
+  if (measure == "success_rate") changed.success -= margins * 0.05;
+  if (measure == "settling_time") changed.settling *= 1.0 + margins * 0.1;
+  int failures = 0;
+  for (int i = 0; i < comparisons; ++i) {
+    const TrialChances before = draw_chances(random, count);
+    const TrialChances after = paired ? redraw_some(random, before, 0.2) : draw_chances(random, count);
+    comparison::PointComparison one;
+    one.baseline_trials = one.current_trials = count;
+    one.judgements = comparison::compare_measures(
+        rules, "", {synthetic_trials(point, before), synthetic_trials(changed, after), paired});
+    comparison::decide(comparison::judgements_of({&one, 1}), rules);
+    failures += failed(one.judgements.front());
+  }
+  return static_cast<double>(failures) / comparisons;
+}
+
+// A true change within the margin fails in at most the stated 5 %, whatever its estimate, and one of twice
+// the margin is found.
+void expect_failures_beyond_the_margin_alone(bool paired, int comparisons) {
+  const double allowed = 0.05 + 2.5 * std::sqrt(0.05 * 0.95 / comparisons);
+  for (const char* const measure : {"success_rate", "settling_time"}) {
+    for (const double margins : {0.8, 1.0}) {
+      const double rate = failure_rate(paired, measure, margins, 400, comparisons);
+      ::testing::Test::RecordProperty(fmt::format("{} {}", measure, margins), std::to_string(rate));
+      EXPECT_LE(rate, allowed) << measure << ", " << margins << " margins";
+    }
+    const double power = failure_rate(paired, measure, 2.0, 1500, comparisons / 2);
+    ::testing::Test::RecordProperty(fmt::format("{} 2", measure), std::to_string(power));
+    EXPECT_GE(power, 0.5) << measure;
+  }
+}
+
+TEST_P(NullComparisons, FailAChangeOfTheMarginNoMoreOftenThanStated) {
+  expect_failures_beyond_the_margin_alone(GetParam(), 100);
+}
+
 TEST_P(NullComparisons, FailWhereAllIsMuchWorse) {
   std::mt19937_64 random(53);
   int seen = 0;
@@ -178,6 +226,7 @@ TEST_P(NullComparisons, DISABLED_ErrAsOftenAsStatedInMany) {
   expect_hardly_any_at_the_defaults(GetParam(), 600);
   expect_a_change_of_the_margin_to_fail(GetParam(), 400);
   expect_the_detectable_to_be_found(GetParam(), 200);
+  expect_failures_beyond_the_margin_alone(GetParam(), 500);
 }
 
 INSTANTIATE_TEST_SUITE_P(Layers, NullComparisons, ::testing::Bool(),

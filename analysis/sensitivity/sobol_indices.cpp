@@ -200,6 +200,49 @@ double control_coefficient(const SaltelliSample& sample, std::size_t factor, dou
   return squares > 0.0 ? (influence * about_mean).sum() / squares : 0.0;
 }
 
+/// The influence of each row on the indices of a factor: by how much an index changes with its weight, times
+/// the number of rows.
+struct Influences {
+  Eigen::ArrayXd first_order;
+  Eigen::ArrayXd total;
+};
+
+// With V the variance of the two columns, of which (x² + y²)/2 is a row's part, all less their means:
+// S = (Σ bc − λ Σ ab)/(N V) and T = Σ (a − c)²/(2 N V).
+Influences influences_of(const SaltelliSample& sample, std::size_t factor, const SobolIndices& indices,
+                         double control) {
+  const auto rows = static_cast<Eigen::Index>(sample.a.size());
+  const auto values = [&](const std::vector<double>& column) -> Eigen::ArrayXd {
+    return Eigen::ArrayXd::Map(column.data(), rows);
+  };
+  const Eigen::ArrayXd a = values(sample.a);
+  const Eigen::ArrayXd b = values(sample.b);
+  const Eigen::ArrayXd c = values(sample.c[factor]);
+  const auto influence = [](const Eigen::ArrayXd& numerator, const Eigen::ArrayXd& variance, double index) {
+    const Eigen::ArrayXd all = (numerator - index * variance) / variance.mean();
+    return Eigen::ArrayXd(all - all.mean());
+  };
+  const double mean_bc = 0.5 * (b.mean() + c.mean());
+  const double mean_ac = 0.5 * (a.mean() + c.mean());
+  const Eigen::ArrayXd alone = (b - mean_bc) * (c - mean_bc) - control * (a - a.mean()) * (b - b.mean());
+  return {
+      influence(alone, 0.5 * ((b - mean_bc).square() + (c - mean_bc).square()), indices.first_order.value),
+      influence(0.5 * (a - c).square(), 0.5 * ((a - mean_ac).square() + (c - mean_ac).square()),
+                indices.total.value)};
+}
+
+// Widens the bounds to value ± t·s.
+void widen_by_influence(const Eigen::ArrayXd& influence, double confidence, BoundedNumber& number) {
+  const double squares = influence.square().sum();
+  if (!(squares > 0.0)) return;  // or not a number
+  const double carrying = squares * (squares / influence.square().square().sum());
+  const double degrees = std::max(0.5, 0.5 * carrying - 1.0);
+  const double error = std::sqrt(squares) / static_cast<double>(influence.size());
+  const double half = statistics::student_t_quantile(degrees, 0.5 + 0.5 * confidence) * error;
+  number.low = std::min(number.low, number.value - half);
+  number.high = std::max(number.high, number.value + half);
+}
+
 // How often each group is in the sample drawn anew.
 Eigen::VectorXd draw_groups(Eigen::Index groups, std::int64_t replicate,
                             const random::RandomStream& randomness) {
@@ -371,6 +414,10 @@ std::vector<SobolIndices> saltelli_indices(const SaltelliSample& sample, double 
   for (std::size_t j = 0; j < factors; ++j) {
     set_bounds(std::move(first_orders[j]), confidence, indices[j].first_order);
     set_bounds(std::move(totals[j]), confidence, indices[j].total);
+    if (is_yes_or_no(sample)) continue;
+    const Influences influences = influences_of(sample, j, indices[j], controls[j]);
+    widen_by_influence(influences.first_order, confidence, indices[j].first_order);
+    widen_by_influence(influences.total, confidence, indices[j].total);
   }
   widen_bounds(sample, confidence, indices);
   return indices;

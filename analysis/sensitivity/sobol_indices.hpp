@@ -186,11 +186,16 @@ std::int64_t bootstrap_replicates(double confidence);
 /// are the wider of the percentiles and 1 less yes_no_difference of B and C_j. For any other output they are
 /// percentiles of these numbers over samples of N rows that are drawn anew from the rows, with replacement
 /// (Archer, Saltelli & Sobol' 1997), with unseen_index; of more than 4096 rows, 4096 groups of neighbouring
-/// ones are drawn. The upper bound of S_j is not above that of T_j, and the lower one of T_j is 0 only where
-/// no row differs. NaN where A and B have no variance or there are fewer than two rows, and for a factor
-/// where A and C_j have none.
-/// An output that is not a yes or no has no bounds where its variance comes from fewer than ten trials of A
-/// and B: (Σ (y − m)²)²/Σ (y − m)⁴ < 20.
+/// ones are drawn. Rows drawn anew never exceed the largest ones seen, so that percentiles alone hold too
+/// rarely for skewed outputs: the bounds are at least value ± t·s,
+///
+///   N²s² = Σ ψ²,   t Student's quantile with e/2 − 1 degrees of freedom, ½ at least,   e = (Σψ²)²/Σψ⁴,
+///
+/// ψ the influence of a row on the index, and e how many rows carry s, as in given_data_first_order. The
+/// upper bound of S_j is not above that of T_j, and the lower one of T_j is 0 only where no row differs. NaN
+/// where A and B have no variance or there are fewer than two rows, and for a factor where A and C_j have
+/// none. An output that is not a yes or no has no bounds where its variance comes from fewer than ten trials
+/// of A and B: (Σ (y − m)²)²/Σ (y − m)⁴ < 20.
 /// @param randomness the rows are drawn from: the same gives the same bounds.
 std::vector<SobolIndices> saltelli_indices(const SaltelliSample& sample, double confidence,
                                            const random::RandomStream& randomness);

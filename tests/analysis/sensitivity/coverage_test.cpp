@@ -2,6 +2,8 @@
 // to 98 % are within three standard deviations of that, of 100 samples 88 % and more; of Sobol' indices that
 // are small, bounds may cover more. With 50 trials the normal distribution behind most bounds is rough, and
 // so much is let pass; what is lost must then not be more than 13 %.
+#include <chrono>
+
 #include "analysis/sensitivity/correlations.hpp"
 #include "core/random/random_numbers.hpp"
 #include "experiments/designs/designs.hpp"
@@ -77,7 +79,7 @@ void expect_saltelli_coverage(const testing::UnitFunction& function, const std::
     }
   }
   const double least = samples < 400 ? 0.88 : 0.92;
-  const double most = samples < 400 ? 1.0 : 0.98;
+  const double most = samples < 400 ? 1.0 : 0.99;
   for (std::size_t j = 0; j < factors; ++j) {
     EXPECT_GE(of_first[j].proportion(), least) << "first order of factor " << j;
     EXPECT_GE(of_total[j].proportion(), least) << "total of factor " << j;
@@ -102,6 +104,90 @@ TEST(SensitivityCoverage, BootstrapBoundsOfSobolIndicesOfAYesOrNo) {
 TEST(SensitivityCoverage, DISABLED_BootstrapBoundsOfSobolIndicesInManySamples) {
   expect_saltelli_coverage(g_function, testing::g_first_orders(3), testing::g_totals(3), 400);
   expect_saltelli_coverage(both_exceed_half, {1.0 / 3.0, 1.0 / 3.0}, {2.0 / 3.0, 2.0 / 3.0}, 400);
+}
+
+/// An output with known indices.
+struct KnownOutput {
+  std::string name;
+  testing::UnitFunction function;
+  std::vector<double> first_orders;
+  std::vector<double> totals;
+};
+
+/// A product of independent lognormal factors with these coefficients of variation. With w_j = 1 + cv_j² and
+/// W = Π w, S_j = (w_j − 1)/(W − 1) and T_j = (W − W/w_j)/(W − 1).
+KnownOutput lognormal_product(std::vector<double> cvs) {
+  KnownOutput output{fmt::format("product of cv {}", fmt::join(cvs, ", ")), {}, {}, {}};
+  double all = 1.0;
+  for (const double cv : cvs) all *= 1.0 + cv * cv;
+  for (const double cv : cvs) {
+    const double own = 1.0 + cv * cv;
+    output.first_orders.push_back((own - 1.0) / (all - 1.0));
+    output.totals.push_back((all - all / own) / (all - 1.0));
+  }
+  output.function = [cvs = std::move(cvs)](std::span<const double> u) {
+    double logarithm = 0.0;
+    for (std::size_t j = 0; j < u.size(); ++j)
+      logarithm += std::sqrt(std::log1p(cvs[j] * cvs[j])) * normal_of(u[j]);
+    return std::exp(logarithm);
+  };
+  return output;
+}
+
+/// A sum of a lognormal factor and a normal one of the same variance: both orders are ½.
+KnownOutput skewed_sum(double cv) {
+  return {fmt::format("sum with cv {}", cv),
+          [cv](std::span<const double> u) {
+            const double spread = std::sqrt(std::log1p(cv * cv));
+            return std::exp(spread * normal_of(u[0]) - 0.5 * spread * spread) + cv * normal_of(u[1]);
+          },
+          {0.5, 0.5},
+          {0.5, 0.5}};
+}
+
+/// Of the samples that have bounds at all, 92 % or more hold the index, less two standard errors.
+void expect_coverage_of_skewed(const KnownOutput& output, std::size_t rows, std::uint64_t samples,
+                               std::uint64_t first) {
+  const std::size_t factors = output.totals.size();
+  std::vector<Coverage> of_first(factors);
+  std::vector<Coverage> of_total(factors);
+  for (std::uint64_t sample = first; sample < first + samples; ++sample) {
+    const auto indices = saltelli_indices(saltelli_of(output.function, factors, rows, sample), 0.95,
+                                          {designs::random_key(sample, "skewed"), 0});
+    for (std::size_t j = 0; j < factors; ++j) {
+      if (std::isnan(indices[j].total.low)) continue;
+      of_first[j].add(indices[j].first_order, output.first_orders[j]);
+      of_total[j].add(indices[j].total, output.totals[j]);
+    }
+  }
+  for (std::size_t j = 0; j < factors && of_total[j].samples >= 30; ++j) {
+    const double least = 0.92 - 2.0 * std::sqrt(0.92 * 0.08 / of_total[j].samples);
+    const std::string place =
+        fmt::format("{}, factor {}, {} rows, samples from {}", output.name, j, rows, first);
+    EXPECT_GE(of_first[j].proportion(), least) << place;
+    EXPECT_GE(of_total[j].proportion(), least) << place;
+  }
+}
+
+TEST(SensitivityCoverage, BoundsOfSobolIndicesOfSkewedOutputs) {
+  for (const std::vector<double>& cvs :
+       std::vector<std::vector<double>>{{0.7, 0.7}, {1.0, 0.5, 0.3}, {1.5, 0.7}})
+    expect_coverage_of_skewed(lognormal_product(cvs), 300, 200, 0);
+  expect_coverage_of_skewed(skewed_sum(1.0), 300, 200, 0);
+}
+
+// Other samples on every day: days since 1970.
+TEST(SensitivityCoverage, DISABLED_BoundsOfSobolIndicesOfSkewedOutputsOfToday) {
+  const auto today = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
+  const auto first = static_cast<std::uint64_t>(today.time_since_epoch().count()) * 100'000;
+  ::testing::Test::RecordProperty("first_sample", std::to_string(first));
+  for (const std::vector<double>& cvs : std::vector<std::vector<double>>{
+           {0.7, 0.7}, {1, 0.5, 0.3}, {1, 1}, {1.5, 0.7}, {3, 0.5}, {0.5, 0.5, 0.5}})
+    expect_coverage_of_skewed(lognormal_product(cvs), 300, 400, first);
+  for (const double cv : {0.5, 0.7, 1.0}) expect_coverage_of_skewed(skewed_sum(cv), 300, 400, first);
+  const KnownOutput ishigami{"Ishigami", testing::ishigami, testing::ishigami_first_orders(),
+                             testing::ishigami_totals()};
+  for (const std::size_t rows : {100UL, 300UL}) expect_coverage_of_skewed(ishigami, rows, 400, first);
 }
 
 // Yes where u₁ < p, but where u₂ < q it is no. P(yes) = p(1 − q); the indices of u₂ are small with q:

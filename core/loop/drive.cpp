@@ -22,8 +22,9 @@ double lag_rate(const AmplifierParameters& amplifier) {
   return 2.0 * std::numbers::pi * std::min(amplifier.bandwidth, max_bandwidth);
 }
 
-TorqueDelay::TorqueDelay(double samples)
-    : waiting_(static_cast<std::size_t>(std::ceil(samples)), 0.0), fraction_(samples - std::floor(samples)) {}
+TorqueDelay::TorqueDelay(double samples, double held)
+    : waiting_(static_cast<std::size_t>(std::ceil(samples)), held),
+      fraction_(samples - std::floor(samples)) {}
 
 TorqueDelay::Leaving TorqueDelay::pass(double torque) {
   if (waiting_.empty()) return {torque, torque};
@@ -33,16 +34,19 @@ TorqueDelay::Leaving TorqueDelay::pass(double torque) {
 }
 
 Drive::Drive(const DacParameters& dac, const AmplifierParameters& amplifier, double delay, double sample_time,
-             const random::TrialRandomness& randomness, bool jitter)
+             const random::TrialRandomness& randomness, bool jitter, double held)
     : converter_(dac, randomness),
-      delay_(delay),
+      delay_(delay, held),
       rate_(lag_rate(amplifier)),
       sample_(part(sample_time)),
       before_(part(delay_.fraction() * sample_time)),
       after_(part(sample_time - before_.duration)),
       sample_time_(sample_time),
       delay_time_(delay * sample_time),
-      jitters_(jitter) {}
+      input_(held),
+      jitters_(jitter) {
+  pieces_[0].course = motion::constant_torque(held);
+}
 
 Drive::Part Drive::part(double duration) const {
   return {duration, rate_ == 0.0 ? 1.0 : numerics::exp(-rate_ * duration)};

@@ -13,7 +13,7 @@
 
 namespace zerocount::loop {
 
-/// The decided torques on their way through a delay of n + f samples, n whole, 0 ≤ f < 1: zeros at first.
+/// The decided torques on their way through a delay of n + f samples, n whole, 0 ≤ f < 1.
 class TorqueDelay {
  public:
   /// The torques that leave the delay during sample k: for the fraction f of it the one decided at k − n − 1,
@@ -23,7 +23,8 @@ class TorqueDelay {
     double after;
   };
 
-  explicit TorqueDelay(double samples);
+  /// @param held the torque that leaves the delay before the first one has passed it, N m.
+  explicit TorqueDelay(double samples, double held = 0.0);
 
   Leaving pass(double torque);
   double fraction() const { return fraction_; }  ///< f
@@ -74,8 +75,9 @@ struct Lateness {
 ///
 /// The converter gives what ConverterErrors says for the code decided at sample k. What leaves the delay is
 /// the amplifier's input v: the torque decided at k acts over [t_k + delay·T, t_{k+1} + delay·T). Until the
-/// first decided torque has passed the delay, v is exactly 0, without offset and noise. The amplifier, of
-/// bandwidth f, follows from torque 0 at the start by
+/// first decided torque has passed the delay, v is exactly the torque held at the start, without rounding,
+/// offset and noise: 0, unless the loop holds a load. The amplifier, of bandwidth f, follows from that torque
+/// at the start by
 ///
 ///   du/dt = 2πf·(v − u),   so u(t_k + t) = v + (u(t_k) − v)·exp(−2πf·t);
 ///
@@ -89,8 +91,9 @@ class Drive {
   /// @param delay samples between deciding a torque and applying it, ≥ 0.
   /// @param sample_time T, s.
   /// @param jitter whether samples may be late.
+  /// @param held torque of the motor before the first decided one acts, N m.
   Drive(const DacParameters& dac, const AmplifierParameters& amplifier, double delay, double sample_time,
-        const random::TrialRandomness& randomness, bool jitter = false);
+        const random::TrialRandomness& randomness, bool jitter = false, double held = 0.0);
 
   /// Sends the code of sample k through converter, delay and amplifier.
   void send(std::int64_t k, const DacOutput& decided, const Lateness& late = {}) {
@@ -104,7 +107,7 @@ class Drive {
   /// The motor's torque from the last sample sent to the next one; valid until that is sent.
   std::span<const TorquePiece> pieces() const { return {pieces_.data(), count_}; }
 
-  /// The motor's torque at the last t_k, just after sending, N m: 0 before the first.
+  /// The motor's torque at the last t_k, just after sending, N m; before the first, the torque held.
   double torque() const { return pieces_.front().course.now; }
 
  private:
@@ -134,7 +137,7 @@ class Drive {
   double sample_time_;
   double delay_time_;            // s
   std::vector<Change> changes_;  // with jitter, those to come, in order
-  double input_{0.0};            // with jitter, the amplifier's input, N m
+  double input_;                 // with jitter, the amplifier's input, N m
   bool jitters_;
 };
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 #include "core/loop/formulas.hpp"
@@ -61,5 +63,45 @@ inline Encoder coarse_encoder(const EncoderParameters& encoders, double phase) {
 inline std::int64_t read_count(const Encoder& encoder, double theta) {
   return static_cast<std::int64_t>(ideal_count(theta, encoder.resolution, encoder.phase));
 }
+
+/// The counts before the first sample: those of a motion at the constant velocity v₀ up to the angle θ₀,
+///
+///   n_{−j} = n_0 − (⌊θ₀/Δx + phase⌋ − ⌊(θ₀ − j·v₀·T)/Δx + phase⌋),
+///
+/// n_0 the first reading. Where v₀ = 0 they are n_0.
+struct CountsBefore {
+  Encoder encoder{};
+  double theta{0.0};        ///< θ₀, rad
+  double velocity{0.0};     ///< v₀, rad/s
+  double sample_time{1.0};  ///< T, s
+  double unit{1.0};         ///< one count of this encoder, in the counts that the controller reads
+};
+
+/// Most counts that pass before the first sample. A finite number keeps the torque one, at whatever velocity.
+inline constexpr double max_counted = 0x1p52;
+
+/// n_0 − n_{−j}, in the counts that the controller reads. @param samples j
+inline double counted_since(const CountsBefore& before, std::size_t samples) {
+  const auto& [encoder, theta, velocity, sample_time, unit] = before;
+  const double earlier = theta - static_cast<double>(samples) * velocity * sample_time;
+  const double counted = ideal_count(theta, encoder.resolution, encoder.phase) -
+                         ideal_count(earlier, encoder.resolution, encoder.phase);
+  return unit * clamped(counted, -max_counted, max_counted);
+}
+
+/// v₀·T/Δx, in the counts that the controller reads: what n_0 − n_{−1} is on average.
+inline double counts_per_sample(const CountsBefore& before) {
+  const double counted = before.velocity * before.sample_time / before.encoder.resolution;
+  return before.unit * clamped(counted, -max_counted, max_counted);
+}
+
+/// Place and velocity of the masses when a trial starts.
+struct StartOfMotion {
+  double phase{0.5};        ///< of the encoder of the mass that closes the loop, in [0, 1)
+  double other_phase{0.5};  ///< of the encoder of the other mass, in [0, 1)
+  double theta{0.0};        ///< of the mass that closes the loop, rad
+  double other_theta{0.0};  ///< of the other mass, rad
+  double velocity{0.0};     ///< of both, rad/s
+};
 
 }  // namespace zerocount::loop

@@ -71,6 +71,20 @@ double initial_integral(const TrialParameters& p) {
   return p.initial.integral + held_start(p).integral;
 }
 
+double held_torque(const TrialParameters& p) {
+  return p.command.torque.levels.empty() ? held_start(p).integral : 0.0;
+}
+
+loop::StartOfMotion start_of_motion(const TrialParameters& p) {
+  loop::StartOfMotion start{p.initial.encoder_phase, p.initial.other_encoder_phase, 0.0, 0.0,
+                            p.initial.velocity};
+  if (!motion::has_load(p.plant)) return start;
+  const bool at_load = p.plant.load.encoder == motion::EncoderPlace::load;
+  const std::vector<motion::Ripple> error = ripples_of(p.load_side.error, p.initial.position);
+  (at_load ? start.theta : start.other_theta) = motion::value(error, 0.0) - held_start(p).twist;
+  return start;
+}
+
 motion::PlantStart plant_start(const TrialParameters& p) {
   return {p.initial.position,   p.initial.hardening,
           p.initial.preload,    draw_history(p.initial.history, p.randomness),

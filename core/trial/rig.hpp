@@ -26,11 +26,19 @@ struct HeldStart {
 ///   Ts = kL·h(δ) = −τL(ε(0) − δ),
 ///
 /// and the contact carries d + (1 + ε′(0))·τL; where that is its breakaway or more, or the law has no
-/// friction, −I does.
+/// friction, −I does, and the whole loop starts in the steady state of that torque (loop::Controller::hold,
+/// held_torque).
 HeldStart held_start(const TrialParameters& parameters);
 
 /// I of the controller before the first sample, N m.
 double initial_integral(const TrialParameters& parameters);
+
+/// Torque of the motor before the first decided one acts, N m: in a closed loop HeldStart::integral, so that
+/// an axis that its integral holds stands still through delay and amplifier; else 0.
+double held_torque(const TrialParameters& parameters);
+
+/// Place and velocity of the masses at t = 0, by which the counts before the first sample are known.
+loop::StartOfMotion start_of_motion(const TrialParameters& parameters);
 
 /// State of the plant at t = 0.
 motion::PlantStart plant_start(const TrialParameters& parameters);
@@ -54,12 +62,14 @@ class Rig {
         clock_(p.controller, p.randomness),
         measurement_(p.encoder, p.initial.encoder_phase, p.initial.position, p.randomness, sample_time_,
                      p.initial.other_encoder_phase),
-        drive_(p.dac, p.amplifier, p.controller.delay, sample_time_, p.randomness, p.controller.jitter > 0.0),
+        drive_(p.dac, p.amplifier, p.controller.delay, sample_time_, p.randomness, p.controller.jitter > 0.0,
+               held_torque(p)),
         encoder_place_(motion::has_load(p.plant) ? p.plant.load.encoder : motion::EncoderPlace::motor),
         plant_(p.plant, p.friction, plant_start(p), motion_tolerance(measurement_.fine_resolution())) {
     plant_.disturb(disturbance_of(p.disturbance, p.initial.position, p.randomness));
     if (motion::has_load(p.plant)) plant_.start_load(load_side(p), p.load_side.friction);
-    if (p.controller.jitter > 0.0) plant_.advance(motion::constant_torque(0.0), clock_.lateness(0));
+    if (p.controller.jitter > 0.0)
+      plant_.advance(motion::constant_torque(held_torque(p)), clock_.lateness(0));
   }
 
   /// Encoder readings and plant state at t_k. The caller fills in torque, target and reference.

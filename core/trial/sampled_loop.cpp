@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/trial/rig.hpp"
+
 namespace zerocount::trial {
 
 SampledLoop::SampledLoop(const TrialParameters& p, const loop::Measurement& measurement)
@@ -9,9 +11,14 @@ SampledLoop::SampledLoop(const TrialParameters& p, const loop::Measurement& meas
       sample_time_(1.0 / p.controller.sample_rate),
       clock_(p.controller, p.randomness),
       controller_(p.controller, p.encoder, initial_integral(p),
-                  {{loop::lowest_torque(p.dac), loop::highest_torque(p.dac)}, p.dac.resolution}),
+                  {{loop::lowest_torque(p.dac), loop::highest_torque(p.dac)}, p.dac.resolution},
+                  start_of_motion(p)),
       converter_(p.dac),
       resolution_(measurement.fine_resolution()) {
+  if (const double held = held_torque(p); held != 0.0) {
+    controller_.hold(held);
+    output_ = loop::Converter(p.dac).convert(held);
+  }
   if (p.verdict.motion) motion_.emplace(p, resolution_);
   if (p.verdict.position_error) position_error_.emplace(p, resolution_);
   if (p.verdict.other_mass) other_mass_.emplace(p, resolution_);

@@ -23,7 +23,7 @@ namespace zerocount::trial {
 ///   start_move(m):  the reference goes from target m − 1, 0 at first, to target m
 ///   decide(i):      r ← reference at i·T
 ///                   if the controller runs:  code ← convert(controller(r, counts) + dither)
-///                   else:                    code as at the sample before, 0 at first
+///                   else:                    code as at the sample before, at first that of held_torque
 ///   finish(m):      travel time, changes of the phase, measures of the position error and the true motion
 class SampledLoop {
  public:

@@ -239,7 +239,9 @@ std::string_view why_not_writable(const loop::ControllerParameters& controller, 
 
 /// The chain, with the operations in the order of loop::ControlChain, so that it computes the same bits in
 /// double precision. Terms with a gain of 0 are left out. In single precision counts are whole numbers, of
-/// which differences are taken exactly, and a dither goes by a phase in place of the number of the sample.
+/// which differences are taken exactly, and a dither goes by a phase in place of the number of the sample. A
+/// drive is switched on at rest: whatever the study starts with, the counts before the first are the first,
+/// and past values of filters and observer are 0.
 Program chain_program(const ControllerToWrite& chain, Precision precision);
 
 /// The program as one C99 file without dependencies: its states in a struct, its constants by name. With

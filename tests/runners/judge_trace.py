@@ -32,6 +32,7 @@ DEFAULTS = {
 }
 draw = random.Random(15)
 record_draw = random.Random(5)  # apart: other manifests stay as they are
+start_draw = random.Random(8)  # likewise
 
 
 def log_uniform(low, high):
@@ -169,6 +170,10 @@ def manifest_of(kinds, two_phases):
 
 def judge(manifest, folder, two_encoders):
     encoder, position, other = second_encoder(manifest) if two_encoders else (DEFAULTS["encoder"], None, None)
+    start = manifest.setdefault("initial", {})
+    if start_draw.random() < 0.5:
+        start["velocity"] = start_draw.uniform(-0.1, 0.1)
+    phases = {mass: start.get(key, 0.5) for mass, key in (("motor", "encoder_phase"), ("load", "load_encoder_phase"))}
     path = Path(folder) / "judged.yaml"
     path.write_text(json.dumps(manifest), encoding="utf-8")
     ran = subprocess.run([PROGRAM, "trace", str(path), "--point", "0", "--trial", "0", "--format", "csv"],
@@ -181,6 +186,8 @@ def judge(manifest, folder, two_encoders):
     if two_encoders and not all(counts_are_right(row, manifest, position, other) for row in rows):
         sys.exit(f"a count is not that of its mass\n{json.dumps(manifest)}")
     given = {key: manifest[key] for key in ("controller", "command", "amplifier")}
+    given["initial"] = {"velocity": start.get("velocity", 0.0), "phase": phases[position or "motor"],
+                        "other_phase": phases[other or "load"]}
     judged = codes_of({**merged(DEFAULTS, given), "encoder": encoder}, samples)
     for row, (code, _, margin) in zip(rows, judged):
         if int(row["code"]) != code or float(row["torque"]) != code * DEFAULTS["dac"]["resolution"]:

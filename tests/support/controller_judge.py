@@ -4,7 +4,7 @@ the counts that it reads. Parameters are those of a manifest, as maps inside one
 import math
 
 import numpy as np
-from scipy.signal import bilinear, lfilter, lfilter_zi
+from scipy.signal import bilinear, lfilter, lfilter_zi, lfiltic
 
 
 class Motion:
@@ -80,9 +80,23 @@ class Record:
         acceleration = np.concatenate([[0.0], 2 * np.diff(between) / span, [0.0]])
         self.values = positions / dx, velocity, acceleration
 
-    def at(self, t, _nearly):
-        """Position in counts, velocity and acceleration at t."""
-        return tuple(float(np.interp(t, self.times, values)) for values in self.values)
+    def at(self, t, nearly):
+        """Position in counts, velocity and acceleration at t; it stands after its last row."""
+        position, *rates = (float(np.interp(t, self.times, values)) for values in self.values)
+        return (position, 0.0, 0.0) if t > self.times[-1] + nearly else (position, *rates)
+
+
+class Before:
+    """The counts before the first: those of a motion at the velocity v up to the angle 0."""
+
+    def __init__(self, dx, phase, v, T, unit=1.0):
+        self.dx, self.phase, self.v, self.T, self.unit = dx, phase, v, T, unit
+        self.rate = unit * v * T / dx  # counts per sample
+
+    def of(self, first, j):
+        """n of j samples before the first one."""
+        passed = math.floor(self.phase) - math.floor(-j * self.v * self.T / self.dx + self.phase)
+        return first - self.unit * passed
 
 
 class Filter:
@@ -95,6 +109,10 @@ class Filter:
     def __call__(self, x):
         y, self.z = lfilter(self.b, self.a, [x], zi=self.z)
         return y[0]
+
+    def remember(self, x, y):
+        """Past inputs and outputs, the last one first."""
+        self.z = lfiltic(self.b, self.a, y, x)
 
     def settle(self, y):
         """The state in which a constant input gives y; returns that input."""
@@ -125,14 +143,16 @@ def make_filter(element, T):
 
 
 class Chain:
-    def __init__(self, phase, T, dx, dx_velocity, integral, integral_range):
+    def __init__(self, phase, T, dx, dx_velocity, integral, integral_range, before):
         self.p, self.T, self.dx, self.dx_velocity = phase, T, dx, dx_velocity
+        self.before = before
         self.integral, self.range = integral, integral_range
         self.inside = False
         self.first = None
         self.window = phase.get("derivative_window", 1)
         self.last_counts = []  # of the last samples, at most the window, the oldest first
-        self.last_e = self.last_w = self.d = self.added = self.estimate = 0.0
+        self.last_e = self.last_w = self.added = self.estimate = 0.0
+        self.d = before.rate  # the mean of a filter's past inputs
         self.command, self.bus = 0.0, [0.0] * phase["cascade"].get("latency", 0)
         self.fresh = True  # the next sample is the chain's first
         self.holding, self.hold_run, self.still_run, self.wanted = False, 0, 0, 0.0
@@ -151,7 +171,10 @@ class Chain:
         """`count` is that of the velocity loop. What goes on at every sample, whichever chain decides. Returns whether the integral may change."""
         if self.first is None:
             self.first = count
-            self.last_counts = [count] * self.window
+            self.last_counts = [self.before.of(count, j) for j in range(self.window, 0, -1)]
+            if self.observes:
+                past = [(self.before.of(count, j) - count) * self.dx_velocity for j in (1, 2)]
+                self.accelerates.remember(past, [0.0, 0.0])
         self.d = self.a * self.d + (1 - self.a) * (count - self.last_counts[0]) / self.window
         self.pass_count(count)
         band = self.p["deadband"]
@@ -276,8 +299,14 @@ class Controller:
         integral = parameters["initial"]["integral"]
         self.beyond = c["coarse"]["coarse_beyond"]
         fine = dict(c, kd=0.0) if self.beyond is not None else c
-        self.chains = {"fine": Chain(fine, self.T, self.dx, dx_velocity, integral, limits),
-                       "coarse": Chain(c["coarse"], self.T, self.dx, self.dx, integral, limits)}
+        start = parameters["initial"]
+        v, place = start.get("velocity", 0.0), start.get("phase", 0.5)
+        before = {"fine": Before(self.dx, place, v, self.T),
+                  "coarse": Before(2 * math.pi / parameters["encoder"]["coarse"], place, v, self.T, self.fine_per_coarse)}
+        of_fine = Before(dx_velocity, start.get("other_phase", 0.5), v, self.T) if self.other else before[c["encoder"]]
+        self.coarse_before = before[c["coarse"]["encoder"]]
+        self.chains = {"fine": Chain(fine, self.T, self.dx, dx_velocity, integral, limits, of_fine),
+                       "coarse": Chain(c["coarse"], self.T, self.dx, self.dx, integral, limits, self.coarse_before)}
         self.phase, self.settled, self.last_coarse, self.in_force = "fine", 0, None, 0.0
         self.started = False
         self.last_target = None
@@ -285,7 +314,7 @@ class Controller:
 
     def change_phase(self, errors, counts):
         rule = self.p["controller"]["coarse"]
-        last = counts["coarse"] if self.last_coarse is None else self.last_coarse
+        last = self.coarse_before.of(counts["coarse"], 1) if self.last_coarse is None else self.last_coarse
         moved, self.last_coarse = abs(counts["coarse"] - last), counts["coarse"]
         quiet = abs(errors["coarse"]) <= rule["fine_within"] and moved <= rule["fine_rate"]
         before = self.settled if self.phase == "coarse" else 0

@@ -25,17 +25,18 @@ class SampledLoop {
         resolution_(p.dac.resolution),
         lowest_(-std::ldexp(1.0, p.dac.bits - 1)),
         highest_(std::ldexp(1.0, p.dac.bits - 1) - 1.0),
-        integral_(p.initial.integral) {}
+        integral_(p.initial.integral),
+        last_count_(read_encoder(-p.initial.velocity * (1.0L / p.controller.sample_rate), p.encoder.fine,
+                                 p.initial.encoder_phase)) {}
 
   std::int64_t decide(std::int64_t target, std::int64_t count) {
     const std::int64_t error = target - count;
-    const double change = first_ ? 0.0 : static_cast<double>(count - last_count_);
+    const auto change = static_cast<double>(count - last_count_);
     integral_ = integral_ + gains_.ki * static_cast<double>(error + last_error_);
     if (gains_.anti_windup == loop::AntiWindup::clamp) {
       integral_ = std::clamp(integral_, lowest_ * resolution_, highest_ * resolution_);
     }
     const double torque = integral_ + gains_.kp * static_cast<double>(error) - gains_.kd * change;
-    first_ = false;
     last_error_ = error;
     last_count_ = count;
     return static_cast<std::int64_t>(std::clamp(std::nearbyint(torque / resolution_), lowest_, highest_));
@@ -48,8 +49,7 @@ class SampledLoop {
   double highest_;
   double integral_;
   std::int64_t last_error_{0};
-  std::int64_t last_count_{0};
-  bool first_{true};
+  std::int64_t last_count_;  // before the first sample that of a motion at the initial velocity up to 0
 };
 
 }  // namespace

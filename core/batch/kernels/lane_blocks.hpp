@@ -10,7 +10,7 @@ template <class P>
 struct ControlInput {
   using Mask = typename P::Mask;
   P error, last_error;  ///< counts
-  P count, change;      ///< counts; change since the last sample, 0 at the first
+  P count, change;      ///< counts; change since the last sample, at the first by loop::CountsBefore
   Mask counted;         ///< there has been a sample before
 };
 

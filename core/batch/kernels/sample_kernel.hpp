@@ -71,7 +71,9 @@ __attribute__((noinline)) void sample(BatchState& batch, const At& at) {
     count = loop::ideal_count(angle, resolution, at.load(l.phase));
   }
   const Mask counted = to_mask(at.load(l.counted));
-  const P last_count = select(counted, at.load(l.count), count);
+  // Before the first sample l.count is n_{−1} − n_0.
+  const P stored_count = at.load(l.count);
+  const P last_count = select(counted, stored_count, count + stored_count);
   const P last_error = at.load(l.error);
   const P error = at.load(l.target) - count;
   const P change = count - last_count;

@@ -6,6 +6,7 @@
 
 #include "core/numerics/elementary_functions.hpp"
 #include "core/trial/disturbance.hpp"
+#include "core/trial/rig.hpp"
 
 namespace zerocount::batch {
 namespace {
@@ -73,14 +74,16 @@ LaneDrive::LaneDrive(const trial::TrialParameters& p)
       passes_on_(!jitters_ && !lags_ && p.controller.delay == 0.0),
       delayed_(static_cast<std::int64_t>(std::ceil(p.controller.delay))),
       clock_(p.controller, p.randomness),
-      drive_(p.dac, p.amplifier, p.controller.delay, sample_time_, p.randomness, jitters_),
+      drive_(p.dac, p.amplifier, p.controller.delay, sample_time_, p.randomness, jitters_,
+             trial::held_torque(p)),
       disturbance_(varying_part(p)),
       vibration_(lanes_have_lines() ? std::vector<motion::Vibration>{} : disturbance_.vibration,
                  sample_time_),
+      last_torque_(trial::held_torque(p)),
       alike_(delayed_) {
   // Until the first sample, which may be late.
   late_.next = clock_.lateness(0);
-  pieces_[0] = {motion::constant_torque(0.0), late_.next, 1.0};
+  pieces_[0] = {motion::constant_torque(last_torque_), late_.next, 1.0};
   count_ = 1;
   piece_end_ = late_.next;
 }

@@ -86,7 +86,7 @@ class LaneDrive {
   motion::Disturbance disturbance_;
   VibrationSeries vibration_;
   loop::Lateness late_{};
-  double last_torque_{0.0};
+  double last_torque_;  // that was sent last; before the first, the torque held
   std::int64_t alike_;  // number of equal torques sent last
   std::array<loop::TorquePiece, 8> pieces_{};
   std::size_t count_{0};

@@ -14,6 +14,7 @@
 #include "core/loop/dac.hpp"
 #include "core/loop/drive.hpp"
 #include "core/loop/measurement.hpp"
+#include "core/trial/rig.hpp"
 
 namespace zerocount::batch {
 namespace {
@@ -30,6 +31,12 @@ bool has_queues(const loop::ControlBlocks& blocks) {
   return blocks.derivative_window > 1 || (blocks.structure == loop::ControlStructure::cascade &&
                                           (c.feedforward != 0.0 || c.divider > 1 || c.latency > 0 ||
                                            c.resolution > 0.0 || std::isfinite(c.limit)));
+}
+
+/// Whether blocks behind the integral start in the steady state of a torque that the integral holds.
+bool starts_with_held_blocks(const trial::TrialParameters& p) {
+  const loop::ControlBlocks& blocks = p.controller.blocks;
+  return (!blocks.filters.empty() || blocks.observer.bandwidth > 0.0) && trial::held_torque(p) != 0.0;
 }
 
 /// Whether noise of the fine encoder is the only error of encoders and converter that is drawn.
@@ -218,7 +225,7 @@ bool needs_lane_loop(const trial::TrialParameters& p) {
          p.controller.encoder != loop::EncoderChoice::fine ||
          p.command.profile.shape != loop::ReferenceShape::step || p.controller.user.plugin ||
          !p.command.torque.levels.empty() || p.controller.blocks.filters.size() > max_lane_filters ||
-         has_queues(p.controller.blocks) || std::isfinite(p.dac.limit);
+         has_queues(p.controller.blocks) || std::isfinite(p.dac.limit) || starts_with_held_blocks(p);
 }
 
 bool is_steady_at_zero(const trial::TrialParameters& p) {

@@ -27,7 +27,8 @@ bool needs_lane_noise(const trial::TrialParameters& parameters);
 /// Whether the sampled loop of the trial has a feature that the sampling kernels lack: errors of an encoder
 /// other than noise of the fine one, errors of the converter, missed samples, two phases, the coarse encoder,
 /// a reference with a profile, a plugin, measures of the true motion, torque levels, a window of counts, the
-/// queues of a cascade, a limit of the amplifier, or more filters than they have.
+/// queues of a cascade, a limit of the amplifier, filters or an observer that start with a held torque, or
+/// more filters than they have.
 bool needs_lane_loop(const trial::TrialParameters& parameters);
 
 /// Whether the angle alone decides the counts, and the code the torque.

@@ -7,6 +7,7 @@
 #include "core/friction/bristles/gms.hpp"
 #include "core/friction/sliding/none.hpp"
 #include "core/loop/controller/controller.hpp"
+#include "core/loop/controller/disturbance_observer.hpp"
 #include "core/loop/controller/pid.hpp"
 #include "core/loop/dac.hpp"
 #include "core/loop/drive.hpp"
@@ -19,6 +20,13 @@ namespace zerocount::batch {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Those of the encoder that closes the loop.
+loop::CountsBefore counts_before(const trial::TrialParameters& p) {
+  const loop::StartOfMotion start = trial::start_of_motion(p);
+  return {loop::fine_encoder(p.encoder, start.phase), start.theta, start.velocity,
+          1.0 / p.controller.sample_rate, 1.0};
+}
 
 void start_loop(LoopLanes& l, int lane, const trial::TrialParameters& p) {
   const loop::Encoder encoder = loop::fine_encoder(p.encoder, p.initial.encoder_phase);
@@ -36,7 +44,7 @@ void start_loop(LoopLanes& l, int lane, const trial::TrialParameters& p) {
   l.highest_code[lane] = static_cast<double>(loop::highest_code(p.dac));
   l.integral[lane] = trial::initial_integral(p);
   l.error[lane] = 0.0;
-  l.count[lane] = 0.0;
+  l.count[lane] = -loop::counted_since(counts_before(p), 1);
   const bool is_open = !p.command.torque.levels.empty();
   l.quiet_from[lane] = is_open ? -infinity : 0.0;
   l.quiet_to[lane] = is_open ? infinity : 1.0;
@@ -85,7 +93,11 @@ void start_blocks(BlockLanes& b, int lane, const trial::TrialParameters& p, doub
                                               : loop::BiquadConstants<double>{1.0, 0.0, 0.0, 0.0, 0.0});
   }
   b.observes[lane] = blocks.observer.bandwidth > 0.0 ? 1.0 : 0.0;
-  store_constants(b.observer, lane, loop::observer_constants(blocks.observer, sample_rate, resolution));
+  const loop::ObserverConstants<double> observer =
+      loop::observer_constants(blocks.observer, sample_rate, resolution);
+  store_constants(b.observer, lane, observer);
+  store_constants(b.observer_state, lane, loop::observer_state_after(observer, counts_before(p)));
+  b.difference[lane] = loop::counts_per_sample(counts_before(p));
   store_constants(b.deadband, lane, loop::error_deadband_constants(blocks.error_deadband));
   store_constants(b.standstill, lane, loop::standstill_constants(blocks.standstill, sample_rate));
   store_constants(b.hold, lane, loop::hold_constants(blocks.hold, sample_rate));

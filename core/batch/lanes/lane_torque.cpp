@@ -1,6 +1,7 @@
 // The torque on the rotor from sample to sample, in lanes with a LaneDrive.
 #include "core/batch/lanes/running_batch.hpp"
 #include "core/numerics/elementary_functions.hpp"
+#include "core/trial/rig.hpp"
 
 namespace zerocount::batch {
 namespace {
@@ -41,6 +42,9 @@ void start_drive_kernel(DriveLanes& d, int lane, const LaneTrial& trial) {
   for_each_quantity(d, [lane](Lanes& quantity) { quantity[lane] = 0.0; });
   d.delay[lane] = d.alike[lane] = p.controller.delay;
   d.rate[lane] = loop::lag_rate(p.amplifier);
+  const double held = trial::held_torque(p);
+  d.now[lane] = d.settled[lane] = d.last[lane] = held;
+  for (Lanes& waiting : d.waiting) waiting[lane] = held;
   d.decay[lane] = numerics::exp(-d.rate[lane] * (1.0 / p.controller.sample_rate));
   d.disturbed[lane] = drive.disturbance_varies() ? 1.0 : 0.0;
   const bool is_contact = trial.motion == LaneMotion::contact;

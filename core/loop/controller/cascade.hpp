@@ -80,7 +80,7 @@ class Cascade {
                   start.integral),
         command_(parameters.blocks.cascade),
         difference_(derivative_pole(parameters.blocks, parameters.sample_rate),
-                    parameters.blocks.derivative_window) {}
+                    parameters.blocks.derivative_window, start.velocity_before) {}
 
   double step(const Feedback& now, double /*torque*/ = 0.0) {
     const double w = velocity_error(constants_, command(now), difference_.step(now.velocity_count));

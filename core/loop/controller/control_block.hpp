@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/loop/encoder.hpp"
 #include "core/loop/parameters.hpp"
 
 namespace zerocount::loop {
@@ -76,6 +77,8 @@ struct ControlStart {
   DacScale dac{};
   double velocity_resolution{1.0};  ///< Δx of the encoder of velocity_count, rad per count
   double other_resolution{0.0};     ///< Δx of the encoder of other_count, rad per count; 0 without it
+  CountsBefore before{};            ///< counts before the first sample
+  CountsBefore velocity_before{};   ///< velocity_counts before the first sample
 };
 
 /// A block of the controller (README.md): its parameters, its state, and its law from sample to sample.

@@ -35,8 +35,8 @@ class BlockChain {
   void pause(const Feedback& now) {
     for_each([&](auto& block) { block.pause(now); });
   }
-  /// The next sample continues from this torque in force (N m). From the last block to the first, each
-  /// returns the torque that it needs from the one before.
+  /// The next sample, which may be the first, continues from this torque in force (N m). From the last block
+  /// to the first, each returns the torque that it needs from the one before.
   void take_over(double torque) { take_over_by<sizeof...(Blocks)>(torque); }
 
   LinearChain linear() const {

@@ -7,12 +7,15 @@
 
 namespace zerocount::loop {
 
-PhaseSwitch::PhaseSwitch(const CoarsePhaseParameters& rule, double sample_rate)
-    : rule_(rule), dwell_(std::max(1.0, std::round(rule.fine_dwell * sample_rate))) {}
+PhaseSwitch::PhaseSwitch(const CoarsePhaseParameters& rule, double sample_rate,
+                         const CountsBefore& coarse_before)
+    : rule_(rule),
+      dwell_(std::max(1.0, std::round(rule.fine_dwell * sample_rate))),
+      first_change_(counted_since(coarse_before, 1)) {}
 
 bool PhaseSwitch::update(const Feedback& fine, const Feedback& coarse) {
   const bool first = !last_coarse_count_.has_value();
-  const double count_change = coarse.count - last_coarse_count_.value_or(coarse.count);
+  const double count_change = first ? first_change_ : coarse.count - *last_coarse_count_;
   last_coarse_count_ = coarse.count;
 
   const bool settled =
@@ -83,31 +86,63 @@ bool has_coarse_phase(const ControllerParameters& parameters) {
 
 namespace {
 
+/// Counts before the first sample of the encoder that closes a phase's loop.
+CountsBefore counts_before(const EncoderParameters& encoders, EncoderChoice encoder, double sample_rate,
+                           const StartOfMotion& start) {
+  const double sample_time = 1.0 / sample_rate;
+  switch (encoder) {
+    case EncoderChoice::coarse:
+      return {coarse_encoder(encoders, start.phase), start.theta, start.velocity, sample_time,
+              fine_per_coarse(encoders)};
+    case EncoderChoice::fine:
+      break;
+  }
+  return {fine_encoder(encoders, start.phase), start.theta, start.velocity, sample_time, 1.0};
+}
+
 ControlStart control_start(const ControllerParameters& parameters, const EncoderParameters& encoders,
-                           bool velocity_by_other, double integral, const DacScale& dac) {
+                           ControlPhase phase, double integral, const DacScale& dac,
+                           const StartOfMotion& start) {
+  const bool fine = phase == ControlPhase::fine;
+  const bool velocity_by_other = fine && parameters.velocity_by_other;
+  const CountsBefore before = counts_before(encoders, fine ? parameters.encoder : parameters.coarse.encoder,
+                                            parameters.sample_rate, start);
+  const CountsBefore other_before{{other_resolution(encoders), start.other_phase},
+                                  start.other_theta,
+                                  start.velocity,
+                                  1.0 / parameters.sample_rate,
+                                  1.0};
   return {integral,
           integral_range(parameters.anti_windup, dac.range.lowest, dac.range.highest),
           fine_resolution(encoders),
           dac,
           velocity_by_other ? other_resolution(encoders) : fine_resolution(encoders),
-          has_other(encoders) ? other_resolution(encoders) : 0.0};
+          has_other(encoders) ? other_resolution(encoders) : 0.0,
+          before,
+          velocity_by_other ? other_before : before};
 }
 
 }  // namespace
 
 Controller::Controller(const ControllerParameters& parameters, const EncoderParameters& encoders,
-                       double integral, const DacScale& dac)
+                       double integral, const DacScale& dac, const StartOfMotion& start)
     : two_phases_(has_coarse_phase(parameters)),
       fine_encoder_(parameters.encoder),
       coarse_encoder_(parameters.coarse.encoder),
       velocity_by_other_(parameters.velocity_by_other),
       fine_per_coarse_(loop::fine_per_coarse(encoders)),
       fine_(controller_in_phase(parameters, ControlPhase::fine),
-            control_start(parameters, encoders, velocity_by_other_, integral, dac)),
+            control_start(parameters, encoders, ControlPhase::fine, integral, dac, start)),
       // Without two phases it is not used, and a user's law must not be started twice.
       coarse_(two_phases_ ? controller_in_phase(parameters, ControlPhase::coarse) : ControllerParameters{},
-              control_start(parameters, encoders, false, integral, dac)),
-      switch_(parameters.coarse, parameters.sample_rate) {}
+              control_start(parameters, encoders, ControlPhase::coarse, integral, dac, start)),
+      switch_(parameters.coarse, parameters.sample_rate,
+              counts_before(encoders, parameters.coarse.encoder, parameters.sample_rate, start)) {}
+
+void Controller::hold(double torque) {
+  fine_.take_over(torque);
+  coarse_.take_over(torque);
+}
 
 double Controller::update(std::int64_t reference, const EncoderReading& reading, double torque_in_force,
                           const ReferenceMotion& motion, bool new_target, std::int64_t sample) {

@@ -21,7 +21,8 @@ namespace zerocount::loop {
 class PhaseSwitch {
  public:
   /// @param sample_rate Hz.
-  PhaseSwitch(const CoarsePhaseParameters& rule, double sample_rate);
+  /// @param coarse_before counts of the coarse phase before the first sample.
+  PhaseSwitch(const CoarsePhaseParameters& rule, double sample_rate, const CountsBefore& coarse_before = {});
 
   /// Decides the phase of this sample.
   /// @param fine, coarse readings of the encoders of the two phases.
@@ -35,7 +36,8 @@ class PhaseSwitch {
   ControlPhase next_phase(const Feedback& fine) const;
 
   CoarsePhaseParameters rule_;
-  double dwell_;  ///< D, which may be more than any number of samples
+  double dwell_;         ///< D, which may be more than any number of samples
+  double first_change_;  ///< count_0 − count_{−1} of the coarse phase
   ControlPhase phase_{ControlPhase::fine};
   std::int64_t changes_{0};
   std::int64_t settled_{0};  ///< successive samples that meet the condition of the fine phase
@@ -69,8 +71,13 @@ TorqueRange integral_range(AntiWindup anti_windup, double lowest, double highest
 class Controller {
  public:
   /// @param integral I before the first sample, N m, of the phase of that sample.
+  /// @param start by which the counts before the first sample are known.
   Controller(const ControllerParameters& parameters, const EncoderParameters& encoders, double integral,
-             const DacScale& dac);
+             const DacScale& dac, const StartOfMotion& start = {});
+
+  /// Starts from the steady state in which the axis stands still under this torque (N m). To be called before
+  /// the first sample, whose torque_in_force is to be that torque.
+  void hold(double torque);
 
   /// The wanted torque (N m) at this sample.
   /// @param reference in counts of the fine encoder; its motion is that before it is rounded to them.

@@ -22,15 +22,19 @@ inline double derivative_pole(const ControlBlocks& blocks, double sample_rate) {
 ///
 ///   D(z) = (1 − a)·(1 − z⁻ᴺ)/(N·(1 − a·z⁻¹))·Count(z).
 ///
-/// The counts before the first are the first, d before it is 0.
+/// The counts before the first are those of CountsBefore, and d before it is their mean difference v₀·T/Δx,
+/// the steady state of the filter.
 class CountDifference {
  public:
-  explicit CountDifference(double pole, int window = 1)
-      : pole_(pole), window_(static_cast<std::size_t>(window)) {}
+  explicit CountDifference(double pole, int window = 1, const CountsBefore& before = {})
+      : pole_(pole),
+        window_(static_cast<std::size_t>(window)),
+        before_(before),
+        difference_(counts_per_sample(before)) {}
 
   /// d at this sample, counts.
   double step(double count) {
-    if (last_counts_.empty()) last_counts_.assign(window_, count);
+    if (last_counts_.empty()) start(count);
     const double change = (count - last_counts_[oldest_]) / static_cast<double>(window_);
     difference_ = filtered_difference(pole_, difference_, change);
     pass(count);
@@ -55,11 +59,16 @@ class CountDifference {
   }
 
  private:
+  void start(double first_count) {
+    for (std::size_t j = window_; j > 0; --j) last_counts_.push_back(first_count - counted_since(before_, j));
+  }
+
   double pole_;
-  std::size_t window_;               // N
+  std::size_t window_;  // N
+  CountsBefore before_;
   std::vector<double> last_counts_;  // of the last N samples, in a ring; empty before the first
   std::size_t oldest_{0};            // count_{k−N} in it
-  double difference_{0.0};
+  double difference_;
 };
 
 }  // namespace zerocount::loop

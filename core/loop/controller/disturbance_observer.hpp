@@ -18,6 +18,14 @@ inline ObserverConstants<double> observer_constants(const ObserverParameters& ob
   return {observer.inertia * rate * rate * acceleration.b0 * resolution, q.b0, q.a1, q.a2};
 }
 
+/// The state after these counts without torque, with d̂ = 0 and the next count the first.
+inline BiquadState<double> observer_state_after(const ObserverConstants<double>& c,
+                                                const CountsBefore& before) {
+  const double last = counted_since(before, 1);
+  const double last_but_one = counted_since(before, 2);
+  return {c.acceleration * (2.0 * last - last_but_one), -c.acceleration * last};
+}
+
 /// A disturbance observer, which subtracts its estimate d̂ of the disturbance from the torque of the blocks
 /// before:
 ///
@@ -32,12 +40,17 @@ inline ObserverConstants<double> observer_constants(const ObserverParameters& ob
 ///
 /// Source: Ohnishi, Shibata, Murakami, "Motion control for advanced mechatronics", IEEE/ASME Transactions on
 /// Mechatronics 1 (1996) 56–67. Without bandwidth the torque goes through unchanged.
+///
+/// Before the first sample u₁ and d̂ were 0, and the counts those of CountsBefore: a motion at a constant
+/// velocity is no disturbance. After take_over before the first sample the axis stood still under that torque
+/// instead, and d̂ was minus it.
 class DisturbanceObserver {
  public:
   DisturbanceObserver(const ControllerParameters& parameters, const ControlStart& start)
       : acts_(parameters.blocks.observer.bandwidth > 0.0),
         constants_(observer_constants(parameters.blocks.observer, parameters.sample_rate,
-                                      start.velocity_resolution)) {}
+                                      start.velocity_resolution)),
+        state_(observer_state_after(constants_, start.velocity_before)) {}
 
   double step(const Feedback& now, double torque) {
     observe(now);
@@ -50,7 +63,10 @@ class DisturbanceObserver {
     estimate_ = observer_step(constants_, state_, now.velocity_count - first_count_, now.torque_in_force);
   }
   static void pause(const Feedback& /*now*/) {}
-  double take_over(double torque) const { return torque + estimate_; }
+  double take_over(double torque) {
+    if (acts_ && !started_) hold(torque);
+    return torque + estimate_;
+  }
 
   LinearChain linear() const {
     if (!acts_) return {};
@@ -62,9 +78,17 @@ class DisturbanceObserver {
   }
 
  private:
+  /// The steady state of an axis that stands still under this torque (N m): d̂ is minus it.
+  void hold(double torque) {
+    const auto& [acceleration, q, a1, a2] = constants_;
+    estimate_ = -torque;
+    state_.s2 = -q * torque - a2 * estimate_;
+    state_.s1 = -2.0 * q * torque - a1 * estimate_ + state_.s2;
+  }
+
   bool acts_;
   ObserverConstants<double> constants_;
-  BiquadState<double> state_{0.0, 0.0};
+  BiquadState<double> state_;
   double estimate_{0.0};  ///< d̂ at the last sample, N m
   double first_count_{0.0};
   bool started_{false};

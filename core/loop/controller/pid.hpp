@@ -89,7 +89,7 @@ class Pid {
             Integrator(integral_constants(parameters.blocks, parameters.sample_rate, start.integral_range),
                        start.integral),
             CountDifference(derivative_pole(parameters.blocks, parameters.sample_rate),
-                            parameters.blocks.derivative_window)) {
+                            parameters.blocks.derivative_window, start.before)) {
     deadband_ = error_deadband_constants(parameters.blocks.error_deadband);
     standstill_ = standstill_constants(parameters.blocks.standstill, parameters.sample_rate);
   }

@@ -137,6 +137,58 @@ TEST(ASecondMass, ComesToRestWithTheRotorAsInTheReference) {
   EXPECT_LT(agreement.slides, 20);
 }
 
+/// The counts before the first sample are those of the initial velocity, in the difference of counts, behind
+/// its filter and in the observer.
+TEST(ATrialThatStartsInMotion, IsFollowedAsByTheReference) {
+  std::vector<trial::TrialParameters> trials;
+  for (std::uint64_t i = 0; i < 200; ++i) {
+    trial::TrialParameters p = trial_for_lanes(TrialKind::calm, 90000 + i);
+    RandomBlocks draw(i);
+    constexpr BlockKind kinds[]{BlockKind::none, BlockKind::derivative, BlockKind::observer,
+                                BlockKind::cascade};
+    p.controller.blocks = draw.blocks(kinds[i % std::size(kinds)], p.controller.sample_rate);
+    p.controller.blocks.derivative_window = 1;
+    p.controller.kd = draw.log_uniform(1e-5, 1e-3);
+    p.initial.velocity =
+        draw.uniform(-30.0, 30.0) * loop::fine_resolution(p.encoder) * p.controller.sample_rate;
+    trials.push_back(p);
+  }
+  expect_agreement(trials, "starts in motion");
+}
+
+/// What the contact cannot carry the integral holds, through delay, amplifier, late samples and blocks.
+TEST(AHeldStart, IsTheReferencesInTheLanes) {
+  std::vector<trial::TrialParameters> trials;
+  for (std::uint64_t i = 0; i < 120; ++i) {
+    trial::TrialParameters p = trial_for_lanes(TrialKind::loaded, 91000 + i);
+    RandomBlocks draw(i);
+    p.initial = {.encoder_phase = 0.5, .holding = true};
+    p.friction.model = i % 2 == 0 ? friction::FrictionModel::none : friction::FrictionModel::coulomb;
+    const double sign = i % 3 == 0 ? -1.0 : 1.0;
+    p.disturbance = {.torque = sign * draw.uniform(1.1, 3.0) * p.friction.uniform.breakaway};
+    p.dac = {.bits = 20, .resolution = 8.0 * p.friction.uniform.breakaway / (1 << 20)};
+    p.controller.delay = static_cast<double>(i % 4);
+    if (i % 5 == 0) p.amplifier.bandwidth = draw.uniform(50.0, 300.0);
+    if (i % 8 == 0) p.controller.jitter = 0.3 / p.controller.sample_rate;
+    if (i % 7 == 0) p.controller.blocks.observer = {.bandwidth = 20.0, .inertia = p.plant.inertia};
+    if (i % 7 == 1) p.controller.blocks.filters = {{.frequency = 0.1 * p.controller.sample_rate}};
+    p.command.hold = 150.0 / p.controller.sample_rate;
+    trials.push_back(p);
+  }
+  const std::vector<BatchedTrial> batched = run_batch(trials);
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    ASSERT_TRUE(batch::runs_in_lanes(trials[i])) << i;
+    const BatchedTrial reference = run_by_reference(trials[i]);
+    const double resolution = loop::fine_resolution(trials[i].encoder);
+    ASSERT_GT(reference.samples.size(), 100u);
+    // A fall would be of thousands of counts; the law answers to the count that the start rounds away.
+    for (std::size_t k = 0; k < 100; ++k) {
+      ASSERT_EQ(batched[i].samples[k].code, reference.samples[k].code) << i << ", sample " << k;
+      ASSERT_NEAR(batched[i].samples[k].theta, reference.samples[k].theta, 1e-3 * resolution) << i;
+    }
+  }
+}
+
 // The batch engine against the reference under the laws that have no hook: an air bearing, Coulomb's, Dahl's,
 // LuGre's and the generalised Maxwell-slip model.
 

@@ -1,5 +1,5 @@
 // An axis that holds what acts on it and on its second mass stands still, with the contact or the integral
-// carrying it.
+// carrying it, whatever lies between the integral and the motor.
 #include <algorithm>
 #include <cmath>
 
@@ -40,6 +40,21 @@ struct HeldAxis {
     p.dac = {.bits = 52, .resolution = 1e-13};
     p.controller.kp = p.controller.ki = p.controller.kd = 0.0;
     p.command = {.targets = {0}, .hold = 0.05};
+    put_a_drive_between();
+  }
+
+  /// What a torque passes on its way from the integral to the motor.
+  void put_a_drive_between() {
+    if (draws.chance(0.7)) p.controller.delay = draws.uniform(0.0, 3.5);
+    if (draws.chance(0.5)) p.amplifier.bandwidth = draws.log_uniform(20.0, 5000.0);
+    if (draws.chance(0.4)) p.controller.jitter = draws.uniform(0.0, 0.9) / p.controller.sample_rate;
+    if (draws.chance(0.4)) p.controller.missed = 0.4;
+    loop::ControlBlocks& blocks = p.controller.blocks;
+    if (draws.chance(0.4))
+      blocks.filters = {{.kind = loop::FilterKind::lowpass, .frequency = draws.uniform(20.0, 400.0)},
+                        {.kind = loop::FilterKind::biquad, .b = {0.3, 0.2, 0.0}, .a = {-0.4, 0.1}}};
+    if (draws.chance(0.3))
+      blocks.observer = {.bandwidth = draws.uniform(2.0, 40.0), .inertia = p.plant.inertia};
   }
 
   testing::Draws draws;

@@ -14,8 +14,16 @@ struct LiteralFeedback {
   std::vector<Real> error;
   std::vector<Real> count;
   Real error_before(std::size_t k) const { return k == 0 ? 0 : error[k - 1]; }
-  Real count_change(std::size_t k) const { return k == 0 ? 0 : count[k] - count[k - 1]; }
+  Real first_change{0};  ///< of the first count, from that of a motion at the initial velocity
+  Real count_change(std::size_t k) const { return k == 0 ? first_change : count[k] - count[k - 1]; }
 };
+
+/// ⌊θ₀/Δx + phase⌋ − ⌊(θ₀ − v₀·T)/Δx + phase⌋.
+Real first_change(const trial::TrialParameters& p, Real theta, Real resolution) {
+  const Real phase = p.initial.encoder_phase;
+  const Real before = theta - static_cast<Real>(p.initial.velocity) / p.controller.sample_rate;
+  return std::floor(theta / resolution + phase) - std::floor(before / resolution + phase);
+}
 
 LiteralFeedback feedback_by(loop::EncoderChoice encoder, const trial::TrialParameters& p,
                             const Samples& samples) {
@@ -27,6 +35,10 @@ LiteralFeedback feedback_by(loop::EncoderChoice encoder, const trial::TrialParam
                                  : static_cast<Real>(sample.coarse_count) * fine_per_coarse);
     feedback.error.push_back(static_cast<Real>(sample.reference) - feedback.count.back());
   }
+  const bool is_fine = encoder == loop::EncoderChoice::fine;
+  const Real resolution = is_fine ? static_cast<Real>(p.encoder.fine_length) / p.encoder.fine
+                                  : static_cast<Real>(p.encoder.coarse_length) / p.encoder.coarse;
+  feedback.first_change = (is_fine ? 1 : fine_per_coarse) * first_change(p, 0, resolution);
   return feedback;
 }
 

@@ -4,12 +4,14 @@
 
 #include "core/loop/controller/control_chain.hpp"
 #include "core/loop/controller/count_difference.hpp"
+#include "core/loop/controller/disturbance_observer.hpp"
 #include "core/loop/controller/filter.hpp"
 #include "core/loop/controller/pid.hpp"
 #include "core/loop/controller/user_law.hpp"
 #include "core/plugin/controller_plugin.hpp"
 #include "tests/core/loop/random_blocks.hpp"
 #include "tests/core/loop/test_blocks.hpp"
+#include "tests/support/draws.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount::loop {
@@ -99,6 +101,72 @@ TEST(CountDifference, WithoutAFilterIsTheDifferenceBitForBit) {
     const double count = normal(random);
     ASSERT_EQ(difference.step(count), count - last);
     last = count;
+  }
+}
+
+// The counts before the first sample.
+
+/// The counts of an encoder on a motion at a constant velocity, n_0 that of θ₀.
+double count_of_motion(const CountsBefore& motion, double k) {
+  const double theta = motion.theta + k * motion.velocity * motion.sample_time;
+  return std::floor(theta / motion.encoder.resolution + motion.encoder.phase);
+}
+
+CountsBefore random_motion(testing::Draws& draws) {
+  CountsBefore motion;
+  motion.encoder = {draws.log_uniform(1e-9, 1e-3), draws.uniform(0.0, 1.0)};
+  motion.sample_time = draws.log_uniform(1e-5, 1e-2);
+  motion.velocity =
+      draws.sign() * draws.log_uniform(1e-2, 1e2) * motion.encoder.resolution / motion.sample_time;
+  motion.theta = draws.uniform(-10.0, 10.0) * motion.encoder.resolution;
+  return motion;
+}
+
+// A difference that begins in a uniform motion is the one that has always seen this motion.
+TEST(CountDifference, ContinuesTheMotionBeforeTheFirstSample) {
+  testing::Draws draws(12);
+  for (int i = 0; i < 300; ++i) {
+    const CountsBefore motion = random_motion(draws);
+    const int window = static_cast<int>(draws.integer(1, 20));
+    const double pole = draws.chance(0.5) ? 0.0 : draws.uniform(0.0, 0.99);
+    CountDifference difference(pole, window, motion);
+    CountDifference always(pole, window);
+    for (int k = -3000; k < 0; ++k) always.step(count_of_motion(motion, k));
+    for (int k = 0; k < 60; ++k) {
+      // What is left of the counts before the first is less than one in the window.
+      const double allowed = std::pow(pole, k + 1) / window + 1e-9 * std::abs(counts_per_sample(motion));
+      const double count = count_of_motion(motion, k);
+      ASSERT_NEAR(difference.step(count), always.step(count), allowed) << i << ", sample " << k;
+    }
+  }
+}
+
+TEST(CountDifference, OfAnAxisAtRestBeginsAtZeroWhateverTheFirstCount) {
+  CountDifference difference(0.5, 4, {.encoder = {1e-6, 0.3}, .theta = 7e-4});
+  EXPECT_EQ(difference.step(-12345.0), 0.0);
+  EXPECT_EQ(difference.step(-12345.0), 0.0);
+}
+
+// What a uniform motion without torque shows is below what the counts round.
+TEST(DisturbanceObserver, SeesNoDisturbanceInAUniformMotion) {
+  testing::Draws draws(13);
+  for (int i = 0; i < 200; ++i) {
+    ControllerParameters parameters;
+    parameters.sample_rate = 1000.0;
+    parameters.blocks.observer = {draws.log_uniform(1.0, 100.0), 1e-3};
+    ControlStart start;
+    start.velocity_before = random_motion(draws);
+    start.velocity_before.sample_time = 1e-3;
+    start.velocity_before.velocity = draws.sign() * 100.0 * start.velocity_before.encoder.resolution / 1e-3;
+    start.velocity_resolution = start.velocity_before.encoder.resolution;
+    DisturbanceObserver observer(parameters, start);
+    const auto constants = observer_constants(parameters.blocks.observer, 1000.0, start.velocity_resolution);
+    for (int k = 0; k < 200; ++k) {
+      Feedback now;
+      now.velocity_count = count_of_motion(start.velocity_before, k);
+      // Three counts apart in the second difference, and not the hundred of the first one.
+      ASSERT_LT(std::abs(observer.step(now, 0.0)), 4.0 * constants.acceleration) << i << ", sample " << k;
+    }
   }
 }
 
@@ -265,6 +333,32 @@ TEST(ControlChain, BlocksActOneAfterTheOther) {
   std::mt19937_64 random(18);
   for (const Input& input : random_inputs(random, 500))
     EXPECT_EQ(chain.step(input.feedback), filter.step(input.feedback, pid.step(input.feedback)));
+}
+
+// A chain that starts under a torque gives it as long as nothing moves.
+TEST(ControlChain, HoldsTheTorqueUnderWhichItStarts) {
+  RandomControl random(31);
+  for (int i = 0; i < 200; ++i) {
+    ControllerParameters parameters = random.control();
+    parameters.blocks.feedforward = {};
+    parameters.blocks.standstill = {};
+    parameters.blocks.hold = {};
+    parameters.blocks.integrator_leak = std::numeric_limits<double>::infinity();
+    const bool has_gain = std::ranges::all_of(parameters.blocks.filters, [&](const Filter& filter) {
+      const auto c = discretised(filter, parameters.sample_rate);
+      return std::abs(c.b0 + c.b1 + c.b2) > 1e-3;
+    });
+    if (!has_gain) continue;
+    ControlChain chain(parameters, at_rest);
+    chain.take_over(0.7);
+    for (int k = 0; k < 200; ++k) {
+      Feedback now;
+      now.torque_in_force = 0.7;
+      now.count = now.velocity_count = 5.0;
+      now.sample = k;
+      ASSERT_NEAR(chain.step(now), 0.7, 1e-6) << i << ", sample " << k;
+    }
+  }
 }
 
 // The filters: their response at the frequencies that the definition fixes, their stability, and how they go

@@ -85,7 +85,8 @@ double delay_margin(const ExaminedLoop& loop) {
 // In the coarse phase, if there is one: it makes the long moves.
 double presliding_range_over_move(const ExaminedLoop& loop) {
   const bool coarse = loop::has_coarse_phase(loop.trial.controller);
-  const bool makes_moves = loop.of_trial.slides && (!coarse || loop.of_trial.name.ends_with("coarse phase"));
+  const bool makes_moves =
+      loop.of_trial.slides && (!coarse || loop.of_trial.phase == loop::ControlPhase::coarse);
   if (!makes_moves || loop.stability != LoopStability::unstable) return not_concerned;
   return loop.travel.range / loop.travel.move;
 }

@@ -40,20 +40,43 @@ double as_given(const parameters::StudyUnits& units, const trial::TrialParameter
   return analogue_gains(controller, p.encoder).ki;
 }
 
-/// ki below which the trial's sampled loop is stable about a spring of `stiffness` (N m/rad), N m/count.
-double sampled_bound(double stiffness, const trial::TrialParameters& p) {
-  return sampled_critical_integral_gain(stiffness, p.plant, p.encoder, p.controller, drive_of(p));
+/// The motor on a spring of `stiffness` (N m/rad) before it slides.
+friction::LinearContact contact_before_sliding(double stiffness, const trial::TrialParameters& p) {
+  return {"", stiffness, p.plant.presliding_damping};
 }
 
-/// Adds the slowest time constant of the loop in the fine phase about a spring of `stiffness` (N m/rad).
-/// Returns false, and adds nothing, if that loop is not stable.
+/// ki below which all sampled loops of the trial about a spring of `stiffness` (N m/rad) are stable, N
+/// m/count.
+double sampled_bound(double stiffness, const trial::TrialParameters& p) {
+  const friction::LinearContact contact = contact_before_sliding(stiffness, p);
+  const double scale = static_stiffness(stiffness, p.encoder, p.controller);
+  double bound = std::numeric_limits<double>::infinity();
+  for (const LoadState& state : load_states(p)) {
+    if (!loop_in_state(contact, state, p, p.controller)) continue;
+    const auto loop_with = [&](const loop::ControllerParameters& controller) {
+      return *loop_in_state(contact, state, p, controller);
+    };
+    bound = std::min(bound, sampled_critical_integral_gain(loop_with, p.controller, scale));
+  }
+  return bound;
+}
+
+/// Adds the slowest time constants of the position loops in the fine phase about a spring of `stiffness` (N
+/// m/rad). Returns false if one of them is not stable, which adds nothing.
 bool add_time_constant(Range& slowest, double stiffness, const trial::TrialParameters& p) {
-  const double tau =
-      slowest_time_constant(stiffness, p.plant, p.encoder,
-                            loop::controller_in_phase(p.controller, loop::ControlPhase::fine), drive_of(p));
-  if (!std::isfinite(tau) || tau <= 0.0) return false;
-  slowest.add(tau);
-  return true;
+  const auto controller = loop::controller_in_phase(p.controller, loop::ControlPhase::fine);
+  bool stable = true;
+  for (const LoadState& state : load_states(p)) {
+    const auto loop = loop_in_state(contact_before_sliding(stiffness, p), state, p, controller);
+    if (!loop || !loop->closes_position) continue;
+    const double tau = slowest_time_constant(poles_of(*loop), loop->sample_time);
+    if (std::isfinite(tau) && tau > 0.0) {
+      slowest.add(tau);
+    } else {
+      stable = false;
+    }
+  }
+  return stable;
 }
 
 double hold_of(const trial::TrialParameters& p) {
@@ -83,6 +106,7 @@ void add_loops(std::vector<LoopRanges>& loops, const trial::TrialParameters& p) 
   for (const TrialLoop& of_trial : trial_loops(p)) {
     LoopRanges& ranges = ranges_of(loops, of_trial);
     const StabilityMargins margins = stability_margins(of_trial.loop);
+    if (margins.no_gain_stabilises) ranges.no_gain_stabilises = true;
     ranges.gain.add(20.0 * std::log10(margins.gain.value));
     ranges.gain_at.add(margins.gain.frequency);
     ranges.phase.add(margins.phase.value);
@@ -290,6 +314,7 @@ PointTheory examine(const study::Study& study, std::int64_t point, std::int64_t 
       parameters::parameter_table()[parameters::find_parameter(gain).value()], study.units);
   theory.approach.hold = hold_of(first);
   theory.outside = why_outside_theory(first);
+  theory.cut = states_without_loop(first);
   if (theory.outside.empty()) {
     examine_springs(at, rotors, theory);
   } else {

@@ -77,7 +77,8 @@ struct LoopRanges {
   Range gain, gain_at;    ///< margin, dB, and its frequency, Hz
   Range phase, phase_at;  ///< margin, degrees, and its frequency, Hz
   std::set<LoopStability> stability;
-  Range slow;  ///< slowest time constants longer than the hold, s
+  Range slow;                      ///< slowest time constants longer than the hold, s
+  bool no_gain_stabilises{false};  ///< In some trial the loop is unstable with every factor of its gain.
 };
 
 /// Results of the theory (section 3 of the paper) for the trials of a design point.
@@ -89,6 +90,7 @@ struct PointTheory {
   LowestStiffness lowest;
   Approach approach;
   std::vector<LoopRanges> loops;  ///< in the order of trial_loops
+  std::vector<std::string> cut;   ///< states_without_loop of the first trial
 };
 
 /// The lowest k1 (N m/rad) of a rotor, and the profile that it is of.
@@ -108,6 +110,9 @@ PointTheory examine(const study::Study& study, std::int64_t point, std::int64_t 
 /// The theory of a design point: for data each range by itself, for people statements such as "(6) stable
 /// below: 1.5e-04 N m/count". Loops are for data; people have a table of loop_description().
 document::Description<PointTheory> point_theory_description();
+
+/// Why a loop has no gain margin although it is unstable.
+inline constexpr std::string_view no_gain_text = "none: no gain stabilises it";
 
 /// "stable", "unstable in some trials" …
 std::string stability_text(const LoopRanges& loop);

@@ -18,14 +18,28 @@ using document::range_text;
 using std::optional;
 using std::string;
 
-/// A margin with its frequency. @param none what people see where no trial has a crossover
+/// "18 dB at 40 Hz"; nothing where no trial has a crossover.
+optional<string> margin_text(const Range& margin, const char* unit, const Range& frequency) {
+  const optional<string> found = range_text(margin, unit);
+  if (!found) return {};
+  return *found + " at " + range_text(frequency, "Hz").value_or("–");
+}
+
+string gain_margin_text(const LoopRanges& loop) {
+  const optional<string> found = margin_text(loop.gain, "dB", loop.gain_at);
+  if (!found) return loop.no_gain_stabilises ? string(no_gain_text) : "no phase crossover";
+  return *found + (loop.no_gain_stabilises ? "; in some trials no gain stabilises it" : "");
+}
+
+string phase_margin_text(const LoopRanges& loop) {
+  return margin_text(loop.phase, "°", loop.phase_at).value_or("no gain crossover");
+}
+
+/// A margin with its frequency. @param text for people
 void add_margin(Description<LoopRanges>& description, const string& key, const string& name, const char* unit,
-                Range LoopRanges::*margin, Range LoopRanges::*frequency, const char* none) {
+                Range LoopRanges::*margin, Range LoopRanges::*frequency, string (*text)(const LoopRanges&)) {
   description.value(everywhere(key, name, name, unit), margin)
-      .shown_as([=](const LoopRanges& loop) -> string {
-        const optional<string> found = range_text(loop.*margin, unit);
-        return found ? *found + " at " + range_text(loop.*frequency, "Hz").value_or("–") : none;
-      })
+      .shown_as(text)
       .value(in_data(key + "_at", "frequency of the " + name, "Hz"), frequency);
 }
 
@@ -231,9 +245,12 @@ Description<LoopRanges> loop_description() {
       .value(everywhere("bandwidth", "crosses gain 1 at", "bandwidth while it slides", "Hz"),
              &LoopRanges::bandwidth);
   add_margin(description, "gain_margin", "gain margin", "dB", &LoopRanges::gain, &LoopRanges::gain_at,
-             "no phase crossover");
+             gain_margin_text);
   add_margin(description, "phase_margin", "phase margin", "°", &LoopRanges::phase, &LoopRanges::phase_at,
-             "no gain crossover");
+             phase_margin_text);
+  description.value(in_data("no_gain_stabilises",
+                            "whether the loop is unstable with every factor of its gain, in some trial"),
+                    &LoopRanges::no_gain_stabilises);
   return description;
 }
 
@@ -251,8 +268,18 @@ Description<PointTheory> point_theory_description() {
                [=](Of t) {
                  return (applies(t) || t.free) && !t.approach.time_constant.empty() ? &t.approach : nullptr;
                })
-      .table(in_data("loops", "the loop at k1, at k1 + k2 and while the rotor slides"), loop_description(),
-             &PointTheory::loops);
+      .table(in_data("loops",
+                     "the loops in which the machine moves: at k1, at k1 + k2 and while the rotor slides, in "
+                     "each state of the load"),
+             loop_description(), &PointTheory::loops)
+      .value(everywhere("cut", "without a loop",
+                        "states of the load in which no encoder that the controller reads sees the motor"),
+             &PointTheory::cut)
+      .shown_as([](Of t) -> optional<string> {
+        if (t.cut.empty()) return {};
+        return fmt::format("{}: no encoder that the controller reads sees the motor there",
+                           fmt::join(t.cut, ", "));
+      });
 }
 
 }  // namespace zerocount::theory

@@ -10,20 +10,10 @@
 #include <oneapi/tbb/parallel_reduce.h>
 
 #include "analysis/text/text.hpp"
-#include "analysis/theory/trial_loops.hpp"
 #include "core/friction/law.hpp"
-#include "core/loop/controller/controller.hpp"
 #include "experiments/study/study_trial.hpp"
 
 namespace zerocount::theory {
-namespace {
-
-friction::LinearContacts linear_contacts(const trial::TrialParameters& p) {
-  return friction::traits_of(p.friction.model)
-      .linear_contacts(p.plant, p.friction, friction::friction_at(p.friction, p.initial.position));
-}
-
-}  // namespace
 
 TrialPrediction predict(const trial::TrialParameters& parameters) {
   TrialPrediction prediction;
@@ -119,33 +109,6 @@ std::string why_outside_theory(const trial::TrialParameters& parameters) {
 
 LinearDrive drive_of(const trial::TrialParameters& parameters) {
   return {1.0 + parameters.dac.gain_error, parameters.amplifier.bandwidth};
-}
-
-std::vector<TrialLoop> trial_loops(const trial::TrialParameters& parameters) {
-  std::vector<TrialLoop> loops;
-  if (has_no_linear_loop(parameters)) return loops;
-  const auto add_loop = [&](const friction::LinearContact& contact, const std::string& name,
-                            const loop::ControllerParameters& controller) {
-    loops.push_back({name, contact.slides, contact.stiffness,
-                     frozen_loop(contact.stiffness, contact.damping, parameters.plant, parameters.encoder,
-                                 controller, drive_of(parameters))});
-  };
-  const auto add = [&](const friction::LinearContact& contact, const std::string& name,
-                       loop::ControlPhase phase) {
-    const loop::ControllerParameters controller = loop::controller_in_phase(parameters.controller, phase);
-    add_loop(contact, name, controller);
-    const auto at_standstill = loop::controller_at_standstill(controller);
-    if (at_standstill && !contact.slides)
-      add_loop(contact, name + ", with the gains at standstill", *at_standstill);
-  };
-  const std::string with_phases = loop::has_coarse_phase(parameters.controller) ? ", the fine phase" : "";
-  for (const friction::LinearContact& contact : linear_contacts(parameters)) {
-    const std::string name(contact.name);
-    add(contact, contact.slides ? name + with_phases : name, loop::ControlPhase::fine);
-    if (contact.slides && !with_phases.empty())
-      add(contact, name + ", the coarse phase", loop::ControlPhase::coarse);
-  }
-  return loops;
 }
 
 motion::PlantParameters with_load_mode(motion::PlantParameters plant, double frequency) {

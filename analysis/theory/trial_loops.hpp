@@ -1,24 +1,65 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/friction/linear_contact.hpp"
+#include "core/loop/parameters.hpp"
 #include "core/theory/frozen_loop.hpp"
 #include "core/trial/parameters.hpp"
 
+/// The loops in which a machine moves, with its friction frozen: one for each contact of the motor, each
+/// state of the load and each control. All that judges loops takes them from here.
 // Beside theory_prediction.hpp, which many include: the loop brings Eigen's matrices.
 namespace zerocount::theory {
 
-/// A loop of a trial with its friction frozen.
-struct TrialLoop {
-  std::string name;       ///< "at k1", "at k1 + k2", "while sliding", "while sliding, the fine phase", …
-  bool slides{false};     ///< there is no spring
-  double stiffness{0.0};  ///< of the spring, N m/rad
-  FrozenLoop loop;
+/// The contacts that approximate the motor's friction at the start of the trial.
+friction::LinearContacts linear_contacts_of(const trial::TrialParameters& parameters);
+
+/// State of the second mass that makes a loop of its own.
+struct LoadState {
+  std::string name;           ///< ", the load stands", …; empty: the masses move together, or there is one
+  bool motor_alone{false};    ///< The motor moves and the load does not.
+  FrozenFriction friction{};  ///< Added to that of the motor.
 };
 
-/// The loop in the fine phase about each stiffness of the contact at the start, then each phase of the
-/// control while the rotor slides. Empty if has_no_linear_loop().
+/// The states of the second mass of a trial:
+///
+///     gap closed   without friction of the load: both masses move together
+///                  coulomb: the load slides, or stands, so that the coupling holds the motor
+///                  dahl, lugre: the load slides, or is held by its bristles
+///     gap open     the motor moves alone
+std::vector<LoadState> load_states(const trial::TrialParameters& parameters);
+
+/// A loop of a trial with its friction frozen.
+struct TrialLoop {
+  std::string name;       ///< "at k1", "while sliding, the fine phase", "at k1, the load stands", …
+  bool slides{false};     ///< The motor's contact has no spring.
+  double stiffness{0.0};  ///< Stiffness of the motor's contact, N m/rad.
+  FrozenLoop loop;
+  loop::ControlPhase phase{loop::ControlPhase::fine};
+  std::size_t load{0};  ///< Index of its state in load_states().
+};
+
+/// The loops about each of these contacts of the motor, in each state of the load: in the fine phase with the
+/// gains of motion and at standstill, and of a contact that slides also in the coarse phase. Where a state
+/// cuts the loop, there is none. Empty if has_no_linear_loop().
+std::vector<TrialLoop> loops_about(const friction::LinearContacts& contacts,
+                                   const trial::TrialParameters& parameters);
+
+/// The loops about each contact at the start of the trial: before sliding from the softest to the stiffest,
+/// then while sliding.
 std::vector<TrialLoop> trial_loops(const trial::TrialParameters& parameters);
+
+/// The names of the states of the load in which no encoder that the controller reads sees the motor, which
+/// moves alone: the loop is cut there.
+std::vector<std::string> states_without_loop(const trial::TrialParameters& parameters);
+
+/// The loop about a contact in a state of the load with this control; nothing where it is cut.
+std::optional<FrozenLoop> loop_in_state(const friction::LinearContact& contact, const LoadState& state,
+                                        const trial::TrialParameters& parameters,
+                                        const loop::ControllerParameters& controller);
 
 }  // namespace zerocount::theory

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "core/loop/controller/control_block.hpp"
 #include "core/loop/parameters.hpp"
 #include "core/motion/parameters.hpp"
@@ -18,19 +20,35 @@ struct FrozenLoop {
   HeldPlant plant;
   loop::LinearChain controller;
   double sample_time{0.0};  ///< T, s
+  /// Whether the loop holds a position. A velocity loop alone leaves it free: G is then what this loop reads.
+  bool closes_position{true};
 };
 
-/// The loop about a spring of `stiffness` (N m/rad) with the damping c (N m s/rad). While the rotor slides
-/// the stiffness is 0 and the damping that of sliding.
+/// The loop in which the masses move together, each against its spring and damper. While the rotor slides
+/// its stiffness is 0 and its damping that of sliding.
 /// @param controller a control without phases.
+FrozenLoop frozen_loop(const FrozenFriction& friction, const motion::PlantParameters& plant,
+                       const loop::EncoderParameters& encoder, const loop::ControllerParameters& controller,
+                       const LinearDrive& drive = {});
+/// @param stiffness, damping between rotor and frame, N m/rad and N m s/rad.
 FrozenLoop frozen_loop(double stiffness, double damping, const motion::PlantParameters& plant,
                        const loop::EncoderParameters& encoder, const loop::ControllerParameters& controller,
                        const LinearDrive& drive = {});
 
+/// The loop in which the motor moves and the load does not: in an open gap, or on the coupling of a load that
+/// stands. What reads the load gives a constant, so that only the paths from the motor's encoder close the
+/// loop. Nothing where the controller does not read the motor: the loop is then cut.
+/// @param friction that of the motor, and the coupling where it is in contact
+std::optional<FrozenLoop> loop_of_motor_alone(const FrozenFriction& friction,
+                                              const motion::PlantParameters& plant,
+                                              const loop::EncoderParameters& encoder,
+                                              const loop::ControllerParameters& controller,
+                                              const LinearDrive& drive = {});
+
 /// L of the loop.
 OpenLoop open_loop(const FrozenLoop& loop);
 
-/// The poles z of the closed loop: the eigenvalues of loop_map.
+/// The poles z of the closed loop: the eigenvalues of loop_map, without that of a free position.
 Eigen::VectorXcd poles_of(const FrozenLoop& loop);
 
 /// Behaviour, within a move, of the motion that grows fastest or dies out last.
@@ -49,8 +67,8 @@ LoopStability stability_of(const FrozenLoop& loop, double hold);
 /// `hold` (s); below 0 where it dies out.
 double log_growth(const FrozenLoop& loop, double hold);
 
-/// The slowest time constant of an approach without oscillation, s: −T/ln z of the largest real pole z in
-/// (1e-6, 1); 0 without one, infinite where a pole does not decay.
+/// Time constant of the motion that dies out last, oscillating or not, s: −T/ln|z| of the pole z of largest
+/// magnitude. 0 where all motion is gone after a sample, infinite where a pole does not decay.
 double slowest_time_constant(const Eigen::VectorXcd& poles, double sample_time);
 
 }  // namespace zerocount::theory

@@ -9,8 +9,9 @@ namespace zerocount::theory {
 namespace {
 
 /// F of d(x, v)/dt = F·(x, v), with x = (measured angle, its rate, …), v the drive's input and time in s.
-Eigen::MatrixXd generator_of(double stiffness, double damping, double inertia,
+Eigen::MatrixXd generator_of(const FrozenFriction& friction, double inertia,
                              const motion::LoadParameters& load, const LinearDrive& drive) {
+  const auto [stiffness, damping, load_stiffness, load_damping] = friction;
   const bool loaded = load.inertia > 0.0;
   const bool lags = drive.bandwidth > 0.0;
   const Eigen::Index torque = loaded ? 4 : 2;  // of the motor, or its input where it does not lag
@@ -32,7 +33,9 @@ Eigen::MatrixXd generator_of(double stiffness, double damping, double inertia,
     F(3, 3) = -load.damping / other_inertia;
     F(3, 1) = -F(3, 3);
     const Eigen::Index mass = at_load ? 1 : 3;
-    F(mass, mass) -= load.damping_to_ground / load.inertia;
+    F(mass, mass) -= (load.damping_to_ground + load_damping) / load.inertia;
+    F(mass, 0) -= load_stiffness / load.inertia;
+    if (!at_load) F(mass, 2) -= load_stiffness / load.inertia;
     F(motor, 0) -= stiffness / inertia;
     if (at_load) F(motor, 2) -= stiffness / inertia;
     F(motor, motor) -= damping / inertia;
@@ -54,10 +57,10 @@ Eigen::MatrixXd generator_of(double stiffness, double damping, double inertia,
 
 /// exp(F·t) holds the free motion over t in its upper left block and the driven one above its last entry, in
 /// counts and samples. The input changes after the delay's fraction of a sample.
-HeldPlant hold_plant(double stiffness, double damping, const motion::PlantParameters& plant,
-                     double count_angle, double sample_time, const LinearDrive& drive, double delay) {
+HeldPlant hold_plant(const FrozenFriction& friction, const motion::PlantParameters& plant, double count_angle,
+                     double sample_time, const LinearDrive& drive, double delay) {
   const double T = sample_time;
-  Eigen::MatrixXd generator = generator_of(stiffness, damping, plant.inertia, plant.load, drive);
+  Eigen::MatrixXd generator = generator_of(friction, plant.inertia, plant.load, drive);
   // From rad and rad/s to counts and counts a sample.
   Eigen::VectorXd unit = Eigen::VectorXd::Ones(generator.rows());
   for (Eigen::Index i = 0; i < (motion::has_load(plant) ? 4 : 2); ++i)

@@ -29,14 +29,27 @@ struct HeldPlant {
   double other_per_count{0.0};
 };
 
+/// Springs and dampers between the masses and the frame, in place of their friction.
+struct FrozenFriction {
+  double stiffness{0.0};       ///< Between motor and frame, N m/rad.
+  double damping{0.0};         ///< Between motor and frame, N m s/rad.
+  double load_stiffness{0.0};  ///< Between load and frame, N m/rad.
+  double load_damping{0.0};    ///< Between load and frame, beside its damping to ground, N m s/rad.
+};
+
 /// Exact discretisation of J·θ¨ + damping·θ˙ + stiffness·θ = u − Ts, with the load of `plant`, and the
-/// drive's input held over each sample. The coupling is in contact and without an error, the load without
-/// its friction.
-/// @param stiffness N m/rad. @param damping N m s/rad. @param plant its inertia and load.
+/// drive's input held over each sample. The coupling is in contact and without an error.
+/// @param plant its inertia and load.
 /// @param count_angle Δx, rad. @param sample_time T, s.
 /// @param delay samples between deciding a torque and applying it, whole or not.
-HeldPlant hold_plant(double stiffness, double damping, const motion::PlantParameters& plant,
-                     double count_angle, double sample_time, const LinearDrive& drive, double delay = 0.0);
+HeldPlant hold_plant(const FrozenFriction& friction, const motion::PlantParameters& plant, double count_angle,
+                     double sample_time, const LinearDrive& drive, double delay = 0.0);
+/// @param stiffness, damping between motor and frame, N m/rad and N m s/rad.
+inline HeldPlant hold_plant(double stiffness, double damping, const motion::PlantParameters& plant,
+                            double count_angle, double sample_time, const LinearDrive& drive,
+                            double delay = 0.0) {
+  return hold_plant(FrozenFriction{stiffness, damping}, plant, count_angle, sample_time, drive, delay);
+}
 
 /// The one-sample map x ← M·x of the loop. Its states are those of the driven rotor, of the blocks' transfer
 /// functions (direct form II transposed; paths of a stage with the same poles share them), and the torques

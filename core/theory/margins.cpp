@@ -230,22 +230,57 @@ GainCrossover highest_of(const FrozenLoop& loop, const SampledResponse& response
   return {frequency_at(loop, crossovers.back()), phase_margin(response.at(crossovers.back()))};
 }
 
+/// Whether the loop is stable with this factor of its gain, or on the edge by rounding.
+bool is_stable_with(FrozenLoop loop, double factor) {
+  constexpr double rounding = 2e-8;  // of a double eigenvalue of exactly 1
+  loop.plant.b *= factor;
+  loop.plant.b_before *= factor;
+  return log_growth(loop, loop.sample_time) <= rounding;
+}
+
+/// The factors of the gain at which a pole is on the unit circle, increasing.
+std::vector<Margin> gains_on_circle(const FrozenLoop& loop, const SampledResponse& response) {
+  std::vector<Margin> gains;
+  const auto add = [&](Complex value, double angle) {
+    // At half the sample rate a gain of 0 may round to a small one.
+    constexpr double rounding = 1e-12;
+    if (value.real() < -rounding) gains.push_back({1.0 / std::abs(value), frequency_at(loop, angle)});
+  };
+  for (const double angle : phase_crossovers(response)) add(response.at(angle), angle);
+  // At half the sample rate L is a real number.
+  add(open_loop(loop).at(-1.0), std::numbers::pi);
+  std::ranges::sort(gains, {}, &Margin::value);
+  return gains;
+}
+
+/// Those of `gains` next to which the loop is stable: between two of them it is so everywhere or nowhere.
+std::vector<Margin> edges_of_stability(const FrozenLoop& loop, const std::vector<Margin>& gains) {
+  constexpr double beyond = 1.5;  // the first or the last one
+  std::vector<char> stable;       // [interval], the first one below all gains
+  for (std::size_t i = 0; i <= gains.size() && !gains.empty(); ++i) {
+    const double low = i == 0 ? gains.front().value / beyond : gains[i - 1].value;
+    const double high = i == gains.size() ? gains.back().value * beyond : gains[i].value;
+    stable.push_back(is_stable_with(loop, i == 0 ? low : i == gains.size() ? high : std::sqrt(low * high)));
+  }
+  std::vector<Margin> edges;
+  for (std::size_t i = 0; i < gains.size(); ++i) {
+    if (stable[i] != 0 || stable[i + 1] != 0) edges.push_back(gains[i]);
+  }
+  return edges;
+}
+
 }  // namespace
 
 StabilityMargins stability_margins(const FrozenLoop& loop) {
   const SampledResponse response = response_of(loop);
   StabilityMargins margins{{none, none}, {none, none}, {none, none}};
+  std::vector<Margin> gains = gains_on_circle(loop, response);
+  if (!is_stable_with(loop, 1.0)) {
+    gains = edges_of_stability(loop, gains);
+    margins.no_gain_stabilises = gains.empty();
+  }
   double distance = std::numeric_limits<double>::infinity();
-  const auto add_gain = [&](Complex value, double angle) {
-    // At half the sample rate a gain of 0 may round to a small one.
-    constexpr double rounding = 1e-12;
-    if (!(value.real() < -rounding)) return;
-    const double factor = 1.0 / std::abs(value);
-    adopt_nearer(margins.gain, distance, {factor, frequency_at(loop, angle)}, std::abs(std::log(factor)));
-  };
-  for (const double angle : phase_crossovers(response)) add_gain(response.at(angle), angle);
-  // At half the sample rate L is a real number.
-  add_gain(open_loop(loop).at(-1.0), std::numbers::pi);
+  for (const Margin& gain : gains) adopt_nearer(margins.gain, distance, gain, std::abs(std::log(gain.value)));
   distance = std::numeric_limits<double>::infinity();
   const std::vector<double> crossovers = gain_crossovers(response);
   for (const double angle : crossovers) {

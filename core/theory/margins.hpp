@@ -64,13 +64,14 @@ struct GainCrossover {
 
 /// Where a loop has several crossovers, each margin is that of the one nearest to instability.
 struct StabilityMargins {
-  /// 1/|L| where L is negative: the factor of the gain at which the loop is on the edge of stability, at the
-  /// frequency where |L| is nearest to 1 by ratio. A factor below 1 limits a decrease of the gain, or is the
-  /// decrease that an unstable loop needs.
+  /// 1/|L| where L is negative: the factor of the gain at which the loop is on the edge of stability, the
+  /// nearest to 1 by ratio. A factor below 1 limits a decrease of the gain, or is the decrease that an
+  /// unstable loop needs. If no factor of the gain makes an unstable loop stable, there is none.
   Margin gain;
   /// 180° + arg L where |L| = 1, in (−180, 180]: the value nearest to 0.
   Margin phase;
   GainCrossover crossover;
+  bool no_gain_stabilises{false};  ///< The loop is unstable with every factor of its gain.
 };
 
 /// Mₛ, the largest |S| over 0 < ω ≤ π/T, and its frequency: the distance of L from −1 is 1/Mₛ. A stable loop

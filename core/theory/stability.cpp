@@ -5,6 +5,7 @@
 #include <complex>
 #include <limits>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "core/friction/profile.hpp"
@@ -36,7 +37,8 @@ auto& integral_gain_in(Controller& controller) {
   return controller.ki;
 }
 
-/// Stiffness of spring and control law without integral, in the unit of integral_gain: N m/count or N m/rad.
+}  // namespace
+
 double static_stiffness(double stiffness, const loop::EncoderParameters& encoder,
                         const loop::ControllerParameters& controller) {
   switch (controller.blocks.structure) {
@@ -47,8 +49,6 @@ double static_stiffness(double stiffness, const loop::EncoderParameters& encoder
   }
   return stiffness * loop::fine_resolution(encoder) + controller.kp;
 }
-
-}  // namespace
 
 double sampled_spectral_radius(double stiffness, const motion::PlantParameters& plant,
                                const loop::EncoderParameters& encoder,
@@ -71,18 +71,27 @@ double integral_gain(const loop::ControllerParameters& controller) {
 double sampled_critical_integral_gain(double stiffness, const motion::PlantParameters& plant,
                                       const loop::EncoderParameters& encoder,
                                       loop::ControllerParameters controller, const LinearDrive& drive) {
-  double& ki = integral_gain_in(controller);
-  const double scale = static_stiffness(stiffness, encoder, controller);
   FrozenLoop loop = presliding_loop(stiffness, plant, encoder, controller, drive);
+  const auto loop_with = [&](const loop::ControllerParameters& other) {
+    loop.controller = loop::linear_chain(other, encoder);
+    return loop;
+  };
+  const double scale = static_stiffness(stiffness, encoder, controller);
+  return sampled_critical_integral_gain(loop_with, std::move(controller), scale);
+}
+
+double sampled_critical_integral_gain(
+    const std::function<FrozenLoop(const loop::ControllerParameters&)>& loop_with,
+    loop::ControllerParameters controller, double scale) {
+  double& ki = integral_gain_in(controller);
   const auto with_gain = [&](double gain) {
     ki = gain;
-    loop.controller = loop::linear_chain(controller, encoder);
-    return loop;
+    return loop_with(controller);
   };
   const double lowest = 1e-6 * scale;
   // Without stiffness and kp no integral gain is stable; the eigenvalue 1 of the free rotor may round
   // below 1.
-  if (lowest == 0.0 || spectral_radius(loop.plant, with_gain(lowest).controller) >= 1.0) return 0.0;
+  if (lowest == 0.0 || poles_of(with_gain(lowest)).cwiseAbs().maxCoeff() >= 1.0) return 0.0;
   const FrozenLoop with = with_gain(scale);
   const FrozenLoop without = with_gain(0.0);
   const OpenLoop open_with = open_loop(with);

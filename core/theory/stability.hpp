@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string_view>
 
 #include "core/friction/parameters.hpp"
@@ -31,7 +32,7 @@ double sampled_spectral_radius(double stiffness, const motion::PlantParameters& 
                                const loop::ControllerParameters& controller, const LinearDrive& drive = {});
 
 /// The slowest time constant with which the sampled loop about a spring of `stiffness` (N m/rad) approaches
-/// its target, s, by slowest_time_constant of its poles. Oscillating modes do not count.
+/// its target, s, by slowest_time_constant of its poles.
 ///
 /// A slow integral control has τ ≈ T·(k·Δx + kp)/(2·ki).
 double slowest_time_constant(double stiffness, const motion::PlantParameters& plant,
@@ -52,6 +53,20 @@ double integral_gain(const loop::ControllerParameters& controller);
 double sampled_critical_integral_gain(double stiffness, const motion::PlantParameters& plant,
                                       const loop::EncoderParameters& encoder,
                                       loop::ControllerParameters controller, const LinearDrive& drive = {});
+
+struct FrozenLoop;
+
+/// The bound of any frozen loop.
+/// @param loop_with the loop with a controller that differs in its integral gain alone
+/// @param scale static stiffness of the loop without integral, in the unit of integral_gain
+double sampled_critical_integral_gain(
+    const std::function<FrozenLoop(const loop::ControllerParameters&)>& loop_with,
+    loop::ControllerParameters controller, double scale);
+
+/// Static stiffness of spring and control law without integral, in the unit of integral_gain: N m/count or
+/// N m/rad.
+double static_stiffness(double stiffness, const loop::EncoderParameters& encoder,
+                        const loop::ControllerParameters& controller);
 
 /// The part of the loop that the criteria (6) and (7) do not model, so that they do not apply: "the second
 /// mass", "the cascade", "the filters", …; empty if they apply. A derivative filter does not count if kd is

@@ -150,10 +150,11 @@ std::vector<std::string> margin_lines(const study::Study& study, std::int64_t po
   std::vector<theory::KnownRotor> rotors;
   for (std::int64_t condition = 0; condition < study::condition_count(study); ++condition) {
     for (const theory::LoopRanges& loop : theory::examine(study, point, condition, rotors).loops) {
-      lines.push_back(fmt::format("  {}{}: {}; gain margin {}, phase margin {}", loop.name,
-                                  study::condition_text(study, condition), theory::stability_text(loop),
-                                  margin_text(loop.gain, "dB", "infinite"),
-                                  margin_text(loop.phase, "deg", "infinite")));
+      lines.push_back(fmt::format(
+          "  {}{}: {}; gain margin {}, phase margin {}", loop.name, study::condition_text(study, condition),
+          theory::stability_text(loop),
+          margin_text(loop.gain, "dB", loop.no_gain_stabilises ? theory::no_gain_text : "infinite"),
+          margin_text(loop.phase, "deg", "infinite")));
     }
   }
   if (!lines.empty())

@@ -61,7 +61,9 @@ const char* stability_label(theory::LoopStability stability) {
 /// "at k1: 16.2 dB, 49.4°".
 std::string label_of_loop(const theory::TrialLoop& loop, const theory::StabilityMargins& margins,
                           double hold) {
-  return fmt::format("{}: {}, {}{}", loop.name, value_with_unit(decibels(margins.gain.value), " dB"),
+  return fmt::format("{}: {}, {}{}", loop.name,
+                     margins.no_gain_stabilises ? "no gain stabilises it"
+                                                : value_with_unit(decibels(margins.gain.value), " dB"),
                      value_with_unit(margins.phase.value, "°"),
                      stability_label(theory::stability_of(loop.loop, hold)));
 }

@@ -192,10 +192,9 @@ NamedValues lacking_of(const NearestPoint& nearest, const study::LoopMargins& wa
 std::string nearest_sentence(Of tuning) {
   const std::optional<NearestPoint>& nearest = tuning.answer.unfound.nearest;
   if (!nearest || nearest->margins.stable) return "";
-  return fmt::format("the loop of a machine is unstable at all of them; at the nearest by {} of gain",
-                     std::isfinite(nearest->margins.gain.value)
-                         ? short_number(nearest->margins.gain.value) + " dB"
-                         : "any factor");
+  const double gain = nearest->margins.gain.value;
+  return "the loop of a machine is unstable at all of them; at the nearest " +
+         (std::isfinite(gain) ? "by " + short_number(gain) + " dB of gain" : "no gain stabilises it");
 }
 
 Description<Tuning> nearest_description() {

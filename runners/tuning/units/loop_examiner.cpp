@@ -14,7 +14,6 @@
 #include "analysis/theory/trial_loops.hpp"
 #include "core/friction/law.hpp"
 #include "core/friction/parameters.hpp"
-#include "core/loop/controller/controller.hpp"
 #include "core/numerics/roots.hpp"
 #include "core/theory/margins.hpp"
 #include "core/trial/trial.hpp"
@@ -113,45 +112,34 @@ struct Loops {
   bool sliding{false};
 };
 
-/// The control in the fine phase, and that at standstill if there is one.
-std::vector<loop::ControllerParameters> controls_before_sliding(const trial::TrialParameters& p) {
-  std::vector<loop::ControllerParameters> controls{
-      loop::controller_in_phase(p.controller, loop::ControlPhase::fine)};
-  if (const auto at_standstill = loop::controller_at_standstill(controls.front()))
-    controls.push_back(*at_standstill);
-  return controls;
-}
-
-void add_stiffnesses(const trial::TrialParameters& p, const ExaminedMachine& machine,
-                     std::vector<theory::TrialLoop>& loops) {
-  std::string name = "before sliding";
-  for (const loop::ControllerParameters& control : controls_before_sliding(p)) {
-    for (int i = 0; i < stiffnesses; ++i) {
-      const double share = static_cast<double>(i) / (stiffnesses - 1);
-      const double stiffness = machine.softest * std::pow(machine.stiffest / machine.softest, share);
-      loops.push_back({name, false, stiffness,
-                       theory::frozen_loop(stiffness, p.plant.presliding_damping, p.plant, p.encoder, control,
-                                           theory::drive_of(p))});
-      if (machine.softest == machine.stiffest) break;
-    }
-    name = "before sliding, at standstill";
+/// The contacts of the machine: those of the trial, of a spring in place of its ends some from the softest to
+/// the stiffest.
+friction::LinearContacts contacts_of(const trial::TrialParameters& p, const ExaminedMachine& machine) {
+  friction::LinearContacts contacts = theory::linear_contacts_of(p);
+  if (!friction::has_spring(p.friction.model)) return contacts;
+  std::erase_if(contacts, [](const friction::LinearContact& contact) { return !contact.slides; });
+  const int count = machine.softest == machine.stiffest ? 1 : stiffnesses;
+  for (int i = 0; i < count; ++i) {
+    const double share = static_cast<double>(i) / (stiffnesses - 1);
+    contacts.insert(contacts.begin() + i,
+                    {"before sliding", machine.softest * std::pow(machine.stiffest / machine.softest, share),
+                     p.plant.presliding_damping});
   }
+  return contacts;
 }
 
 /// The loops in which a machine moves, with this much more delay.
 Loops loops_of(const Examination& of, double more_delay = 0.0) {
   trial::TrialParameters p = of.p;
   p.controller.delay += more_delay;
-  const bool has_spring = friction::has_spring(p.friction.model);
-  const std::vector<theory::TrialLoop> of_trial = theory::trial_loops(p);
+  friction::LinearContacts contacts = contacts_of(p, of.machine);
   Loops found;
   found.hold = p.command.hold;
-  found.before_sliding = !std::ranges::all_of(of_trial, &theory::TrialLoop::slides);
+  found.before_sliding = !std::ranges::all_of(contacts, &friction::LinearContact::slides);
   found.sliding = of.slides || !found.before_sliding;
-  if (has_spring) add_stiffnesses(p, of.machine, found.loops);
-  for (const theory::TrialLoop& one : of_trial) {
-    if (one.slides ? found.sliding : !has_spring) found.loops.push_back(one);
-  }
+  if (!found.sliding)
+    std::erase_if(contacts, [](const friction::LinearContact& contact) { return contact.slides; });
+  found.loops = theory::loops_about(contacts, p);
   return found;
 }
 

@@ -17,7 +17,7 @@ namespace zerocount::tuning {
 
 /// The loop that has the smallest of a margin.
 struct CriticalLoop {
-  std::string name;  ///< "before sliding", "before sliding, at standstill", "while sliding", …
+  std::string name;  ///< that of theory::TrialLoop: "before sliding", "while sliding, the load stands", …
   /// Of the contact before it slides, N m/rad; nothing where it has no spring.
   std::optional<double> stiffness{};
   /// Number of the draw that made the machine; nothing where the stiffness says all of it.
@@ -72,8 +72,9 @@ struct Examination {
 
 /// Examines whether the linear loops of the machines keep margins under every condition: at every stiffness
 /// of the contact before it slides, from k1 to k1 + k2 over the friction profile of the machine, or that of
-/// its bristles; and while the machines slide, if they do or friction has no stiffness. Each machine stands
-/// for those that differ from it by the spread of the margins.
+/// its bristles; and while the machines slide, if they do or friction has no stiffness; each in every state
+/// of a load (theory::load_states). Each machine stands for those that differ from it by the spread of the
+/// margins.
 class LoopExaminer {
  public:
   /// Machines that differ in the stiffness of their spring alone are examined as one with the stiffness of

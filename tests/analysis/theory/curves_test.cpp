@@ -267,6 +267,53 @@ TEST(PointTheoryDescription, HasTheNumbersOfEachStatement) {
   }
 }
 
+study::Study machine_with_gap(const std::string& load, const std::string& cascade) {
+  return manifest::parse_study(
+      fmt::format(
+          "zerocount: 1\nname: gap\nseed: 1\ntrials: 1\nplant: {{inertia: 2.0e-5, presliding_damping: "
+          "1.0e-4, load: {{inertia: 2.0e-4, stiffness: 4000, damping: 0.05, gap: 1.0e-3, {}}}}}\n"
+          "friction: {{model: none}}\nencoder: {{fine: 1000000}}\ncommand: {{targets: [100], hold: 1}}\n"
+          "controller: {{sample_rate: 8000, delay: 1, derivative_cutoff: 300, {}}}\n",
+          load, cascade),
+      "m.yaml", {});
+}
+
+// The bound of the integral gain and the loops are of all states of the load: what is stable in contact is
+// not said to be stable where the motor alone is not.
+TEST(PointTheory, IsOfTheMotorAloneInItsGapToo) {
+  const std::string cascade = "structure: cascade, cascade: {kv: 40, kp: 0.12, ki: 1}";
+  const PointTheory theory = examine(machine_with_gap("encoder: motor", cascade), 0);
+  ASSERT_EQ(theory.loops.size(), 2U);
+  EXPECT_EQ(theory.loops[0].stability, std::set{LoopStability::stable});
+  EXPECT_EQ(theory.loops[1].name, "without friction, the motor alone in the gap");
+  EXPECT_EQ(theory.loops[1].stability, std::set{LoopStability::unstable});
+  EXPECT_LT(theory.loops[1].gain.low, 0.0);
+  EXPECT_EQ(theory.gain.sampled_stable, std::set{false});
+  EXPECT_TRUE(theory.cut.empty());
+  const PointTheory cut = examine(machine_with_gap("encoder: load", cascade), 0);
+  EXPECT_EQ(cut.loops.size(), 1U);
+  EXPECT_EQ(cut.cut, std::vector<std::string>{"the motor alone in the gap"});
+}
+
+// A double integrator under integral action alone: each gain makes it grow. There is no margin, and the
+// reason is told.
+TEST(PointTheory, TellsThatNoGainStabilisesALoop) {
+  const study::Study study = manifest::parse_study(
+      "zerocount: 1\nname: free\nseed: 1\ntrials: 1\nfriction: {model: none}\nplant: {presliding_damping: "
+      "1.0e-3}\n"
+      "controller: {kp: 0, ki: 1.0e-5}\ncommand: {targets: [100], hold: 1}\n",
+      "m.yaml", {});
+  const PointTheory theory = examine(study, 0);
+  ASSERT_EQ(theory.loops.size(), 1U);
+  EXPECT_TRUE(theory.loops[0].gain.empty());
+  const document::AnswerDescription<LoopRanges> answer{{.name = "loop", .meaning = "a loop"},
+                                                       loop_description()};
+  const document::Answer told = answer.of(theory.loops[0]);
+  EXPECT_TRUE(says(document::text(told), "none: no gain stabilises it")) << document::text(told);
+  EXPECT_TRUE(document::json(told)["no_gain_stabilises"]);
+  EXPECT_TRUE(document::json(told)["gain_margin"]["low"].is_null());
+}
+
 // A rotor that stays the same from point to point is searched once.
 TEST(PointTheory, RotorsKnownFromThePointBeforeChangeNothing) {
   const study::Study study = manifest::parse_study(

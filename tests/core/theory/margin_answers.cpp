@@ -67,6 +67,7 @@ void print() {
                    {"damping", damping},
                    {"gain", drive.gain},
                    {"bandwidth", drive.bandwidth},
+                   {"stable", theory::spectral_radius(loop.plant, loop.controller) < 1.0},
                    {"gain_margin", margin_json(margins.gain)},
                    {"phase_margin", margin_json(margins.phase)},
                    {"peak_sensitivity", margin_json(theory::peak_sensitivity(loop))}});

@@ -94,11 +94,53 @@ TEST(Margins, AreThoseOfAFineScanWithAndWithoutDamping) {
       EXPECT_LT(std::abs(margins.phase.value), scanned.phase.value + 0.3) << i;
       EXPECT_GT(std::abs(margins.phase.value), scanned.phase.value - 0.3) << i;
     }
-    // A scan does not resolve the summit of a resonance.
-    if (scanned.gain.value > 3.0) continue;
+    // A scan does not resolve the summit of a resonance, and does not know which gains are stable.
+    if (scanned.gain.value > 3.0 || stability_of(loop, 1e3) == LoopStability::unstable) continue;
     EXPECT_NEAR(std::abs(std::log(margins.gain.value)), scanned.gain.value, 0.02) << i;
   }
   EXPECT_GT(with_phase, 25);
+}
+
+/// Growth of the loop per sample where its plant has this factor of its gain.
+double growth_with(FrozenLoop loop, double factor) {
+  loop.plant.b *= factor;
+  loop.plant.b_before *= factor;
+  return std::log(spectral_radius(loop.plant, loop.controller));
+}
+
+// The gain margin of an unstable loop is the smallest change of the gain that makes it stable, by a scan of
+// the gain over six decades. If the scan finds no stable gain, there is no margin, and the reason is told.
+TEST(Margins, GainMarginOfAnUnstableLoopMakesItStable) {
+  constexpr double visible = 1e-6;  // growth per sample
+  constexpr double step = 1.15;
+  testing::RandomBlocks draw(31);
+  int helped = 0;
+  int lost = 0;
+  for (int i = 0; i < 70; ++i) {
+    const FrozenLoop loop = random_loop(draw, i);
+    if (growth_with(loop, 1.0) < visible) continue;
+    const StabilityMargins margins = stability_margins(loop);
+    double nearest = std::numeric_limits<double>::infinity();  // |ln| of a stable factor
+    for (double factor = 1e-3; factor < 1e3; factor *= step)
+      if (growth_with(loop, factor) < -visible) nearest = std::min(nearest, std::abs(std::log(factor)));
+    if (std::isnan(margins.gain.value)) {
+      ++lost;
+      EXPECT_TRUE(margins.no_gain_stabilises) << i;
+      EXPECT_TRUE(std::isinf(nearest)) << i << " " << nearest;
+      continue;
+    }
+    EXPECT_FALSE(margins.no_gain_stabilises) << i;
+    constexpr double beside = 1e-3;
+    EXPECT_LT(std::min(growth_with(loop, margins.gain.value * (1.0 - beside)),
+                       growth_with(loop, margins.gain.value * (1.0 + beside))),
+              1e-9)
+        << i;
+    if (std::isinf(nearest)) continue;
+    ++helped;
+    EXPECT_LE(std::abs(std::log(margins.gain.value)), nearest + 1e-9) << i;
+  }
+  EXPECT_GT(helped, 5);
+  EXPECT_GT(lost, 5);
 }
 
 // With the delay that the phase margin allows, the loop has a pole on the unit circle at the crossover.

@@ -248,6 +248,25 @@ TEST(SlowestTimeConstant, IsThatOfTheDecayInTime) {
   }
 }
 
+// A mass with damping under proportional control rings with 2·J/c, and creeps with c/k where c is large: the
+// textbook's continuous loop, to which fast sampling is near.
+TEST(SlowestTimeConstant, IsThatOfAModeThatOscillatesToo) {
+  constexpr double stiffness = 1.0;  // N m/rad, of kp
+  for (const double damping : {2e-3, 0.0131, 0.02, 0.1}) {
+    const motion::PlantParameters mass{.inertia = 2e-4, .presliding_damping = damping};
+    loop::ControllerParameters controller;
+    controller.sample_rate = 1e5;
+    controller.ki = 0.0;
+    controller.kp = stiffness * loop::fine_resolution(paper_encoder);
+    const double of_decay = 0.5 * damping / mass.inertia;
+    const double squared = stiffness / mass.inertia;
+    const double slowest =
+        of_decay * of_decay < squared ? of_decay : of_decay - std::sqrt(of_decay * of_decay - squared);
+    EXPECT_NEAR(slowest_time_constant(0.0, mass, paper_encoder, controller), 1.0 / slowest, 0.01 / slowest)
+        << damping;
+  }
+}
+
 TEST(SlowestTimeConstant, IsInfiniteBeyondTheBound) {
   loop::ControllerParameters controller;
   const double bound = sampled_critical_integral_gain(110.0, rig, paper_encoder, controller);

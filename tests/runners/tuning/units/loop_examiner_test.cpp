@@ -67,6 +67,32 @@ TEST(LoopExaminer, ExaminesTheLoopAtStandstill) {
   EXPECT_FALSE(keeps(study_with("k1: 110", gains), false));
 }
 
+// The motor alone is eleven times as light as with its load: gains that suit both masses are too high for it.
+TEST(LoopExaminer, ExaminesTheMotorAloneInAGap) {
+  const auto with = [](const std::string& gap, const std::string& kp) {
+    return manifest::parse_study(
+        fmt::format(
+            "zerocount: 1\nname: gap\nseed: 1\ntrials: 2\ncommand: {{targets: [500], hold: 1.0}}\n"
+            "plant: {{inertia: 2.0e-5, presliding_damping: 1.0e-4, load: {{inertia: 2.0e-4, stiffness: "
+            "4000, damping: 0.05{}}}}}\nfriction: {{model: none}}\nencoder: {{fine: 1000000}}\n"
+            "controller: {{sample_rate: 8000, delay: 1, derivative_cutoff: 300, structure: cascade, "
+            "cascade: {{kv: 40, kp: {}, ki: 1}}}}\ngoal: {{band: 1, within: 0.5, moves: 0.9}}\n",
+            gap, kp),
+        "m.yaml", {});
+  };
+  const study::Study closed = with("", "0.12");
+  const study::Study open = with(", gap: 1.0e-3", "0.12");
+  EXPECT_TRUE(keeps(closed, false));
+  EXPECT_FALSE(keeps(open, false));
+  EXPECT_GE(LoopExaminer(open, 1).shortfall(open, {}, false), 1.0);
+  EXPECT_FALSE(LoopExaminer(open, 1).margins_of(open, false).stable);
+  const study::Study slow = with(", gap: 1.0e-3", "0.03");
+  EXPECT_TRUE(keeps(slow, false));
+  const SmallestMargins margins = LoopExaminer(slow, 1).margins_of(slow, false);
+  EXPECT_THAT(margins.gain.loop->name, ::testing::HasSubstr("the motor alone in the gap"));
+  EXPECT_THAT(margins.delay.loop->name, ::testing::HasSubstr("the motor alone in the gap"));
+}
+
 // The bristle is so stiff that its loop needs hours.
 TEST(LoopExaminer, DoesNotTakeASlowPoleForAnUnstableOne) {
   for (const char* const sigma0 : {"1.0e+6", "1.0e+8", "1.0e+10"}) {

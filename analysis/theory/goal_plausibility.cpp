@@ -17,6 +17,7 @@
 #include "core/loop/encoder.hpp"
 #include "core/theory/frozen_loop.hpp"
 #include "core/theory/stability.hpp"
+#include "core/trial/trial.hpp"
 #include "experiments/study/study_trial.hpp"
 
 namespace zerocount::theory {
@@ -171,28 +172,77 @@ struct GoalTest {
   Doubt (*of_move)(const MoveOfTrial&){nullptr};
   bool needs_goal{true};
   bool holds_for_any_controller{false};
-  bool is_obstacle{true};  ///< to meeting the goal, not only a doubt about what it says
+  bool is_obstacle{true};   ///< to meeting the goal, not only a doubt about what it says
+  bool needs_trial{false};  ///< Counts for a move only if the simulated move misses the band or tolerance.
 };
-constexpr std::array<GoalTest, 12> goal_tests{{{load_hangs_behind, nullptr, true, false, false},
-                                               {zero_counts_are_wider},
-                                               {noise_leaves_the_band},
-                                               {noise_moves_the_axis},
-                                               {code_leaves_the_band},
-                                               {band_is_half_a_step},
-                                               {nullptr, hold_ends_before_the_goal},
-                                               {nullptr, reference_is_on_its_way, true, true},
-                                               {nullptr, torque_is_too_small_for_the_move, false, true},
-                                               {nullptr, torque_is_too_small_at_the_target, false},
-                                               {nullptr, coupling_is_wound_up_unseen, true, false, false},
-                                               {nullptr, encoder_misplaces_the_target, true, true}}};
+constexpr std::array<GoalTest, 14> goal_tests{
+    {{load_hangs_behind, nullptr, true, false, false},
+     {zero_counts_are_wider},
+     {noise_leaves_the_band},
+     {noise_moves_the_axis},
+     {code_leaves_the_band},
+     {band_is_half_a_step},
+     {nullptr, hold_ends_before_the_goal},
+     {nullptr, reference_is_on_its_way, true, true},
+     {nullptr, torque_is_too_small_for_the_move, false, true},
+     {nullptr, torque_is_too_small_at_the_target, false},
+     {nullptr, other_mass_is_elsewhere_unseen, true, false, true, true},
+     {nullptr, velocity_command_is_too_coarse, true, false, true, true},
+     {nullptr, velocity_is_too_small_for_the_move, true, false, true, true},
+     {nullptr, encoder_misplaces_the_target, true, true}}};
+
+constexpr std::int64_t max_simulated_samples = std::int64_t{1} << 20;  // of all trials
+
+/// A trial, and its outcome where a test has needed it.
+struct ExaminedTrial {
+  trial::TrialParameters parameters;
+  std::optional<trial::TrialOutcome> outcome{};
+};
+
+/// The examined trials under one condition of a point.
+struct ExaminedTrials {
+  std::span<ExaminedTrial> trials;
+  std::int64_t& samples_left;  ///< that may still be simulated
+};
+
+/// Whether the move is within the band or tolerance in time.
+bool settles(const study::Study& study, const study::Goal& goal, const trial::TrialOutcome& outcome,
+             std::size_t number) {
+  if (number >= outcome.moves.size()) return false;  // the trial was stopped
+  const trial::MoveOutcome& move = outcome.moves[number];
+  const auto time_in = [](const auto& values, auto value, const auto& time) {
+    const auto slot = std::ranges::find(values, value) - values.begin();
+    return time(static_cast<std::size_t>(slot));
+  };
+  const double time = goal.tolerance
+                          ? time_in(study.features.tolerances.values(), *goal.tolerance,
+                                    [&](std::size_t slot) {
+                                      return (goal.of_other_mass ? move.other_tolerance_settling_times
+                                                                 : move.tolerance_settling_times)[slot];
+                                    })
+                          : time_in(study.features.bands.values(), goal.band,
+                                    [&](std::size_t slot) { return move.bands[slot].settling_time; });
+  constexpr double rounding = 1.0 + 1e-12;
+  return time <= goal.within.from_start(move.travel_time) * rounding;  // not NaN
+}
+
+/// Simulates the trial, unless that has been done. @returns false where it has too many samples
+bool simulate(ExaminedTrial& trial, std::int64_t& samples_left) {
+  if (trial.outcome) return true;
+  const std::int64_t samples = trial::samples_of_trial(trial.parameters);
+  if (samples > samples_left) return false;
+  samples_left -= samples;
+  trial.outcome = trial::run_trial(trial.parameters);
+  return true;
+}
 
 /// Out of reach of whole trials: in each of those examined.
 std::optional<Doubt> doubt_of_trials(const GoalTest& test, const study::Study& study, const study::Goal& goal,
-                                     std::span<const trial::TrialParameters> trials) {
+                                     const ExaminedTrials& of) {
   std::optional<Doubt> smallest;
-  for (const trial::TrialParameters& trial :
-       trials.first(std::min<std::size_t>(trials.size(), max_whole_trials))) {
-    Doubt doubt = test.of_trial({study, goal, trial});
+  for (const ExaminedTrial& trial :
+       of.trials.first(std::min<std::size_t>(of.trials.size(), max_whole_trials))) {
+    Doubt doubt = test.of_trial({study, goal, trial.parameters});
     if (!(doubt.ratio > 1.0)) return {};
     if (!smallest || doubt.ratio < smallest->ratio) smallest = std::move(doubt);
   }
@@ -201,19 +251,24 @@ std::optional<Doubt> doubt_of_trials(const GoalTest& test, const study::Study& s
 
 /// Out of reach of more moves than the goal permits, by more than chance.
 std::optional<Doubt> doubt_of_moves(const GoalTest& test, const study::Study& study, const study::Goal& goal,
-                                    std::span<const trial::TrialParameters> trials) {
+                                    const ExaminedTrials& examined) {
   Doubt worst;
   double moves = 0.0;
   double failing = 0.0;
   double moves_of_trial = 1.0;
-  for (const trial::TrialParameters& trial : trials) {
-    const GoalOfTrial of{study, goal, trial};
+  for (ExaminedTrial& trial : examined.trials) {
+    const GoalOfTrial of{study, goal, trial.parameters};
     const std::vector<MoveOfTrial> all = moves_of(of);
+    std::vector<Doubt> doubts;
+    for (const MoveOfTrial& move : all) doubts.push_back(test.of_move(move));
+    const bool is_doubted = std::ranges::any_of(doubts, [](const Doubt& doubt) { return doubt.ratio > 1.0; });
+    if (test.needs_trial && is_doubted && !simulate(trial, examined.samples_left) && moves > 0.0) break;
     moves_of_trial = std::max(moves_of_trial, static_cast<double>(all.size()));
     moves += static_cast<double>(all.size());
-    for (const MoveOfTrial& move : all) {
-      Doubt doubt = test.of_move(move);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      Doubt& doubt = doubts[i];
       if (!(doubt.ratio > 1.0)) continue;
+      if (test.needs_trial && trial.outcome && settles(study, goal, *trial.outcome, all[i].number)) continue;
       ++failing;
       if (doubt.ratio > worst.ratio) worst = std::move(doubt);
     }
@@ -246,17 +301,18 @@ std::vector<std::string> worst_lines(const study::Study& study, bool (*is_wanted
       std::min(study::draw_count(study),
                std::clamp<std::int64_t>(max_trials_doubted / (turns.conditions * std::ssize(points)),
                                         max_whole_trials, max_draws_of_moves));
+  std::int64_t samples_left = max_simulated_samples;
   for (const std::int64_t point : points) {
     for (std::int64_t condition = 0; condition < turns.conditions; ++condition) {
-      std::vector<trial::TrialParameters> trials;
+      std::vector<ExaminedTrial> trials;
       for (std::int64_t draw = 0; draw < draws; ++draw)
-        trials.push_back(study::study_trial(study, point, turns.trial_of(draw, condition)).parameters);
+        trials.push_back({study::study_trial(study, point, turns.trial_of(draw, condition)).parameters});
       for (std::size_t i = 0; i < goal_tests.size(); ++i) {
         const GoalTest& test = goal_tests[i];
         if ((study.goals.empty() && test.needs_goal) || !is_wanted(test)) continue;
         for (const study::Goal& goal : goals) {
           const auto examine = test.of_trial != nullptr ? doubt_of_trials : doubt_of_moves;
-          const std::optional<Doubt> doubt = examine(test, study, goal, trials);
+          const std::optional<Doubt> doubt = examine(test, study, goal, {trials, samples_left});
           if (!doubt || !(doubt->ratio > worst[i].ratio)) continue;
           worst[i] = {doubt->ratio, place_text(study, point, condition) +
                                         (goal.name.empty() ? "" : "goal " + goal.name + ": ") + doubt->text};

@@ -2,8 +2,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "analysis/theory/plausibility.hpp"
 #include "core/friction/law.hpp"
@@ -28,6 +31,25 @@ double largest_torque(const loop::DacParameters& dac) {
   return std::max(given_for(loop::lowest_torque(dac)), given_for(loop::highest_torque(dac)));
 }
 
+/// The largest torque, and what bounds it.
+struct TorqueBound {
+  double torque;         ///< N m
+  std::string text;      ///< "the ±4 N m of the converter"
+  const char* expected;  ///< what lets the torque be larger
+};
+
+TorqueBound torque_bound(const GoalOfTrial& of) {
+  const loop::DacParameters& dac = of.trial.dac;
+  loop::DacParameters without_limit = dac;
+  without_limit.limit = infinity;
+  const double torque = largest_torque(dac);
+  const bool by_limit = torque < largest_torque(without_limit);
+  return {torque,
+          by_limit ? fmt::format("the ±{} of the torque limit (amplifier.limit)", of.torque(dac.limit))
+                   : fmt::format("the ±{} of the converter", of.torque(torque)),
+          by_limit ? "a larger amplifier.limit" : "a larger range of the converter"};
+}
+
 /// Friction as a bound of motion.
 struct FrictionBound {
   double sliding{0.0};    ///< least torque while it slides, N m
@@ -39,7 +61,10 @@ FrictionBound friction_bound(const trial::TrialParameters& p) {
   if (!friction::has_friction(p.friction.model)) return {};
   constexpr double travels = 5.0;  // a bristle approaches its level by exp(−travel·σ0/level)
   const friction::FrictionParameters contact = friction::friction_at(p.friction, p.initial.position);
-  FrictionBound bound{contact.coulomb_ratio * contact.breakaway, contact.breakaway};
+  const double sliding = contact.coulomb_ratio * contact.breakaway;
+  // The bristle of dahl yields at the Coulomb level.
+  FrictionBound bound{sliding,
+                      p.friction.model == friction::FrictionModel::dahl ? sliding : contact.breakaway};
   for (const friction::LinearContact& linear :
        friction::traits_of(p.friction.model).linear_contacts(p.plant, p.friction, contact)) {
     if (!linear.slides && linear.stiffness > 0.0)
@@ -106,6 +131,28 @@ double shortest_time(const MoveOfTrial& move) {
 double standing_torque(const trial::DisturbanceParameters& of, const trial::TrialParameters& p,
                        double theta) {
   return of.torque + motion::value(trial::ripples_of(of.ripple, p.initial.position), theta);
+}
+
+/// The torque that the friction of a load holds at most, N m. The bristle of dahl yields at the Coulomb
+/// level.
+double friction_of_load(const friction::LoadFrictionParameters& friction) {
+  switch (friction.model) {
+    case friction::LoadFrictionModel::none:
+      return 0.0;
+    case friction::LoadFrictionModel::dahl:
+      return friction.contact.coulomb_ratio * friction.contact.breakaway;
+    case friction::LoadFrictionModel::coulomb:
+    case friction::LoadFrictionModel::lugre:
+      break;
+  }
+  return friction.contact.breakaway;
+}
+
+/// The cascade that ends the moves of the trial; null without one.
+const loop::CascadeParameters* cascade_of(const trial::TrialParameters& p) {
+  const loop::ControlBlocks& blocks = p.controller.blocks;
+  const bool has_cascade = blocks.structure == loop::ControlStructure::cascade && !p.controller.user.plugin;
+  return has_cascade ? &blocks.cascade : nullptr;
 }
 
 /// That of the rotor and of a load that is there too.
@@ -235,49 +282,92 @@ Doubt torque_is_too_small_for_the_move(const MoveOfTrial& move) {
       !starts_at_rest)
     return {};
   const double time = shortest_time(move) + p.controller.delay / p.controller.sample_rate;
-  const std::string what = fmt::format("{} by {} with an inertia of {:.3g} {} and the ±{} of the converter",
-                                       move.name(), move.of.length(move.distance()), moved_inertia(move),
-                                       move.of.unit("kg m^2"), move.of.torque(largest_torque(p.dac)));
+  const TorqueBound bound = torque_bound(move.of);
+  const std::string what =
+      fmt::format("{} by {} with an inertia of {:.3g} {} and {}", move.name(),
+                  move.of.length(move.distance()), moved_inertia(move), move.of.unit("kg m^2"), bound.text);
   if (std::isinf(time))
-    return {infinity, what +
-                          " never ends: friction and disturbance exceed the torque; expected a larger "
-                          "range of the converter"};
+    return {infinity, fmt::format("{} never ends: friction and disturbance exceed the torque; expected {}",
+                                  what, bound.expected)};
   return {time / move.within(),
-          fmt::format("{} takes {:.3g} s at least, longer than the {:.4g} s that it has; expected a larger "
-                      "range, more time, or a shorter move",
-                      what, time, move.within())};
+          fmt::format("{} takes {:.3g} s at least, longer than the {:.4g} s that it has; expected {}, more "
+                      "time, or a shorter move",
+                      what, time, move.within(), bound.expected)};
 }
 
 Doubt torque_is_too_small_at_the_target(const MoveOfTrial& move) {
   const trial::TrialParameters& p = move.of.trial;
-  const double range = largest_torque(p.dac);
+  const TorqueBound bound = torque_bound(move.of);
   const double torque = std::abs(standing_torque(p, move.to));
-  const bool sticks = torque <= range + friction_bound(p).breakaway;
-  return {
-      torque / range,
-      fmt::format("at the target of {} the disturbance (torque and ripple) is {}, more than the ±{} of the "
-                  "converter: {}; expected a larger range, or less disturbance",
-                  move.name(), move.of.torque(torque), move.of.torque(range),
-                  sticks ? "only friction can hold the axis there" : "nothing holds the axis there")};
+  const bool sticks = torque <= bound.torque + friction_bound(p).breakaway;
+  return {torque / bound.torque,
+          fmt::format("at the target of {} the disturbance (torque and ripple) is {}, more than {}: {}; "
+                      "expected {}, or less disturbance",
+                      move.name(), move.of.torque(torque), bound.text,
+                      sticks ? "only friction can hold the axis there" : "nothing holds the axis there",
+                      bound.expected)};
 }
 
-Doubt coupling_is_wound_up_unseen(const MoveOfTrial& move) {
+Doubt other_mass_is_elsewhere_unseen(const MoveOfTrial& move) {
   const GoalOfTrial& of = move.of;
   const trial::TrialParameters& p = of.trial;
-  if (!motion::has_load(p.plant) || p.plant.load.encoder != motion::EncoderPlace::motor ||
-      of.goal.of != motion::EncoderPlace::load || !of.goal.tolerance)
+  const motion::LoadParameters& load = p.plant.load;
+  if (!motion::has_load(p.plant) || !of.goal.of || *of.goal.of == load.encoder || !of.goal.tolerance)
     return {};
-  const friction::LoadFrictionParameters& of_load = p.load_side.friction;
-  const bool rubs = of_load.model != friction::LoadFrictionModel::none;
-  const double friction = rubs ? of_load.contact.breakaway : 0.0;
-  const double disturbance = std::abs(standing_torque(p.load_side.disturbance, p, move.to));
-  const double wound = (friction + disturbance) / p.plant.load.stiffness;
-  return {wound / *of.goal.tolerance,
-          fmt::format(
-              "at the target of {} friction ({}) and disturbance ({}) of the load wind up the coupling "
-              "by up to {}, beyond {}, and the encoder of the motor closes the loop; expected a "
-              "stiffer coupling, less of them, or the encoder of the load in the position loop",
-              move.name(), of.torque(friction), of.torque(disturbance), of.length(wound), of.band_text())};
+  const double friction = friction_of_load(p.load_side.friction);
+  const double disturbance = standing_torque(p.load_side.disturbance, p, move.to);
+  const double error = motion::value(trial::ripples_of(p.load_side.error, p.initial.position), move.to);
+  const double wound = (friction + std::abs(disturbance)) / load.stiffness;
+  std::vector<std::string> causes;
+  std::vector<std::string> expected;
+  const auto add = [&](double length, const std::string& cause, const char* remedy) {
+    if (!(length > 0.0)) return;
+    causes.push_back(cause);
+    expected.emplace_back(remedy);
+  };
+  add(load.gap, "half of the gap is " + of.length(0.5 * load.gap), "a smaller gap");
+  add(std::abs(error), "the kinematic error there is " + of.length(std::abs(error)),
+      "a smaller kinematic error");
+  add(wound,
+      fmt::format("friction ({}) and disturbance ({}) of the load wind up the coupling by up to {}",
+                  of.torque(friction), of.torque(std::abs(disturbance)), of.length(wound)),
+      "a stiffer coupling");
+  const std::string_view other = study::mass_text(*of.goal.of);
+  const double apart =
+      std::abs(error + disturbance / load.stiffness) + friction / load.stiffness + 0.5 * load.gap;
+  return {apart / *of.goal.tolerance,
+          fmt::format("at the target of {} the {} may be up to {} away, beyond {}, and the encoder of the {} "
+                      "closes the loop: {}; expected {}, or the encoder of the {} in the position loop",
+                      move.name(), other, of.length(apart), of.band_text(), study::mass_text(load.encoder),
+                      fmt::join(causes, ", "), fmt::join(expected, ", "), other)};
+}
+
+Doubt velocity_command_is_too_coarse(const MoveOfTrial& move) {
+  const GoalOfTrial& of = move.of;
+  const loop::CascadeParameters* const cascade = cascade_of(of.trial);
+  if (cascade == nullptr || !(cascade->resolution > 0.0) || !(cascade->kv > 0.0)) return {};
+  const double half = 0.5 * of.width();
+  const double still = cascade->resolution / (2.0 * cascade->kv);
+  return {still / half,
+          fmt::format("the velocity command has steps of {:.3g} {}: within {} of the target of {} "
+                      "(resolution/(2·kv)) it is rounded to 0, so that the axis may stay there, beyond {}; "
+                      "expected controller.cascade.resolution of at most {:.3g} {}, or a larger "
+                      "controller.cascade.kv",
+                      cascade->resolution, of.unit("rad/s"), of.length(still), move.name(), of.band_text(),
+                      2.0 * cascade->kv * half, of.unit("rad/s"))};
+}
+
+Doubt velocity_is_too_small_for_the_move(const MoveOfTrial& move) {
+  const GoalOfTrial& of = move.of;
+  const loop::CascadeParameters* const cascade = cascade_of(of.trial);
+  if (cascade == nullptr || !std::isfinite(cascade->limit)) return {};
+  const double time = (move.distance() - 0.5 * of.width()) / cascade->limit;
+  return {time / move.within(),
+          fmt::format("{} by {} takes {:.3g} s at the ±{:.3g} {} of the velocity command "
+                      "(controller.cascade.limit), longer than the {:.4g} s that it has; expected a larger "
+                      "limit, more time, or a shorter move",
+                      move.name(), of.length(move.distance()), time, cascade->limit, of.unit("rad/s"),
+                      move.within())};
 }
 
 Doubt encoder_misplaces_the_target(const MoveOfTrial& move) {

@@ -82,9 +82,21 @@ Doubt torque_is_too_small_for_the_move(const MoveOfTrial& move);
 /// Constant disturbance and ripple at the target exceed the largest torque.
 Doubt torque_is_too_small_at_the_target(const MoveOfTrial& move);
 
-/// A goal of the load behind a motor whose encoder closes the loop: friction and disturbance of the load wind
-/// up the coupling, by (|τ| + F)/K at most, where nothing reads it. Only a doubt: it may stand closer.
-Doubt coupling_is_wound_up_unseen(const MoveOfTrial& move);
+/// A goal of the mass that the position loop does not read. At the target the masses may be apart by
+///
+///     |ε + τ/kL| + F/kL + g/2
+///
+/// with the kinematic error ε there, torque τ and friction F of the load, and the gap g. Only a doubt: they
+/// may stand closer.
+Doubt other_mass_is_elsewhere_unseen(const MoveOfTrial& move);
+
+/// The velocity command of a cascade is rounded to 0 within resolution/(2·kv) of the target. Only a doubt:
+/// the axis may run on into the tolerance.
+Doubt velocity_command_is_too_coarse(const MoveOfTrial& move);
+
+/// At the limit of the velocity command the move takes longer than it may. Only a doubt: the velocity loop
+/// may overshoot.
+Doubt velocity_is_too_small_for_the_move(const MoveOfTrial& move);
 
 /// The systematic errors of the encoder (eccentricity, interpolation): nowhere within the tolerance does it
 /// read the target.
@@ -104,7 +116,8 @@ struct FrozenLoop;
 ///   - a code of the converter that moves the axis by more than the whole band or tolerance even where its
 ///     friction is stiffest, Δu/(k1 + k2). The rule of the paper (issue 4 of its section 3), with k1, is
 ///     stricter than zero counts need (docs/findings.md, dac-resolution)
-///   - those of moves (move_plausibility.cpp); those of the torque range without a goal too
+///   - those of moves (move_plausibility.cpp); those of the torque range without a goal too. One that is only
+///     a doubt counts for moves that a simulation of the trial shows to miss the band or tolerance
 ///
 /// A test of whole trials fails at a point under a condition if it fails in each of the trials examined
 /// there, the first ones: few of very many points are examined, evenly spread. One of moves fails if it fails

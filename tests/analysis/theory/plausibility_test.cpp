@@ -392,6 +392,108 @@ TEST(MovePlausibility, ARippleIsJudgedAtTheTargetUnderEachCondition) {
   EXPECT_FALSE(is_told(with("{uniform: [0, 6.283]}", "0.1"), "at the target"));
 }
 
+// The torque is named by what bounds it.
+TEST(MovePlausibility, TheTorqueLimitHasItsOwnName) {
+  const auto told = [](const std::string& drive, const std::string& disturbance) {
+    return fmt::format(
+        "{}", fmt::join(doubtful_goals(slide(drive + "disturbance: {torque: " + disturbance +
+                                                 "}\ncommand: {targets: [100000], hold: 0.2}\n"
+                                                 "goal: {tolerance: 1.0e-6, within: 0.1, moves: 0.9}\n",
+                                             "coulomb", 0.1)),
+                        "\n"));
+  };
+  const std::string by_converter = "dac: {bits: 20, range: 2}\n";
+  const std::string by_limit = "dac: {bits: 20, range: 200}\namplifier: {limit: 2}\n";
+  for (const char* const disturbance : {"0", "3"}) {
+    EXPECT_TRUE(says(told(by_converter, disturbance), "±2 N of the converter"));
+    EXPECT_TRUE(says(told(by_converter, disturbance), "expected a larger range of the converter"));
+    EXPECT_FALSE(says(told(by_converter, disturbance), "amplifier.limit"));
+    EXPECT_TRUE(says(told(by_limit, disturbance), "±2 N of the torque limit (amplifier.limit)"));
+    EXPECT_TRUE(says(told(by_limit, disturbance), "expected a larger amplifier.limit"));
+    EXPECT_FALSE(says(told(by_limit, disturbance), "converter"));
+  }
+  // A limit beyond the converter's range bounds nothing.
+  EXPECT_TRUE(says(told(by_converter + "amplifier: {limit: 3}\n", "0"), "of the converter"));
+}
+
+/// A cause that keeps the load of a cascade from its goal, and the warning of it.
+struct CauseOfMisses {
+  const char* told;
+  std::string load;     ///< keys of plant.load, with the size of the cause
+  std::string cascade;  ///< of controller.cascade
+  double
+      size_at_limit;  ///< at which the load is a tolerance of 1e-4 rad away, or the move as long as allowed
+};
+
+study::Study cascade_with_load(const CauseOfMisses& cause, double size, const std::string& target,
+                               const std::string& encoder = "motor") {
+  return manifest::parse_study(
+      fmt::format(
+          "zerocount: 1\nname: reach\nseed: 1\ntrials: 1\n"
+          "plant: {{inertia: 1.0e-4, presliding_damping: 1.0e-3, load: {{inertia: 1.0e-4, stiffness: "
+          "400, damping: 5.0e-3, encoder: {}{}}}}}\nfriction: {{model: none}}\n"
+          "encoder: {{fine: 1000000}}\ndac: {{bits: 18, range: 4}}\n"
+          "controller: {{sample_rate: 8000, delay: 1, structure: cascade, cascade: {{kv: 40, kp: 0.03, "
+          "ki: 0.3{}}}}}\ncommand: {{units: si, targets: [{}], hold: 0.6}}\n"
+          "goal: {{of: load, tolerance: 1.0e-4, within: 0.35, moves: 0.8}}\n",
+          encoder, fmt::format(fmt::runtime(cause.load), size),
+          fmt::format(fmt::runtime(cause.cascade), size), target),
+      "m.yaml", {});
+}
+
+bool load_meets(const study::Study& study) {
+  const trial::TrialOutcome outcome = trial::run_trial(study::study_trial(study, 0, 0).parameters);
+  const trial::MoveOutcome& move = outcome.moves.back();
+  return (study.goals.front().of_other_mass ? move.other_tolerance_settling_times
+                                            : move.tolerance_settling_times)[0] <= 0.35;
+}
+
+// Against runs, both ways: what is told is of no move that meets the goal; and a cause that makes a move
+// miss, well beyond its limit, is told.
+TEST(MovePlausibility, WhatKeepsALoadFromItsGoalIsToldWhereTheSimulatedMoveMisses) {
+  const CauseOfMisses causes[] = {
+      {"half of the gap", ", gap: {0:.6g}, friction: {{model: coulomb, breakaway: 1.0e-3}}", "", 2e-4},
+      {"kinematic error", ", error: [{{amplitude: {0:.6g}, periods: 100, phase: 1}}]", "",
+       1e-4 / std::abs(std::sin(6.0))},
+      {"wind up the coupling", ", friction: {{model: coulomb, breakaway: {0:.6g}}}", "", 400 * 1e-4},
+      {"wind up the coupling", ", friction: {{model: dahl, breakaway: {0:.6g}, sigma0: 3.0e+3}}", "",
+       500 * 1e-4},
+      {"has steps of", "", ", resolution: {0:.6g}", 80 * 1e-4},
+      {"of the velocity command", "", ", limit: {0:.6g}", -0.05 / 0.35}};
+  testing::RandomBlocks draw(41);
+  for (const CauseOfMisses& cause : causes) {
+    int told = 0;
+    int met = 0;
+    for (int i = 0; i < 24; ++i) {
+      // A negative limit: the cause is a value that is too small.
+      const double excess = draw.log_uniform(0.02, 20.0);
+      const double size =
+          cause.size_at_limit > 0.0 ? excess * cause.size_at_limit : -cause.size_at_limit / excess;
+      const study::Study study = cascade_with_load(cause, size, "0.05");
+      const bool is_met = load_meets(study);
+      const bool said = is_told(study, cause.told);
+      EXPECT_FALSE(said && is_met) << cause.told << " " << size;
+      if (excess > 2.0) {
+        EXPECT_EQ(said, !is_met) << cause.told << " " << size;
+      }
+      if (excess < 0.9) {
+        EXPECT_FALSE(said) << cause.told << " " << size;
+      }
+      told += said ? 1 : 0;
+      met += is_met ? 1 : 0;
+    }
+    EXPECT_GT(told, 3) << cause.told;
+    EXPECT_GT(met, 3) << cause.told;
+  }
+}
+
+TEST(MovePlausibility, AnEncoderOfTheLoadSeesWhatKeepsItAway) {
+  const CauseOfMisses error{"kinematic error", ", error: [{{amplitude: {0:.6g}, periods: 20, phase: 1}}]", "",
+                            0.0};
+  EXPECT_TRUE(is_told(cascade_with_load(error, 1e-3, "0.05"), error.told));
+  EXPECT_FALSE(is_told(cascade_with_load(error, 1e-3, "0.05", "load"), error.told));
+}
+
 // A load with a constant torque on it is doubted exactly where its simulated move misses.
 TEST(MovePlausibility, ALoadBehindTheEncoderIsWoundUp) {
   for (const double torque : {0.5, 2.0, 4.0})
@@ -418,8 +520,11 @@ TEST(MovePlausibility, ALoadBehindTheEncoderIsWoundUp) {
       EXPECT_EQ(misses, torque / stiffness > 1e-4) << torque << " " << stiffness;
       EXPECT_EQ(is_told(study, "wind up the coupling"), misses) << torque << " " << stiffness;
       EXPECT_FALSE(is_told(with("load", ""), "wind up the coupling"));
-      EXPECT_TRUE(is_told(with("motor", ", friction: {model: dahl, breakaway: 5, sigma0: 1.0e+4}"),
-                          "wind up the coupling"));
+      const study::Study rubs = with("motor", ", friction: {model: dahl, breakaway: 5, sigma0: 1.0e+4}");
+      const trial::MoveOutcome of_load =
+          trial::run_trial(study::study_trial(rubs, 0, 0).parameters).moves.front();
+      EXPECT_EQ(is_told(rubs, "wind up the coupling"), !(of_load.other_tolerance_settling_times[0] <= 1.5))
+          << torque << " " << stiffness;
     }
 }
 
@@ -599,6 +704,29 @@ TEST(LoopPlausibility, ADelayOfASampleMoreIsEndured) {
   const study::Study study = study_with("5", "kd: 1.28e-2, ki: 3.85e-5");
   const std::vector<std::string> lines = doubtful_loops(study);
   EXPECT_TRUE(is_told(lines, "samples more makes the loop unstable")) << lines.size();
+}
+
+// In its gap the motor moves without its load, by a loop that the gains for both masses make unstable.
+TEST(LoopPlausibility, AMotorAloneInItsGapIsToldWhereItsLoopIsUnstable) {
+  const auto told = [](const std::string& gap) {
+    return fmt::format(
+        "{}",
+        fmt::join(
+            doubtful_loops(manifest::parse_study(
+                fmt::format(
+                    "zerocount: 1\nname: gap\nseed: 1\ntrials: 1\ncommand: {{targets: [5000]}}\n"
+                    "plant: {{inertia: 2.0e-5, presliding_damping: 1.0e-4, load: {{inertia: 2.0e-4, "
+                    "stiffness: 4000, damping: 0.05{}}}}}\nfriction: {{model: none}}\n"
+                    "encoder: {{fine: 1000000}}\ncontroller: {{sample_rate: 8000, delay: 1, "
+                    "derivative_cutoff: 300, structure: cascade, cascade: {{kv: 40, kp: 0.12, ki: 1}}}}\n",
+                    gap),
+                "m.yaml", {})),
+            "\n"));
+  };
+  EXPECT_EQ(told(""), "");
+  EXPECT_TRUE(
+      says(told(", gap: 1.0e-3"), "without friction, the motor alone in the gap the phase margin is -"));
+  EXPECT_TRUE(says(told(", gap: 1.0e-3"), "and the loop is unstable"));
 }
 
 TEST(LoopPlausibility, AnOpenLoopHasNone) {

@@ -163,7 +163,9 @@ ValueRule what_holds_the_axis(const study::StudyPlan& plan) {
           faults.push_back({fmt::format("a disturbance of {} {} can reach the friction of {} {} that is to "
                                         "hold it",
                                         largest, torque_unit, level, torque_unit),
-                            "torques of `disturbance` that friction.breakaway exceeds"});
+                            open_loop ? "a smaller disturbance"
+                                      : "initial.holding left out, with an initial.integral that carries the "
+                                        "disturbance, or a smaller disturbance"});
         if (max_abs(l[velocity]) > 0.0)
           faults.push_back({"an axis that holds a disturbance stands still", "initial.velocity of 0"});
         if (max_abs(l[gap]) > 0.0)

@@ -60,11 +60,12 @@ bool is_integral_alone(const trial::TrialParameters& p) {
 /// Whether the margins of the loop matter: moves of the trial are made in it, at rest, and while sliding if
 /// they go so far. Without a spring before it slides, only where the loop is stable or there is no friction:
 /// others hunt by design. Integral control alone works beyond criterion (6) too, that is with a loop at k1
-/// which is not stable; it does not beyond (7).
+/// which is not stable; it does not beyond (7). So does it at the softest place of a profile.
 bool is_used(const ExaminedLoop& loop) {
   if (!friction::has_friction(loop.trial.friction.model)) return true;
   if (loop.of_trial.slides) return loop.stability == LoopStability::stable && loop.travel.slides();
-  return loop.of_trial.name != "at k1" || !is_integral_alone(loop.trial);
+  const std::string& name = loop.of_trial.name;
+  return (name != "at k1" && name != at_softest) || !is_integral_alone(loop.trial);
 }
 
 /// The value of a loop that a test compares with its limit; NaN if the test does not apply to the loop.

@@ -1,6 +1,8 @@
 #include "analysis/theory/trial_loops.hpp"
 
+#include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <utility>
 
 #include "analysis/theory/theory_prediction.hpp"
@@ -34,9 +36,36 @@ std::vector<NamedControl> controls_of(const trial::TrialParameters& p, bool slid
 
 }  // namespace
 
+std::pair<double, double> stiffness_range(const trial::TrialParameters& p) {
+  constexpr int places_on_profile = 64;
+  double softest = std::numeric_limits<double>::infinity();
+  double stiffest = 0.0;
+  const double period = p.friction.profiled.empty() ? 0.0 : p.friction.profiled.front().profile->period;
+  const int places = p.friction.profiled.empty() ? 1 : places_on_profile;
+  for (int place = 0; place < places; ++place) {
+    const friction::FrictionParameters contact =
+        friction::friction_at(p.friction, p.initial.position + period * place / places);
+    softest = std::min(softest, contact.k1);
+    stiffest = std::max(stiffest, contact.k1 + contact.k2);
+  }
+  return {softest, stiffest};
+}
+
 friction::LinearContacts linear_contacts_of(const trial::TrialParameters& p) {
-  return friction::traits_of(p.friction.model)
-      .linear_contacts(p.plant, p.friction, friction::friction_at(p.friction, p.initial.position));
+  friction::LinearContacts contacts =
+      friction::traits_of(p.friction.model)
+          .linear_contacts(p.plant, p.friction, friction::friction_at(p.friction, p.initial.position));
+  const auto shapes_stiffness = [](const friction::ProfiledParameter& entry) {
+    return entry.parameter == &friction::FrictionParameters::k1 ||
+           entry.parameter == &friction::FrictionParameters::k2;
+  };
+  if (!friction::has_spring(p.friction.model) || std::ranges::none_of(p.friction.profiled, shapes_stiffness))
+    return contacts;
+  const auto [softest, stiffest] = stiffness_range(p);
+  const double damping = p.plant.presliding_damping;
+  const auto sliding = std::ranges::find(contacts, true, &friction::LinearContact::slides);
+  contacts.insert(sliding, {{at_softest, softest, damping}, {at_stiffest, stiffest, damping}});
+  return contacts;
 }
 
 std::vector<LoadState> load_states(const trial::TrialParameters& p) {

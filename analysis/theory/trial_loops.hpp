@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/friction/linear_contact.hpp"
@@ -15,8 +17,16 @@
 // Beside theory_prediction.hpp, which many include: the loop brings Eigen's matrices.
 namespace zerocount::theory {
 
-/// The contacts that approximate the motor's friction at the start of the trial.
+// Names of the contacts at the ends of a friction profile.
+inline constexpr std::string_view at_softest = "at the softest place of the profile";
+inline constexpr std::string_view at_stiffest = "at the stiffest place of the profile";
+
+/// The contacts that approximate the motor's friction: at the start of the trial; of a spring with a profile
+/// also where it is softest and stiffest.
 friction::LinearContacts linear_contacts_of(const trial::TrialParameters& parameters);
+
+/// The lowest k1 and the highest k1 + k2 over the friction profile of a trial, N m/rad.
+std::pair<double, double> stiffness_range(const trial::TrialParameters& parameters);
 
 /// State of the second mass that makes a loop of its own.
 struct LoadState {
@@ -49,8 +59,7 @@ struct TrialLoop {
 std::vector<TrialLoop> loops_about(const friction::LinearContacts& contacts,
                                    const trial::TrialParameters& parameters);
 
-/// The loops about each contact at the start of the trial: before sliding from the softest to the stiffest,
-/// then while sliding.
+/// The loops about each of linear_contacts_of(): before sliding, then while sliding.
 std::vector<TrialLoop> trial_loops(const trial::TrialParameters& parameters);
 
 /// The names of the states of the load in which no encoder that the controller reads sees the motor, which

@@ -100,7 +100,6 @@ std::vector<std::size_t> likely_worst_corners(const study::LoopSpread& spread) {
 }
 
 constexpr std::int64_t max_unlike_machines = 100;
-constexpr int places_on_profile = 64;
 constexpr int stiffnesses = 4;             // from the softest to the stiffest
 constexpr double lowest_mode_tried = 1.0;  // of a mode, Hz
 constexpr double frequency_ratio = 1.05;   // of one mode that is tried and the next
@@ -249,20 +248,6 @@ bool differ_in_stiffness_alone(const study::Study& study, std::int64_t condition
   });
 }
 
-/// The softest and the stiffest contact over the friction profile of a trial.
-std::pair<double, double> stiffness_range(const trial::TrialParameters& p, double period) {
-  double softest = std::numeric_limits<double>::infinity();
-  double stiffest = 0.0;
-  const int places = p.friction.profiled.empty() ? 1 : places_on_profile;
-  for (int place = 0; place < places; ++place) {
-    const friction::FrictionParameters contact =
-        friction::friction_at(p.friction, p.initial.position + period * place / places);
-    softest = std::min(softest, contact.k1);
-    stiffest = std::max(stiffest, contact.k1 + contact.k2);
-  }
-  return {softest, stiffest};
-}
-
 void include(Smallest& smallest, const Smallest& one) {
   if (one.value < smallest.value) smallest = one;
 }
@@ -328,8 +313,7 @@ LoopExaminer::LoopExaminer(const study::Study& study, std::int64_t machines)
   parallel::for_each_index(all.size(), [&](std::size_t i) {
     const std::int64_t condition = static_cast<std::int64_t>(i) % turns.conditions;
     const std::int64_t trial = turns.trial_of(static_cast<std::int64_t>(i) / turns.conditions, condition);
-    const auto [softest, stiffest] =
-        stiffness_range(study::study_trial(study, 0, trial).parameters, study.period);
+    const auto [softest, stiffest] = theory::stiffness_range(study::study_trial(study, 0, trial).parameters);
     const std::int64_t draw = static_cast<std::int64_t>(i) / turns.conditions;
     all[i] = {trial, condition, draw, spread_of_undrawn(study, condition), softest, stiffest};
   });

@@ -133,6 +133,22 @@ TEST(TrialLoops, AreThoseOfSpringAndSliding) {
                                       "while sliding, the coarse phase"}));
 }
 
+// The page, check and tune take the ends of a profile from one place.
+TEST(TrialLoops, AreThoseOfTheEndsOfAProfileToo) {
+  const friction::Profile profile{friction::Marginal::normal, 100.0, 20.0, {0.0, 1.0}, {0.0, 0.0}};
+  trial::TrialParameters p = rich_trial();
+  p.friction.profiled = {
+      {&friction::FrictionParameters::k1, std::make_shared<const friction::Profile>(profile)}};
+  const std::vector<TrialLoop> loops = trial_loops(p);
+  EXPECT_EQ(names_of(loops), (std::vector<std::string>{"at k1", "at k1 + k2", std::string(at_softest),
+                                                       std::string(at_stiffest), "while sliding"}));
+  EXPECT_NEAR(loops[0].stiffness, 120.0, 1e-9);
+  EXPECT_NEAR(loops[2].stiffness, 80.0, 1e-9);
+  EXPECT_NEAR(loops[3].stiffness, 760.0, 1e-9);
+  p.friction.model = friction::FrictionModel::lugre;
+  EXPECT_EQ(names_of(trial_loops(p)), (std::vector<std::string>{"at sigma0", "while sliding"}));
+}
+
 TEST(TrialLoops, HaveTheMarginsOfTheirParameters) {
   trial::TrialParameters p = rich_trial();
   p.controller.coarse.coarse_beyond = 1000.0;

@@ -61,14 +61,20 @@ double sampled_bound(double stiffness, const trial::TrialParameters& p) {
   return bound;
 }
 
+/// Whether friction holds the load: within the twist that this friction makes, which is no way to go.
+bool holds_load(const LoadState& state) {
+  return state.friction.stiffness > 0.0 || state.friction.load_stiffness > 0.0;
+}
+
 /// Adds the slowest time constants of the position loops in the fine phase about a spring of `stiffness` (N
-/// m/rad). Returns false if one of them is not stable, which adds nothing.
+/// m/rad) that bring the masses to the target. Returns false if one of them is not stable, which adds
+/// nothing.
 bool add_time_constant(Range& slowest, double stiffness, const trial::TrialParameters& p) {
   const auto controller = loop::controller_in_phase(p.controller, loop::ControlPhase::fine);
   bool stable = true;
   for (const LoadState& state : load_states(p)) {
     const auto loop = loop_in_state(contact_before_sliding(stiffness, p), state, p, controller);
-    if (!loop || !loop->closes_position) continue;
+    if (!loop || !loop->closes_position || holds_load(state)) continue;
     const double tau = slowest_time_constant(poles_of(*loop), loop->sample_time);
     if (std::isfinite(tau) && tau > 0.0) {
       slowest.add(tau);

@@ -125,7 +125,8 @@ class CheckAnswer(Answer):
         - ``longest_step``: length of the slowest move; 0: no step, count
         - ``longest_time``: time that it needs, with the dwell, s
         - ``exceeds_hold``: whether moves may end before they arrive
-        - ``loops``: the loop at k1, at k1 + k2 and while the rotor slides
+        - ``loops``: the loops in which the machine moves: at k1, at k1 + k2, at the ends of a profile and while the
+          rotor slides, in each state of the load
           - ``loop``: where the rotor is
           - ``slides``: whether the rotor slides
           - ``stability``: stable, marginal or unstable: all that occur in the trials
@@ -135,6 +136,8 @@ class CheckAnswer(Answer):
           - ``gain_margin_at``.* (low, high): frequency of the gain margin, Hz
           - ``phase_margin``.* (low, high): phase margin, °
           - ``phase_margin_at``.* (low, high): frequency of the phase margin, Hz
+          - ``no_gain_stabilises``: whether the loop is unstable with every factor of its gain, in some trial
+        - ``cut``: states of the load in which no encoder that the controller reads sees the motor
         - ``hunting``: what the longest move of trial 0 comes to
         - ``hunting_step``: length of that move, count
         - ``hunting_amplitude``: half of the range of its oscillation; null: it does not hunt, count

@@ -66,18 +66,30 @@ bool holds_load(const LoadState& state) {
   return state.friction.stiffness > 0.0 || state.friction.load_stiffness > 0.0;
 }
 
+/// −T/ln z of the largest real pole z, s: the slowest approach without oscillation; 0 without one.
+double slowest_approach(const Eigen::VectorXcd& poles, double sample_time) {
+  constexpr double gone_at_once = 1e-6;  // eigenvalues that are 0 up to rounding
+  double slowest = 0.0;
+  for (const auto& z : poles) {
+    if (z.imag() == 0.0) slowest = std::max(slowest, z.real());
+  }
+  return slowest > gone_at_once && slowest < 1.0 ? -sample_time / std::log(slowest) : 0.0;
+}
+
 /// Adds the slowest time constants of the position loops in the fine phase about a spring of `stiffness` (N
 /// m/rad) that bring the masses to the target. Returns false if one of them is not stable, which adds
 /// nothing.
-bool add_time_constant(Range& slowest, double stiffness, const trial::TrialParameters& p) {
+bool add_time_constant(Approach& approach, double stiffness, const trial::TrialParameters& p) {
   const auto controller = loop::controller_in_phase(p.controller, loop::ControlPhase::fine);
   bool stable = true;
   for (const LoadState& state : load_states(p)) {
     const auto loop = loop_in_state(contact_before_sliding(stiffness, p), state, p, controller);
     if (!loop || !loop->closes_position || holds_load(state)) continue;
-    const double tau = slowest_time_constant(poles_of(*loop), loop->sample_time);
+    const Eigen::VectorXcd poles = poles_of(*loop);
+    const double tau = slowest_time_constant(poles, loop->sample_time);
     if (std::isfinite(tau) && tau > 0.0) {
-      slowest.add(tau);
+      approach.time_constant.add(tau);
+      approach.of_moves.add(stiffness > 0.0 ? slowest_approach(poles, loop->sample_time) : tau);
     } else {
       stable = false;
     }
@@ -129,7 +141,7 @@ void add_loops(std::vector<LoopRanges>& loops, const trial::TrialParameters& p) 
 void examine_free(const study::Study& study, const trial::TrialParameters& p, PointTheory& theory) {
   theory.gain.value.add(as_given(study.units, p, integral_gain(p.controller)));
   add_sampled_bound(study, p, 0.0, theory.gain);
-  add_time_constant(theory.approach.time_constant, 0.0, p);
+  add_time_constant(theory.approach, 0.0, p);
 }
 
 /// The initial errors of moves in the fine phase, counts; empty unless the reference is a step.
@@ -226,9 +238,8 @@ void examine_rotors(const ExaminedPoint& at, LowestStiffness& lowest, std::vecto
 void examine_closely(const study::Study& study, const trial::TrialParameters& p, PointTheory& theory) {
   const friction::FrictionParameters contact = friction::friction_at(p.friction, p.initial.position);
   add_sampled_bound(study, p, contact.k1, theory.gain);
-  Range& slowest = theory.approach.time_constant;
-  const bool stable_at_k1 = add_time_constant(slowest, contact.k1, p);
-  const bool stable_at_k2 = add_time_constant(slowest, contact.k1 + contact.k2, p);
+  const bool stable_at_k1 = add_time_constant(theory.approach, contact.k1, p);
+  const bool stable_at_k2 = add_time_constant(theory.approach, contact.k1 + contact.k2, p);
   if (stable_at_k1 || stable_at_k2) add_arrivals(theory.approach, p, contact);
   add_loops(theory.loops, p);
   LowestStiffness& lowest = theory.lowest;

@@ -60,13 +60,16 @@ struct LowestStiffness {
 
 /// How fast the loop brings the error to zero.
 struct Approach {
-  Range time_constant;           ///< slowest of the loop, s
+  Range time_constant;  ///< slowest of the loop, s
+  /// Slowest time constants that hold up a move, s: without friction all of them; about a spring those
+  /// without oscillation, because its hysteresis ends an oscillation that the linear loop lets ring.
+  Range of_moves;
   double hold{0.0};              ///< of the shortest move, s
   std::int64_t longest_step{0};  ///< of the slowest move, counts; 0: no step
   double longest_time{0.0};      ///< from its start until it has arrived, with the dwell, s
 
   /// Whether moves may end before the loop has brought them to their targets.
-  bool exceeds_hold() const { return time_constant.high > hold || longest_time > hold; }
+  bool exceeds_hold() const { return of_moves.high > hold || longest_time > hold; }
 };
 
 /// A loop of trial_loops over the trials. A trial without a crossover does not change its ranges.

@@ -213,12 +213,14 @@ Description<Approach> approach_description() {
 
 string slowness_text(const Approach& approach) {
   const string arrival = arrival_text(approach).value_or("");
-  const double slowest = approach.time_constant.high;
+  const double slowest = approach.of_moves.high;
+  const char* const kind = slowest < approach.time_constant.high ? " without oscillation" : "";
   if (slowest > approach.hold) {
-    return fmt::format(", {:.3g} s, exceeds the hold of {:.4g} s{}{}", slowest, approach.hold,
+    return fmt::format("{}, {:.3g} s, exceeds the hold of {:.4g} s{}{}", kind, slowest, approach.hold,
                        arrival.empty() ? "" : "; ", arrival);
   }
-  return fmt::format(" is {:.3g} s; {}, longer than the hold of {:.4g} s", slowest, arrival, approach.hold);
+  return fmt::format("{} is {:.3g} s; {}, longer than the hold of {:.4g} s", kind, slowest, arrival,
+                     approach.hold);
 }
 
 string stability_text(const LoopRanges& loop) {

@@ -295,6 +295,25 @@ TEST(PointTheory, IsOfTheMotorAloneInItsGapToo) {
   EXPECT_EQ(cut.cut, std::vector<std::string>{"the motor alone in the gap"});
 }
 
+// About a spring an underdamped loop rings for long in the linear theory, and its moves arrive: hysteresis
+// ends the ringing. Without friction nothing does.
+TEST(PointTheory, TellsThatMovesMayEndBeforeTheyArriveWhereNothingEndsARinging) {
+  const auto approach_of = [](const std::string& friction) {
+    const study::Study study =
+        manifest::parse_study("zerocount: 1\nname: ring\nseed: 1\ntrials: 1\nfriction: {" + friction +
+                                  "}\nplant: {presliding_damping: 2.0e-3}\ncontroller: {kp: 1.0e-5, ki: 0}\n"
+                                  "command: {targets: [3], hold: 0.3}\n",
+                              "m.yaml", {});
+    return examine(study, 0).approach;
+  };
+  const Approach on_spring = approach_of("k1: 110, alpha: 0");
+  EXPECT_GT(on_spring.time_constant.high, 0.3);
+  EXPECT_FALSE(on_spring.exceeds_hold());
+  const Approach free = approach_of("model: none");
+  EXPECT_GT(free.time_constant.high, 0.3);
+  EXPECT_TRUE(free.exceeds_hold());
+}
+
 // A double integrator under integral action alone: each gain makes it grow. There is no margin, and the
 // reason is told.
 TEST(PointTheory, TellsThatNoGainStabilisesALoop) {

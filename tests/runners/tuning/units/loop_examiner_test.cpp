@@ -72,7 +72,7 @@ TEST(LoopExaminer, ExaminesTheMotorAloneInAGap) {
   const auto with = [](const std::string& gap, const std::string& kp) {
     return manifest::parse_study(
         fmt::format(
-            "zerocount: 1\nname: gap\nseed: 1\ntrials: 2\ncommand: {{targets: [500], hold: 1.0}}\n"
+            "zerocount: 1\nname: gap\nseed: 1\ntrials: 4\ncommand: {{targets: [500], hold: 1.0}}\n"
             "plant: {{inertia: 2.0e-5, presliding_damping: 1.0e-4, load: {{inertia: 2.0e-4, stiffness: "
             "4000, damping: 0.05{}}}}}\nfriction: {{model: none}}\nencoder: {{fine: 1000000}}\n"
             "controller: {{sample_rate: 8000, delay: 1, derivative_cutoff: 300, structure: cascade, "

@@ -46,15 +46,15 @@ Parameter zero_by_default(Parameter row) {
   return row;
 }
 
-// Rows of a list of ripples. @param names of amplitude, periods, pitch and phase. @param ideal without one.
+// Rows of a list of ripples. @param names of amplitude, periods, pitch and phase. @param ideal of the
+// amplitude
 template <auto list>
 void add_ripple_rows(std::vector<Parameter>& rows, const std::array<std::string_view, 4>& names,
-                     std::size_t first, std::string_view unit, std::string_view meaning,
-                     std::string_view ideal) {
+                     std::size_t first, std::string_view unit, std::string_view meaning, const Ideal& ideal) {
   using R = trial::RippleParameters;
   constexpr std::size_t of = dimensions_of_ripple;
-  rows.push_back(ideal_at(
-      0, ideal, number_of<list, &R::amplitude>(names[0], first, of, unit, meaning, numerics::at_least(0))));
+  rows.push_back(number_of<list, &R::amplitude>(names[0], first, of, unit, meaning, numerics::at_least(0)));
+  rows.back().ideal = ideal;
   rows.push_back(only_on(AxisKind::rotary, "pitch, m",
                          number_of<list, &R::periods>(names[1], first + 1, of, "1",
                                                       "its periods in a revolution", numerics::above(0))));
@@ -114,7 +114,7 @@ std::vector<Parameter> kinematic_error_rows() {
                            "plant.load.error.#.pitch", "plant.load.error.#.phase"},
                           kinematic_error, "rad",
                           "amplitude of a kinematic error of the coupling, along the $track",
-                          "no kinematic error");
+                          {"no kinematic error", 0.0});
   return rows;
 }
 
@@ -128,21 +128,21 @@ std::vector<Parameter> disturbance_rows() {
   add_ripple_rows<ripples>(rows,
                            {"disturbance.ripple.#.amplitude", "disturbance.ripple.#.periods",
                             "disturbance.ripple.#.pitch", "disturbance.ripple.#.phase"},
-                           ripple, "N m", "amplitude of a $torque that varies along the $track", "no ripple");
+                           ripple, "N m", "amplitude of a $torque that varies along the $track", {no_ripple});
   add_vibration_rows<vibrations>(rows,
                                  {"disturbance.vibration.#.amplitude", "disturbance.vibration.#.frequency",
                                   "disturbance.vibration.#.phase"},
                                  ripple + max_ripples * dimensions_of_ripple,
                                  "amplitude of a $torque that varies in time");
-  rows.push_back(ideal_at(
-      0, "no constant disturbance of the load",
+  rows.push_back(idealised_by(
+      no_constant_load_disturbance,
       real_row("disturbance.load.torque", beyond_moves(288), "N m", "constant $torque on the second mass",
                assumed, numerics::all_numbers(), [](auto& p) { return &p.load_side.disturbance.torque; })));
   add_ripple_rows<load_ripples>(
       rows,
       {"disturbance.load.ripple.#.amplitude", "disturbance.load.ripple.#.periods",
        "disturbance.load.ripple.#.pitch", "disturbance.load.ripple.#.phase"},
-      load_ripple, "N m", "amplitude of a $torque on the second mass that varies along its way", "no ripple");
+      load_ripple, "N m", "amplitude of a $torque on the second mass that varies along its way", {no_ripple});
   add_vibration_rows<load_vibrations>(
       rows,
       {"disturbance.load.vibration.#.amplitude", "disturbance.load.vibration.#.frequency",

@@ -71,8 +71,9 @@ std::vector<Parameter> rows_of(const std::array<std::string_view, 6>& names, std
   using F = loop::Filter;
   const numerics::Interval positive = numerics::above(0);
   return {
-      number_of_filter<Phase, &F::frequency>(names[0], dimension, "Hz",
-                                             "frequency w0/2pi of a lowpass, notch or lead", positive),
+      idealised_by(no_filter,
+                   number_of_filter<Phase, &F::frequency>(
+                       names[0], dimension, "Hz", "frequency w0/2pi of a lowpass, notch or lead", positive)),
       number_of_filter<Phase, &F::damping>(names[1], dimension + 1, "1",
                                            "damping ratio zeta of a lowpass or notch", positive),
       number_of_filter<Phase, &F::depth>(names[2], dimension + 2, "1",
@@ -81,7 +82,8 @@ std::vector<Parameter> rows_of(const std::array<std::string_view, 6>& names, std
       number_of_filter<Phase, &F::ratio>(names[3], dimension + 1, "1",
                                          "ratio of the pole frequency of a lead to its zero frequency",
                                          positive),
-      coefficients_of_filter<Phase, &F::b>(names[4], dimension, "b0, b1, b2 of a biquad"),
+      idealised_by(no_filter,
+                   coefficients_of_filter<Phase, &F::b>(names[4], dimension, "b0, b1, b2 of a biquad")),
       coefficients_of_filter<Phase, &F::a>(names[5], dimension + 3, "a1, a2 of a biquad"),
   };
 }

@@ -37,13 +37,23 @@ constexpr std::size_t beyond_moves(std::size_t i) {
 
 constexpr std::string_view assumed = "assumed";
 
-// Names of effects that idealise several parameters.
+// Names of effects that idealise several parameters, or how they begin.
 constexpr std::string_view finer_converter = "a converter 16 times finer";
-constexpr std::string_view wider_torque_range = "a torque range 10 times wider";
+constexpr std::string_view wider_torque_range = "a torque range";
 constexpr std::string_view finer_encoder = "an encoder 4 times finer";
 constexpr std::string_view faster_sampling = "twice the sample rate";
 constexpr std::string_view rigid_axis = "a rigid axis";
+constexpr std::string_view stiffer_coupling = "a coupling 100 times stiffer";
+constexpr std::string_view no_load_friction = "no friction of the load";
 constexpr std::string_view no_constant_disturbance = "no constant disturbance";
+constexpr std::string_view no_constant_load_disturbance = "no constant disturbance of the load";
+constexpr std::string_view no_ripple = "no ripple";
+constexpr std::string_view no_integral = "no integral of the control";
+constexpr std::string_view no_filter = "no filter";
+constexpr std::string_view damping_feedforward = "a feed-forward of the damping";
+constexpr std::string_view inertia_feedforward = "a feed-forward of the inertia";
+constexpr std::string_view friction_feedforward = "a feed-forward of the sliding friction";
+constexpr std::string_view faster_profile = "a profile";
 
 /// Maximum |target| and maximum counts per revolution: far above those of real machines, and small enough for
 /// exact arithmetic of counts in double.

@@ -43,6 +43,20 @@ std::string aged_parameter(const study::StudyTable& table, std::string_view key)
 
 }  // namespace
 
+bool is_of_spectrum(const study::StudyPlan& plan, std::string_view path) {
+  for (const parameters::ElementList& list : parameters::element_lists()) {
+    if (!parameters::has_spectra(list)) continue;
+    const bool of_load = list.path.starts_with("disturbance.load.");
+    const auto& elements = (of_load ? plan.common.load_side.disturbance : plan.common.disturbance).vibration;
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      const std::string element = fmt::format("{}.{}", list.path, i);
+      const bool is_spectrum = !study::find_slots(element + ".amplitude", plan.table);
+      if (is_spectrum && (path == element + ".lines" || path.starts_with(element + ".spectrum"))) return true;
+    }
+  }
+  return false;
+}
+
 std::optional<study::SlotRange> find_assigned(const yaml::Field& map, const yaml::YamlEntry& entry,
                                               std::string_view refusal, keys::Reading& reading) {
   const study::StudyTable& table = reading.plan.table;
@@ -53,7 +67,10 @@ std::optional<study::SlotRange> find_assigned(const yaml::Field& map, const yaml
   const std::string path = yaml::entry_of(map, entry).path;
   const std::string pattern = parameters::without_indices(entry.key);
   const bool of_element = parameters::find_element_list(pattern.substr(0, pattern.find(".#"))) != nullptr;
-  if (of_element && pattern != entry.key) {
+  if (is_of_spectrum(reading.plan, entry.key)) {
+    problems.add(entry.place, path, fmt::format("{} is not a parameter: a spectrum is fixed", entry.key),
+                 "a parameter, or a manifest for each spectrum");
+  } else if (of_element && pattern != entry.key) {
     const std::string known = names_like(table, pattern);
     problems.add(entry.place, path, fmt::format("the study has no {}", entry.key),
                  known.empty() ? "the list in its section of the manifest" : known);

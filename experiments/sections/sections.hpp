@@ -26,6 +26,9 @@ struct SweptAxis {
   std::vector<std::size_t> slots{};   ///< assigned by some option, in order of appearance
 };
 
+/// Whether the path leads to the points or lines of a spectrum of the study: "disturbance.vibration.0.lines".
+bool is_of_spectrum(const study::StudyPlan& plan, std::string_view path);
+
 /// The slots of the entry's dotted path. Reports an unknown one, with the nearest known.
 /// @param refusal what is said of a key that is not a parameter
 std::optional<study::SlotRange> find_assigned(const yaml::Field& map, const yaml::YamlEntry& entry,

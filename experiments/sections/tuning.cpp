@@ -54,7 +54,10 @@ void read_free(const yaml::Field& map, const study::StudyPlan& plan, study::Tuni
     const yaml::Field field = yaml::entry_of(map, entry);
     const auto slots = study::find_slots(entry.key, plan.table);
     if (!slots || slots->list) {
-      problems.add(entry.place, field.path, fmt::format("the study has no number {}", entry.key),
+      problems.add(entry.place, field.path,
+                   is_of_spectrum(plan, entry.key)
+                       ? fmt::format("{} is not a parameter: a spectrum is fixed", entry.key)
+                       : fmt::format("the study has no number {}", entry.key),
                    "the dotted path of a numeric parameter, such as controller.ki (zerocount parameters)");
       continue;
     }

@@ -17,6 +17,27 @@ std::size_t slot_named(const StudyPlan& plan, std::string_view parameter) {
   return slots_named(plan.table, {&parameter, 1}).front();
 }
 
+/// The values of a list, or of a short range of whole numbers; nothing of other distributions.
+std::optional<distributions::Choice> listed(const distributions::Distribution& distribution) {
+  if (const auto* choice = std::get_if<distributions::Choice>(&distribution)) return *choice;
+  const auto* integers = std::get_if<distributions::Integers>(&distribution);
+  constexpr std::int64_t longest = 1000;
+  if (integers == nullptr || integers->high - integers->low >= longest) return std::nullopt;
+  distributions::Choice values;
+  for (std::int64_t i = integers->low; i <= integers->high; ++i)
+    values.values.push_back(integers->unit * static_cast<double>(i));
+  return values;
+}
+
+distributions::Distribution scaled_by(const Scaling& scaling, const distributions::Distribution& distribution,
+                                      std::optional<double> none) {
+  std::optional<distributions::Choice> list = listed(distribution);
+  if (!list) return distributions::scaled(distribution, scaling.factor);
+  for (double& value : list->values)
+    if (value != none) value = scaling(value);
+  return *list;
+}
+
 }  // namespace
 
 PointEdit::PointEdit(const Study& study, std::int64_t point)
@@ -44,33 +65,25 @@ void PointEdit::set(std::string_view parameter, double number) {
   set(slot_named(plan_, parameter), number);
 }
 
-void PointEdit::scale(std::size_t slot, double factor) {
+void PointEdit::scale(std::size_t slot, const Scaling& scaling) {
   const Value value = value_of(slot);
   const std::optional<double> none = plan_.table.rows[slot].none;
   switch (value.kind) {
     case Value::Kind::number:
       if (value.number != none && !std::isnan(value.number))
-        assign(slot, {.kind = value.kind, .number = factor * value.number, .aging = value.aging});
+        assign(slot, {.kind = value.kind, .number = scaling(value.number), .aging = value.aging});
       return;
-    case Value::Kind::distribution: {
-      const distributions::Distribution& before = plan_.distributions[value.index];
-      distributions::Distribution after = distributions::scaled(before, factor);
-      if (auto* choice = std::get_if<distributions::Choice>(&after)) {
-        const std::vector<double>& values = std::get<distributions::Choice>(before).values;
-        for (std::size_t i = 0; i < values.size(); ++i)
-          if (values[i] == none) choice->values[i] = *none;
-      }
-      assign(slot, drawn_from(value, std::move(after)));
+    case Value::Kind::distribution:
+      assign(slot, drawn_from(value, scaled_by(scaling, plan_.distributions[value.index], none)));
       return;
-    }
     case Value::Kind::profile:
     case Value::Kind::following:  // of friction, which has no unit that depends on the loop
       return;
   }
 }
 
-void PointEdit::scale(std::string_view parameter, double factor) {
-  scale(slot_named(plan_, parameter), factor);
+void PointEdit::scale(std::string_view parameter, const Scaling& scaling) {
+  scale(slot_named(plan_, parameter), scaling);
 }
 
 Widened PointEdit::widen(double factor) {

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +18,16 @@ namespace zerocount::study {
 struct Widened {
   std::vector<std::string> changed;
   std::vector<std::string> kept;
+};
+
+/// The scaling of a value. Where it is a number or drawn from a list, some of its values can be exempt.
+struct Scaling {
+  double factor{1.0};           ///< above 0
+  std::optional<double> off{};  ///< the value that stays, beside "none"
+  /// Least value afterwards; of values drawn from a range it is not enforced.
+  double least{-std::numeric_limits<double>::infinity()};
+
+  double operator()(double value) const { return value == off ? value : std::max(least, factor * value); }
 };
 
 /// A study with other values at one of its design points, in the units of its manifest. All other values and
@@ -33,9 +46,11 @@ class PointEdit {
 
   void set(std::size_t slot, double number);
   void set(std::string_view parameter, double number);
-  /// The value "none" stays, and a required one that the study does not have. @param factor above 0
-  void scale(std::size_t slot, double factor);
-  void scale(std::string_view parameter, double factor);
+  /// The value "none" stays, and a required one that the study does not have.
+  void scale(std::size_t slot, const Scaling& scaling);
+  void scale(std::string_view parameter, const Scaling& scaling);
+  void scale(std::size_t slot, double factor) { scale(slot, Scaling{factor}); }
+  void scale(std::string_view parameter, double factor) { scale(parameter, Scaling{factor}); }
   /// Lets all that is drawn of the axis and its surroundings lie `factor` times as far from its centre
   /// (distributions::widened), but for the starts and the commands of moves. What would leave its range, and
   /// whole numbers, choices and rows of samples, stay as they are.

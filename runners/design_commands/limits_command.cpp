@@ -37,7 +37,8 @@ constexpr const char* limits_help =
     "failures switched off alone, and with the best pair of causes. Each parameter that has an ideal\n"
     "value is a cause where the point has another one: creep, friction's fall, delays, each error of\n"
     "encoder and converter, each disturbance and so on; and a rigid axis, a wider torque range, a\n"
-    "finer converter and encoder and twice the sample rate are tried. The gains are not tuned again.\n"
+    "finer converter and encoder, twice the sample rate, a feed-forward that fits, a faster profile,\n"
+    "and control without filters or integral are tried. The gains are not tuned again.\n"
     "A cause is named where machines, or trials, gain by it more often than chance allows; the\n"
     "bound allows for the number of causes. Where nothing is missed, none is simulated. Then with\n"
     "effects added that a study may assume away: encoder noise, a sample of delay, and the lowest\n"
@@ -105,6 +106,16 @@ document::Description<Limit> limit_columns(const document::Item& effect) {
           [](const Limit& limit) { return limit.note.empty() ? std::nullopt : std::optional(limit.note); });
 }
 
+/// "; not simulated, for the reasons in their rows: twice the sample rate".
+std::string not_simulated_text(const std::vector<Limit>& limits) {
+  std::vector<std::string> names;
+  for (const Limit& one : limits)
+    if (!one.rate) names.push_back(one.effect);
+  return names.empty() ? ""
+                       : fmt::format("; not simulated, for the reasons in their rows: {}",
+                                     fmt::join(names, ", "));
+}
+
 /// Tells what was not tried, and whether there were too few units to show a cause.
 std::string causes_sentence(const std::vector<Limit>& limits) {
   std::int64_t tried = 0;
@@ -128,8 +139,8 @@ std::string causes_sentence(const std::vector<Limit>& limits) {
          (units < needed ? fmt::format("{} units cannot show a cause, at least {} can\n", units, needed)
                          : "") +
          fmt::format(
-             "not tried: other values of {} that have no ideal one, other gains, another friction law",
-             fmt::join(tuning::sections_with_other_values(), ", "));
+             "not tried: other values of {} that have no ideal one, other gains, another friction law{}",
+             fmt::join(tuning::sections_with_other_values(), ", "), not_simulated_text(limits));
 }
 
 /// The rates with a cause switched off, beside that with none and what is asked for; nothing where no cause

@@ -47,15 +47,19 @@ void EffectRuns::apply_effects(ChangedPoint& point) const {
     const std::vector<Effect>& effects = point.under[condition];
     study::PointEdit at(conditions_[condition], units_.point);
     std::vector<Change> changes;
+    FinerUnits finer;
     for (const Effect& one : effects) {
       if (point.note.empty()) point.note = one.note;
       if (point.refusal.empty()) point.refusal = one.refusal;
       if (one.edit) one.edit(at);
       if (one.change) changes.push_back(one.change);
+      finer.counts *= one.finer.counts;
+      finer.samples *= one.finer.samples;
     }
     if (point.refusal.empty() && !effects.empty()) point.refusal = rules::refusal_of(at);
     if (!point.refusal.empty()) return;
     point.studies.push_back(at.study());
+    point.finer.push_back(finer);
     point.changes.emplace_back([changes = std::move(changes)](trial::TrialParameters& p) {
       for (const Change& change : changes) change(p);
     });
@@ -85,7 +89,8 @@ void EffectRuns::run_all(std::span<ChangedPoint> points, std::int64_t count) con
     const std::int64_t from = std::ssize(point.units);
     if (!point.refusal.empty() || from >= count) continue;
     for (std::size_t c = 0; c < conditions; ++c)
-      entries.push_back({&point.studies[c], from, count, &results[p * conditions + c], &point.changes[c]});
+      entries.push_back(
+          {&point.studies[c], from, count, &results[p * conditions + c], &point.changes[c], point.finer[c]});
   }
   if (entries.empty()) return;
   run_units(entries, units_, effort_);

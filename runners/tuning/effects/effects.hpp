@@ -23,7 +23,8 @@ struct Effect {
   std::string refusal{};  ///< why it cannot be simulated; empty if it can
   /// The values to change, those that belong to them included; empty: none.
   std::function<void(study::PointEdit&)> edit{};
-  Change change{};  ///< of what a trial has drawn; empty: none
+  Change change{};     ///< of what a trial has drawn; empty: none
+  FinerUnits finer{};  ///< Units of the changed trials.
 };
 
 /// A point with some effects switched off or added, and what its first units do.
@@ -34,6 +35,7 @@ struct ChangedPoint {
   std::string refusal{};                   ///< why it cannot be simulated; empty if it can
   std::vector<study::Study> studies{};     ///< [condition]
   std::vector<Change> changes{};           ///< [condition], after the trials of these studies are drawn
+  std::vector<FinerUnits> finer{};         ///< [condition] Units of these trials.
   std::vector<UnitResult> units{};         ///< so far, with all goals under all conditions
 };
 
@@ -171,8 +173,11 @@ const Limit* main_cause(const std::vector<Limit>& limits);
 ///
 ///   - each parameter that has not its ideal value (parameters::Ideal)
 ///   - friction that varies along the track, or from contact to contact; each spectrum of the disturbance
-///   - what several values idealise: a rigid axis, no constant disturbance, a finer converter, a wider torque
-///     range, a finer encoder, twice the sample rate
+///   - what several values idealise: a rigid axis or a stiffer coupling, no constant disturbance and no ripple
+///     (with what holds them), each filter, the integral under friction, a feed-forward that fits the axis, a
+///     faster profile, a finer converter, a wider torque range, a finer encoder, twice the sample rate
+///
+/// Each changes one thing. Where a point is without the effect, its row is absent or has the rate of the point.
 std::vector<Effect> idealisations_of(const study::Study& study, std::int64_t point);
 
 /// The sections of manifests with parameters that have no ideal value: other values of these are not tried.

@@ -16,6 +16,7 @@
 #include "analysis/measures/trial_value.hpp"
 #include "core/batch/batch.hpp"
 #include "core/failure/failure.hpp"
+#include "core/trial/move_measures.hpp"
 #include "experiments/study/study_trial.hpp"
 #include "runners/trials/trial_set.hpp"
 
@@ -118,6 +119,18 @@ std::vector<Block> blocks_of(std::span<const UnitsToRun> entries, const trials::
   return blocks;
 }
 
+/// The moves of trial i of a unit in the units of its study.
+std::vector<trial::MoveOutcome> moves_in_study_units(const UnitOfEntry& one, const trials::Replicates& units,
+                                                     std::int64_t i,
+                                                     std::span<const trial::MoveOutcome> finer) {
+  const trial::TrialParameters parameters = trial_of(*one.entry, units, one.unit, i);
+  std::vector<trial::MoveOutcome> moves;
+  for (std::size_t move = 0; move < finer.size(); ++move)
+    moves.push_back(in_study_units(finer[move], one.entry->finer, one.entry->study->features.bands,
+                                   trial::move_timing(parameters, move)));
+  return moves;
+}
+
 void add_outcomes(const Block& block, const trials::Replicates& units,
                   std::span<const trial::TrialOutcome> outcomes) {
   std::optional<TrialCounter> counter;
@@ -130,7 +143,11 @@ void add_outcomes(const Block& block, const trials::Replicates& units,
       counter.emplace(*entry->study);
       conditions = study::condition_count(*entry->study);
     }
-    counter->add(outcomes[i].moves, trial % units.trials_each % conditions,
+    const bool same_units = entry->finer == FinerUnits{};
+    const std::vector<trial::MoveOutcome> converted =
+        same_units ? std::vector<trial::MoveOutcome>{}
+                   : moves_in_study_units(one, units, trial % units.trials_each, outcomes[i].moves);
+    counter->add(same_units ? outcomes[i].moves : converted, trial % units.trials_each % conditions,
                  (*entry->results)[static_cast<std::size_t>(one.unit)]);
   }
 }

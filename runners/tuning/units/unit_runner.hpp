@@ -16,6 +16,7 @@
 #include "runners/trials/effort.hpp"
 #include "runners/trials/variant.hpp"
 #include "runners/tuning/race/candidate.hpp"
+#include "runners/tuning/units/finer_units.hpp"
 
 /// Tuning of a study: the search on machines of its own, the proof on others, and what the answer rests on.
 namespace zerocount::tuning {
@@ -81,6 +82,7 @@ struct UnitsToRun {
   std::int64_t to{0};
   std::vector<UnitResult>* results{nullptr};  ///< get one entry a unit, [claim of aim_of()]
   const Change* change{nullptr};              ///< null: none
+  FinerUnits finer{};                         ///< Units of its trials.
 };
 
 /// What trials show that all are of one unit, under the first condition.

@@ -58,10 +58,31 @@ Words on_the_loads_encoder(const std::string& errors, Words given = {by_position
   return with_a_load("encoder: load", given);
 }
 
+/// A reference that a stiff loop with this feed-forward must follow.
+Words following(const std::string& friction, const std::string& more) {
+  return {friction, more,
+          "command={targets: [4000], hold: 0.5, profile: {shape: trapezoidal, velocity_limit: 2, "
+          "acceleration_limit: 40}}",
+          "verdict.motion=true"};
+}
+
+/// A friction that sticks on both masses.
+const std::string sticks = "friction={model: coulomb, breakaway: 0.02, coulomb_ratio: 1}";
+
 // [parameter] what makes it the cause
 const std::map<std::string, Words, std::less<>>& causes_of_failures() {
   static const std::map<std::string, Words, std::less<>> all{
       {"plant.load.inertia", {"plant.load={inertia: 1.0e-3, stiffness: 60, damping: 1.0e-3, encoder: load}"}},
+      {"plant.load.stiffness",
+       {"plant.load={inertia: 1.0e-3, stiffness: 60, damping: 1.0e-3, encoder: load, friction: {model: "
+        "coulomb, "
+        "breakaway: 0.02, coulomb_ratio: 1}}",
+        sticks, by_position}},
+      {"plant.load.friction.model", with_a_load("encoder: load, friction: {model: coulomb, breakaway: 2}")},
+      {"plant.load.friction.coulomb_ratio",
+       with_a_load("encoder: load, friction: {model: coulomb, breakaway: 0.4, coulomb_ratio: 0.4, "
+                   "stribeck_velocity: 5.0e-3}",
+                   {"controller.ki=1000", "command.hold=0.8", "goal.within=0.3"})},
       {"plant.load.gap", with_a_load("encoder: load, gap: 0.01")},
       {"plant.load.error.#.amplitude",
        with_a_load("error: [{amplitude: 1.0e-6, periods: 3}, {amplitude: 0.1, periods: 20}]",
@@ -118,6 +139,39 @@ const std::map<std::string, Words, std::less<>>& causes_of_failures() {
       {"controller.dither.amplitude", {"controller.dither={amplitude: 1, frequency: 50}"}},
       {"controller.missed", {"controller.missed=0.97"}},
       {"controller.jitter", {"controller.sample_rate=250", "controller.jitter=3.9e-3"}},
+      {"controller.derivative_window", {"controller.derivative_window=150"}},
+      {"controller.standstill.band",
+       {"controller.standstill={band: 100, dwell: 0.001, kp: 0.1, ki: 0, kd: 0}"}},
+      {"controller.filters.#.frequency", {"controller.filters=[{lowpass: {frequency: 6, damping: 0.7}}]"}},
+      {"controller.filters.#.b", {"controller.filters=[{biquad: {b: [0.01, 0, 0], a: [0, 0]}}]"}},
+      {"controller.ki",
+       {"friction={model: coulomb, breakaway: 0.05, coulomb_ratio: 0.4, stribeck_velocity: 5.0e-3}",
+        "plant.sliding_damping=0.01", "controller.ki=4000", "controller.kp=100", "command.hold=0.8",
+        "goal={band: 20, within: 0.3, moves: 0.9}"}},
+      {"controller.standstill.ki",
+       {"friction={model: coulomb, breakaway: 0.05, coulomb_ratio: 0.4, stribeck_velocity: 5.0e-3}",
+        "plant.sliding_damping=0.01", "controller.kp=100", "command.hold=0.8",
+        "controller.standstill={band: 100, dwell: 0.01, kp: 100, ki: 9000, kd: 0.28}",
+        "goal={band: 20, within: 0.3, moves: 0.9}"}},
+      {"controller.cascade.ki",
+       {"controller={sample_rate: 4000, structure: cascade, cascade: {kv: 100, kp: 0.3, ki: 200}}",
+        "friction={model: coulomb, breakaway: 0.05, coulomb_ratio: 0.4, stribeck_velocity: 5.0e-3}",
+        "plant.sliding_damping=0.01", "command.hold=0.8", "goal={band: 40, within: 0.3, moves: 0.9}"}},
+      {"controller.cascade.feedforward",
+       {as_a_host("feedforward: 0").front(), "goal.limits={following_error_peak: 100}",
+        "command={targets: [4000], hold: 0.5, profile: {shape: s_curve, velocity_limit: 2, "
+        "acceleration_limit: 40, jerk_limit: 2000}}",
+        "verdict.motion=true"}},
+      {"controller.feedforward.velocity",
+       following("goal.limits={following_error_rms: 100}", "controller.kd=0.6")},
+      {"controller.feedforward.acceleration",
+       following("goal.limits={following_error_peak: 20}", "controller.feedforward={velocity: 0.29}")},
+      {"controller.feedforward.friction",
+       following("friction={model: coulomb, breakaway: 1, coulomb_ratio: 1}",
+                 "goal={tolerance: 1, within: 0.4, moves: 0.9, limits: {following_error_rms: 30}}")},
+      {"command.profile.velocity_limit", {"command.profile.velocity_limit=0.05", "command.hold=0.6"}},
+      {"command.profile.acceleration_limit", {"command.profile.acceleration_limit=1", "goal.within=0.15"}},
+      {"command.profile.jerk_limit", {"command.profile.jerk_limit=8", "goal.within=0.2"}},
       {"controller.cascade.divider", as_a_host("divider: 200")},
       {"controller.cascade.latency", as_a_host("latency: 200")},
       {"controller.cascade.resolution", as_a_host("resolution: 5")},
@@ -186,16 +240,13 @@ TEST(IdealValues, AreMissingOnlyWhereThereIsNone) {
   const std::vector<std::string_view> without{"plant.inertia",
                                               "plant.presliding_damping",
                                               "plant.sliding_damping",
-                                              "plant.load.stiffness",
                                               "plant.load.damping",
                                               "plant.load.encoder",
                                               "plant.load.damping_to_ground",
                                               "plant.load.error.#.periods",
                                               "plant.load.error.#.pitch",
                                               "plant.load.error.#.phase",
-                                              "plant.load.friction.model",
                                               "plant.load.friction.breakaway",
-                                              "plant.load.friction.coulomb_ratio",
                                               "plant.load.friction.stribeck_velocity",
                                               "plant.load.friction.sigma0",
                                               "plant.load.friction.sigma1",

@@ -81,7 +81,7 @@ goal: {band: 3, within: 0.1, moves: 0.9}
 )";
 
 // The rate without a cause is that of the manifest that describes it, to the last move.
-TEST_F(Limits, AreTheRatesOfTheManifestsThatTheyStandFor) {
+TEST_F(Limits, EachRowEqualsARunOfItsManifest) {
   const std::string counts(in_counts);
   const std::string phases(of_two_phases);
   const std::string cascade = R"(zerocount: 1
@@ -139,7 +139,11 @@ goal: {tolerance: 1.0e-4, within: 0.2, moves: 0.9}
       {counts, "no converter non-linearity", {"dac.nonlinearity=0"}},
       {counts, "no zone of the integral", {"controller.integrator_zone=none"}},
       {counts, "no fall of friction from breakaway", {"friction.coulomb_ratio=1"}},
-      {counts, "a torque range 10 times wider", {"dac.bits=15", "dac.resolution=3.0e-4"}},
+      {counts, "a torque range 8 times wider", {"dac.bits=15"}},
+      {counts, "a torque range 32 times wider", {"dac.bits=17"}},
+      {counts, "no gains of standstill", {"controller.standstill={}"}},
+      {counts, "no filter controller.filters.0", {"controller.filters=[]"}},
+      {counts, "no integral of the control", {"controller.ki=0", "controller.standstill.ki=0"}},
       {counts, "creep off", {"friction.alpha=0"}},
       {phases, "twice the sample rate", {"controller.sample_rate=8000", "controller.coarse.fine_rate=1"}},
       {phases,
@@ -171,10 +175,241 @@ goal: {tolerance: 1.0e-4, within: 0.2, moves: 0.9}
   // The gains are not tuned again, which is noted where the cause is one of the loop.
   for (const Json& one : found_for[counts]) {
     const std::string cause = one["cause"];
-    const bool of_the_loop =
-        cause.find("rate") != std::string::npos || cause.find("an encoder") != std::string::npos ||
-        cause.find("delay") != std::string::npos || cause.find("zone") != std::string::npos;
+    bool of_the_loop = false;
+    for (const char* const word :
+         {"rate", "an encoder", "delay", "zone", "standstill", "filter", "integral of the control"})
+      of_the_loop = of_the_loop || cause.find(word) != std::string::npos;
     EXPECT_EQ(one["note"] == Json(noted), of_the_loop) << one;
+  }
+}
+
+// Every length in counts keeps its length, and what zero counts define keeps ± half an old count, whatever
+// the goal limits.
+TEST_F(Limits, KeepEveryLengthOfTheGoalWithAFinerEncoder) {
+  const std::string manifest = R"(zerocount: 1
+name: lengths
+seed: 11
+trials: 60
+friction: {k1: {lognormal: {median: 130, cv: 0.3}}}
+encoder: {fine: 300000, fine_errors: {noise: 0.4}}
+controller: {ki: {log_uniform: [8.0e-5, 8.0e-4]}, kp: 1.0e-4, deadband: {enter: 0}, hold: {enter: 0, dwell: 0.05}}
+command: {targets: [{integers: [5, 40]}], hold: 0.2, profile: {shape: trapezoidal, velocity_limit: 0.01, acceleration_limit: 2}}
+initial: {encoder_phase: {uniform: [0, 1]}}
+verdict: {dwell: 0.01, window: 0.05, motion: true, rest_band: 1, bands: [3]}
+)";
+  const std::vector<std::string> finer{"encoder.fine=1200000",
+                                       "encoder.fine_errors.noise=1.6",
+                                       "encoder.fine_errors.interpolation_period=16",
+                                       "controller.ki={log_uniform: [2.0e-5, 2.0e-4]}",
+                                       "controller.kp=2.5e-5",
+                                       "controller.deadband.enter=2",
+                                       "controller.hold.enter=2",
+                                       "command.targets=[{choice: [" +
+                                           []() {
+                                             std::string all;
+                                             for (int target = 5; target <= 40; ++target)
+                                               all +=
+                                                   fmt::format("{}{}", all.empty() ? "" : ", ", 4 * target);
+                                             return all;
+                                           }() +
+                                           "]}]",
+                                       "verdict.rest_band=6"};
+  struct Case {
+    const char* goal;
+    const char* finer_goal;
+  };
+  // A whole number of counts b is 4b + 2 finer counts, a real one 4b.
+  const std::vector<Case> cases{
+      {"{band: 3, within: 0.19, moves: 0.9, limits: {final_error: 0}}",
+       "{band: 14, within: 0.19, moves: 0.9, limits: {final_error: 2}}"},
+      {"{band: 3, within: 0.19, moves: 0.9, limits: {overshoot: 1, midway_error: 1}}",
+       "{band: 14, within: 0.19, moves: 0.9, limits: {overshoot: 6, midway_error: 6}}"},
+      {"{band: 3, within: 0.19, moves: 0.9, limits: {true_error: 0.6, rest_error_rms: 0.5}}",
+       "{band: 14, within: 0.19, moves: 0.9, limits: {true_error: 2.4, rest_error_rms: 2}}"},
+      {"{band: 3, within: 0.19, moves: 0.9, limits: {following_error_peak: 6}}",
+       "{band: 14, within: 0.19, moves: 0.9, limits: {following_error_peak: 24}}"},
+      {"{band: 3, within: 0.19, moves: 0.9, limits: {settling_time: 0.1}}",
+       "{band: 14, within: 0.19, moves: 0.9, limits: {\"band_entry_time[2]\": 0.1}}"},
+      {"{band: 3, within: 0.19, moves: 0.9, limits: {final_settling_time: 0.12}}",
+       "{band: 14, within: 0.19, moves: 0.9, limits: {\"band_settling_time[2]\": 0.12}}"},
+      {"{band: 3, within: 0.19, moves: 0.9, limits: {jerk_count: 1}}",
+       "{band: 14, within: 0.19, moves: 0.9, limits: {\"band_exits[2]\": 1}}"},
+      {"{band: 0, within: 0.15, moves: 0.9}", "{band: 2, within: 0.15, moves: 0.9}"},
+  };
+  bool differ = false;
+  for (const Case& one : cases) {
+    const std::string goal = std::string("goal=") + one.goal;
+    std::vector<std::string> values = finer;
+    values.insert(values.end(), {"verdict.bands=[2, 14]", std::string("goal=") + one.finer_goal});
+    const Json found = row(limits_of(manifest, {"--set", goal}), "an encoder 4 times finer");
+    ASSERT_FALSE(found["rate"].is_null()) << goal << found;
+    EXPECT_DOUBLE_EQ(found["rate"], rate_with(manifest, values)) << goal;
+    differ = differ || found["rate"] != rate_with(manifest, {goal});
+  }
+  EXPECT_TRUE(differ) << "a finer encoder has no effect on these studies";
+  // Without a goal moves are to end at zero counts, of the manifest.
+  std::vector<std::string> zero = finer;
+  zero.insert(zero.end(), {"verdict.bands=[2, 14]", "goal={band: 2, within: 0.15, moves: 0.9}"});
+  EXPECT_DOUBLE_EQ(row(limits_of(manifest), "an encoder 4 times finer")["rate"], rate_with(manifest, zero));
+}
+
+// What depends on the zero counts of single samples cannot be told by another encoder.
+TEST_F(Limits, RefuseALimitThatOnlyTheEncoderItselfCanTell) {
+  const Json finer = row(limits_of(std::string(in_counts), {"--set", "goal.limits={zero_fraction: 0.5}"}),
+                         "an encoder 4 times finer");
+  EXPECT_TRUE(finer["rate"].is_null());
+  EXPECT_TRUE(says(finer["note"].get<std::string>(), "zero_fraction")) << finer;
+}
+
+// A rigid axis keeps what acts on the load: its friction, damping, disturbance and inertia.
+TEST_F(Limits, KeepWhatActsOnTheLoadOfARigidAxis) {
+  const std::string manifest = R"(zerocount: 1
+name: two-masses
+seed: 12
+trials: 30
+plant: {inertia: 4.0e-4, presliding_damping: 2.0e-3, sliding_damping: 3.0e-3, load: {inertia: 6.0e-4, stiffness: {uniform: [30, 90]},
+  damping: 2.0e-3, damping_to_ground: {uniform: [0, 0.02]}, encoder: motor}}
+friction: {model: none}
+encoder: {fine: 200000}
+dac: {bits: 16, range: 4}
+controller: {sample_rate: 4000, delay: 1, structure: cascade, cascade: {kv: {uniform: [20, 60]}, kp: 0.1, ki: 2}}
+command: {units: si, targets: [0.05], hold: 0.4}
+initial: {encoder_phase: {uniform: [0, 1]}}
+goal: {of: load, tolerance: 1.0e-3, within: 0.25, moves: 0.9}
+)";
+  const std::vector<std::string> one_mass{
+      "plant={inertia: 1.0e-3, presliding_damping: {uniform: [0.002, 0.022]}, "
+      "sliding_damping: {uniform: [0.002, 0.022]}}",
+      "goal={tolerance: 1.0e-3, within: 0.25, moves: 0.9}"};
+  struct Case {
+    std::vector<std::string> load;
+    std::vector<std::string> same;
+  };
+  const std::vector<Case> cases{
+      {{"plant.load.damping_to_ground=0.01"}, {"plant.presliding_damping=0.012"}},
+      {{"plant.load.damping_to_ground=0.01",
+        "disturbance.load={torque: 0.3, vibration: [{amplitude: 0.2, frequency: 9}]}"},
+       {"plant.presliding_damping=0.012",
+        "disturbance={torque: 0.3, vibration: [{amplitude: 0.2, frequency: 9}]}"}},
+      {{"plant.load.damping_to_ground=0.01",
+        "plant.load.friction={model: coulomb, breakaway: 0.2, coulomb_ratio: 0.5}"},
+       {"plant.sliding_damping=0.012", "friction={model: coulomb, breakaway: 0.2, coulomb_ratio: 0.5}"}},
+      {{"plant.load.damping_to_ground=0.01",
+        "plant.load.friction={model: lugre, breakaway: 0.2, sigma0: 300}"},
+       {"plant.sliding_damping=0.012", "friction={model: lugre, breakaway: 0.2, sigma0: 300}"}},
+      {{"plant.load.damping_to_ground=0.01",
+        "plant.load.friction={model: dahl, breakaway: 0.2, sigma0: 300}"},
+       {"plant.presliding_damping=0.012", "friction={model: dahl, breakaway: 0.2, sigma0: 300}"}},
+      // Nothing can move it.
+      {{"plant.load.damping_to_ground=0.01", "plant.load.friction={model: coulomb, breakaway: 9}"},
+       {"plant.sliding_damping=0.012", "friction={model: coulomb, breakaway: 9}"}},
+  };
+  for (const Case& one : cases) {
+    std::vector<std::string> options;
+    for (const std::string& value : one.load) options.insert(options.end(), {"--set", value});
+    std::vector<std::string> values = one_mass;
+    values.insert(values.end(), one.same.begin(), one.same.end());
+    const Json found = row(limits_of(manifest, options), "a rigid axis");
+    ASSERT_FALSE(found["rate"].is_null()) << one.load.back() << found;
+    EXPECT_DOUBLE_EQ(found["rate"], rate_with(manifest, values)) << one.load.back();
+  }
+  EXPECT_EQ(row(limits_of(manifest, {"--set", "plant.load.friction={model: coulomb, breakaway: 9}"}),
+                "a rigid axis")["rate"],
+            0.0);
+}
+
+// One mass has one friction, no gap and no kinematic error: the coupling gets stiffer, and these stay.
+TEST_F(Limits, StiffenACouplingThatOneMassCannotStandFor) {
+  const std::string manifest = R"(zerocount: 1
+name: two-frictions
+seed: 13
+trials: 20
+plant: {inertia: 4.0e-4, sliding_damping: 3.0e-3, load: {inertia: 6.0e-4, stiffness: {uniform: [30, 90]}, damping: 2.0e-3,
+  encoder: motor}}
+friction: {model: coulomb, breakaway: 0.05, coulomb_ratio: 1}
+encoder: {fine: 200000}
+dac: {bits: 16, range: 4}
+controller: {sample_rate: 4000, delay: 1, structure: cascade, cascade: {kv: 40, kp: 0.1, ki: 2}}
+command: {units: si, targets: [0.05], hold: 0.3}
+initial: {encoder_phase: {uniform: [0, 1]}}
+goal: {of: load, tolerance: 1.0e-3, within: 0.15, moves: 0.9}
+)";
+  for (const std::string load :
+       {"plant.load.friction={model: coulomb, breakaway: 0.05, coulomb_ratio: 1}",
+        "plant.load.gap={uniform: [0, 2.0e-3]}", "plant.load.error=[{amplitude: 4.0e-3, periods: 30}]"}) {
+    const Json limits = limits_of(manifest, {"--set", load});
+    EXPECT_TRUE(row(limits, "a rigid axis").is_null()) << load;
+    EXPECT_DOUBLE_EQ(row(limits, "a coupling 100 times stiffer")["rate"],
+                     rate_with(manifest, {load, "plant.load.stiffness={uniform: [3000, 9000]}"}))
+        << load;
+  }
+}
+
+// A window of the derivative, a position loop of a host and a bus are times: a row of their own each.
+TEST_F(Limits, KeepTimesThatAreGivenInSamples) {
+  const std::string manifest = R"(zerocount: 1
+name: window
+seed: 14
+trials: 20
+plant: {inertia: 2.0e-4, presliding_damping: 2.0e-3}
+friction: {model: none}
+encoder: {fine: 1000000}
+dac: {bits: 18, range: 4}
+controller:
+  sample_rate: 8000
+  delay: 1
+  structure: cascade
+  derivative_window: {choice: [1, 60, 100, 140]}
+  cascade: {kv: {uniform: [20, 60]}, kp: 0.03, ki: 0.3, divider: {choice: [1, 40]}, latency: {choice: [0, 20]}}
+command: {units: si, targets: [0.05], hold: 0.4}
+initial: {encoder_phase: {uniform: [0, 1]}}
+goal: {tolerance: 1.0e-4, within: 0.3, moves: 0.8}
+)";
+  const Json limits = limits_of(manifest);
+  const auto expect_row = [&](const char* cause, const std::vector<std::string>& values) {
+    EXPECT_DOUBLE_EQ(row(limits, cause)["rate"], rate_with(manifest, values)) << cause;
+  };
+  expect_row(
+      "twice the sample rate",
+      {"controller.sample_rate=16000", "controller.derivative_window={choice: [1, 120, 200, 280]}",
+       "controller.cascade.divider={choice: [1, 80]}", "controller.cascade.latency={choice: [0, 40]}"});
+  expect_row("a derivative window of one sample", {"controller.derivative_window=1"});
+  expect_row("a position loop at every sample", {"controller.cascade.divider=1"});
+  expect_row("no latency of the velocity command", {"controller.cascade.latency=0"});
+}
+
+// The feed-forward that an axis needs is that of its own inertia, damping and friction.
+TEST_F(Limits, TryTheFeedForwardAndTheProfileThatTheAxisNeeds) {
+  const std::string manifest = R"(zerocount: 1
+name: follower
+seed: 15
+trials: 20
+plant: {inertia: 2.0e-3, presliding_damping: 0.01, sliding_damping: 0.05}
+friction: {model: coulomb, breakaway: 0.4, coulomb_ratio: 0.75, stribeck_velocity: 5.0e-3}
+encoder: {fine: 200000}
+dac: {bits: 18, range: 8}
+controller: {units: si, sample_rate: 4000, kp: {uniform: [20, 60]}, ki: 300, kd: 0.3}
+command: {units: si, targets: [0.3, 0], hold: 0.8, profile: {shape: s_curve, velocity_limit: 1, acceleration_limit: 20, jerk_limit: 1000}}
+initial: {encoder_phase: {uniform: [0, 1]}}
+verdict: {motion: true}
+goal: {tolerance: 1.0e-3, within: 0.45, moves: 0.9, limits: {following_error_rms: 150}}
+)";
+  const Json limits = limits_of(manifest);
+  const auto expect_row = [&](const char* cause, const std::vector<std::string>& values) {
+    ASSERT_FALSE(row(limits, cause).is_null()) << cause << limits;
+    EXPECT_DOUBLE_EQ(row(limits, cause)["rate"], rate_with(manifest, values)) << cause;
+  };
+  expect_row("a feed-forward of the inertia", {"controller.feedforward.acceleration=2.0e-3"});
+  expect_row("a feed-forward of the damping", {"controller.feedforward.velocity=0.35"});
+  expect_row("a feed-forward of the sliding friction", {"controller.feedforward.friction=0.3"});
+  expect_row("no integral of the control", {"controller.ki=0"});
+  expect_row("a profile 2 times faster",
+             {"command.profile.velocity_limit=2", "command.profile.acceleration_limit=80",
+              "command.profile.jerk_limit=8000"});
+  // A step has no profile and is not followed.
+  for (const Json& one : limits_of(manifest, {"--set", "command.profile={}", "--set", "goal.limits={}"})) {
+    EXPECT_FALSE(says(one["cause"].get<std::string>(), "a profile")) << one;
+    EXPECT_FALSE(says(one["cause"].get<std::string>(), "feed-forward")) << one;
   }
 }
 
@@ -304,6 +539,43 @@ goal: {band: 2, within: 0.1, moves: 0.95}
   EXPECT_EQ(row(limits_of(manifest + "disturbance: {torque: -1}\ninitial: {integral: 80}\n"),
                 "no constant disturbance")["rate"],
             rate_with(manifest, {"initial.integral=79"}));
+}
+
+// So do a load on a second mass, and gravity that is a ripple of one period.
+TEST_F(Limits, TakeALoadOfTheSecondMassAwayWithWhatHoldsIt) {
+  const std::string manifest = R"(zerocount: 1
+name: tilting-arm
+seed: 16
+trials: 16
+plant: {inertia: 0.2, presliding_damping: 1, load: {inertia: 0.3, stiffness: 5.0e+4, damping: 10, encoder: load}}
+friction: {model: none}
+encoder: {fine: 2000000}
+dac: {bits: 20, range: 40}
+controller: {units: si, sample_rate: 4000, kp: 2000, ki: 2.0e+4, kd: 60}
+command: {units: si, targets: [0, 1.0e-3], hold: 0.3}
+initial: {position: 1.2}
+goal: {tolerance: 1.0e-5, within: 0.25, moves: 0.9}
+)";
+  const double without = rate_with(manifest, {});
+  struct Case {
+    std::vector<std::string> load;
+    const char* cause;
+  };
+  const double gravity = 9.0 * std::sin(1.2);
+  for (const Case& one : {Case{{"disturbance={load: {torque: 9}}", "initial.integral=-9"},
+                               "no constant disturbance of the load"},
+                          Case{{"disturbance={load: {ripple: [{amplitude: 9, periods: 1}]}}",
+                                fmt::format("initial.integral={}", -gravity)},
+                               "no ripple disturbance.load.ripple.0"},
+                          Case{{"disturbance={ripple: [{amplitude: 9, periods: 1}]}",
+                                fmt::format("initial.integral={}", -gravity)},
+                               "no ripple disturbance.ripple.0"}}) {
+    std::vector<std::string> options;
+    for (const std::string& value : one.load) options.insert(options.end(), {"--set", value});
+    const Json limits = limits_of(manifest, options);
+    EXPECT_EQ(row(limits, one.cause)["rate"], without) << one.cause << limits;
+    EXPECT_TRUE(row(limits, "no integral at the start").is_null()) << one.cause;
+  }
 }
 
 class LimitsOfAxis : public Tune {};

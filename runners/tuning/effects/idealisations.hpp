@@ -1,0 +1,68 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "experiments/parameters/parameter_table.hpp"
+#include "experiments/rules/value_rules.hpp"
+#include "experiments/study/point_edit.hpp"
+#include "experiments/study/point_limits.hpp"
+#include "runners/tuning/effects/effects.hpp"
+
+/// Parts of idealisations_of(), by subject, and what they share. Each effect changes one thing.
+namespace zerocount::tuning {
+
+inline constexpr const char* not_tuned_again = "same gains, not tuned again";
+
+/// A point whose causes of failures are sought.
+struct IdealisedPoint {
+  const study::PointEdit& at;
+  std::vector<rules::EffectRule> rules;
+  /// Why no encoder and no sample rate can be changed; empty if they can.
+  std::string fixed_rate_and_counts{};
+};
+
+/// Whether the value is another one in some trial.
+inline bool can_differ_from(double value, const study::ValueLimits& limits) {
+  return limits.low != value || limits.high != value;
+}
+
+/// Whether a dotted path lies in a section.
+inline bool is_within(std::string_view name, std::string_view section) {
+  return name.starts_with(section) && name.substr(section.size()).starts_with('.');
+}
+
+/// Calls `visit(slot, row)` for each value of a trial.
+void visit_values(const study::PointEdit& at,
+                  const std::function<void(std::size_t slot, const parameters::Parameter& row)>& visit);
+
+/// Whether the row is a gain of the sampled law, which depends on the encoder and the sample rate.
+bool is_sampled_gain(const study::PointEdit& at, const parameters::Parameter& row);
+
+/// Whether the parameter acts in trials of the point.
+bool acts(const IdealisedPoint& point, std::string_view name);
+
+/// The name of an effect in the phase of the control to which the parameter belongs: "no dead band of the
+/// error in the coarse phase".
+std::string name_in_phase(std::string_view effect, std::string_view parameter);
+
+/// Finer encoders: one, or one for each mass that has its own.
+void add_finer_encoders(const IdealisedPoint& point, const study::Study& study, std::vector<Effect>& all);
+
+/// Twice the sample rate.
+void add_faster_sampling(const IdealisedPoint& point, std::vector<Effect>& all);
+
+/// What belongs to the control law and its reference: filters, the integral under friction, feed-forward, and
+/// the duration of the profile.
+void add_control_effects(const IdealisedPoint& point, std::vector<Effect>& all);
+
+/// A rigid axis, or a stiffer coupling where one mass cannot stand for both.
+void add_rigid_axis(const IdealisedPoint& point, std::vector<Effect>& all);
+
+/// A constant disturbance, ripples, spectra, and all disturbances together. @param all has those that are
+/// parameters with an ideal value
+void add_disturbances(const IdealisedPoint& point, std::vector<Effect>& all);
+
+}  // namespace zerocount::tuning

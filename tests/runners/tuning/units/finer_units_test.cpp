@@ -27,12 +27,12 @@ trial::MoveOutcome measured(const std::vector<std::int64_t>& errors, const trial
 /// Errors in finer counts of a move that decays and jitters, and may come to rest.
 std::vector<std::int64_t> drawn_errors(testing::Draws& draws) {
   std::vector<std::int64_t> errors;
-  double error = draws.uniform(-200.0, 200.0);
+  double error = draws.sign() * draws.uniform(10.0, 200.0);
   const double decay = draws.uniform(0.8, 0.99);
   const double jitter = draws.log_uniform(0.1, 8.0);
   for (int k = 0; k < 400; ++k) {
     error *= decay;
-    errors.push_back(std::llround(error + jitter * draws.normal()));
+    errors.push_back(std::llround(error + (k == 0 ? 0.0 : jitter * draws.normal())));
   }
   return errors;
 }

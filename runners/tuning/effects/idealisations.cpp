@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -13,6 +14,7 @@
 #include "core/friction/friction_model.hpp"
 #include "core/friction/law.hpp"
 #include "core/friction/profile.hpp"
+#include "core/loop/dac.hpp"
 #include "experiments/parameters/element_lists.hpp"
 #include "experiments/parameters/parameter_rows.hpp"
 #include "experiments/study/study_table.hpp"
@@ -162,23 +164,30 @@ void with_finer_converter(PointEdit& at) {
   at.scale("dac.nonlinearity", ratio);
 }
 
-/// A code keeps its size, so that the range alone can help. If the limit already tames the step, the infinite
-/// range need not be the best, so three ranges are tried: each 2 to this power times as wide.
-constexpr std::array<int, 3> wider_ranges{1, 3, 5};
+/// If the limit already tames the step, the infinite range need not be the best, so three ranges are tried.
+constexpr std::array<int, 3> wider_ranges{2, 8, 50};
 
-void with_wider_torque_range(PointEdit& at, int more_bits) {
-  const double ratio = std::exp2(more_bits);
-  at.add("dac.bits", more_bits);
-  at.scale("amplifier.limit", ratio);
-  at.scale("dac.range", ratio);  // where it is given, the resolution follows from it, and stays
+/// A code keeps its size, so that the range alone can help. Where the ratio is no power of two, the converter
+/// gets the next one and the amplifier limits the torque.
+Effect with_wider_torque_range(int ratio) {
+  const int more_bits = std::bit_width(static_cast<unsigned>(ratio - 1));
+  const double converter_ratio = std::exp2(more_bits);
+  Effect effect{.name = fmt::format("{} {} times wider", parameters::wider_torque_range, ratio),
+                .edit = [ratio, more_bits, converter_ratio](PointEdit& at) {
+                  at.add("dac.bits", more_bits);
+                  at.scale("amplifier.limit", ratio);
+                  at.scale("dac.range", converter_ratio);  // the resolution follows from it, and stays
+                }};
+  if (converter_ratio != ratio)
+    effect.change = [part = ratio / converter_ratio](trial::TrialParameters& p) {
+      p.dac.limit = std::min(p.dac.limit, -part * p.dac.resolution * static_cast<double>(lowest_code(p.dac)));
+    };
+  return effect;
 }
 
 void add_drive_effects(std::vector<Effect>& all) {
   all.push_back({.name = std::string(parameters::finer_converter), .edit = with_finer_converter});
-  for (const int more_bits : wider_ranges)
-    all.push_back(
-        {.name = fmt::format("{} {:g} times wider", parameters::wider_torque_range, std::exp2(more_bits)),
-         .edit = [more_bits](PointEdit& edit) { with_wider_torque_range(edit, more_bits); }});
+  for (const int ratio : wider_ranges) all.push_back(with_wider_torque_range(ratio));
 }
 
 }  // namespace

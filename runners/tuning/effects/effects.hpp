@@ -173,11 +173,13 @@ const Limit* main_cause(const std::vector<Limit>& limits);
 ///
 ///   - each parameter that has not its ideal value (parameters::Ideal)
 ///   - friction that varies along the track, or from contact to contact; each spectrum of the disturbance
-///   - what several values idealise: a rigid axis or a stiffer coupling, no constant disturbance and no ripple
+///   - what several values idealise: a rigid axis or a stiffer coupling, no constant disturbance and no
+///   ripple
 ///     (with what holds them), each filter, the integral under friction, a feed-forward that fits the axis, a
 ///     faster profile, a finer converter, a wider torque range, a finer encoder, twice the sample rate
 ///
-/// Each changes one thing. Where a point is without the effect, its row is absent or has the rate of the point.
+/// Each changes one thing. Where a point is without the effect, its row is absent or has the rate of the
+/// point.
 std::vector<Effect> idealisations_of(const study::Study& study, std::int64_t point);
 
 /// The sections of manifests with parameters that have no ideal value: other values of these are not tried.

@@ -143,21 +143,26 @@ class ObservedWorld {
   /// Single events stand for those that the clusters are worth; the number of clusters limits what they show.
   Chances of_moves(const PlannedSize& planned) const {
     const auto n = static_cast<std::int64_t>(planned_events(planned));
-    const auto status = [&](std::int64_t hits) {
+    const auto verdict = [&](std::int64_t hits) {
       const auto k = static_cast<double>(hits);
       const measures::MoveCounts counts{
           .moves = n, .met = hits, .of_trials = {n, hits, n, k, k, static_cast<double>(n)}, .rigs = {}};
-      return judge_goal(goal_, counts, points_, parts_).status;
+      return judge_goal(goal_, counts, points_, parts_);
     };
     const auto clusters = static_cast<double>(planned.units);
-    const bool can_meet = statistics::shown_by_clusters(clusters, confidence_low_) >= goal_.moves;
-    const bool can_miss = 1.0 - statistics::shown_by_clusters(clusters, confidence_high_) < goal_.moves;
-    const std::int64_t met =
-        can_meet ? first_where(0, n + 1, [&](std::int64_t hits) { return status(hits) == Status::met; })
-                 : n + 1;
+    const auto is_met = [&](std::int64_t hits) {
+      const double shown =
+          statistics::most_shown_by_clusters(clusters, statistics::rate(hits, n), confidence_low_);
+      return shown >= goal_.moves && verdict(hits).status == Status::met;
+    };
+    const auto is_missed = [&](std::int64_t hits) {
+      const double shown =
+          statistics::most_shown_by_clusters(clusters, statistics::rate(n - hits, n), confidence_high_);
+      return 1.0 - shown < goal_.moves && verdict(hits).status == Status::missed;
+    };
+    const std::int64_t met = first_where(0, n + 1, is_met);
     const std::int64_t not_missed =
-        can_miss ? first_where(0, n + 1, [&](std::int64_t hits) { return status(hits) != Status::missed; })
-                 : 0;
+        first_where(0, n + 1, [&](std::int64_t hits) { return !is_missed(hits); });
     return {chance_of_at_least(n, met), 1.0 - chance_of_at_least(n, not_missed)};
   }
 

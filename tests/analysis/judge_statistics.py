@@ -77,15 +77,16 @@ def judge_proportions(path):
         tail = 0.5 * (1 - confidence)
         n = adjusted_events(hits, events, tail)
         shown = shown_without_miss(events, tail)
-        close(low, min(shown, stats.beta.ppf(tail, p * n, n - p * n + 1)) if p > 0 else 0.0, 1e-8, "low")
-        close(high, max(1 - shown, stats.beta.isf(tail, p * n + 1, n - p * n)) if p < 1 else 1.0, 1e-8, "high")
+        most, least = shown * p, 1 - shown * (1 - p)
+        close(low, min(most, stats.beta.ppf(tail, p * n, n - p * n + 1)) if p > 0 else 0.0, 1e-8, "low")
+        close(high, max(least, stats.beta.isf(tail, p * n + 1, n - p * n)) if p < 1 else 1.0, 1e-8, "high")
         z = stats.norm.isf(tail)
         for found, sign in ((wilson_low, -1), (wilson_high, 1)):
             expected = (p + z**2 / (2 * n) + sign * z * numpy.sqrt(p * (1 - p) / n + z**2 / (4 * n**2))) / (1 + z**2 / n)
-            close(found, min(expected, shown) if sign < 0 else max(expected, 1 - shown), 1e-8, "wilson")
+            close(found, min(expected, most) if sign < 0 else max(expected, least), 1e-8, "wilson")
         n = adjusted_events(hits, events, 2 * tail)
-        shown = shown_without_miss(events, 2 * tail)
-        close(at_least, min(shown, stats.beta.ppf(2 * tail, p * n, n - p * n + 1)) if p > 0 else 0.0, 1e-8, "at least")
+        most = shown_without_miss(events, 2 * tail) * p
+        close(at_least, min(most, stats.beta.ppf(2 * tail, p * n, n - p * n + 1)) if p > 0 else 0.0, 1e-8, "at least")
     print(len(lines), "samples")
 
 

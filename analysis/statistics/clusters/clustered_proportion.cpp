@@ -25,22 +25,25 @@ double events_of_whole_clusters(const ClusterSums& sums) {
   return n * n / sums.events_squared;
 }
 
-/// The lower bound if no event were a miss. Of single events Clopper–Pearson shows no more.
-double shown_without_miss(const ClusterSums& sums, double tail) {
-  return are_single_events(sums) ? 1.0 : shown_by_clusters(events_of_whole_clusters(sums), 1.0 - tail);
+/// The most that the clusters can show of the proportion (most_shown_by_clusters()). Of single events
+/// Clopper–Pearson shows no more.
+double most_shown(const ClusterSums& sums, double proportion, double tail) {
+  if (are_single_events(sums)) return 1.0;
+  return most_shown_by_clusters(events_of_whole_clusters(sums), proportion, 1.0 - tail);
 }
 
-/// Clopper–Pearson bounds for any number of events, not only whole ones, and no better than those of the
-/// same clusters without a miss, or without a hit.
+/// Clopper–Pearson bounds for any number of events, not only whole ones, and no better than the number of
+/// clusters allows.
 double lower_bound(const ClusterSums& sums, double events, double tail) {
   const double proportion = rate(sums.hits, sums.events);
   if (!(proportion > 0.0)) return 0.0;
-  return std::min(lower_bound_on_p(proportion * events, events, tail), shown_without_miss(sums, tail));
+  return std::min(lower_bound_on_p(proportion * events, events, tail), most_shown(sums, proportion, tail));
 }
 double upper_bound(const ClusterSums& sums, double events, double tail) {
   const double proportion = rate(sums.hits, sums.events);
   if (!(proportion < 1.0)) return 1.0;
-  return std::max(upper_bound_on_p(proportion * events, events, tail), 1.0 - shown_without_miss(sums, tail));
+  return std::max(upper_bound_on_p(proportion * events, events, tail),
+                  1.0 - most_shown(sums, 1.0 - proportion, tail));
 }
 
 }  // namespace
@@ -93,8 +96,8 @@ double effective_events(const ClusterSums& sums) {
   return variance > of_independent ? std::max(1.0, n * of_independent / variance) : n;
 }
 
-double shown_by_clusters(double clusters, double confidence) {
-  return std::pow(1.0 - confidence, 1.0 / clusters);
+double most_shown_by_clusters(double clusters, double proportion, double confidence) {
+  return std::pow(1.0 - confidence, 1.0 / clusters) * proportion;
 }
 
 double adjusted_events(const ClusterSums& sums, double tail) {
@@ -116,8 +119,8 @@ ClusteredProportion clustered_proportion(const ClusterSums& sums, double confide
   result.effective_events = effective_events(sums);
   result.korn_graubard = {lower_bound(sums, events, tail), upper_bound(sums, events, tail)};
   const ConfidenceInterval wilson = wilson_interval(result.value, events, -normal_quantile(tail));
-  const double shown = shown_without_miss(sums, tail);
-  result.wilson = {std::min(wilson.low, shown), std::max(wilson.high, 1.0 - shown)};
+  result.wilson = {std::min(wilson.low, most_shown(sums, result.value, tail)),
+                   std::max(wilson.high, 1.0 - most_shown(sums, 1.0 - result.value, tail))};
   return result;
 }
 

@@ -67,15 +67,15 @@ double effective_events(const ClusterSums& sums);
 /// @param tail probability beyond each bound, in (0, 1)
 double adjusted_events(const ClusterSums& sums, double tail);
 
-/// α^(1/m) with α = 1 − confidence: the largest lower bound of a proportion that m clusters can show. A
-/// population in which the proportion q of clusters consists of misses shows none of them among m with the
-/// probability (1 − q)^m, however many events each cluster has.
-double shown_by_clusters(double clusters, double confidence);
+/// α^(1/m)·p̂ with α = 1 − confidence: the largest lower bound of a proportion that m clusters can show, of
+/// whose events the proportion p̂ hits. A population in which the proportion q of clusters consists of misses
+/// shows none of them among m with the probability (1 − q)^m, however many events each cluster has; of the
+/// other clusters no more than p̂ is known. An upper bound is at least 1 − α^(1/m)·(1 − p̂).
+double most_shown_by_clusters(double clusters, double proportion, double confidence);
 
 /// The proportion with its bounds after Korn and Graubard: Clopper–Pearson for adjusted_events (as the method
-/// "beta" of svyciprop in the R package survey). Where clusters have several events, no lower bound is above
-/// shown_by_clusters(n²/Σnᵢ²), that of the same clusters without a miss, and no upper bound below its
-/// complement. [0, 1] without an event.
+/// "beta" of svyciprop in the R package survey). Where clusters have several events, no bound is better than
+/// most_shown_by_clusters(n²/Σnᵢ², …) allows. [0, 1] without an event.
 /// @throws Failure (bad_input) for a confidence outside (0, 1).
 ClusteredProportion clustered_proportion(const ClusterSums& sums, double confidence = summary_confidence);
 

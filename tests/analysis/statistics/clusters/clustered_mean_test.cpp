@@ -1,5 +1,7 @@
 #include "analysis/statistics/clusters/clustered_mean.hpp"
 
+#include <chrono>
+
 #include <boost/math/distributions/students_t.hpp>
 
 #include "analysis/statistics/clusters/clustered_proportion.hpp"
@@ -322,7 +324,8 @@ TEST(ClusteredProportion, AClusterWithManyEventsDoesNotDecideAlone) {
   EXPECT_LT(effective_events(sums), 1.02);  // n²/Σnᵢ²
 }
 
-// Machines that always fail may be among the others unseen, whatever the others do.
+// Machines that always fail may be among the others unseen, and of the others no more than their observed
+// proportion is known.
 TEST(ClusteredProportion, MissesNeverRaiseTheLowerBoundAndHitsNeverLowerTheUpperOne) {
   std::mt19937_64 random(5);
   for (int round = 0; round < 2000; ++round) {
@@ -340,12 +343,13 @@ TEST(ClusteredProportion, MissesNeverRaiseTheLowerBoundAndHitsNeverLowerTheUpper
     for (const double confidence : {0.5, 0.9, 0.95, 0.999}) {
       const double shown = std::pow(1.0 - confidence, 1.0 / static_cast<double>(clusters));
       EXPECT_NEAR(clustered_at_least(none, confidence), shown, 1e-12);
-      EXPECT_LE(clustered_at_least(some, confidence), shown + 1e-12) << clusters << " of " << size;
+      EXPECT_LE(clustered_at_least(some, confidence), shown * rate(some.hits, some.events) + 1e-12)
+          << clusters << " of " << size;
       EXPECT_NEAR(clustered_at_most(misses_only, confidence), 1.0 - clustered_at_least(some, confidence),
                   1e-9);
     }
     const ClusteredProportion two_sided = clustered_proportion(some);
-    const double shown = std::pow(0.025, 1.0 / static_cast<double>(clusters));
+    const double shown = std::pow(0.025, 1.0 / static_cast<double>(clusters)) * two_sided.value;
     EXPECT_LE(two_sided.korn_graubard.low, shown + 1e-12);
     if (size > 1) {
       EXPECT_LE(two_sided.wilson.low, shown + 1e-12);
@@ -364,8 +368,8 @@ struct Mixture {
 };
 
 /// How often the lower bound of the hits of all clusters is not above the truth.
-double coverage_of(const Mixture& mixture, int studies) {
-  std::mt19937_64 random(11);
+double coverage_of(const Mixture& mixture, int studies, std::uint64_t seed = 11) {
+  std::mt19937_64 random(seed);
   std::binomial_distribution<std::int64_t> number_of_weak(mixture.clusters, mixture.weak);
   std::binomial_distribution<std::int64_t> hits_of_weak(mixture.size, mixture.weak_rate);
   std::binomial_distribution<std::int64_t> hits_of_others(mixture.size, mixture.others_rate);
@@ -396,10 +400,58 @@ TEST(ClusteredProportion, LowerBoundsHoldWhereAFewClustersAlwaysOrHalfFail) {
   }
 }
 
+/// The largest proportion of lower bounds that are wrong, of a nominal 5 %, where a few clusters always fail
+/// and the others hit with one of several rates.
+double wrong_in_mixtures(std::int64_t clusters, std::int64_t size, int studies, std::uint64_t seed) {
+  double wrong = 0.0;
+  for (const double others : {0.97, 0.99, 0.999, 1.0}) {
+    for (const double weak : {0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0}) {
+      const double proportion = weak / static_cast<double>(clusters);
+      if (proportion > 0.5) continue;
+      wrong = std::max(wrong, 1.0 - coverage_of({clusters, size, proportion, 0.0, others}, studies, ++seed));
+    }
+  }
+  return wrong;
+}
+
+/// One proportion in ten, and three standard errors of what is counted in so many studies.
+double most_wrong(int studies) {
+  return 0.1 + 3.0 * std::sqrt(0.1 * 0.9 / studies);
+}
+
+// Korn and Graubard's bounds alone are wrong in up to half of these studies: misses that all clusters have
+// now and then make a few clusters that always fail look like some more of them.
+TEST(ClusteredProportion, LowerBoundsHoldWhereFailingClustersMixWithScatteredMisses) {
+  constexpr int studies = 120;
+  for (const std::int64_t clusters : {30, 100, 200}) {
+    for (const std::int64_t size : {20, 100})
+      EXPECT_LE(wrong_in_mixtures(clusters, size, studies, 100), most_wrong(studies))
+          << clusters << " of " << size;
+  }
+}
+
+/// Another one each day.
+std::uint64_t seed_of_today() {
+  const auto days =
+      std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now()).time_since_epoch().count();
+  fmt::print("seed {}\n", days);
+  return static_cast<std::uint64_t>(days);
+}
+
+TEST(ClusteredProportion, DISABLED_LowerBoundsHoldInMixturesOfEveryNight) {
+  constexpr int studies = 2000;
+  const std::uint64_t seed = seed_of_today();
+  for (const std::int64_t clusters : {10, 30, 59, 100, 200, 300, 1000}) {
+    for (const std::int64_t size : {2, 10, 20, 100})
+      EXPECT_LE(wrong_in_mixtures(clusters, size, studies, 1000 * seed), most_wrong(studies))
+          << clusters << " of " << size;
+  }
+}
+
 // The table behind analysis/statistics/coverage.md.
 TEST(ClusteredProportion, DISABLED_CoversMixtures) {
   constexpr int studies = 4000;
-  for (const double others : {1.0, 0.999, 0.99, 0.9}) {
+  for (const double others : {1.0, 0.999, 0.99, 0.97}) {
     for (const double weak_rate : {0.0, 0.5}) {
       std::string row = fmt::format("| {} | {} |", others, weak_rate);
       for (const std::int64_t clusters : {10, 25, 100, 300, 1000}) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <tuple>
 
@@ -55,8 +56,23 @@ WorldVerdict judge_world(const study::Goal& goal, const measures::MoveCounts& co
   return verdict;
 }
 
-double logit(double proportion) {
-  return std::log(proportion / (1.0 - proportion));
+/// Proportions that were not observed are ranked after all others.
+double observed_margin(const BoundedProportion& proportion, double wanted) {
+  if (std::isnan(proportion.value)) return std::numeric_limits<double>::infinity();
+  return logit_difference(proportion.value, wanted);
+}
+
+/// @param verdict with its status and proportions
+Standing standing_of(const study::Goal& goal, const WorldVerdict& verdict) {
+  const BoundedProportion& claimed = goal.machines ? verdict.machines : verdict.moves;
+  const double wanted = goal.machines.value_or(goal.moves);
+  Standing standing{.status = rank_of(verdict.status),
+                    .bound = logit_difference(claimed.low, wanted),
+                    .observed = observed_margin(claimed, wanted)};
+  if (!goal.machines) return standing;
+  standing.bound_of_moves = logit_difference(verdict.moves.low, goal.moves);
+  standing.observed_of_moves = observed_margin(verdict.moves, goal.moves);
+  return standing;
 }
 
 /// @param worlds in each of which the claim must hold
@@ -77,7 +93,7 @@ ClaimVerdict judge_claim(const study::Goal& goal, std::span<const measures::Move
   const double wanted = goal.machines.value_or(goal.moves);
   const BoundedProportion& judged = goal.machines ? verdict.machines : verdict.moves;
   verdict.status = status_of(judged, wanted);
-  verdict.margin = logit(judged.low) - logit(wanted);
+  verdict.standing = standing_of(goal, verdict);
   return verdict;
 }
 
@@ -111,10 +127,23 @@ std::string_view text_of(Status status) {
   return "undecided";
 }
 
-bool is_worse(const ClaimVerdict& one, const ClaimVerdict& other) {
-  // Of claims on machines that show nothing the lower bounds of moves tell more.
-  return std::tuple(rank_of(one.status), one.margin, one.moves.low) <
-         std::tuple(rank_of(other.status), other.margin, other.moves.low);
+double logit_difference(double a, double b) {
+  if (a == b) return 0.0;
+  const auto logit = [](double proportion) { return std::log(proportion / (1.0 - proportion)); };
+  return logit(a) - logit(b);
+}
+
+bool operator<(const Standing& a, const Standing& b) {
+  const auto in_order = [](const Standing& one) {
+    return std::tie(one.status, one.bound, one.observed, one.bound_of_moves, one.observed_of_moves,
+                    one.earliness);
+  };
+  return in_order(a) < in_order(b);
+}
+
+Standing standing_of(const BoundedProportion& proportion) {
+  constexpr double even = 0.5;  // its logit is 0
+  return {.bound = logit_difference(proportion.low, even), .observed = observed_margin(proportion, even)};
 }
 
 ClaimVerdict judge_goal(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points,

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "analysis/goal/standing.hpp"
 #include "analysis/measures/goal_counts.hpp"
 #include "analysis/statistics/unknown.hpp"
 #include "experiments/study/goal.hpp"
@@ -29,6 +30,9 @@ struct BoundedProportion {
   double low{0.0};
   double high{1.0};
 };
+
+/// The standing of a proportion of which nothing is claimed, among others of the same kind.
+Standing standing_of(const BoundedProportion& proportion);
 
 /// The lowest of the proportions, of their lower bounds, and of their upper bounds.
 BoundedProportion lowest(const BoundedProportion& a, const BoundedProportion& b);
@@ -57,12 +61,13 @@ struct ClaimVerdict : WorldVerdict {
   /// Moves of the load that meet a goal of the motor, under the condition where they are the fewest.
   std::optional<BoundedProportion> of_load{};
   std::size_t load_condition{0};
-  double margin{0.0};  ///< logit of the lower bound of what is claimed, minus that of what is asked for
+  Standing standing{};
 };
 
-/// The verdict on several claims, all of which must be met, as that of the worst: a missed one before an
-/// undecided one before one that is met; among equals the one whose lower bound is least above what it asks
-/// for, as the difference of the logits. The upper bounds allow for the number of claims (Bonferroni).
+/// The verdict on several claims, all of which must be met, as that of the worst (Standing): a missed one
+/// before an undecided one before one that is met; among equals the one whose lower bound is least above what
+/// it asks for, as the difference of the logits. The upper bounds allow for the number of claims
+/// (Bonferroni).
 struct Verdict : ClaimVerdict {
   std::vector<ClaimVerdict> claims{};  ///< [goal, condition] each
 };
@@ -90,8 +95,10 @@ const ClaimVerdict& worst_where(const Verdict& verdict,
 
 /// From the worst status, missed, to the best: 0, 1, 2.
 int rank_of(Status status);
-/// Whether the first is worse: missed before undecided before met; of equals that with the smaller margin.
-bool is_worse(const ClaimVerdict& one, const ClaimVerdict& other);
+/// Whether the first claim has the smaller standing.
+inline bool is_worse(const ClaimVerdict& one, const ClaimVerdict& other) {
+  return one.standing < other.standing;
+}
 
 /// The worlds in order of their proportions, the worst first: of machines that meet the goal where it asks
 /// for them, else of moves.

@@ -39,7 +39,9 @@ constexpr QuestionWords words_of_goal{
     .failing = "trials that miss the goal",
     .trial_rate = "rate of trials in goal",
     .rig_head = "machines w/o miss",
-    .rig_meaning = "proportion of machines all of whose moves meet the goal",
+    .rig_meaning =
+        "proportion of machines all of whose moves meet the goal (the worst of several, under the "
+        "worst condition)",
     .falls_short = "fall short of the goal by their observed rates"};
 
 constexpr QuestionWords words_of_success{
@@ -90,6 +92,12 @@ struct CountedClaims {
     }
   }
 };
+
+/// Whether the settling times of each goal were collected.
+bool has_settling_times(const Question& question, const measures::PointSummary& point) {
+  return std::ranges::all_of(
+      question.parts, [&](const JudgedPart& part) { return part.number < point.goal_settling.size(); });
+}
 
 }  // namespace
 
@@ -195,6 +203,11 @@ Verdict verdict_on(const Question& question, const measures::PointSummary& point
       claim.load_condition = worst.condition;
     }
   }
+  if (verdict.claims.size() > 1 && has_settling_times(question, point)) {
+    const std::vector<GoalTimes> times = goal_times(question, point);
+    for (ClaimVerdict& claim : verdict.claims)
+      claim.standing.earliness = -measures::lateness(times_of_claim(times, claim).share);
+  }
   static_cast<ClaimVerdict&>(verdict) = *std::ranges::min_element(verdict.claims, is_worse);
   return verdict;
 }
@@ -240,10 +253,17 @@ GoalTimes slowest_goal_times(const Question& question, const measures::PointSumm
   return std::ranges::max(goal_times(question, point), {}, &GoalTimes::share);
 }
 
+const GoalTimes& times_of_claim(const std::vector<GoalTimes>& times, const ClaimVerdict& claim) {
+  return *std::ranges::find_if(times, [&](const GoalTimes& one) {
+    return one.part == claim.goal && one.condition == claim.condition;
+  });
+}
+
 const measures::MeasureStatistics& settling_of(const Question& question,
                                                const measures::PointSummary& point) {
-  return question.claim() ? *slowest_goal_times(question, point).statistics
-                          : point.of(&trial::MoveOutcome::arrival_time);
+  return question.claim()
+             ? *times_of_claim(goal_times(question, point), verdict_on(question, point)).statistics
+             : point.of(&trial::MoveOutcome::arrival_time);
 }
 
 std::string settling_measure(const Question& question) {
@@ -267,11 +287,14 @@ std::vector<double> merits_of(const Question& question, const measures::PointSum
   double met = 0.0;
   for (std::size_t goal = 0; goal < question.parts.size(); ++goal)
     met += worst_of_goal(verdict, goal).status == Status::met ? 1.0 : 0.0;
-  std::vector<double> merits{met, static_cast<double>(rank_of(verdict.status)), verdict.margin};
-  if (question.parts[verdict.goal].claim->machines) merits.push_back(verdict.machines.value);
-  merits.push_back(verdict.moves.value);
-  merits.push_back(-slowest_goal_times(question, point).share);
-  return merits;
+  const Standing& worst = verdict.standing;
+  return {met,
+          static_cast<double>(worst.status),
+          worst.bound,
+          worst.observed,
+          worst.bound_of_moves,
+          worst.observed_of_moves,
+          -slowest_goal_times(question, point).share};
 }
 
 QuestionRate rate_of(const Question& question, const measures::PointSummary& point, std::size_t points,
@@ -281,10 +304,15 @@ QuestionRate rate_of(const Question& question, const measures::PointSummary& poi
             point.outcomes.zero_count, point.trials};
   }
   const Verdict verdict = verdict_on(question, point, points);
-  const JudgedPart& worst = question.parts[verdict.goal];
   measures::Cells cells{.condition = verdict.condition};
-  if (!verdict.worlds.empty()) cells.world = worst_worlds_first(*worst.claim, verdict).front();
-  const measures::MoveCounts shown = point.goals[worst.number].sum(cells);
+  if (!verdict.worlds.empty()) {
+    const auto known = [](const WorldVerdict& one) {
+      return std::isnan(one.moves.value) ? 2.0 : one.moves.value;  // without trials: the last
+    };
+    cells.world = static_cast<std::size_t>(std::ranges::min_element(verdict.worlds, {}, known) -
+                                           verdict.worlds.begin());
+  }
+  const measures::MoveCounts shown = point.goals[question.parts[verdict.goal].number].sum(cells);
   return {verdict.moves.value, {verdict.moves.low, verdict.moves.high}, shown.met, shown.moves};
 }
 

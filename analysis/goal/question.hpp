@@ -132,7 +132,9 @@ std::vector<GoalTimes> goal_times(const Question& question, const measures::Poin
 /// Those with the largest share of the time that their goal allows. @param question with a claim
 GoalTimes slowest_goal_times(const Question& question, const measures::PointSummary& point);
 
-/// The statistics of the settling time by which points are compared: slowest_goal_times(), or of the arrival.
+/// The settling times of the moves that one claim asks. @param times goal_times() of the point of the claim
+const GoalTimes& times_of_claim(const std::vector<GoalTimes>& times, const ClaimVerdict& claim);
+/// The statistics of the settling time of a point: of the worst claim, or of the arrival.
 const measures::MeasureStatistics& settling_of(const Question& question, const measures::PointSummary& point);
 
 /// The name of the settling time that a goal is about, or of a statistic of it.
@@ -145,7 +147,9 @@ statistics::Quantile measures::MeasureStatistics::*settling_quantile(const Quest
 /// The name of this quantile in files: "band_settling_time_p95[2]", "settling_time_median".
 std::string settling_statistic(const Question& question);
 
-/// What a design point is compared by, the most important number first; larger is better.
+/// What a design point is compared by, the most important number first; larger is better. With a claim: goals
+/// met, the standing of the worst claim, and minus the largest proportion of the time allowed
+/// (slowest_goal_times()).
 std::vector<double> merits_of(const Question& question, const measures::PointSummary& point);
 
 /// A rate of a design point: of moves with a claim, otherwise of trials. With worlds and a claim that of the

@@ -55,6 +55,13 @@ goal::BoundedProportion success_of(const std::vector<measures::MoveCounts>& worl
   return lowest;
 }
 
+/// Of two proportions of trials that succeed; one without trials is the better.
+bool is_worse(const goal::BoundedProportion& one, const goal::BoundedProportion& other) {
+  if (std::isnan(one.value) || std::isnan(other.value))
+    return std::isnan(other.value) > std::isnan(one.value);
+  return goal::standing_of(one) < goal::standing_of(other);
+}
+
 std::optional<double> known(double value) {
   return std::isnan(value) ? std::nullopt : std::optional(value);
 }
@@ -73,6 +80,7 @@ void judge(CellOfPoint& cell, const goal::Question& question, const goal::ClaimV
 /// settling time.
 CellOfPoint cell_under(const Point& point, const Conditions& conditions) {
   CellOfPoint cell;
+  std::size_t worst_condition = conditions.first;
   const auto& [succeeded, meeting] = *point.statistics.trials_of_groups;
   for (std::size_t c = conditions.first; c < conditions.first + conditions.count; ++c) {
     const measures::MoveCounts successes = succeeded.sum({.condition = c});
@@ -83,18 +91,17 @@ CellOfPoint cell_under(const Point& point, const Conditions& conditions) {
       continue;
     }
     const goal::BoundedProportion rate = success_of(succeeded.worlds_under(c), point.summary.confidence);
-    cell.rate = cell.judged = c == conditions.first ? rate : goal::lowest(cell.rate, rate);
+    if (c > conditions.first && !is_worse(rate, cell.judged)) continue;
+    cell.rate = cell.judged = rate;
+    worst_condition = c;
   }
+  if (conditions.count > 1) cell.worst_condition = point.summary.conditions[worst_condition];
   if (!point.verdict) return cell;
-  judge(cell, point.summary.question, goal::worst_where(*point.verdict, [&](const goal::ClaimVerdict& one) {
-          return conditions.contains(one.condition);
-        }));
-  const goal::GoalTimes* slowest = nullptr;
-  for (const goal::GoalTimes& one : point.times) {
-    if (conditions.contains(one.condition) && (slowest == nullptr || !(one.share <= slowest->share)))
-      slowest = &one;
-  }
-  if (slowest != nullptr) cell.settling_time_p95 = known(slowest->statistics->p95.value);
+  const goal::ClaimVerdict& worst = goal::worst_where(
+      *point.verdict, [&](const goal::ClaimVerdict& one) { return conditions.contains(one.condition); });
+  judge(cell, point.summary.question, worst);
+  if (conditions.count > 1) cell.worst_condition = point.summary.conditions[worst.condition];
+  cell.settling_time_p95 = known(goal::times_of_claim(point.times, worst).statistics->p95.value);
   return cell;
 }
 
@@ -202,10 +209,16 @@ document::Description<CellOfPoint> cell_description(const goal::Question& questi
                   .optional = true},
                  &CellOfPoint::goal_met);
   }
-  if (by == CellsBy::condition && has_several(question))
+  if (by == CellsBy::age)
+    cell.value({.key = "worst_condition",
+                .heading = "worst condition",
+                .meaning = "the worst of several conditions, which rate and settling time are under",
+                .optional = true},
+               &CellOfPoint::worst_condition);
+  if (by == CellsBy::age || (by == CellsBy::condition && has_several(question)))
     cell.value({.key = "goal",
                 .heading = "worst goal",
-                .meaning = "name of the goal that the next numbers are of",
+                .meaning = "name of the goal that rate and settling time are of, the worst of several",
                 .optional = true},
                &CellOfPoint::goal);
   const bool of_moves = with_goal && by != CellsBy::condition;
@@ -230,8 +243,8 @@ document::Description<CellOfPoint> cell_description(const goal::Question& questi
   if (of_moves)
     cell.value({.key = "settling_time_p95",
                 .heading = "95 % within",
-                .meaning = "95 % quantile of the settling time, of the slowest goal and condition; none "
-                           "where it is not within the hold",
+                .meaning = "95 % quantile of the settling time, of the goal and condition that the rate is "
+                           "of; none where it is not within the hold",
                 .unit = "s",
                 .optional = true},
                &CellOfPoint::settling_time_p95);
@@ -250,10 +263,8 @@ document::Description<CellOfPoint> cell_description(const goal::Question& questi
 }
 
 std::size_t worst_cell(const std::vector<CellOfPoint>& cells) {
-  const auto key = [](const CellOfPoint& one) {
-    return std::isnan(one.judged.value) ? 2.0 : one.judged.value;  // without trials: the last
-  };
-  return static_cast<std::size_t>(std::ranges::min_element(cells, {}, key) - cells.begin());
+  return static_cast<std::size_t>(std::ranges::min_element(cells, is_worse, &CellOfPoint::judged) -
+                                  cells.begin());
 }
 
 std::optional<double> met_until(const std::vector<CellOfPoint>& ages) {

@@ -19,7 +19,9 @@ namespace zerocount::summary {
 struct CellOfPoint {
   std::optional<std::string> goal{};       ///< the only one of the cell, or its worst; none without names
   std::optional<std::string> condition{};  ///< none without conditions, and where the cell has several
-  double age{0.0};                         ///< in the unit of Question::ages; 0 without ages
+  /// The worst condition of the cell, which rate, verdict and settling time are under; none where it has one.
+  std::optional<std::string> worst_condition{};
+  double age{0.0};  ///< in the unit of Question::ages; 0 without ages
   std::int64_t trials{0};
   std::int64_t success{0};           ///< trials all of whose moves ended at zero error
   std::int64_t goal_met{0};          ///< trials all of whose moves meet the goals
@@ -29,8 +31,9 @@ struct CellOfPoint {
   goal::BoundedProportion judged{};  ///< of machines, moves or trials, as judged_head() says
   std::optional<goal::BoundedProportion> machines{};  ///< that meet the goal; none if it is not on machines
   std::optional<goal::BoundedProportion> living{};    ///< rigs that meet it at every age up to this one
-  std::optional<double> settling_time_p95{};          ///< s, of the slowest goal; none: not within the hold
-  double within{0.0};  ///< s from the start, that the goal allows; the longest of its moves
+  std::optional<double>
+      settling_time_p95{};  ///< s, of the same goal and condition; none: not within the hold
+  double within{0.0};       ///< s from the start, that the goal allows; the longest of its moves
   goal::Status status{goal::Status::undecided};  ///< of the worst goal and condition
 };
 
@@ -54,7 +57,8 @@ std::vector<CellOfPoint> ages_of_point(const StudySummary& summary, std::int64_t
 
 document::Description<CellOfPoint> cell_description(const goal::Question& question, CellsBy by);
 
-/// The cell with the lowest rate that is judged. @param cells not empty
+/// The cell with the smallest standing of the proportion that is judged. @param cells not empty, of a study
+/// without a goal
 std::size_t worst_cell(const std::vector<CellOfPoint>& cells);
 
 /// The last age up to and including which the goal is met, in the unit of ages; none if not at the first.

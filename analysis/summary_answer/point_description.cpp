@@ -322,16 +322,23 @@ void add_success(PointDescription& point, const StudySummary& summary) {
       });
 }
 
-/// Rigs without a failure by the question.
+/// Machines without a failure by the question; with a claim those without a miss of the worst claim.
+std::string faultless_machines(Point p, const goal::Question& question) {
+  if (question.claim() && p.verdict)
+    return text::percentage(p.verdict->rigs_without_miss, p.statistics().rigs.n);
+  const goal::RigsWithoutFailure rigs = goal::rigs_without_failure(question, p.statistics());
+  return text::percentage(rigs.rigs, rigs.of);
+}
+
 void add_rigs(PointDescription& point, const std::string& table, const StudySummary& summary,
               const goal::Question& question) {
   if (!has_several_trials_of_rigs(summary)) return;
   const goal::QuestionWords& words = goal::words_of(question);
-  add_cells(point, table, std::string(words.rig_head),
-            fmt::format("{}: {}", words.rig_head, words.rig_meaning), [question](Statistics p) {
-              const goal::RigsWithoutFailure rigs = goal::rigs_without_failure(question, p);
-              return text::percentage(rigs.rigs, rigs.of);
-            });
+  point.value({.heading = std::string(words.rig_head),
+               .meaning = fmt::format("{}: {}", words.rig_head, words.rig_meaning),
+               .numeric = true,
+               .own_table = table},
+              [question](Point p) { return faultless_machines(p, question); });
 }
 
 void add_outcomes(PointDescription& point, const StudySummary& summary) {
@@ -443,7 +450,7 @@ void add_question_columns(PointDescription& point, const StudySummary& summary) 
     } else {
       add_cells(point, "", "95 % within",
                 "95 % within: 95 % quantile of the settling time of the moves that a goal asks, s, of the "
-                "goal and condition that leave the least of the time allowed",
+                "worst goal and condition, which the rate is of",
                 [question = summary.question](Statistics p) {
                   return settling_text(p, settling_of(question, p).p95.value);
                 });

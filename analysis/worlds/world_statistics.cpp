@@ -30,6 +30,7 @@ RatesOfWorlds judged_rates(const goal::Question& question, const goal::Verdict& 
   for (const goal::WorldVerdict& world : verdict.worlds) rates.worlds.push_back(judged_rate(question, world));
   rates.lowest = question.claim()->machines ? verdict.machines : verdict.moves;
   sort_out(rates);
+  rates.worst = goal::worst_worlds_first(*question.claim(), verdict).front();
   return rates;
 }
 

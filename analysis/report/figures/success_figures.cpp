@@ -31,10 +31,15 @@ struct ShownLine {
     const measures::PointSummary& shown = point_of(study, point);
     if (!goal::is_of_machines(question)) return goal::rate_of(question, shown);
     const goal::Verdict verdict = verdict_on(question, shown);
-    return {verdict.machines.value,
-            {verdict.machines.low, verdict.machines.high},
-            verdict.rigs_meeting,
-            shown.goals.front().shape().rigs};
+    goal::QuestionRate rate{verdict.machines.value,
+                            {verdict.machines.low, verdict.machines.high},
+                            verdict.rigs_meeting,
+                            shown.goals.front().shape().rigs};
+    if (verdict.worlds.empty()) return rate;
+    const std::size_t world = goal::worst_worlds_first(*question.claim(), verdict).front();
+    rate.hits = verdict.worlds[world].rigs_meeting;
+    rate.events = std::ssize(shown.goals[question.parts.front().number].sum({.world = world}).rigs);
+    return rate;
   }
   /// The proportion that is asked for.
   ordered_json asked() const {

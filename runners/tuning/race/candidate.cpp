@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 
+#include "analysis/goal/standing.hpp"
 #include "analysis/parallel/parallel.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/statistics/quantile.hpp"
@@ -31,10 +32,6 @@ std::size_t worlds_of(const Aim& aim) {
 
 std::size_t common_units(const Candidate& a, const Candidate& b) {
   return std::min(a.units.size(), b.units.size());
-}
-
-double logit(double proportion) {
-  return std::log(proportion / (1.0 - proportion));
 }
 
 /// What a candidate's first units show of one claim.
@@ -71,10 +68,17 @@ ClaimEstimate estimate_of_claim(const Aim& aim, std::size_t claim, std::span<con
 }
 
 /// Difference of the logits, finite for any rate of so many units.
-double margin_of(const Claim& claim, double rate, std::int64_t units) {
+double margin_of(double rate, double wanted, std::int64_t units) {
   constexpr double almost_all = 1.0 - 1e-9;  // success is not claimed: of all moves
   const auto n = static_cast<double>(units);
-  return logit((rate * n + 0.5) / (n + 1.0)) - logit(std::min(wanted_rate(claim), almost_all));
+  return goal::logit_difference((rate * n + 0.5) / (n + 1.0), std::min(wanted, almost_all));
+}
+
+/// The standing of a claim by its rates alone.
+goal::Standing standing_of(const Claim& claim, const ClaimEstimate& estimate, std::int64_t units) {
+  goal::Standing standing{.observed = margin_of(estimate.rate, wanted_rate(claim), units)};
+  if (claim.machines) standing.observed_of_moves = margin_of(estimate.moves, claim.moves, units);
+  return standing;
 }
 
 double standard_error(double rate, std::int64_t units) {
@@ -127,6 +131,7 @@ Estimate estimate_of(const Aim& aim, std::span<const UnitResult> units, std::int
   units = units.first(static_cast<std::size_t>(count));
   const auto worlds = static_cast<std::int64_t>(worlds_of(aim));
   Estimate estimate;
+  goal::Standing worst;
   std::vector<ClaimEstimate> claims;
   bool has_moves = false;
   for (std::size_t claim = 0; claim < aim.claims.size(); ++claim) {
@@ -137,10 +142,11 @@ Estimate estimate_of(const Aim& aim, std::span<const UnitResult> units, std::int
   std::vector<char> goal_is_missing((aim.claims.size() + aim.conditions - 1) / aim.conditions, 0);
   for (std::size_t claim = 0; claim < claims.size(); ++claim) {
     const ClaimEstimate& one = claims[claim];
-    const double margin = margin_of(aim.claims[claim], one.rate, estimate.units);
-    if (claim == 0 || margin < estimate.margin) {
+    const goal::Standing standing = standing_of(aim.claims[claim], one, estimate.units);
+    if (claim == 0 || standing < worst) {
+      worst = standing;
       estimate.worst = claim;
-      estimate.margin = margin;
+      estimate.margin = standing.observed;
       estimate.rate = one.rate;
       estimate.moves = one.moves;
     }

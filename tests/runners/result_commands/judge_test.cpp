@@ -40,6 +40,61 @@ TEST_F(Judge, SaturationIsNamedWhereTheMovesThatMissSaturate) {
   EXPECT_FALSE(says(hasty, "saturate"));
 }
 
+/// A velocity loop without friction, which vibration disturbs under the condition "shaken" in some moves: all
+/// moves meet the goal under "empty", and the faster the loop the more under "shaken".
+std::string shaken_axis(int machines, const std::string& more = "") {
+  return fmt::format(
+      "zerocount: 1\nname: shelf\nseed: 4\nrigs: {}\ntrials: {}\n"
+      "plant: {{inertia: {{uniform: [1.8e-4, 2.2e-4]}}, presliding_damping: 2.0e-3}}\n"
+      "friction: {{model: none}}\nencoder: {{fine: 100000}}\ndac: {{bits: 18, range: 4}}\n"
+      "controller: {{sample_rate: 4000, delay: 1, structure: cascade, cascade: {{kv: 40, kp: 0.03, ki: "
+      "0.3}}}}\n"
+      "command: {{targets: [{{integers: [400, 900]}}], hold: 0.4}}\n"
+      "goal: {{band: 8, within: 0.3, moves: 0.5}}\n"
+      "disturbance: {{vibration: [{{amplitude: 0, frequency: 15, phase: {{uniform: [0, 6.28]}}}}]}}\n"
+      "conditions:\n  empty: {{}}\n"
+      "  shaken: {{disturbance.vibration.0.amplitude: {{choice: [0, 0, 0, 0, 0, 0, 0, 0.006, 0.006, "
+      "0.006]}}}}\n{}",
+      machines, 100 * machines, more);
+}
+
+// Few machines bound the proportion of all machines alike under both conditions, whatever their moves do.
+TEST_F(Judge, OfFewMachinesTheWorstConditionIsThatOfTheMissesAndAllNumbersAreOfIt) {
+  folder_.write("shelf.yaml", shaken_axis(5));
+  ASSERT_EQ(program({"run", "shelf.yaml", "-o", "shelf.h5", "--quiet"}).code, 0);
+  const Json judged = json_of({"judge", "shelf.h5"});
+  EXPECT_EQ(judged["worst_condition"], "shaken") << judged;
+  const Json& of_shaken = judged["claims"][1];
+  ASSERT_EQ(of_shaken["condition"], "shaken");
+  EXPECT_EQ(judged["claims"][0]["rate"], 1.0);
+  ASSERT_LT(of_shaken["rate"], 1.0);
+  ASSERT_NE(of_shaken["settling_time_p95"], judged["claims"][0]["settling_time_p95"]);
+  const Json goal = json_of({"summary", "shelf.h5"})["points"][0]["goal"];
+  EXPECT_EQ(goal["condition"], "shaken");
+  for (const char* const key : {"rate", "rate_low", "rate_high"}) {
+    EXPECT_EQ(judged[key], of_shaken[key]) << key;
+    EXPECT_EQ(goal[key], of_shaken[key]) << key;
+  }
+  const std::string table = program({"summary", "shelf.h5"}).out;
+  const std::size_t row = table.find("\nall ");
+  ASSERT_NE(row, std::string::npos) << table;
+  const std::string line = table.substr(row + 1, table.find('\n', row + 1) - row - 1);
+  EXPECT_TRUE(says(line, "shaken")) << line;
+  EXPECT_TRUE(says(line, of_shaken.value("settling_time_p95", Json()).is_null() ? "> 0.4 s" : "0.")) << line;
+}
+
+// However few the machines are.
+TEST_F(Judge, TheBestPointIsThatOfTheRatesForAnyNumberOfMachines) {
+  for (const int machines : {2, 3, 5, 10, 20}) {
+    folder_.write("points.yaml", shaken_axis(machines,
+                                             "sweep: {cases: {soft: {}, stiff: {controller.cascade.kp: 0.2, "
+                                             "controller.cascade.kv: 80}}}\n"));
+    ASSERT_EQ(program({"run", "points.yaml", "-o", "points.h5", "--quiet", "--force"}).code, 0);
+    const Json judged = json_of({"judge", "points.h5"});
+    EXPECT_EQ(judged["label"], "stiff") << machines << " machines: " << judged;
+  }
+}
+
 TEST_F(Judge, StatisticsDoNotDependOnWhatTheFileKeeps) {
   const std::string more = "rigs: 8\ngoal: {band: 3, within: 0.1, moves: 0.6, machines: 0.5}\n";
   run_study(more);

@@ -1,10 +1,13 @@
 #include "runners/tuning/stages.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "analysis/summary/chosen_point.hpp"
+#include "analysis/summary/study_statistics.hpp"
 #include "analysis/theory/plausibility.hpp"
 #include "core/failure/failure.hpp"
 #include "runners/tuning/race/proof.hpp"
@@ -31,6 +34,12 @@ bool is_out_of_reach(const study::Study& proven) {
   };
   return std::ranges::all_of(proven.tuning->free, is_of_controller) &&
          !theory::goals_out_of_reach(proven).empty();
+}
+
+/// The verdict that `judge` gives on the results file of a proof.
+goal::Verdict verdict_in(const std::filesystem::path& path) {
+  const summary::StudySummary summary = summary::summarise_file(path);
+  return summary::judge_point(summary, summary::choose_point(summary)).verdict;
 }
 
 }  // namespace
@@ -100,19 +109,20 @@ void examine_margins(const StudySearch& search, bool slides, const std::stop_tok
 }
 
 Proof proof_of(study::Study study, const trials::Replicates& units, std::span<const UnitResult> results,
-               const reading::AllTrialsFile& file, const Judged& judged, std::size_t correction) {
+               const reading::AllTrialsFile& file) {
+  const summary::StudySummary summary = summary::summarise(file);
+  summary::JudgedPoint judged = summary::judge_point(summary, summary::choose_point(summary));
   const goal::Verdict& verdict = judged.verdict;
   Proof proof{std::move(study), verdict};
-  proof.claims = summary::claims_of_point(summary::summarise(file), 0, correction);
-  proof.criterion = judged.criterion;
+  proof.claims = summary::claims_of_point(summary, 0);
+  proof.criterion = estimate_of(aim_of(proof.study), results, units.count).criterion;
   const std::size_t claim = claim_at(proof.study, {verdict.goal, verdict.condition});
   proof.late_limit = late_value(results, claim, proof.study.goals[verdict.goal].moves) *
                      (is_proportion_of_allowed(proof.study) ? proof.claims[claim].within : 1.0);
   proof.worst = worst_machine(proof.study, units.point, results);
   proof.moves = summary::behaviour_in(file, proof.study);
-  if (verdict.status == goal::Status::undecided)
-    proof.needs = goal::needs_of(proof.study.goals, judged.counts, correction);
   if (verdict.status != goal::Status::met) proof.obstacles = theory::obstacles_to_goals(proof.study);
+  proof.needs = std::move(judged.needs);
   return proof;
 }
 
@@ -122,7 +132,6 @@ std::optional<Proven> prove_values(const Space& space, StudySearch& search, cons
   const std::int64_t each = trials_of_machine(study);
   ProofRun run;
   ProofProblem problem;
-  problem.goals = study.goals;
   const Aim aim = aim_of(study);
   for (const Estimate& one : found.estimates) {
     problem.may_meet.push_back(may_meet(aim, one));
@@ -135,17 +144,18 @@ std::optional<Proven> prove_values(const Space& space, StudySearch& search, cons
     const GoalCounts counts = counts_of(study, search.units(), found.finalists[finalist].units);
     return problem.more_units(with_trials_each(counts, each), correction);
   };
-  problem.run = [&](const Attempt& attempt) -> std::optional<GoalCounts> {
+  problem.run = [&](const Attempt& attempt) -> std::optional<AttemptResult> {
     const trials::Replicates units{attempt.units, each};
     line.show([&] { return fmt::format("proof {}: {} trials", attempt.number, units.trials()); });
     std::vector<std::string> values = overrides_of(space.free(), found.finalists[attempt.finalist].values);
     values.push_back(fmt::format(
         "seed={}", trials::fresh_seed(study.seed, fmt::format("tuning, proof {}", attempt.number))));
+    std::ranges::move(confidences_of_attempt(study, attempt.number), std::back_inserter(values));
     const bool has_run = trials::within(space.effort, [&] {
       run = run_proof(study, std::move(values), units, place.output, place.threads, space.effort);
     });
     if (!has_run) return std::nullopt;
-    return counts_of(study, units, run.results);
+    return AttemptResult{counts_of(study, units, run.results), verdict_in(place.output)};
   };
   // The search examined the sliding loop of finalists that slid there.
   problem.rejects = [&](const Attempt& attempt) {
@@ -159,12 +169,10 @@ std::optional<Proven> prove_values(const Space& space, StudySearch& search, cons
   if (!proven) return std::nullopt;
   const Attempt& attempt = proven->attempt;
   const trials::Replicates units{attempt.units, each};
-  const Judged on_units{proven->counts, proven->verdict,
-                        estimate_of(aim, run.results, units.count).criterion};
   const bool slid = has_slid(found.finalists[attempt.finalist].units) || has_slid(run.results);
-  Proof proof = proof_of(std::move(run.study), units, run.results, reading::AllTrialsFile(place.output),
-                         on_units, correction_of(attempt.number));
+  Proof proof = proof_of(std::move(run.study), units, run.results, reading::AllTrialsFile(place.output));
   proof.attempts = attempt.number;
+  proof.keeps_margins = proven->keeps_margins;
   proof.all_tried = proven->all_tried;
   return Proven{attempt.finalist, slid, std::move(proof)};
 }
@@ -172,9 +180,8 @@ std::optional<Proven> prove_values(const Space& space, StudySearch& search, cons
 goal::Status status_of(const Proof& proof, const Searched& searched) {
   const bool shows_unreachable =
       searched.landscape.leads() && !searched.result.approaching && proof.all_tried;
-  return proof.verdict.status == goal::Status::missed && !shows_unreachable && !is_out_of_reach(proof.study)
-             ? goal::Status::undecided
-             : proof.verdict.status;
+  if (!proof.fails()) return proof.verdict.status;
+  return shows_unreachable || is_out_of_reach(proof.study) ? goal::Status::missed : goal::Status::undecided;
 }
 
 std::vector<std::string> edges_of(const std::vector<study::FreeParameter>& free, const Values& values) {

@@ -94,7 +94,7 @@ std::vector<summary::MoveBehaviour> simulated_behaviour(const study::Study& stud
 /// Trials of the tuned study on machines that the search never saw.
 struct Proof {
   study::Study study;
-  goal::Verdict verdict;                       ///< its confidence allows for all attempts
+  goal::Verdict verdict;  ///< as `judge` gives it on the results file; its confidence allows for all attempts
   std::optional<goal::Needs> needs{};          ///< that would decide an undecided one
   int attempts{1};                             ///< candidates or sizes that were proven, this one included
   std::vector<summary::CellOfPoint> claims{};  ///< with bounds that allow for all attempts
@@ -104,13 +104,16 @@ struct Proof {
   std::optional<WorstMachine> worst{};
   std::vector<std::string> obstacles{};  ///< what keeps the axis from a goal that is not met, in theory
   std::vector<summary::MoveBehaviour> moves{};
-  bool all_tried{true};  ///< ProvenFinalist::all_tried
+  bool keeps_margins{true};  ///< ProvenFinalist::keeps_margins
+  bool all_tried{true};      ///< ProvenFinalist::all_tried
+
+  /// Whether the values are no answer: they miss a goal or do not keep a margin.
+  bool fails() const { return !keeps_margins || verdict.status == goal::Status::missed; }
 };
 
-/// @param study of one point, and its units @param file of its trials @param judged by their results
-/// @param correction of the bounds, for the attempts
+/// @param study of one point, and its units @param file of its trials @param results of these
 Proof proof_of(study::Study study, const trials::Replicates& units, std::span<const UnitResult> results,
-               const reading::AllTrialsFile& file, const Judged& judged, std::size_t correction);
+               const reading::AllTrialsFile& file);
 
 /// Where a proof is written.
 struct ProofPlace {

@@ -229,7 +229,7 @@ TuneAnswer described(const study::Study& study, const TuneSettings& settings, co
     work.answer.tuned.moves = simulated_behaviour(work.search.candidate(work.answer.tuned.values),
                                                   work.search.units(), units_of_behaviour, effort);
   });
-  take_proof(proof_of(study, units, results, file, judged(study, units, results, 1), 1), work.answer);
+  take_proof(proof_of(study, units, results, file), work.answer);
   add_extras(work);
   work.count_effort();
   return std::move(work.answer);

@@ -68,8 +68,8 @@ void judge_control(const TunedAxis& axis, const study::Study& study, const Other
   fresh.push_back(fmt::format("seed={}", trials::fresh_seed(study.seed, "tuning, alternative")));
   for (const std::string& one : trials::overrides_for(study, units)) fresh.push_back(one);
   tuning::Judged judged = tuning::judged(
-      study, units, tuning::results_of(trials::variant_of(study, fresh), units, units.count, nullptr, effort),
-      1);
+      study, units,
+      tuning::results_of(trials::variant_of(study, fresh), units, units.count, nullptr, effort));
   alternative.criterion = judged.criterion;
   alternative.worst = tuning::names_of(study, {judged.verdict.goal, judged.verdict.condition});
   alternative.verdict = std::move(judged.verdict);

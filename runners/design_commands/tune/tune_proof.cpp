@@ -63,6 +63,11 @@ std::string met_headline(Of tuning) {
 /// "at the best values found, controller.ki = 5000, 28.2 % of the moves meet the goal, and at least 47.4 %
 /// are wanted".
 std::string missed_by(Of tuning) {
+  if (!tuning.answer.proof->keeps_margins)
+    return fmt::format(
+        "at the best values found, {}, machines of the proof slide, and their loop does not keep the margins "
+        "while it slides",
+        tuned_text(tuning));
   const study::Goal& goal = worst_goal(tuning);
   const goal::Verdict& verdict = tuning.answer.proof->verdict;
   return fmt::format("at the best values found, {}, {:.4g} % of the {}, and at least {:g} % are wanted",
@@ -103,7 +108,7 @@ std::string lacking_sentence(Of tuning) {
   if (!tuning.answer.proof) return "";
   const Proof& proof = *tuning.answer.proof;
   const study::Study& study = proof.study;
-  const study::Goal& goal = worst_goal(tuning);
+  const study::Goal& goal = study.goals[proof.verdict.goal];
   std::string lines;
   if (goal.machines) {
     const std::int64_t trials = study::draw_count(study) / study.rigs;
@@ -138,6 +143,11 @@ Description<Tuning> proof_description() {
   return Description<Tuning>()
       .include(named_claim_columns("worst goal", "under"),
                [](Of t) { return tuning::names_of(t.study, worst_claim(proof_in(t).verdict)); })
+      .value({.key = "status",
+              .meaning = "verdict on the goal by the trials of the proof, which is that of judge",
+              .shown = document::Shown::in_data,
+              .words = goal::status_words()},
+             [](Of t) { return goal::text_of(proof_in(t).verdict.status); })
       .value(proportion("rate", "moves that meet it",
                         "proportion of moves that meet the goal, with one-sided bounds"),
              [](Of t) { return goal::bounded(proof_in(t).verdict.moves); })
@@ -252,7 +262,7 @@ std::string tune_headline(Of tuning) {
     case goal::Status::undecided:
       break;
   }
-  if (tuning.answer.proof->verdict.status == goal::Status::missed)
+  if (tuning.answer.proof->fails())
     return fmt::format("undecided: {}; {}; a larger --budget may find better ones",
                        why_undecided(tuning.answer.searched), missed_by(tuning));
   return fmt::format(

@@ -509,8 +509,8 @@ class SummaryAnswer(Answer):
             bounds that allow for the few moves in which each was seen
           - ``machines_low``: lower bound
           - ``machines_high``: upper bound
-          - ``settling_time_p95``: 95 % quantile of the settling time, of the slowest goal and condition; none where it
-            is not within the hold, s
+          - ``settling_time_p95``: 95 % quantile of the settling time, of the goal and condition that the rate is of;
+            none where it is not within the hold, s
           - ``within``: time from the start of a move that the goal allows, the longest of its moves, s
           - ``status``: verdict on the goal
         - ``conditions``: the point under each condition
@@ -518,7 +518,7 @@ class SummaryAnswer(Answer):
           - ``trials``: trials under the condition, or at the age
           - ``success``: trials all of whose moves ended at zero error
           - ``goal_met``: trials all of whose moves meet the goal
-          - ``goal``: name of the goal that the next numbers are of
+          - ``goal``: name of the goal that rate and settling time are of, the worst of several
           - ``rate``: proportion of moves (under a condition of what the question is about, without a goal of trials),
             with one-sided bounds; of the worst goal, condition and world
           - ``rate_low``: lower bound
@@ -529,6 +529,8 @@ class SummaryAnswer(Answer):
           - ``trials``: trials under the condition, or at the age
           - ``success``: trials all of whose moves ended at zero error
           - ``goal_met``: trials all of whose moves meet the goal
+          - ``worst_condition``: the worst of several conditions, which rate and settling time are under
+          - ``goal``: name of the goal that rate and settling time are of, the worst of several
           - ``rate``: proportion of moves (under a condition of what the question is about, without a goal of trials),
             with one-sided bounds; of the worst goal, condition and world
           - ``rate_low``: lower bound
@@ -541,8 +543,8 @@ class SummaryAnswer(Answer):
             Clopper and Pearson, which take the verdict on each machine as it was seen
           - ``living_low``: lower bound
           - ``living_high``: upper bound
-          - ``settling_time_p95``: 95 % quantile of the settling time, of the slowest goal and condition; none where it
-            is not within the hold, s
+          - ``settling_time_p95``: 95 % quantile of the settling time, of the goal and condition that the rate is of;
+            none where it is not within the hold, s
           - ``status``: verdict on the goal
         - ``assurance``.* (success_at_least, failure_at_most, rule_of_three, settling_time, statement, rigs): what the
           trials show of all axes that the manifest describes
@@ -1218,8 +1220,8 @@ class JudgeAnswer(Answer):
           bounds that allow for the few moves in which each was seen
         - ``machines_low``: lower bound
         - ``machines_high``: upper bound
-        - ``settling_time_p95``: 95 % quantile of the settling time, of the slowest goal and condition; none where it is
-          not within the hold, s
+        - ``settling_time_p95``: 95 % quantile of the settling time, of the goal and condition that the rate is of; none
+          where it is not within the hold, s
         - ``within``: time from the start of a move that the goal allows, the longest of its moves, s
         - ``status``: verdict on the goal
 
@@ -1234,6 +1236,8 @@ class JudgeAnswer(Answer):
         - ``trials``: trials under the condition, or at the age
         - ``success``: trials all of whose moves ended at zero error
         - ``goal_met``: trials all of whose moves meet the goal
+        - ``worst_condition``: the worst of several conditions, which rate and settling time are under
+        - ``goal``: name of the goal that rate and settling time are of, the worst of several
         - ``rate``: proportion of moves (under a condition of what the question is about, without a goal of trials),
           with one-sided bounds; of the worst goal, condition and world
         - ``rate_low``: lower bound
@@ -1246,8 +1250,8 @@ class JudgeAnswer(Answer):
           Clopper and Pearson, which take the verdict on each machine as it was seen
         - ``living_low``: lower bound
         - ``living_high``: upper bound
-        - ``settling_time_p95``: 95 % quantile of the settling time, of the slowest goal and condition; none where it is
-          not within the hold, s
+        - ``settling_time_p95``: 95 % quantile of the settling time, of the goal and condition that the rate is of; none
+          where it is not within the hold, s
         - ``status``: verdict on the goal
 
     """
@@ -1412,6 +1416,8 @@ class Proof(Record):
         Its goal, of several.
     condition : str or None
         Its condition, with conditions.
+    status : Literal["met", "missed", "undecided"]
+        Verdict on the goal by the trials of the proof, which is that of judge.
     rate : float or None
         Proportion of moves that meet the goal, with one-sided bounds.
     rate_low : float or None
@@ -1438,6 +1444,7 @@ class Proof(Record):
 
     goal: str | None
     condition: str | None
+    status: Literal["met", "missed", "undecided"]
     rate: float | None
     rate_low: float | None
     rate_high: float | None
@@ -1623,8 +1630,8 @@ class TuneAnswer(Answer):
           bounds that allow for the few moves in which each was seen
         - ``machines_low``: lower bound
         - ``machines_high``: upper bound
-        - ``settling_time_p95``: 95 % quantile of the settling time, of the slowest goal and condition; none where it is
-          not within the hold, s
+        - ``settling_time_p95``: 95 % quantile of the settling time, of the goal and condition that the rate is of; none
+          where it is not within the hold, s
         - ``within``: time from the start of a move that the goal allows, the longest of its moves, s
         - ``status``: verdict on the goal
 

@@ -76,7 +76,7 @@ class LifeOfClaims {
     if (place != tried_.end() && place->age == age) return;
     const study::Study study = at_age(age);
     const auto results = results_of(study, units_, units_.count, nullptr, effort_);
-    tried_.insert(place, {age, judged(study, units_, results, 1).verdict.claims});
+    tried_.insert(place, {age, judged(study, units_, results).verdict.claims});
   }
 
   void run_study_ages() {

@@ -20,7 +20,7 @@ std::optional<Attempt> next_attempt(const ProofProblem& problem, const std::vect
                                     const ProvenFinalist& last) {
   const Attempt& before = last.attempt;
   const std::size_t correction = correction_of(before.number + 1);
-  switch (last.verdict.status) {
+  switch (last.keeps_margins ? last.verdict.status : goal::Status::missed) {
     case goal::Status::met:
       return std::nullopt;
     case goal::Status::undecided: {
@@ -47,12 +47,10 @@ std::optional<ProvenFinalist> prove(const ProofProblem& problem) {
   std::vector<bool> tried(problem.may_meet.size(), false);
   std::optional<Attempt> attempt = Attempt{1, 0, problem.first_units(0, correction_of(1))};
   while (attempt) {
-    std::optional<GoalCounts> counts = problem.run(*attempt);
-    if (!counts) break;
+    std::optional<AttemptResult> result = problem.run(*attempt);
+    if (!result) break;
     tried[attempt->finalist] = true;
-    proven = ProvenFinalist{*attempt, std::move(*counts), {}};
-    proven->verdict = goal::judge_goals(problem.goals, proven->counts, correction_of(attempt->number));
-    if (problem.rejects(*attempt)) proven->verdict.status = goal::Status::missed;
+    proven = ProvenFinalist{std::move(*result), *attempt, !problem.rejects(*attempt)};
     if (attempt->number == max_attempts || !problem.goes_on()) break;
     attempt = next_attempt(problem, tried, *proven);
   }

@@ -24,7 +24,7 @@ struct Attempt {
 /// found.
 inline constexpr int max_attempts = 3;
 
-/// The number of points for which judge_goals() corrects at this attempt: the reciprocal of its part of α.
+/// The reciprocal of the part of α that this attempt has.
 std::size_t correction_of(int attempt);
 
 /// What a goal is about, machines or moves: the proportion that meets it, and the one that it asks for.
@@ -39,28 +39,31 @@ inline double asked_rate(const study::Goal& goal) {
 /// The moves that meet each goal, [goal].
 using GoalCounts = std::vector<measures::CellCounts>;
 
+/// What an attempt shows.
+struct AttemptResult {
+  GoalCounts counts;
+  goal::Verdict verdict;  ///< With the attempt's part of α.
+};
+
 struct ProofProblem {
-  std::vector<study::Goal> goals;  ///< all of which must be met
-  std::vector<bool> may_meet;      ///< [finalist] whether it may meet them, by the search; the best first
-  std::vector<double> margins;     ///< [finalist] Estimate::margin: the larger, the surer it meets them
-  /// Units that are expected to decide the goals with this correction, by the results of the
-  /// search.
+  std::vector<bool> may_meet;   ///< [finalist] whether it may meet all goals, by the search; the best first
+  std::vector<double> margins;  ///< [finalist] Estimate::margin: the larger, the surer it meets them
+  /// Units that are expected to decide the goals with this correction, by the results of the search.
   std::function<std::int64_t(std::size_t finalist, std::size_t correction)> first_units;
   /// Units that are expected to decide them, by the results of an attempt.
   std::function<std::int64_t(const GoalCounts&, std::size_t correction)> more_units;
   /// Nothing if the effort ended before the attempt.
-  std::function<std::optional<GoalCounts>(const Attempt&)> run;
-  /// Whether the last run shows that the finalist does not keep a margin; it misses the goal then.
+  std::function<std::optional<AttemptResult>(const Attempt&)> run;
+  /// Whether the last run shows that the finalist does not keep a margin. It is not the answer then.
   std::function<bool(const Attempt&)> rejects;
   std::function<bool()> goes_on;  ///< whether the effort is enough for another attempt
 };
 
-/// The last attempt and its verdict.
-struct ProvenFinalist {
+/// The last attempt and its result.
+struct ProvenFinalist : AttemptResult {
   Attempt attempt;
-  GoalCounts counts;
-  goal::Verdict verdict;
-  bool all_tried{true};  ///< every finalist that may meet the goals was run
+  bool keeps_margins{true};  ///< ProofProblem::rejects
+  bool all_tried{true};      ///< every finalist that may meet the goals was run
 };
 
 /// Proves the best finalist or, where it misses the goals, the surest of the others: the best ones were
@@ -68,9 +71,9 @@ struct ProvenFinalist {
 ///
 ///     finalist = 0
 ///     for attempt = 1 … max_attempts, while the effort is enough:
-///       run the finalist on fresh units; verdict = judge_goals() with the attempt's part of α
-///       met: done; missed: of the others that may meet the goals, the one with the largest margin;
-///       undecided: again on more units, if more are expected to decide
+///       run the finalist on fresh units; its verdict has the attempt's part of α
+///       met: done; missed, or a margin is not kept: of the others that may meet the goals, the one with the
+///       largest margin; undecided: again on more units, if more are expected to decide
 ///
 /// @returns the last attempt; nothing if the effort ended before the first one
 std::optional<ProvenFinalist> prove(const ProofProblem& problem);

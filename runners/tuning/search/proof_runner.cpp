@@ -11,6 +11,7 @@
 
 #include "analysis/goal/goal_verdict.hpp"
 #include "analysis/parallel/parallel.hpp"
+#include "analysis/statistics/proportion.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/manifest_text/manifest_text.hpp"
@@ -147,10 +148,20 @@ GoalCounts counts_of(const study::Study& study, const trials::Replicates& units,
   return goals;
 }
 
-Judged judged(const study::Study& study, const trials::Replicates& units, std::span<const UnitResult> results,
-              std::size_t correction) {
+std::vector<std::string> confidences_of_attempt(const study::Study& study, int attempt) {
+  std::vector<std::string> confidences;
+  for (const study::Goal& goal : study.goals) {
+    const std::string key = goal.name.empty() ? "goal" : "goals." + goal.name;
+    confidences.push_back(fmt::format(
+        "{}.confidence={}", key, statistics::confidence_of_each(goal.confidence, correction_of(attempt))));
+  }
+  return confidences;
+}
+
+Judged judged(const study::Study& study, const trials::Replicates& units,
+              std::span<const UnitResult> results) {
   Judged judged{counts_of(study, units, results), {}};
-  judged.verdict = goal::judge_goals(study.goals, judged.counts, correction);
+  judged.verdict = goal::judge_goals(study.goals, judged.counts, 1);
   judged.criterion = estimate_of(aim_of(study), results, units.count).criterion;
   return judged;
 }

@@ -22,10 +22,13 @@ struct Judged {
   double criterion{0.0};  ///< infinite for never
 };
 
-/// All that judges a point on fresh units asks this. @param results of all units of the study
-/// @param correction points from which the bounds allow for a choice
-Judged judged(const study::Study& study, const trials::Replicates& units, std::span<const UnitResult> results,
-              std::size_t correction);
+/// The verdict on a point that has no results file. @param results of all units of the study
+Judged judged(const study::Study& study, const trials::Replicates& units,
+              std::span<const UnitResult> results);
+
+/// "key=value" of the confidence that each goal has in the manifest of a proof, of which the error
+/// probability is the part of this attempt. So the verdict on the results file is that of the attempt.
+std::vector<std::string> confidences_of_attempt(const study::Study& study, int attempt);
 
 /// The counts as they would be with `each` trials of every machine, at the same rates.
 GoalCounts with_trials_each(GoalCounts counts, std::int64_t each);

@@ -1,9 +1,13 @@
 // Each stage of a tuning by itself, from values to values.
 #include "runners/tuning/stages.hpp"
 
+#include "analysis/summary/chosen_point.hpp"
+#include "analysis/summary/study_statistics.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "runners/tuning/extras.hpp"
 #include "tests/runners/design_commands/tune_fixture.hpp"
+#include "tests/support/draws.hpp"
+#include "tests/support/each_seed.hpp"
 
 namespace zerocount::tuning {
 namespace {
@@ -18,12 +22,13 @@ study::Study axis_study(const std::vector<std::string>& overrides = {}) {
 
 /// The space of the study, and a search in it.
 struct Searching {
-  explicit Searching(std::int64_t trials)
-      : space(space_of(study, {.trials = trials}, trials::Effort().share(trials, {}), {})),
+  explicit Searching(std::int64_t trials, const std::vector<std::string>& overrides = {})
+      : study(axis_study(overrides)),
+        space(space_of(study, {.trials = trials}, trials::Effort().share(trials, {}), {})),
         plan(plan_search(study, space.budget, space.effort, space.speed)),
         search(study, space.free(), plan.size, journal, space.effort) {}
 
-  study::Study study{axis_study()};
+  study::Study study;
   TuningJournal journal{{}, {}, false};
   Space space;
   SearchPlan plan;
@@ -46,23 +51,26 @@ TEST(TuningStages, TheSearchTakesItsPartAndRanksItsFinalists) {
     EXPECT_FALSE(is_better(aim, found.result.estimates[i], found.result.estimates[i - 1])) << i;
 }
 
-// The verdict is that of the file by itself, with the error probability of a first attempt.
-TEST(TuningStages, TheProofIsTheVerdictOfItsFile) {
-  Searching of(20000);
-  const Values values{3.85e-5, 0.0};
+/// The proof of values, as the only finalist.
+std::optional<Proven> proof_of_values(Searching& of, const Values& values,
+                                      const std::filesystem::path& path) {
   SearchResult found;
   found.finalists.push_back(
       {{}, values, results_of(of.search.candidate(values), of.search.units(), 200, nullptr, {})});
   found.estimates.push_back(estimate_of(aim_of(of.study), found.finalists[0].units, 200));
-  const TemporaryFolder folder;
   status::StatusLine line(true);
-  const std::optional<Proven> proven =
-      prove_values(of.space, of.search, found, {folder.path() / "proof.h5", 1}, line);
+  return prove_values(of.space, of.search, found, {path, 1}, line);
+}
+
+TEST(TuningStages, TheProofIsTheVerdictOfItsFile) {
+  Searching of(20000);
+  const Values values{3.85e-5, 0.0};
+  const TemporaryFolder folder;
+  const std::optional<Proven> proven = proof_of_values(of, values, folder.path() / "proof.h5");
   ASSERT_TRUE(proven);
   const reading::AllTrialsFile file(folder.path() / "proof.h5");
   const trials::Replicates units = trials::replicates_of(file.study(), 0);
-  const Judged alone = judged(file.study(), units, results_in(file, file.study(), units),
-                              correction_of(proven->proof.attempts));
+  const Judged alone = judged(file.study(), units, results_in(file, file.study(), units));
   EXPECT_EQ(proven->proof.verdict.status, alone.verdict.status);
   EXPECT_EQ(proven->proof.verdict.moves.low, alone.verdict.moves.low);
   EXPECT_EQ(proven->proof.criterion, alone.criterion);
@@ -70,10 +78,43 @@ TEST(TuningStages, TheProofIsTheVerdictOfItsFile) {
   EXPECT_NE(file.study().seed, of.study.seed);
 }
 
+/// Random values, and a goal near the proportion of moves that meet it at these.
+struct RandomProofs {
+  static constexpr unsigned seeds = 6;
+
+  explicit RandomProofs(unsigned seed) : draws(seed) {}
+
+  testing::Draws draws;
+  Values values{std::exp(draws.uniform(std::log(1.0e-5), std::log(2.0e-4))), draws.uniform(0.0, 1.0e-3)};
+  std::string goal{fmt::format("goal.moves={}", draws.uniform(0.6, 0.99))};
+  std::int64_t budget{draws.integer(3000, 8000)};
+};
+
+// What a proof shows is shown by its file, with the part of the error probability that its attempt has.
+TEST_EACH_SEED(RandomProofs, HaveTheVerdictThatTheirFileHasByItself) {
+  Searching of(budget, {goal});
+  const TemporaryFolder folder;
+  const std::optional<Proven> proven = proof_of_values(of, values, folder.path() / "proof.h5");
+  ASSERT_TRUE(proven);
+  const summary::StudySummary summary = summary::summarise_file(folder.path() / "proof.h5");
+  const summary::JudgedPoint judged = summary::judge_point(summary, summary::choose_point(summary));
+  const goal::Verdict& of_proof = proven->proof.verdict;
+  EXPECT_EQ(of_proof.status, judged.verdict.status);
+  EXPECT_EQ(of_proof.moves.low, judged.verdict.moves.low);
+  EXPECT_EQ(of_proof.moves.high, judged.verdict.moves.high);
+  EXPECT_EQ(proven->proof.needs.has_value(), judged.needs.has_value());
+  const double alpha = 0.05 / static_cast<double>(correction_of(proven->proof.attempts));
+  const measures::MoveCounts counts = summary.points[0].goals[0].sum();
+  EXPECT_NEAR(of_proof.moves.low, statistics::clustered_at_least(measures::clusters_of(counts), 1.0 - alpha),
+              1e-9);
+}
+
 TEST(TuningStages, AMissedGoalIsUnreachableOnlyTogetherWithTheSearch) {
-  const auto status_of = [](const Landscape& landscape, bool approaching, bool all_tried) {
+  bool keeps_margins = true;
+  const auto status_of = [&](const Landscape& landscape, bool approaching, bool all_tried) {
     Proof proof{axis_study(), {}};
-    proof.verdict.status = goal::Status::missed;
+    proof.verdict.status = keeps_margins ? goal::Status::missed : goal::Status::met;
+    proof.keeps_margins = keeps_margins;
     proof.all_tried = all_tried;
     Searched searched{.landscape = landscape};
     searched.result.approaching = approaching;
@@ -81,10 +122,13 @@ TEST(TuningStages, AMissedGoalIsUnreachableOnlyTogetherWithTheSearch) {
   };
   const Landscape leads{.points = 100, .telling = 50, .varies = true};
   const Landscape flat{.points = 100, .telling = 0, .varies = true};
-  EXPECT_EQ(status_of(leads, false, true), goal::Status::missed);
-  EXPECT_EQ(status_of(leads, true, true), goal::Status::undecided);
-  EXPECT_EQ(status_of(leads, false, false), goal::Status::undecided);
-  EXPECT_EQ(status_of(flat, false, true), goal::Status::undecided);
+  for (const bool keeps : {true, false}) {  // values that do not keep a margin are no answer either
+    keeps_margins = keeps;
+    EXPECT_EQ(status_of(leads, false, true), goal::Status::missed);
+    EXPECT_EQ(status_of(leads, true, true), goal::Status::undecided);
+    EXPECT_EQ(status_of(leads, false, false), goal::Status::undecided);
+    EXPECT_EQ(status_of(flat, false, true), goal::Status::undecided);
+  }
 }
 
 /// An extra that takes so many trials; beyond 4000 it may take fewer.

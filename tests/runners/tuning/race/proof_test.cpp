@@ -18,6 +18,11 @@ GoalCounts counts_of(const MadeUpProblem& truth, const Values& at, std::uint64_t
   return {counts};
 }
 
+AttemptResult result_of(const study::Goal& goal, const Attempt& attempt, GoalCounts counts) {
+  goal::Verdict verdict = goal::judge_goals({&goal, 1}, counts, correction_of(attempt.number));
+  return {std::move(counts), std::move(verdict)};
+}
+
 struct ProvenSearch {
   SearchResult found;
   ProvenFinalist proven;
@@ -28,16 +33,16 @@ ProvenSearch searched_and_proven(const MadeUpProblem& truth) {
   const SearchProblem searched = truth.problem(256);
   ProvenSearch both{search(searched, {.seed = truth.seed, .generations = 4}), {}};
   ProofProblem problem;
-  problem.goals = {truth.goal};
   for (const Estimate& one : both.found.estimates) {
     problem.may_meet.push_back(may_meet(searched.aim, one));
     problem.margins.push_back(one.margin);
   }
   problem.first_units = [](std::size_t, std::size_t) { return std::int64_t{2000}; };
   problem.more_units = [](const GoalCounts&, std::size_t) { return std::int64_t{6000}; };
-  problem.run = [&](const Attempt& attempt) -> std::optional<GoalCounts> {
+  problem.run = [&](const Attempt& attempt) -> std::optional<AttemptResult> {
     const auto first = static_cast<std::uint64_t>(attempt.number) << 16U;
-    return counts_of(truth, both.found.finalists[attempt.finalist].values, first, attempt.units);
+    return result_of(truth.goal, attempt,
+                     counts_of(truth, both.found.finalists[attempt.finalist].values, first, attempt.units));
   };
   problem.rejects = [](const Attempt&) { return false; };
   problem.goes_on = [] { return true; };
@@ -98,15 +103,15 @@ TEST(Proof, AttemptsShareTheErrorProbability) {
 
 TEST(Proof, GoesOnToTheNextFinalistAfterAMissAndToMoreUnitsWhenUndecided) {
   std::vector<Attempt> attempts;
+  const study::Goal goal{.within = 1.0, .moves = 0.95};
   ProofProblem problem;
-  problem.goals = {{.within = 1.0, .moves = 0.95}};
   problem.may_meet = {true, true};
   problem.margins = {0.1, 0.1};
   problem.first_units = [](std::size_t, std::size_t) { return std::int64_t{1000}; };
   problem.more_units = [](const GoalCounts&, std::size_t) { return std::int64_t{4000}; };
   problem.goes_on = [] { return true; };
   problem.rejects = [](const Attempt&) { return false; };
-  problem.run = [&](const Attempt& attempt) -> std::optional<GoalCounts> {
+  problem.run = [&](const Attempt& attempt) -> std::optional<AttemptResult> {
     attempts.push_back(attempt);
     const double rate = attempt.finalist == 0 ? 0.8 : attempt.units == 1000 ? 0.955 : 0.97;
     measures::CellCounts counts;
@@ -114,7 +119,7 @@ TEST(Proof, GoesOnToTheNextFinalistAfterAMissAndToMoreUnitsWhenUndecided) {
       const bool met = static_cast<double>(i) < rate * static_cast<double>(attempt.units);
       counts.add(i, 1, met ? 1 : 0);
     }
-    return GoalCounts{counts};
+    return result_of(goal, attempt, {counts});
   };
   const ProvenFinalist proven = prove(problem).value();
   ASSERT_EQ(attempts.size(), 3U);
@@ -126,23 +131,26 @@ TEST(Proof, GoesOnToTheNextFinalistAfterAMissAndToMoreUnitsWhenUndecided) {
 
 // Such as margins of the sliding loop, where only the proof slides.
 TEST(Proof, GoesOnToTheNextFinalistWhereItRejectsOneThatMeetsTheGoal) {
+  const study::Goal goal{.within = 1.0, .moves = 0.95};
   ProofProblem problem;
-  problem.goals = {{.within = 1.0, .moves = 0.95}};
   problem.may_meet = {true, true};
   problem.margins = {0.1, 0.1};
   problem.first_units = [](std::size_t, std::size_t) { return std::int64_t{1000}; };
   problem.goes_on = [] { return true; };
-  problem.run = [](const Attempt& attempt) -> std::optional<GoalCounts> {
+  problem.run = [&](const Attempt& attempt) -> std::optional<AttemptResult> {
     measures::CellCounts counts;
     for (std::int64_t i = 0; i < attempt.units; ++i) counts.add(i, 1, 1);
-    return GoalCounts{counts};
+    return result_of(goal, attempt, {counts});
   };
   problem.rejects = [](const Attempt& attempt) { return attempt.finalist == 0; };
   const ProvenFinalist proven = prove(problem).value();
   EXPECT_EQ(proven.attempt.finalist, 1U);
   EXPECT_EQ(proven.verdict.status, goal::Status::met);
+  EXPECT_TRUE(proven.keeps_margins);
   problem.may_meet = {true};
-  EXPECT_EQ(prove(problem).value().verdict.status, goal::Status::missed);
+  const ProvenFinalist rejected = prove(problem).value();
+  EXPECT_FALSE(rejected.keeps_margins);
+  EXPECT_EQ(rejected.verdict.status, goal::Status::met) << "the verdict is that of its moves";
 }
 
 // Estimates and comparison of candidates.

@@ -14,7 +14,7 @@
 namespace zerocount::goal {
 namespace {
 
-double logit(double p) {
+double log_odds(double p) {
   return std::log(p / (1.0 - p));
 }
 
@@ -23,8 +23,9 @@ std::vector<double> places_of(const ClaimVerdict& claim, const study::Goal& goal
   const double status = claim.status == Status::missed ? 0.0 : claim.status == Status::undecided ? 1.0 : 2.0;
   const BoundedProportion& claimed = goal.machines ? claim.machines : claim.moves;
   const double wanted = goal.machines.value_or(goal.moves);
-  return {status, logit(claimed.low) - logit(wanted), logit(claimed.value) - logit(wanted),
-          logit(claim.moves.low) - logit(goal.moves), logit(claim.moves.value) - logit(goal.moves)};
+  return {status, log_odds(claimed.low) - log_odds(wanted), log_odds(claimed.value) - log_odds(wanted),
+          log_odds(claim.moves.low) - log_odds(goal.moves),
+          log_odds(claim.moves.value) - log_odds(goal.moves)};
 }
 
 /// One or two goals on a few machines under several conditions, of which some are much alike.

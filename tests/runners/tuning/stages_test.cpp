@@ -80,7 +80,7 @@ TEST(TuningStages, TheProofIsTheVerdictOfItsFile) {
 
 /// Random values, and a goal near the proportion of moves that meet it at these.
 struct RandomProofs {
-  static constexpr unsigned seeds = 6;
+  static constexpr unsigned seeds = 3;
 
   explicit RandomProofs(unsigned seed) : draws(seed) {}
 

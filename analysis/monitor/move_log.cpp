@@ -232,7 +232,9 @@ std::size_t MoveLog::read(std::string_view text) {
 }
 
 void MoveLog::read_last(std::string_view line) {
-  if (!line.empty()) read_line(line);
+  const bool is_blank = line.find_first_not_of(" \t\r") == std::string_view::npos;
+  if (line.empty() || (is_blank && heads_.size() == 1)) return;
+  read_line(line);
 }
 
 void MoveLog::require_header() const {
@@ -254,15 +256,13 @@ void MoveLog::read_line(std::string_view line) {
   const std::string_view blanks = has_header() && separator_ == Separator::tab ? " " : " \t";
   const std::size_t begin = line.find_first_not_of(blanks);
   if (begin == std::string_view::npos) {
-    if (heads_.size() == 1) ++blank_lines_;
+    if (heads_.size() == 1) read_row("");
     return;
   }
   std::string_view shown = line.substr(begin);
   if (shown.starts_with('"') && shown.ends_with('"')) shown.remove_prefix(1);
   if (shown.starts_with('#') || shown.starts_with('%')) return;
   if (!has_header()) return read_header(line);
-  // In a log of one column a blank line is an empty cell, unless nothing follows.
-  for (; blank_lines_ > 0; --blank_lines_) read_row("");
   read_row(line);
 }
 

@@ -109,9 +109,11 @@ struct Moves {
 /// A log of moves as text: a header with the names of measures, then one row a move in their order. It may be
 /// read in pieces, as it grows.
 ///
-/// Cells are separated by the first of tab, semicolon and comma that the header has. Blank lines, which have
-/// no separator, and lines that begin with '#' or '%' are skipped. An empty cell, or NaN, is what never
-/// happened; so is a blank line between the rows of a log of one column.
+/// Cells are separated by the first of tab, semicolon and comma that the header has. Lines that begin with
+/// '#' or '%' are skipped. An empty cell, or NaN, is what never happened. A row of one column has no
+/// separator, so that in a log of one column each blank line after the header is a row with an empty cell,
+/// also at the end of the log. In a log of several columns a blank line has too few cells for a row, and is
+/// skipped.
 class MoveLog : public Moves {
  public:
   /// @param file its name in messages @param group name of the column whose rows of one value belong
@@ -124,7 +126,8 @@ class MoveLog : public Moves {
   /// have, or where carriage returns alone end the lines; bad_data for a row of another number of cells, or
   /// with a value that the measure cannot have
   std::size_t read(std::string_view text);
-  /// Reads the last line, although nothing ends it.
+  /// Reads the rest after the last line feed. If it has only blanks, it is a row only where tabs separate its
+  /// cells.
   void read_last(std::string_view line);
   /// @throws Failure (bad_input) if there was no header
   void require_header() const;
@@ -157,7 +160,6 @@ class MoveLog : public Moves {
   double target_factor_{1.0};  ///< to SI, or counts
   std::string trial_;          ///< of the last row
   std::int64_t line_{0};
-  std::int64_t blank_lines_{0};  ///< since the last row, in a log of one column
 };
 
 }  // namespace zerocount::monitor

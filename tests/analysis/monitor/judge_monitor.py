@@ -95,12 +95,11 @@ def random_values(generator, count, kind, factor):
 
 
 def write_log(path, columns):
-    """What never happened is empty, but in a log of one column, where an empty last row is not seen."""
-    never = "" if len(columns) > 1 else "nan"
+    """What never happened is empty."""
     with open(path, "w", encoding="utf-8") as file:
         file.write(",".join(columns) + "\n")
         for row in zip(*columns.values()):
-            file.write(",".join(never if np.isinf(v) else repr(float(v)) for v in row) + "\n")
+            file.write(",".join("" if np.isinf(v) else repr(float(v)) for v in row) + "\n")
 
 
 def main():

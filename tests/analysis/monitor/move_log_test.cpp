@@ -47,10 +47,44 @@ TEST(MoveLog, TakesMagnitudesOfErrorsAndDecimalCommas) {
   EXPECT_EQ(log.find("settling_time")->values, (Values{0.05, 0.06}));
 }
 
-TEST(MoveLog, ReadsBlankLinesOfOneColumnAsMovesThatNeverSettled) {
-  EXPECT_EQ(log_of("settling_time\n0.1\n\n0.2\n\"\"\n0.3").find("settling_time")->values,
-            (Values{0.1, never, 0.2, never, 0.3}));
-  EXPECT_EQ(log_of("settling_time\n0.1\n\n\n").moves, 1) << "what ends the file is no move";
+// A machine that stopped settling writes empty fields until the end of its log.
+TEST(MoveLog, ReadsEachBlankLineOfOneColumnAsAMoveThatNeverSettled) {
+  const auto values = [](std::string_view text) { return log_of(text).find("settling_time")->values; };
+  EXPECT_EQ(values("settling_time\n0.1\n\n0.2\n\"\"\n0.3"), (Values{0.1, never, 0.2, never, 0.3}));
+  EXPECT_EQ(values("settling_time\n0.1\n\n\n"), (Values{0.1, never, never}));
+  EXPECT_EQ(values("settling_time\n\n\n\n"), (Values{never, never, never}));
+  EXPECT_EQ(values("settling_time [ms]\r\n100\r\n\r\n  \r\n\t\r\n"), (Values{0.1, never, never, never}));
+  EXPECT_EQ(values("\n# axis 3\n\nsettling_time\n# first shift\n\n# second shift\n0.1\n"),
+            (Values{never, 0.1}))
+      << "before the header, and in comments, there are no rows";
+}
+
+TEST(MoveLog, TakesTheLineFeedThatEndsTheLastRowForNoRow) {
+  for (const char* const end : {"", "\n", "\r\n", "\n ", "\r\n\r"})
+    EXPECT_EQ(log_of(std::string("settling_time\n0.1") + end).moves, 1) << ::testing::PrintToString(end);
+  EXPECT_EQ(log_of("settling_time\n").moves, 0);
+  EXPECT_EQ(log_of("settling_time").moves, 0);
+}
+
+// A measure that always has a value cannot be empty.
+TEST(MoveLog, RefusesABlankLineOfOneColumnThatCannotBeEmpty) {
+  EXPECT_TRUE(says(refusal("outcome\nzero_count\n\n"), "4 moves.csv:3: outcome: ''; expected one of"));
+}
+
+// Whatever the number and the places of the empty rows, a log of one column has the same moves as with a
+// second column beside it, in which rows have a separator.
+TEST(MoveLog, HasTheSameMovesWithOneColumnAsWithSeveral) {
+  random::NumberSource numbers = numbers_of("empty rows", 1);
+  for (int log = 0; log < 50; ++log) {
+    std::string one = "settling_time\n";
+    std::string two = "settling_time,overshoot\n";
+    for (int row = 0; row < 20; ++row) {
+      const std::string cell = numbers.uniform() < 0.5 ? "" : fmt::format("{}", numbers.uniform());
+      one += cell + "\n";
+      two += cell + ",0\n";
+    }
+    EXPECT_EQ(log_of(one).find("settling_time")->values, log_of(two).find("settling_time")->values) << one;
+  }
 }
 
 TEST(MoveLog, ReadsLinesOfSeparatorsAsMovesThatNeverSettled) {
@@ -72,14 +106,15 @@ TEST(MoveLog, NamesBandsAndTolerancesAsTheProgramDoes) {
 }
 
 TEST(MoveLog, ReadsPiecesAsTheyGrow) {
-  const std::string text = "t,settling_time\n1,0.1\n2,\n\n3,0.3\n";
-  for (std::size_t size = 1; size < text.size(); ++size) {
-    monitor::MoveLog log("moves.csv");
-    std::size_t read = 0;
-    for (std::size_t end = size; end < text.size() + size; end += size)
-      read += log.read(std::string_view(text).substr(0, std::min(end, text.size())).substr(read));
-    EXPECT_EQ(log.find("settling_time")->values, (Values{0.1, never, 0.3})) << size;
-  }
+  for (const std::string text :
+       {"t,settling_time\n1,0.1\n2,\n\n3,0.3\n4,\n", "settling_time\n0.1\n\n0.3\n\n"})
+    for (std::size_t size = 1; size < text.size(); ++size) {
+      monitor::MoveLog log("moves.csv");
+      std::size_t read = 0;
+      for (std::size_t end = size; end < text.size() + size; end += size)
+        read += log.read(std::string_view(text).substr(0, std::min(end, text.size())).substr(read));
+      EXPECT_EQ(log.find("settling_time")->values, (Values{0.1, never, 0.3, never})) << size;
+    }
 }
 
 TEST(MoveLog, NamesThePlaceOfWhatItCannotRead) {

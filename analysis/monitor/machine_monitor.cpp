@@ -1,6 +1,7 @@
 #include "analysis/monitor/machine_monitor.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -12,6 +13,7 @@
 #include "analysis/monitor/change_test.hpp"
 #include "analysis/parallel/parallel.hpp"
 #include "core/failure/failure.hpp"
+#include "core/numerics/interval.hpp"
 #include "core/random/random_numbers.hpp"
 #include "experiments/designs/designs.hpp"
 
@@ -21,13 +23,22 @@ namespace {
 constexpr double usual_relative_change = 0.2;
 constexpr double usual_change_of_proportion = 0.1;
 constexpr int sequences = 200;
-constexpr int max_misses = sequences / 10;
+constexpr int max_misses = 12;  // binomial: P(12 or fewer of 200) = 3 % where each has the probability 10 %
+constexpr std::array all_forms{ChangeForm::shift, ChangeForm::factor};
 constexpr std::size_t max_resample = 5000;
 
-bool can_be(const MonitoredMeasure& measure, double value) {
-  if (measure.row->values.magnitude && value < 0.0) return false;
+/// The values that a measure can have.
+numerics::Interval range_of(const MonitoredMeasure& measure) {
   const layout::ValidValues& valid = measure.row->field.valid;
-  return valid.expected.empty() || (value >= valid.low && value <= valid.high);
+  numerics::Interval range =
+      valid.expected.empty() ? numerics::all_numbers() : numerics::closed(valid.low, valid.high);
+  if (measure.row->values.magnitude) range.low = std::max(range.low, 0.0);
+  return range;
+}
+
+bool can_be(const MonitoredMeasure& measure, double value) {
+  const numerics::Interval range = range_of(measure);
+  return value >= range.low && value <= range.high;
 }
 
 /// The change of one class.
@@ -70,13 +81,15 @@ class ChangedValue {
   ChangedValue(const DelayQuestion& question, std::size_t of_class)
       : scale_(question.measure.scale),
         baseline_(question.baseline[of_class]),
+        lowest_(range_of(question.measure).low),
         size_(question.sizes[of_class]),
         sign_(question.direction == Direction::higher ? 1.0 : -1.0),
         is_binary_(question.measure.quality &&
                    std::ranges::all_of(baseline_, [](double x) { return x == 0.0 || x == 1.0; })) {
-    if (!is_binary_ || baseline_.empty()) return;
-    const double rate = typical_value(question.measure, {baseline_.begin(), baseline_.end()});
-    flipped_ = size_ / (sign_ > 0.0 ? 1.0 - rate : rate);
+    if (baseline_.empty() || size_ == 0.0) return;
+    const double typical = typical_value(question.measure, {baseline_.begin(), baseline_.end()});
+    if (is_binary_) flipped_ = size_ / (sign_ > 0.0 ? 1.0 - typical : typical);
+    if (question.form == ChangeForm::factor) factor_ = 1.0 + sign_ * size_ / typical;
   }
 
   double operator()(random::NumberSource& numbers) const {
@@ -85,28 +98,36 @@ class ChangedValue {
       const bool can_flip = before == (sign_ > 0.0 ? 0.0 : 1.0);
       return can_flip && numbers.uniform() < flipped_ ? 1.0 - before : before;
     }
+    if (std::isinf(before)) return before;
+    const double after = factor_ ? *factor_ * before : before + sign_ * size_;
     switch (scale_) {
       case Scale::proportion:
-        return std::isinf(before) ? before : std::clamp(before + sign_ * size_, 0.0, 1.0);
+        return std::clamp(after, 0.0, 1.0);
       case Scale::counts: {
-        const double whole = std::floor(size_);
-        const double more = whole + (numbers.uniform() < size_ - whole ? 1.0 : 0.0);
-        return std::max(0.0, before + sign_ * more);
+        const double more = after - before;
+        const double whole = std::floor(more);
+        return std::max(0.0, before + whole + (numbers.uniform() < more - whole ? 1.0 : 0.0));
       }
       case Scale::plain:
         break;
     }
-    return before + sign_ * size_;
+    return std::max(lowest_, after);
   }
 
  private:
   Scale scale_;
   std::span<const double> baseline_;
+  double lowest_;  ///< value that the measure can have
   double size_;
   double sign_;
   bool is_binary_;
-  double flipped_{0.0};  ///< probability with which a value becomes the other one
+  double flipped_{0.0};             ///< probability with which a value becomes the other one
+  std::optional<double> factor_{};  ///< nothing for a shift
 };
+
+std::string_view word_of(ChangeForm form) {
+  return form == ChangeForm::shift ? "" : ".factor";
+}
 
 std::vector<std::vector<double>> resample(std::span<const std::vector<double>> classes, std::size_t total,
                                           random::NumberSource& numbers) {
@@ -197,6 +218,10 @@ ChangeToSee change_to_see(const MonitoredMeasure& measure, std::span<const std::
   return to_see;
 }
 
+std::span<const ChangeForm> forms_of(const MonitoredMeasure& measure) {
+  return std::span(all_forms).first(measure.scale == Scale::proportion ? 1 : all_forms.size());
+}
+
 std::optional<std::int64_t> values_to_see(const DelayQuestion& question) {
   std::vector<std::size_t> classes;  // [value of the baseline]
   for (std::size_t i = 0; i < question.baseline.size(); ++i)
@@ -204,8 +229,9 @@ std::optional<std::int64_t> values_to_see(const DelayQuestion& question) {
   std::vector<ChangedValue> changed;
   for (std::size_t i = 0; i < question.baseline.size(); ++i) changed.emplace_back(question, i);
   const random::RandomKey values = designs::random_key(
-      question.seed, fmt::format("monitor.{}.{}", question.measure.name,
-                                 question.direction == Direction::higher ? "higher" : "lower"));
+      question.seed,
+      fmt::format("monitor.{}.{}{}", question.measure.name,
+                  question.direction == Direction::higher ? "higher" : "lower", word_of(question.form)));
   std::vector<std::int64_t> delays;
   int misses = 0;
   for (std::uint32_t i = 0; i < sequences && misses <= max_misses; ++i) {
@@ -424,13 +450,15 @@ void MachineMonitor::simulate_changes(std::int64_t values) {
   struct Task {
     std::size_t measure;
     Direction direction;
+    ChangeForm form;
     std::optional<std::int64_t> seen{};
   };
   std::vector<Task> tasks;
   for (std::size_t i = 0; i < states_.size(); ++i) {
     if (watched_[i].seen_limit >= limit) continue;
     for (const Direction direction : states_[i].to_see.directions)
-      if (!watched_[i].seen[direction]) tasks.push_back({i, direction});
+      for (const ChangeForm form : forms_of(states_[i].measure))
+        if (!watched_[i].seen[{direction, form}]) tasks.push_back({i, direction, form});
     watched_[i].seen_limit = limit;
   }
   parallel::for_each_index(tasks.size(), [&](std::size_t number) {
@@ -439,12 +467,13 @@ void MachineMonitor::simulate_changes(std::int64_t values) {
     task.seen = values_to_see({.measure = state.measure,
                                .baseline = watched_[task.measure].baseline,
                                .direction = task.direction,
+                               .form = task.form,
                                .sizes = state.to_see.sizes,
                                .alarm = alarm_capital(),
                                .max_values = limit,
                                .seed = settings_.seed});
   });
-  for (const Task& task : tasks) watched_[task.measure].seen[task.direction] = task.seen;
+  for (const Task& task : tasks) watched_[task.measure].seen[{task.direction, task.form}] = task.seen;
 }
 
 bool MachineMonitor::is_unchanged(std::int64_t values) {
@@ -456,7 +485,7 @@ bool MachineMonitor::is_unchanged(std::int64_t values) {
     if (states_[i].to_see.directions.empty()) continue;
     any = true;
     std::int64_t last = 0;
-    for (const auto& [direction, seen] : watched_[i].seen) last = std::max(last, seen.value_or(values + 1));
+    for (const auto& [change, seen] : watched_[i].seen) last = std::max(last, seen.value_or(values + 1));
     if (last <= values) states_[i].seen_after = units_[static_cast<std::size_t>(last - 1)].last + 1;
     all = all && last <= values;
   }

@@ -30,20 +30,31 @@ struct ChangeToSee {
 ChangeToSee change_to_see(const MonitoredMeasure& measure, std::span<const std::vector<double>> baseline,
                           std::optional<double> change);
 
+/// How the values of a changed machine differ from those before.
+enum class ChangeForm {
+  shift,  ///< The size is added to each value.
+  factor  ///< Each value is multiplied by the number that changes the median of its class by the size.
+};
+
+/// The forms in which values of the measure can change. A proportion is changed by a shift alone.
+std::span<const ChangeForm> forms_of(const MonitoredMeasure& measure);
+
 struct DelayQuestion {
   const MonitoredMeasure& measure;
   std::span<const std::vector<double>> baseline;  ///< [class] sorted
   Direction direction;
-  std::span<const double> sizes;  ///< [class] of the change, which is there from the first value on
+  ChangeForm form;
+  std::span<const double> sizes;  ///< [class] size of the change, which is there from the first value on
   double alarm;                   ///< capital at which the change is seen
   std::int64_t max_values;
   std::uint64_t seed;
 };
 
-/// The number of values after which the change is seen in 90 % of 200 simulated sequences, at most
-/// max_values; nothing where it takes more. Each sequence resamples the baseline (5000 of its values, if it
-/// has more) class by class, and takes later values from it, of any class as often as it has them, with the
-/// change.
+/// The number of values after which the change is seen with a probability of 90 %, at most max_values;
+/// nothing where it takes more. It is the number that at most 12 of 200 simulated sequences exceed: if the
+/// probability were less than 90 %, so few would exceed it with a probability of 3 %. Each sequence
+/// resamples the baseline (5000 of its values, if it has more) class by class, and takes later values from
+/// it, of any class as often as it has them, with the change.
 std::optional<std::int64_t> values_to_see(const DelayQuestion& question);
 
 struct MonitorSettings {
@@ -83,8 +94,9 @@ struct MeasureState {
   std::optional<double> correlation{};
   Dependence dependence{};  ///< of the values of a measured baseline
   ChangeToSee to_see{};
-  std::optional<std::int64_t>
-      seen_after{};  ///< moves after which `to_see` would have been seen, at most `moves`
+  /// Number of moves after which `to_see` would have been seen with 90 % in each direction and form. Nothing
+  /// where it is more than `moves`.
+  std::optional<std::int64_t> seen_after{};
 };
 
 struct MonitorState {
@@ -134,8 +146,8 @@ class MachineMonitor {
     ChangeTest test;
     std::vector<double> p_values{};             ///< until the alarm
     std::vector<std::vector<double>> baseline;  ///< [class of values] sorted
-    /// [direction] values_to_see(), and the limit that it was asked with.
-    std::map<Direction, std::optional<std::int64_t>> seen{};
+    /// values_to_see() of each change, and the limit that it was asked with.
+    std::map<std::pair<Direction, ChangeForm>, std::optional<std::int64_t>> seen{};
     std::int64_t seen_limit{0};
   };
   /// The moves of one value.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -73,18 +74,34 @@ bool has_size(const MeasureState& state) {
   return !state.to_see.directions.empty();
 }
 
-std::string headline_of(Of r) {
+/// "20 % of the baseline's median (added to each value, or as a factor of it) or 0.1 of a proportion", with
+/// the parts that the judged measures have.
+std::string asked_change(Of r) {
   const std::optional<double>& size = r.monitor.settings().change;
-  const std::string change = fmt::format("{} of the baseline's median, or {:g} of a proportion",
-                                         text::percent(size.value_or(0.2)), size.value_or(0.1));
+  bool any_proportion = false;
+  bool any_other = false;
+  for (const MeasureState& state : r.monitor.measures()) {
+    const bool is_proportion = state.measure.scale == Scale::proportion;
+    any_proportion = any_proportion || (has_size(state) && is_proportion);
+    any_other = any_other || (has_size(state) && !is_proportion);
+  }
+  std::vector<std::string> parts;
+  if (any_other || !any_proportion)
+    parts.push_back(fmt::format("{} of the baseline's median (added to each value, or as a factor of it)",
+                                text::percent(size.value_or(0.2))));
+  if (any_proportion) parts.push_back(fmt::format("{:g} of a proportion", size.value_or(0.1)));
+  return fmt::format("{}", fmt::join(parts, " or "));
+}
+
+std::string headline_of(Of r) {
   if (const MeasureState* const alarm = r.state.alarm)
     return fmt::format("changed: {} is {} since move {} ({}); alarm at move {} of {}", alarm->measure.name,
                        word_of(directions, *alarm->direction), *alarm->since, medians_text(*alarm),
                        *alarm->alarm_at, r.state.moves);
   if (r.state.status == MachineStatus::unchanged)
     return fmt::format(
-        "unchanged: no alarm in {} moves, where a change of {}, would have been seen with 90 %",
-        r.state.moves, change);
+        "unchanged: no alarm in {} moves, in which a change of {} would have been seen with 90 % in {}",
+        r.state.moves, asked_change(r), names_of(r, has_size));
   if (r.state.moves == 0) return "undecided: there are no moves yet";
   if (r.monitor.values() == 0 && r.monitor.unlike() > 0)
     return fmt::format("undecided: none of {} moves is like one of the baseline; the first is {}",
@@ -93,8 +110,8 @@ std::string headline_of(Of r) {
     return fmt::format("undecided: no {} of moves is complete after {} moves",
                        r.monitor.settings().group.empty() ? "block" : "group", r.state.moves);
   const std::string unseen = names_of(r, [](const MeasureState& s) { return has_size(s) && !s.seen_after; });
-  return fmt::format("undecided: no alarm in {} moves, but a change of {}, need not have been seen{}",
-                     r.state.moves, change,
+  return fmt::format("undecided: no alarm in {} moves, but a change of {} need not have been seen{}",
+                     r.state.moves, asked_change(r),
                      unseen.empty() ? ": no measure has a size of change to be seen" : " in " + unseen);
 }
 
@@ -148,9 +165,8 @@ std::string notes_of(Of r) {
   if (r.explanation != nullptr) notes.push_back(explanation_text(*r.explanation));
   if (r.state.alarm == nullptr)
     note(
-        "without a size of change to be seen, because the median is 0 or infinite, values have both signs, "
-        "or "
-        "a proportion cannot change so much: ",
+        "not judged, because the median is 0 or infinite, values have both signs, or a proportion cannot "
+        "change so much: ",
         names_of(r, [](const MeasureState& s) { return !has_size(s); }));
   note("columns that are not compared: ", fmt::format("{}", fmt::join(monitor.unused(), ", ")));
   if (likes.count() > 1) {
@@ -253,8 +269,9 @@ Description<MeasureState> measure_description() {
                      "1"),
              [](State s) { return s.correlation ? std::optional(s.dependence.p) : std::nullopt; })
       .value(everywhere("seen_after", "seen after",
-                        "moves after which a change of the asked size would have been seen with 90 %, where "
-                        "there are as many; null: later, or not asked"),
+                        "moves after which a change of the asked size, added to each value or as a factor of "
+                        "it, would have been seen with 90 %, where there are as many; null: later, or not "
+                        "asked"),
              &MeasureState::seen_after);
 }
 

@@ -134,22 +134,42 @@ std::string change_text(const ParameterChange& change) {
                      with_unit(beyond ? "at least " + least : least + " to " + most, unit));
 }
 
+/// "; the budget ended before a, b and 20 more were tried: all parameters take at most 20000 trials, …"
+std::string untried_text(const ChangeExplanation& explanation) {
+  if (explanation.untried.empty()) return "";
+  constexpr std::size_t max_shown = 3;
+  const std::size_t shown = std::min(max_shown, explanation.untried.size());
+  const std::size_t more = explanation.untried.size() - shown;
+  return fmt::format(
+      "; the budget ended before {}{} {} tried: all parameters take at most {} trials, expected a --budget "
+      "of as "
+      "many, a time such as 10min, or --unchanged with what cannot have changed",
+      fmt::join(std::span(explanation.untried).first(shown), ", "),
+      more > 0 ? fmt::format(" and {} more", more) : "", shown + more == 1 ? "was" : "were",
+      explanation.max_trials);
+}
+
 std::string explanation_text(const ChangeExplanation& explanation) {
   if (explanation.told == ChangeTold::unknown)
-    return "which parameter changed is not told: " + explanation.reason;
+    return "which parameter changed is not told: " + explanation.reason + untried_text(explanation);
+  const std::string since =
+      explanation.since > 1
+          ? fmt::format("since move {}, compared with the machine's own moves before", explanation.since)
+          : std::string("compared with the simulated machines, from the first move on");
+  if (explanation.told == ChangeTold::none)
+    return fmt::format(
+        "no single parameter of those tried explains these moves (the nearest is as far from them as {:.1f} "
+        "times "
+        "the 99 % limit of the right one); {}{}",
+        explanation.misfit / explanation.max_misfit, since, untried_text(explanation));
   std::vector<std::string> texts;
   for (const ParameterChange& change : explanation.parameters)
     texts.push_back(fmt::format("{} ({})", change_text(change), text::percent_near(change.probability)));
-  const std::string_view begin = explanation.told == ChangeTold::one
-                                     ? "if one parameter of the model differs, it is"
-                                 : explanation.told == ChangeTold::several
-                                     ? "which parameter differs cannot be told from these measures:"
-                                     : "no single parameter of those tried explains these moves; nearest:";
-  return fmt::format(
-      "{} {}; {}", begin, fmt::join(texts, ", or "),
-      explanation.since > 1
-          ? fmt::format("since move {}, compared with the machine's own moves before", explanation.since)
-          : std::string("compared with the simulated machines, from the first move on"));
+  return fmt::format("{} {}; {}{}",
+                     explanation.told == ChangeTold::one
+                         ? "if one parameter of the model differs, it is"
+                         : "which parameter differs cannot be told from these measures:",
+                     fmt::join(texts, ", or "), since, untried_text(explanation));
 }
 
 /// Sentences on what the answer holds for, a line each.
@@ -389,8 +409,10 @@ document::AnswerDescription<MonitorReading> monitor_answer() {
            .meaning = "medians of measures that differ from one kind of moves to another more than within"},
           like_description(), like_values)
       .include(explanation_description(), [](Of r) { return r.explanation; })
-      .value(in_data("tried", "parameters of the model that may have changed"),
+      .value(in_data("tried", "parameters of the model that were tried and act on the measures"),
              [](Of r) { return r.explanation ? r.explanation->tried : std::vector<std::string>{}; })
+      .value(in_data("untried", "parameters for which the budget did not suffice"),
+             [](Of r) { return r.explanation ? r.explanation->untried : std::vector<std::string>{}; })
       .table({.key = "parameters", .meaning = "parameters of the model that explain the change"},
              parameter_description(),
              [](Of r) { return r.explanation ? r.explanation->parameters : std::vector<ParameterChange>{}; })

@@ -15,7 +15,9 @@
 namespace zerocount::monitor {
 namespace {
 
-constexpr double improbable = 0.001;
+constexpr double improbable = 0.001;              // of moves without a change to show one
+constexpr double misfit_of_the_right_one = 0.01;  // probability
+constexpr double max_excess = 9.2;                // of a misfit over the least: a likelihood ratio of 1 %
 
 using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
@@ -29,26 +31,44 @@ double change_at(ChangeKind kind, double place) {
   return kind == ChangeKind::factor ? std::exp(place) : place;
 }
 
-/// Normal scores among the values of the unchanged machines.
-class NormalScores {
+/// What is told of the distribution of a measure's ranks.
+enum class Aspect { place, width };
+
+struct Feature {
+  std::size_t measure;
+  Aspect aspect;
+};
+
+double value_of(Aspect aspect, double rank) {
+  if (aspect == Aspect::place) return numerics::normal_quantile(rank);
+  return std::sqrt(5.0) * (6.0 * rank * (rank - 1.0) + 1.0);
+}
+
+/// Features of moves, by their ranks among the values of the unchanged machines.
+class Features {
  public:
-  NormalScores(const std::vector<MachineMoves>& machines, std::size_t measures) : sorted_(measures) {
+  Features(const std::vector<MachineMoves>& machines, std::size_t measures) : sorted_(measures) {
     for (const MachineMoves& moves : machines)
       for (std::size_t i = 0; i < moves.size(); ++i) sorted_[i % measures].push_back(moves[i]);
     for (std::vector<double>& values : sorted_) std::ranges::sort(values);
   }
 
-  /// [measure, move]
-  Matrix of(const MachineMoves& moves) const {
+  /// [feature, move]
+  Matrix of(const MachineMoves& moves, const std::vector<Feature>& features) const {
     const std::size_t measures = sorted_.size();
-    Matrix scores(measures, moves.size() / measures);
-    for (std::size_t i = 0; i < moves.size(); ++i) {
-      const std::vector<double>& values = sorted_[i % measures];
-      const double part = (mid_rank(values, moves[i]) + 0.5) / (static_cast<double>(values.size()) + 1.0);
-      scores(static_cast<Eigen::Index>(i % measures), static_cast<Eigen::Index>(i / measures)) =
-          numerics::normal_quantile(part);
+    const std::size_t count = moves.size() / measures;
+    Matrix values(features.size(), count);
+    for (std::size_t row = 0; row < features.size(); ++row) {
+      const std::size_t measure = features[row].measure;
+      const std::vector<double>& sorted = sorted_[measure];
+      for (std::size_t move = 0; move < count; ++move) {
+        const double rank = (mid_rank(sorted, moves[move * measures + measure]) + 0.5) /
+                            (static_cast<double>(sorted.size()) + 1.0);
+        values(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(move)) =
+            value_of(features[row].aspect, rank);
+      }
     }
-    return scores;
+    return values;
   }
 
  private:
@@ -60,6 +80,7 @@ struct Spread {
   Vector mean;
   Matrix between;  ///< covariance of the machines' means, less what their few moves add
   Matrix within;   ///< of a move of one machine
+  double freedom;  ///< degrees of freedom of `within`
 };
 
 Matrix covariance_about(const Matrix& values, const Vector& mean) {
@@ -67,7 +88,7 @@ Matrix covariance_about(const Matrix& values, const Vector& mean) {
   return centred * centred.transpose();
 }
 
-/// @param machines scores of the moves of each
+/// @param machines features of the moves of each
 Spread spread_of(const std::vector<Matrix>& machines) {
   const Eigen::Index measures = machines.front().rows();
   Matrix means(measures, static_cast<Eigen::Index>(machines.size()));
@@ -81,11 +102,15 @@ Spread spread_of(const std::vector<Matrix>& machines) {
     moves += static_cast<double>(machines[i].cols());
   }
   const auto count = static_cast<double>(machines.size());
-  Spread spread{.mean = means.rowwise().mean(), .between = Matrix::Zero(measures, measures), .within = {}};
+  Spread spread{.mean = means.rowwise().mean(),
+                .between = Matrix::Zero(measures, measures),
+                .within = {},
+                .freedom = 0.0};
   for (const Matrix& machine : machines) total += covariance_about(machine, spread.mean);
   constexpr double enough = 30.0;
   const bool repeated = moves - count >= enough;
-  spread.within = repeated ? Matrix(within / (moves - count)) : Matrix(total / std::max(moves - 1.0, 1.0));
+  spread.freedom = std::max(repeated ? moves - count : moves - 1.0, 1.0);
+  spread.within = Matrix((repeated ? within : total) / spread.freedom);
   if (machines.size() < 2) return spread;
   spread.between = covariance_about(means, spread.mean) / (count - 1.0);
   // The difference of a machine's halves shows how well its moves tell its mean.
@@ -101,34 +126,47 @@ Spread spread_of(const std::vector<Matrix>& machines) {
   return spread;
 }
 
-/// The statistic at one change: normal.
+/// Distribution of the statistic at one change.
 struct Expected {
   double place;  ///< place_of() the change
   Vector mean;
   Matrix covariance;
+  double freedom;  ///< degrees of freedom of the covariance
 };
 
-double log_likelihood(const Vector& observed, const Vector& mean, const Matrix& covariance, double& misfit) {
+struct Distance {
+  double misfit;             ///< Q
+  double log_of_distance;    ///< factor of the likelihood by Q, logarithm
+  double log_of_covariance;  ///< factor by |C|, logarithm
+};
+
+Distance distance_of(const Vector& observed, const Vector& mean, const Matrix& covariance, double freedom) {
   const Vector away = observed - mean;
   const Matrix solved = numerics::solve_positive_definite(covariance, away);
-  misfit = away.dot(solved.col(0));
+  const double misfit = away.dot(solved.col(0));
   const Matrix factor = numerics::cholesky_factor(covariance);
-  return -0.5 * misfit - factor.diagonal().array().log().sum();
+  return {misfit, -0.5 * (freedom + 1.0) * std::log1p(misfit / freedom),
+          -factor.diagonal().array().log().sum()};
 }
 
-/// How much more the mean of moves in parts varies than of independent ones, for their serial correlation.
-double inflation_of(const Matrix& scores) {
-  double largest = 0.0;
-  for (Eigen::Index row = 0; row < scores.rows(); ++row) {
-    const Vector centred = (scores.row(row).array() - scores.row(row).mean()).matrix().transpose();
+/// How much more the mean of each feature varies than that of independent moves, for its serial correlation.
+Vector inflation_of(const Matrix& values) {
+  constexpr double most = 0.95;
+  Vector inflation = Vector::Ones(values.rows());
+  for (Eigen::Index row = 0; row < values.rows(); ++row) {
+    const Vector centred = (values.row(row).array() - values.row(row).mean()).matrix().transpose();
     const Eigen::Index pairs = centred.size() - 1;
     const double squares = centred.squaredNorm();
     if (pairs < 2 || !(squares > 0.0)) continue;
-    largest = std::max(largest, centred.head(pairs).dot(centred.tail(pairs)) / squares);
+    const double correlation = std::clamp(centred.head(pairs).dot(centred.tail(pairs)) / squares, 0.0, most);
+    inflation(row) = (1.0 + correlation) / (1.0 - correlation);
   }
-  constexpr double most = 0.95;
-  const double correlation = std::min(largest, most);
-  return (1.0 + correlation) / (1.0 - correlation);
+  return inflation;
+}
+
+Matrix inflated(const Matrix& covariance, const Vector& inflation) {
+  const Vector root = inflation.cwiseSqrt();
+  return root.asDiagonal() * covariance * root.asDiagonal();
 }
 
 /// Number of moves before the change; 0 if they show none.
@@ -156,8 +194,8 @@ Eigen::Index moves_before_change(const Matrix& scores, const Matrix& within) {
     found = split;
   }
   if (found == 0) return 0;
-  const double inflation =
-      std::min(inflation_of(scores.leftCols(found)), inflation_of(scores.rightCols(moves - found)));
+  const double inflation = std::min(inflation_of(scores.leftCols(found)).maxCoeff(),
+                                    inflation_of(scores.rightCols(moves - found)).maxCoeff());
   const double splits = static_cast<double>(last - first + 1);
   const double limit =
       statistics::chi_squared_quantile(static_cast<double>(scores.rows()), 1.0 - improbable / splits);
@@ -166,66 +204,88 @@ Eigen::Index moves_before_change(const Matrix& scores, const Matrix& within) {
 
 struct Statistic {
   Vector observed;
-  bool has_before;
-  double per_move_before;  ///< of a covariance within: 1/moves, enlarged
-  double per_move_after;
+  double before;     ///< number of moves before the change
+  double after;      ///< number of moves after it
+  Vector inflation;  ///< inflation_of() the moves after it
 };
 
-std::vector<Matrix> scored(const NormalScores& scores, const std::vector<MachineMoves>& machines) {
+std::vector<Matrix> features_of(const Features& features, const std::vector<Feature>& wanted,
+                                const std::vector<MachineMoves>& machines) {
   std::vector<Matrix> all;
-  for (const MachineMoves& moves : machines) all.push_back(scores.of(moves));
+  for (const MachineMoves& moves : machines) all.push_back(features.of(moves, wanted));
   return all;
 }
 
-Expected expected_at(const SimulatedChange& simulated, ChangeKind kind, const NormalScores& scores,
-                     const std::vector<Matrix>& unchanged, const Statistic& statistic) {
-  const std::vector<Matrix> changed = scored(scores, simulated.machines);
+double count_of_moves(const std::vector<Matrix>& machines) {
+  double moves = 0.0;
+  for (const Matrix& machine : machines) moves += static_cast<double>(machine.cols());
+  return moves;
+}
+
+Expected expected_at(double place, const std::vector<Matrix>& changed, const std::vector<Matrix>& unchanged,
+                     const Statistic& statistic) {
+  const double simulated = count_of_moves(changed);
+  const auto machines = static_cast<double>(changed.size());
   const Spread after = spread_of(changed);
-  Expected expected{place_of(kind, simulated.change), after.mean,
-                    after.between + statistic.per_move_after * after.within};
-  if (statistic.has_before) {
+  Spread mean = after;
+  Matrix within = after.within / statistic.after;
+  if (statistic.before > 0.0) {
     std::vector<Matrix> differences;
     for (std::size_t i = 0; i < changed.size(); ++i)
       differences.push_back(changed[i] - unchanged[i].leftCols(changed[i].cols()));
-    const Spread difference = spread_of(differences);
-    const Spread before = spread_of(unchanged);
-    expected.mean = difference.mean;
-    expected.covariance = difference.between + statistic.per_move_before * before.within +
-                          statistic.per_move_after * after.within;
+    mean = spread_of(differences);
+    within += spread_of(unchanged).within / statistic.before;
   }
-  constexpr double rounding = 1e-6;
-  expected.covariance.diagonal().array() += rounding;
+  within = inflated(within + mean.within / simulated, statistic.inflation);
+  // A value that no simulated move has may occur in one move of as many.
+  within.diagonal().array() += (1.0 / simulated + 1.0 / statistic.after) / simulated;
+  const Matrix between = (1.0 + 1.0 / machines) * mean.between;
+  Expected expected{place, mean.mean, between + within, 0.0};
+  const double part = numerics::solve_positive_definite(expected.covariance, between).trace() /
+                      static_cast<double>(between.rows());
+  const double from_machines = machines > 1.0 ? part * part / (machines - 1.0) : 0.0;
+  expected.freedom = 1.0 / (from_machines + (1.0 - part) * (1.0 - part) / after.freedom);
   return expected;
 }
 
-/// The change of one parameter, and the logarithm of its likelihood averaged over the range.
+/// Quantile of Q for the right parameter: of Hotelling's T², to the first order in 1/ν.
+double max_misfit(Eigen::Index features, double freedom) {
+  const auto count = static_cast<double>(features);
+  const double x = statistics::chi_squared_quantile(count, 1.0 - misfit_of_the_right_one);
+  return x + x * (x + count) / (2.0 * freedom);
+}
+
+/// The change of one parameter, and the logarithm of its evidence.
 struct Fit {
   ParameterChange change;
   double log_evidence;
 };
 
-Fit fit_of(const ChangeCandidate& candidate, const std::vector<Expected>& expected, const Vector& observed) {
+/// @param freedom degrees of freedom of all likelihoods, so that they compare
+Fit fit_of(const ChangeCandidate& candidate, const std::vector<Expected>& expected, const Vector& observed,
+           double freedom) {
   constexpr int parts = 20;  // between two changes
   struct Point {
     double place;
-    double likelihood;
-    double misfit;
+    double freedom;  ///< of the covariance at this place
+    Distance distance;
+    double log_likelihood() const { return distance.log_of_distance + distance.log_of_covariance; }
   };
   std::vector<Point> points;
   for (std::size_t i = 0; i + 1 < expected.size(); ++i) {
+    const Expected& from = expected[i];
+    const Expected& to = expected[i + 1];
     for (int step = i == 0 ? 0 : 1; step <= parts; ++step) {
       const double part = static_cast<double>(step) / parts;
       const auto between = [part](const auto& a, const auto& b) {
         return ((1.0 - part) * a + part * b).eval();
       };
-      Point point{std::lerp(expected[i].place, expected[i + 1].place, part), 0.0, 0.0};
-      point.likelihood =
-          log_likelihood(observed, between(expected[i].mean, expected[i + 1].mean),
-                         between(expected[i].covariance, expected[i + 1].covariance), point.misfit);
-      points.push_back(point);
+      points.push_back({std::lerp(from.place, to.place, part), std::lerp(from.freedom, to.freedom, part),
+                        distance_of(observed, between(from.mean, to.mean),
+                                    between(from.covariance, to.covariance), freedom)});
     }
   }
-  const auto best = std::ranges::max_element(points, {}, &Point::likelihood);
+  const auto best = std::ranges::max_element(points, {}, &Point::log_likelihood);
   constexpr double drop = 1.920729;  // half of the 95 % quantile of χ² with one degree of freedom
   double area = 0.0;
   const Point* first = nullptr;
@@ -233,8 +293,9 @@ Fit fit_of(const ChangeCandidate& candidate, const std::vector<Expected>& expect
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double width =
         0.5 * (points[std::min(i + 1, points.size() - 1)].place - points[i == 0 ? 0 : i - 1].place);
-    area += width * std::exp(points[i].likelihood - best->likelihood);
-    if (points[i].likelihood < best->likelihood - drop) continue;
+    const double less = best->log_likelihood() - points[i].log_likelihood();
+    area += width * std::exp(-less);
+    if (less > drop) continue;
     if (first == nullptr) first = &points[i];
     last = &points[i];
   }
@@ -245,10 +306,11 @@ Fit fit_of(const ChangeCandidate& candidate, const std::vector<Expected>& expect
            .change = change_at(candidate.kind, best->place),
            .low = change_at(candidate.kind, first->place),
            .high = change_at(candidate.kind, last->place),
-           .misfit = best->misfit,
+           .misfit = best->distance.misfit,
+           .max_misfit = max_misfit(observed.size(), best->freedom),
            .beyond_low = first == &points.front(),
            .beyond_high = last == &points.back()},
-          best->likelihood + std::log(area / range)};
+          best->distance.log_of_distance + std::log(area / range)};
 }
 
 const SimulatedChange& unchanged_of(const ChangeCandidate& candidate) {
@@ -267,43 +329,77 @@ double part_tied(const Eigen::MatrixXd::ConstRowXpr& row) {
   return static_cast<double>(most) / static_cast<double>(values.size());
 }
 
-/// The measures to go by, in their order: at most eight whose mean is nearly normal, of which none says what
-/// another says.
-std::vector<std::size_t> telling_measures(const std::vector<MachineMoves>& unchanged, std::size_t measures) {
-  constexpr std::size_t most = 8;
+/// Number of machines whose difference the unchanged moves show; 0: they are of one machine.
+std::size_t differing_machines(const std::vector<MachineMoves>& unchanged) {
+  return unchanged.size() < 2 ? 0 : unchanged.size();
+}
+
+/// The features to go by, those of the most telling measures first.
+std::vector<Feature> telling_features(const std::vector<MachineMoves>& unchanged, std::size_t measures) {
+  constexpr std::size_t most = 16;
+  constexpr std::size_t most_measures = 8;
+  constexpr std::size_t machines_of_feature = 4;
   constexpr double too_tied = 0.8;
-  constexpr double alike = 0.9;  // correlation
-  const NormalScores scores(unchanged, measures);
+  constexpr double least_residual = 0.19;  // variance that others leave: a correlation below 0.9
+  const std::size_t differing = differing_machines(unchanged);
+  const std::size_t limit =
+      differing == 0 ? most : std::clamp<std::size_t>(differing / machines_of_feature, 2, most);
   MachineMoves all;
   for (const MachineMoves& moves : unchanged) all.insert(all.end(), moves.begin(), moves.end());
-  Matrix rows = scores.of(all);
-  std::vector<std::size_t> found;
-  for (std::size_t i = 0; i < measures && found.size() < most; ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
-    if (part_tied(std::as_const(rows).row(row)) > too_tied) continue;
-    rows.row(row).array() -= rows.row(row).mean();
-    rows.row(row) /= rows.row(row).norm();
-    const bool repeats = std::ranges::any_of(found, [&](std::size_t other) {
-      return std::abs(rows.row(row).dot(rows.row(static_cast<Eigen::Index>(other)))) > alike;
-    });
-    if (!repeats) found.push_back(i);
+  const Features features(unchanged, measures);
+  std::vector<Feature> found;
+  std::vector<Vector> basis;  // orthonormal
+  const auto add = [&](const Feature& feature) {
+    Vector row = features.of(all, {feature}).row(0).transpose();
+    row.array() -= row.mean();
+    const double norm = row.norm();
+    if (!(norm > 0.0)) return false;
+    row /= norm;
+    for (const Vector& other : basis) row -= row.dot(other) * other;
+    if (row.squaredNorm() < least_residual) return false;
+    basis.push_back(row / row.norm());
+    found.push_back(feature);
+    return true;
+  };
+  std::vector<std::size_t> telling;
+  for (std::size_t i = 0; i < measures && telling.size() < most_measures && found.size() < limit; ++i) {
+    const Matrix places = features.of(all, {{i, Aspect::place}});
+    if (part_tied(places.row(0)) <= too_tied && add({i, Aspect::place})) telling.push_back(i);
   }
+  for (const std::size_t i : telling)
+    if (found.size() < limit) add({i, Aspect::width});
   return found;
 }
 
-MachineMoves picked(const MachineMoves& moves, const std::vector<std::size_t>& wanted, std::size_t measures) {
-  MachineMoves result;
-  for (std::size_t move = 0; move < moves.size() / measures; ++move)
-    for (const std::size_t measure : wanted) result.push_back(moves[move * measures + measure]);
-  return result;
+/// Shares the probability among those that explain the moves, or among all where none does. Sorts the
+/// likeliest first.
+void set_probabilities(std::vector<Fit>& fits) {
+  double least = std::numeric_limits<double>::max();
+  for (const Fit& fit : fits)
+    if (fit.change.fits()) least = std::min(least, fit.change.misfit);
+  for (Fit& fit : fits) fit.change.explains = fit.change.fits() && fit.change.misfit <= least + max_excess;
+  const bool any = std::ranges::any_of(fits, [](const Fit& fit) { return fit.change.explains; });
+  double best = -std::numeric_limits<double>::infinity();
+  for (const Fit& fit : fits)
+    if (fit.change.explains || !any) best = std::max(best, fit.log_evidence);
+  double sum = 0.0;
+  for (Fit& fit : fits) {
+    fit.change.probability = fit.change.explains || !any ? std::exp(fit.log_evidence - best) : 0.0;
+    sum += fit.change.probability;
+  }
+  for (Fit& fit : fits) fit.change.probability /= sum;
+  std::ranges::stable_sort(fits, std::greater{}, [](const Fit& fit) {
+    return std::pair(fit.change.probability, fit.log_evidence);
+  });
 }
 
-void set_probabilities(std::vector<Fit>& fits) {
-  const double best = std::ranges::max_element(fits, {}, &Fit::log_evidence)->log_evidence;
-  double sum = 0.0;
-  for (const Fit& fit : fits) sum += std::exp(fit.log_evidence - best);
-  for (Fit& fit : fits) fit.change.probability = std::exp(fit.log_evidence - best) / sum;
-  std::ranges::sort(fits, std::greater{}, [](const Fit& fit) { return fit.change.probability; });
+/// Whether these moves are the first of those.
+bool is_beginning_of(const std::vector<MachineMoves>& these, const std::vector<MachineMoves>& those) {
+  if (these.size() > those.size()) return false;
+  return std::ranges::equal(
+      these, std::span(those).first(these.size()), [](const MachineMoves& some, const MachineMoves& all) {
+        return some.size() <= all.size() && std::ranges::equal(some, std::span(all).first(some.size()));
+      });
 }
 
 ChangeExplanation unknown_because(std::string reason) {
@@ -312,64 +408,62 @@ ChangeExplanation unknown_because(std::string reason) {
 
 }  // namespace
 
-ChangeExplanation explain_change(std::span<const ChangeCandidate> given, const MachineMoves& observed,
-                                 std::size_t measures, double plausible) {
-  if (given.empty()) return unknown_because("no parameter of the study can be changed");
+ChangeExplanation explain_change(std::span<const ChangeCandidate> candidates, const MachineMoves& observed,
+                                 std::size_t measures) {
+  if (candidates.empty()) return unknown_because("no parameter of the study can be changed");
   if (observed.size() < min_moves_after * measures)
     return unknown_because(fmt::format("there are fewer than {} moves", min_moves_after));
-  const std::vector<std::size_t> wanted = telling_measures(unchanged_of(given.front()).machines, measures);
-  if (wanted.empty()) return unknown_because("no measure differs between most simulated moves");
-  std::vector<ChangeCandidate> candidates(given.begin(), given.end());
-  for (ChangeCandidate& candidate : candidates)
-    for (SimulatedChange& change : candidate.changes)
-      for (MachineMoves& moves : change.machines) moves = picked(moves, wanted, measures);
   const std::vector<MachineMoves>& same = unchanged_of(candidates.front()).machines;
-  const NormalScores scores(same, wanted.size());
-  const std::vector<Matrix> unchanged = scored(scores, same);
-  const Matrix seen = scores.of(picked(observed, wanted, measures));
-  const Eigen::Index before = moves_before_change(seen, spread_of(unchanged).within);
+  const std::vector<Feature> wanted = telling_features(same, measures);
+  if (wanted.empty()) return unknown_because("no measure differs between most simulated moves");
+  const Features features(same, measures);
+  const std::vector<Matrix> unchanged = features_of(features, wanted, same);
+  const Matrix seen = features.of(observed, wanted);
+  const Eigen::Index places =
+      std::ranges::count(wanted, Aspect::place, &Feature::aspect);  // which come before the widths
+  const Eigen::Index before =
+      moves_before_change(seen.topRows(places), spread_of(unchanged).within.topLeftCorner(places, places));
   const Eigen::Index after = seen.cols() - before;
-  const double inflation = inflation_of(seen.rightCols(after));
   Statistic statistic{.observed = seen.rightCols(after).rowwise().mean(),
-                      .has_before = before > 0,
-                      .per_move_before = 0.0,
-                      .per_move_after = inflation / static_cast<double>(after)};
-  if (statistic.has_before) {
-    statistic.observed -= seen.leftCols(before).rowwise().mean();
-    statistic.per_move_before = inflation / static_cast<double>(before);
-  }
-  std::vector<Fit> fits;
+                      .before = static_cast<double>(before),
+                      .after = static_cast<double>(after),
+                      .inflation = inflation_of(seen.rightCols(after))};
+  if (before > 0) statistic.observed -= seen.leftCols(before).rowwise().mean();
+  std::vector<std::pair<const ChangeCandidate*, std::vector<Expected>>> acting;
+  double freedom = std::numeric_limits<double>::max();
   for (const ChangeCandidate& candidate : candidates) {
     const bool acts = std::ranges::any_of(candidate.changes, [&](const SimulatedChange& change) {
-      return change.machines != unchanged_of(candidate).machines;
+      return change.change != unchanged_by(candidate.kind) &&
+             !is_beginning_of(change.machines, unchanged_of(candidate).machines);
     });
     if (!acts) continue;
-    std::vector<Expected> expected;
-    for (const SimulatedChange& change : candidate.changes)
-      expected.push_back(expected_at(change, candidate.kind, scores, unchanged, statistic));
-    fits.push_back(fit_of(candidate, expected, statistic.observed));
+    std::vector<Expected>& expected = acting.emplace_back(&candidate, std::vector<Expected>{}).second;
+    for (const SimulatedChange& change : candidate.changes) {
+      expected.push_back(expected_at(place_of(candidate.kind, change.change),
+                                     features_of(features, wanted, change.machines), unchanged, statistic));
+      freedom = std::min(freedom, expected.back().freedom);
+    }
   }
-  if (fits.empty()) return unknown_because("no parameter acts on these measures");
+  if (acting.empty()) return unknown_because("no parameter acts on these measures");
+  std::vector<Fit> fits;
+  for (const auto& [candidate, expected] : acting)
+    fits.push_back(fit_of(*candidate, expected, statistic.observed, freedom));
   set_probabilities(fits);
   ChangeExplanation explanation;
   explanation.since = before + 1;
-  for (const Fit& fit : fits) explanation.tried.push_back(fit.change.parameter);
-  const double misfit =
-      std::ranges::min_element(fits, {}, [](const Fit& fit) { return fit.change.misfit; })->change.misfit;
-  explanation.misfit = misfit;
-  explanation.max_misfit =
-      statistics::chi_squared_quantile(static_cast<double>(wanted.size()), 1.0 - improbable);
-  for (const Fit& fit : fits)
-    if (fit.change.probability >= plausible) explanation.parameters.push_back(fit.change);
-  // A cause that none of the candidates is may move the measures nearly as one of them does.
-  constexpr double sure = 0.95;
-  constexpr double doubtful = 0.05;
-  const ParameterChange& likeliest = explanation.parameters.front();
-  const bool fits_well = likeliest.misfit <=
-                         statistics::chi_squared_quantile(static_cast<double>(wanted.size()), 1.0 - doubtful);
-  explanation.told = misfit > explanation.max_misfit              ? ChangeTold::none
-                     : likeliest.probability >= sure && fits_well ? ChangeTold::one
-                                                                  : ChangeTold::several;
+  for (const Fit& fit : fits) {
+    explanation.tried.push_back(fit.change.parameter);
+    explanation.ranked.push_back(fit.change);
+    if (fit.change.explains) explanation.parameters.push_back(fit.change);
+  }
+  const ParameterChange& nearest = *std::ranges::min_element(
+      explanation.ranked, {},
+      [](const ParameterChange& change) { return change.misfit / change.max_misfit; });
+  explanation.misfit = nearest.misfit;
+  explanation.max_misfit = nearest.max_misfit;
+  explanation.told = explanation.parameters.empty()       ? ChangeTold::none
+                     : explanation.parameters.size() == 1 ? ChangeTold::one
+                                                          : ChangeTold::several;
   return explanation;
 }
 

@@ -40,60 +40,80 @@ constexpr double unchanged_by(ChangeKind kind) {
 struct ParameterChange {
   std::string parameter;
   ChangeKind kind{ChangeKind::factor};
-  std::string unit{};  ///< of an amount
+  std::string unit{};  ///< unit of an amount
   double change{1.0};  ///< most likely factor, or amount
-  double low{1.0};     ///< its 95 % interval, by the likelihood; an end of the range where it goes on
-  double high{1.0};
-  double probability{
-      0.0};            ///< that it is this one, where one of the candidates changed and all were alike before
-  double misfit{0.0};  ///< squared Mahalanobis distance of the moves from the simulated ones
-  bool beyond_low{false};   ///< the interval reaches the lowest simulated change
-  bool beyond_high{false};  ///< and the highest
+  double low{1.0};     ///< low end of its 95 % interval by the likelihood, or of the range where it goes on
+  double high{1.0};    ///< high end
+  /// Probability that this parameter changed, if one of those that explain the moves did and all were alike
+  /// before.
+  double probability{0.0};
+  /// Squared Mahalanobis distance of the moves from those simulated with the most likely change.
+  double misfit{0.0};
+  double max_misfit{0.0};   ///< misfit that the right parameter exceeds with the probability 0.01
+  bool explains{false};     ///< Whether it explains the moves, as explain_change() says.
+  bool beyond_low{false};   ///< The interval reaches the lowest simulated change.
+  bool beyond_high{false};  ///< The interval reaches the highest simulated change.
+
+  bool fits() const { return misfit <= max_misfit; }
 };
 
 enum class ChangeTold {
-  one,  ///< one parameter explains the moves, with a probability of at least 0.95, and P ≥ 0.05 of moves
-        ///< this far from those simulated
-  several,  ///< several do
-  none,     ///< no single one does: P < 0.001 of moves this far from those simulated
-  unknown   ///< nothing can be said: too few moves, or none of the candidates acts on the measures
+  one,      ///< One parameter explains the moves.
+  several,  ///< Several explain them, or one does and others were not tried.
+  none,     ///< No single one explains them.
+  unknown   ///< There are too few moves, no candidate acts on the measures, or none was tried.
 };
 
 struct ChangeExplanation {
   ChangeTold told{ChangeTold::unknown};
-  std::vector<ParameterChange> parameters{};  ///< those that are plausible, likeliest first
+  std::vector<ParameterChange> parameters{};  ///< those that explain the moves, likeliest first
+  std::vector<ParameterChange> ranked{};      ///< all that act on the measures, likeliest first
   /// First move of the change, from 1; 1: the machine is from its first move on unlike those simulated.
   std::int64_t since{1};
-  double misfit{0.0};                ///< the smallest of all parameters
-  double max_misfit{0.0};            ///< that the right one exceeds with the probability 0.001
-  std::string reason{};              ///< of `unknown`
-  std::vector<std::string> tried{};  ///< names of the parameters that act on the measures
+  double misfit{0.0};                  ///< the smallest misfit of all parameters
+  double max_misfit{0.0};              ///< its limit
+  std::string reason{};                ///< reason for `unknown`
+  std::vector<std::string> tried{};    ///< names of the parameters that act on the measures
+  std::vector<std::string> untried{};  ///< names of those that the budget did not suffice for
+  std::int64_t max_trials{0};          ///< most trials that all parameters take; 0: not known
 };
 
-inline constexpr double plausible_change = 0.05;  ///< smallest probability
 inline constexpr std::size_t min_moves_before = 20;
 inline constexpr std::size_t min_moves_after = 20;
 
 /// Tells what changed by a simulated (synthetic) likelihood (Wood, Nature 466 (2010) 1102).
 ///
-/// A value counts by its normal score z = Φ⁻¹(rank/(n + 1)) among the n values of the unchanged machines.
-/// The change is where the means before and after it differ most, max over s of s·(N − s)/N·|W^(−1/2)·(z̄₁ −
-/// z̄₂)|², if that is significant at 0.001 (Bonferroni over s); otherwise the machine is compared with those
-/// simulated, as a whole. The statistic D is the mean z of each measure after the change, less that before
-/// it, if there is one. For each factor f of each parameter D is normal, with
+/// A value counts by its rank u = rank/(n + 1) among the n values of the unchanged machines, and each measure
+/// by two features of it: the normal score Φ⁻¹(u) for the place of its distribution, and √5·(6u² − 6u + 1),
+/// the second Legendre polynomial, for its width. The change is where the mean scores before and after it
+/// differ most, max over s of s·(N − s)/N·|W^(−1/2)·(z̄₁ − z̄₂)|², if that is significant at 0.001 (Bonferroni
+/// over s); otherwise the machine is compared with those simulated, as a whole. The statistic D is the mean
+/// of each feature after the change, less that before it, if there is one. With the factor f of a parameter
+/// D has
 ///
-///     mean μ(f) = mean over machines of z̄(f) − z̄(1);  covariance C(f) = B(f) + W(1)/n_before + W(f)/n_after
+///     mean μ(f) = mean over machines of φ̄(f) − φ̄(1)
+///     covariance C(f) = (1 + 1/m)·B(f) + W(1)/n_before + W(f)/n_after + V(f)/N
 ///
-/// B between machines (less what their few moves add), W within one, enlarged by (1 + ρ)/(1 − ρ) with the
-/// serial correlation ρ of the observed moves. Without a change μ(f) is the mean of z̄(f), and B that of z̄(f).
-/// Between the factors μ and C are interpolated in log f, between amounts in these. All parameters have the
-/// same prior, log f or the amount evenly over the range.
+/// with B between the m simulated machines (less what their few moves add), W within one, and V/N the error
+/// of μ by the N simulated moves; each feature of W is enlarged by (1 + ρ)/(1 − ρ), ρ the serial correlation
+/// of the observed moves. Without a change before, μ(f) is the mean of φ̄(f), B its spread and V = W. C is
+/// estimated with ν degrees of freedom, so that the likelihood is the t distribution
+/// |C|^(−1/2)·(1 + Q/ν)^(−(ν + 1)/2), Q = (D − μ)ᵀC⁻¹(D − μ) (Sellentin and Heavens, Mon. Not. R. Astron.
+/// Soc. 456 (2016) L132), with the smallest ν for all. Between the factors μ and C are interpolated in log f,
+/// between amounts in these.
 ///
-/// Of measures that correlate by more than 0.9 the first counts, and none with one value in most moves; at
-/// most eight.
+/// A parameter *explains* the moves if Q at its most likely change is at most the 99 % quantile of Q for the
+/// right parameter (Hotelling's T²: x + x·(x + p)/2ν with the quantile x of χ² with p degrees of freedom),
+/// and at most 9.2 above the smallest such Q, which is a likelihood ratio of 1 %. So the right one is missing
+/// among those that explain the moves in one or two cases of a hundred. Where none explains them, none of the
+/// candidates is right. Probabilities are by the likelihoods without |C|, which has the errors of the
+/// simulation, averaged over the range: all parameters have the same prior, log f or the amount evenly.
+///
+/// A feature that the others tell (with a residual variance below 0.19) is left out, and so is a measure with
+/// one value in 80 % of the moves. There are at most 16 features, and one for each four machines that differ.
 /// @param observed the moves of the machine @param measures number of measures of a move, the most telling
-/// first @param plausible smallest probability of a parameter to be named
+/// first
 ChangeExplanation explain_change(std::span<const ChangeCandidate> candidates, const MachineMoves& observed,
-                                 std::size_t measures, double plausible = plausible_change);
+                                 std::size_t measures);
 
 }  // namespace zerocount::monitor

@@ -1,21 +1,18 @@
 #include "runners/result_commands/changed_parameters.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <string>
-#include <string_view>
+#include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include "analysis/text/text.hpp"
-#include "core/failure/failure.hpp"
-#include "core/loop/encoder.hpp"
-#include "experiments/study/point_edit.hpp"
+#include "experiments/study/plan.hpp"
 #include "experiments/study/study_trial.hpp"
 #include "results/layout/fields.hpp"
+#include "runners/result_commands/change_causes.hpp"
 #include "runners/trials/trial_set.hpp"
 
 namespace zerocount::result_commands {
@@ -24,91 +21,20 @@ namespace {
 using monitor::ChangeKind;
 using Machines = std::vector<monitor::MachineMoves>;
 
-/// A parameter that may have changed. One that is 0 in most studies is added to, others are multiplied.
-struct Cause {
-  std::string_view name;
-  std::string_view unit{};
-  std::vector<double> changes{0.5,  0.6,  0.7,  0.8,  0.87, 0.94, 1.0,
-                              1.06, 1.15, 1.25, 1.43, 1.67, 2.0};  ///< rising, that of no change among them
-  void (*add)(trial::TrialParameters& parameters, double amount){nullptr};  ///< null: it is multiplied
-
-  ChangeKind kind() const { return add == nullptr ? ChangeKind::factor : ChangeKind::amount; }
-};
-
-/// Widens a zone of errors, which negative bounds switch off.
-void widen(double& bound, double amount) {
-  bound = std::max(bound, 0.0) + amount;
-}
-
-const std::vector<Cause>& all_causes() {
-  using Trial = trial::TrialParameters;
-  static const std::vector<double> whole_counts{0.0, 1.0, 2.0, 3.0, 4.0, 6.0, 9.0};
-  static const std::vector<Cause> causes{
-      {"friction.k1"},
-      {"friction.k2"},
-      {"friction.beta"},
-      {"friction.alpha"},
-      {"friction.lambda"},
-      {"friction.breakaway"},
-      {"friction.sigma0"},
-      {"friction.sigma1"},
-      {"plant.inertia"},
-      {"plant.presliding_damping"},
-      {"plant.sliding_damping"},
-      {"controller.kp"},
-      {"controller.ki"},
-      {"controller.kd"},
-      {"amplifier.bandwidth"},
-      {"encoder.fine_errors.noise",
-       "count",
-       {0.0, 0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5, 0.8},
-       // Where the load's encoder closes the loop, it has changed places with the motor's.
-       [](Trial& p, double amount) {
-         const bool exchanged =
-             loop::has_other(p.encoder) && p.plant.load.encoder == motion::EncoderPlace::load;
-         (exchanged ? p.encoder.other.errors : p.encoder.fine_errors).noise += amount;
-       }},
-      // Factors of the torque less one: the gain error stays above -1.
-      {"dac.gain_error",
-       "",
-       {-0.5, -0.4, -0.3, -0.2, -0.13, -0.06, 0.0, 0.06, 0.15, 0.25, 0.43, 0.67, 1.0},
-       [](Trial& p, double amount) { p.dac.gain_error += amount * (1.0 + p.dac.gain_error); }},
-      {"controller.delay",
-       "sample",
-       {0.0, 0.25, 0.5, 1.0, 1.5, 2.0, 3.0},
-       [](Trial& p, double amount) { p.controller.delay += amount; }},
-      {"controller.deadband.enter", "count", whole_counts,
-       [](Trial& p, double amount) { widen(p.controller.blocks.deadband.enter, amount); }},
-      {"controller.error_deadband.band", "count", whole_counts,
-       [](Trial& p, double amount) { widen(p.controller.blocks.error_deadband.band, amount); }}};
-  return causes;
-}
-
-/// Whether the dotted path is what is named: it begins with the first part, and has the others in their
-/// order.
-bool is_named(std::string_view path, std::string_view name) {
-  bool first = true;
-  while (!name.empty()) {
-    const std::string_view part = name.substr(0, name.find('.'));
-    bool found = false;
-    while (!path.empty() && !found) {
-      const std::string_view step = path.substr(0, path.find('.'));
-      path.remove_prefix(std::min(path.size(), step.size() + 1));
-      found = step == part;
-      if (first && !found) return false;
-      first = false;
-    }
-    if (!found) return false;
-    name.remove_prefix(std::min(name.size(), part.size() + 1));
-  }
-  return !first;
-}
-
 constexpr std::int64_t max_simulated_machines = 64;
-constexpr std::int64_t max_simulated_trials = 1024;
-/// The changes that are far less likely than others are simulated with fewer trials.
-constexpr std::int64_t max_screened_trials = 256;
-constexpr double hopeless = 1e-4;  // probability
+constexpr std::int64_t pilot_trials = 16;     ///< of a change: enough to see whether it acts
+constexpr std::int64_t screened_trials = 64;  ///< of a change: enough to see which parameters are far off
+
+/// Changes about the likeliest one, simulated with more trials.
+struct Refinement {
+  std::int64_t trials;         ///< trials of each change
+  std::size_t max_parameters;  ///< likeliest ones that fit; others that fit stay as they are
+  std::size_t min_parameters;  ///< likeliest ones, even if they do not fit
+  std::size_t changes;         ///< changes of each parameter
+};
+constexpr std::array refinements{
+    Refinement{.trials = 128, .max_parameters = 8, .min_parameters = 3, .changes = 5},
+    Refinement{.trials = 512, .max_parameters = 4, .min_parameters = 2, .changes = 4}};
 
 struct WatchedField {
   const layout::RecordField<trial::MoveOutcome>* field;
@@ -126,77 +52,99 @@ struct Alarm {
   const trials::Effort& effort;
 };
 
-/// The moves of simulated machines (rigs, without rigs trials) with each change, by at most so many trials.
+/// Whether something is drawn that differs from one machine to another.
+bool machines_differ(const study::Study& study, std::int64_t point) {
+  const study::StudyPlan& plan = *study.plan;
+  const std::size_t place = study::plan_point(plan, point);
+  for (std::size_t slot = 0; slot < plan.table.rows.size(); ++slot) {
+    if (!plan.table.rows[slot].of_machine) continue;
+    const study::Value* const value = study::value_at_point(plan, slot, place);
+    if (value == nullptr) continue;
+    const bool is_drawn = value->kind == study::Value::Kind::distribution && !is_drawn_per_contact(*value);
+    if (is_drawn || (value->kind == study::Value::Kind::profile && plan.profiles[value->index]->count() > 1))
+      return true;
+  }
+  return false;
+}
+
+/// The machines that are simulated. They are those of the study, or without `rigs` its trials; where nothing
+/// that is drawn differs between them, all trials are of one machine.
+struct SimulatedMachines {
+  std::int64_t machines;
+  std::int64_t trials_of_machine;
+  bool are_one;  ///< The trials of all machines are those of one.
+
+  std::int64_t trials() const { return machines * trials_of_machine; }
+};
+
+/// At most so many trials. Of machines that differ two trials each are simulated, so that the differences
+/// between them are told from those within.
+SimulatedMachines machines_of(const Alarm& alarm, std::int64_t max_trials) {
+  const study::Study& study = alarm.study;
+  if (alarm.moves.rig) return {1, std::min(study.trials / study.rigs, max_trials), false};
+  if (!machines_differ(study, alarm.moves.point)) return {1, std::min(study.trials, max_trials), true};
+  if (study.rigs == 0) return {std::min(study.trials, max_trials), 1, false};
+  const std::int64_t machines = std::min({study.rigs, max_simulated_machines, max_trials / 2});
+  return {machines, std::min(study.trials / study.rigs, max_trials / machines), false};
+}
+
+/// The moves of simulated machines with each change.
 class Simulations {
  public:
-  Simulations(const Alarm& alarm, std::int64_t max_trials) : of_(alarm) {
-    const std::int64_t all = alarm.study.rigs > 0 ? alarm.study.rigs : alarm.study.trials;
-    machines_ = alarm.moves.rig ? 1 : std::min(all, max_simulated_machines);
-    trials_of_machine_ = most_trials_of_machine(max_trials);
+  Simulations(const Alarm& alarm, const SimulatedMachines& machines) : of_(alarm), machines_(machines) {
     same_ = simulated(alarm.study, [](trial::TrialParameters&) {});
   }
 
-  /// Whether these are all trials of the machines up to so many.
-  bool has_all(std::int64_t max_trials) const {
-    return trials_of_machine_ == most_trials_of_machine(max_trials);
-  }
   const Machines& same() const { return same_; }
 
-  /// The moves with the change; nothing where the parameter would leave its range.
+  /// The moves with the change; nothing where a value would be impossible.
   std::optional<Machines> changed(const Cause& cause, double change) const {
-    if (change == monitor::unchanged_by(cause.kind())) return same_;
-    if (cause.kind() == ChangeKind::amount)
+    if (change == monitor::unchanged_by(cause.kind)) return same_;
+    if (cause.add)
       return simulated(of_.study, [&](trial::TrialParameters& drawn) { cause.add(drawn, change); });
-    study::PointEdit edit(of_.study, of_.moves.point);
-    edit.scale(cause.name, change);
-    if (!edit.out_of_range().empty()) return std::nullopt;
-    return simulated(edit.study(), [](trial::TrialParameters&) {});
+    const std::optional<study::Study> study = study_with_factor(of_.study, of_.moves.point, cause, change);
+    if (!study) return std::nullopt;
+    return simulated(*study, [](trial::TrialParameters&) {});
   }
 
   /// What the moves of the log say of the candidates.
-  monitor::ChangeExplanation explained(std::vector<monitor::ChangeCandidate> candidates,
-                                       double plausible) const;
+  monitor::ChangeExplanation explained(std::vector<monitor::ChangeCandidate> candidates) const;
 
  private:
-  std::int64_t trials() const { return machines_ * trials_of_machine_; }
-  std::int64_t most_trials_of_machine(std::int64_t max_trials) const {
-    if (of_.study.rigs == 0) return 1;
-    return std::min(of_.study.trials / of_.study.rigs, std::max<std::int64_t>(1, max_trials / machines_));
-  }
   /// The trial of the point with this number among those that are simulated.
   std::int64_t index(std::int64_t number) const {
-    const std::int64_t machine = of_.moves.rig.value_or(number / trials_of_machine_);
-    return machine + of_.study.rigs * (number % trials_of_machine_);
+    if (machines_.are_one) return number;
+    const std::int64_t machine = of_.moves.rig.value_or(number / machines_.trials_of_machine);
+    return machine + of_.study.rigs * (number % machines_.trials_of_machine);
   }
 
   /// @param change of the drawn parameters
   Machines simulated(const study::Study& study,
                      const std::function<void(trial::TrialParameters&)>& change) const {
-    constexpr std::int64_t trials_of_block = 64;
     const auto draw = [&](std::int64_t number) {
       trial::TrialParameters drawn = study::study_trial(study, of_.moves.point, index(number)).parameters;
       change(drawn);
       return drawn;
     };
+    const std::int64_t count = machines_.trials();
     const auto values = trials::results_of(
-        trials(), trials_of_block, draw, of_.effort, [&](const trial::TrialOutcome& outcome) {
+        count, trials::block_for_lanes(count), draw, of_.effort, [&](const trial::TrialOutcome& outcome) {
           monitor::MachineMoves moves;
           for (const trial::MoveOutcome& move : outcome.moves)
             for (const WatchedField& one : of_.watched)
               moves.push_back(monitor::ranked_value(one.measure, layout::value_of(*one.field, move)));
           return moves;
         });
-    Machines machines(static_cast<std::size_t>(machines_));
+    Machines machines(static_cast<std::size_t>(machines_.machines));
     for (std::size_t i = 0; i < values.size(); ++i) {
-      monitor::MachineMoves& machine = machines[i / static_cast<std::size_t>(trials_of_machine_)];
+      monitor::MachineMoves& machine = machines[i / static_cast<std::size_t>(machines_.trials_of_machine)];
       machine.insert(machine.end(), values[i].begin(), values[i].end());
     }
     return machines;
   }
 
   const Alarm& of_;
-  std::int64_t machines_;
-  std::int64_t trials_of_machine_;
+  SimulatedMachines machines_;
   Machines same_;  ///< without a change
 };
 
@@ -241,18 +189,18 @@ class RanksAmongLikes {
   std::vector<std::vector<double>> sorted_;  ///< [like][measure]
 };
 
-monitor::ChangeExplanation Simulations::explained(std::vector<monitor::ChangeCandidate> candidates,
-                                                  double plausible) const {
-  std::vector<std::vector<std::size_t>> likes(static_cast<std::size_t>(machines_));  // [machine][move]
-  for (std::int64_t number = 0; number < trials(); ++number)
+monitor::ChangeExplanation Simulations::explained(std::vector<monitor::ChangeCandidate> candidates) const {
+  std::vector<std::vector<std::size_t>> likes(
+      static_cast<std::size_t>(machines_.machines));  // [machine][move]
+  for (std::int64_t number = 0; number < machines_.trials(); ++number)
     for (const monitor::MoveLabel& label :
          monitor::labels_of(study::commanded_trial(of_.study, of_.moves.point, index(number)).parameters))
-      likes[static_cast<std::size_t>(number / trials_of_machine_)].push_back(
+      likes[static_cast<std::size_t>(number / machines_.trials_of_machine)].push_back(
           of_.likes.of_own(label).value_or(0));
   const RanksAmongLikes ranks(of_, likes, same_);
   for (monitor::ChangeCandidate& candidate : candidates)
     for (monitor::SimulatedChange& change : candidate.changes)
-      for (std::size_t i = 0; i < likes.size(); ++i) ranks.replace(change.machines[i], likes[i]);
+      for (std::size_t i = 0; i < change.machines.size(); ++i) ranks.replace(change.machines[i], likes[i]);
 
   std::vector<std::int64_t> numbers;  // in the log, from 1, of the moves that have a like
   std::vector<std::size_t> likes_of_log;
@@ -266,81 +214,108 @@ monitor::ChangeExplanation Simulations::explained(std::vector<monitor::ChangeCan
       observed.push_back(of_.log.find(one.measure.name)->values[move]);
   }
   ranks.replace(observed, likes_of_log);
-  monitor::ChangeExplanation explanation =
-      monitor::explain_change(candidates, observed, of_.watched.size(), plausible);
+  monitor::ChangeExplanation explanation = monitor::explain_change(candidates, observed, of_.watched.size());
   if (explanation.since > 1) explanation.since = numbers[static_cast<std::size_t>(explanation.since - 1)];
   return explanation;
 }
 
-/// The candidates that act on what is watched, of those that may have changed.
-std::vector<monitor::ChangeCandidate> candidates_of(const Simulations& simulations, const Alarm& alarm,
-                                                    const std::vector<std::string>& unchanged) {
-  std::vector<monitor::ChangeCandidate> candidates;
-  for (const Cause& cause : all_causes()) {
-    const bool scaled = cause.kind() == ChangeKind::factor;
-    if (std::ranges::any_of(unchanged, [&](const auto& name) { return is_named(cause.name, name); }))
-      continue;
-    if (scaled) {
-      const study::ValueLimits limits = study::PointEdit(alarm.study, alarm.moves.point).limits(cause.name);
-      if (limits.low == 0.0 && limits.high == 0.0) continue;
-    }
-    monitor::ChangeCandidate one{std::string(cause.name), {}, cause.kind(), std::string(cause.unit)};
-    const auto acts = [&](const monitor::SimulatedChange& change) {
-      return change.machines != simulations.same();
-    };
-    for (const double change : cause.changes) {
-      if (auto moves = simulations.changed(cause, change)) one.changes.push_back({change, std::move(*moves)});
-      // A factor of what is 0, or does not act, changes nothing.
-      if (scaled && one.changes.size() == 1 && !acts(one.changes[0])) break;
-    }
-    // A dead zone of the error does in a control by the integral alone what one of the integral does.
-    const bool is_known =
-        !scaled && std::ranges::any_of(candidates, [&](const monitor::ChangeCandidate& other) {
-          return other.kind == one.kind && other.changes.back().machines == one.changes.back().machines &&
-                 acts(one.changes.back());
-        });
-    if (!is_known && one.changes.size() > 1) candidates.push_back(std::move(one));
-  }
-  return candidates;
+/// The candidates that act on what is watched.
+struct Screening {
+  std::vector<monitor::ChangeCandidate> candidates{};
+  std::vector<std::string> untried{};  ///< for which the effort did not suffice
+};
+
+/// Whether the parameter acts on what is watched: its smallest or its largest change does.
+bool acts(const Simulations& pilot, const Cause& cause) {
+  return std::ranges::any_of(std::array{cause.changes.front(), cause.changes.back()}, [&](double change) {
+    const std::optional<Machines> moves = pilot.changed(cause, change);
+    return moves && *moves != pilot.same();
+  });
 }
 
-/// Simulates the changes of the interval, and the next one on each side, with these trials.
-void refine(monitor::ChangeCandidate& candidate, const monitor::ParameterChange& interval,
-            const Simulations& simulations) {
-  std::vector<monitor::SimulatedChange>& changes = candidate.changes;
-  const Cause& cause = *std::ranges::find(all_causes(), candidate.parameter, &Cause::name);
-  const auto at = [&](double change) {
-    return std::ranges::lower_bound(changes, change, {}, &monitor::SimulatedChange::change) - changes.begin();
-  };
-  const std::ptrdiff_t first = at(interval.low) - 1;
-  const std::ptrdiff_t last = std::min(std::ssize(changes) - 1, at(interval.high) + 1);
-  for (std::ptrdiff_t i = 0; i < std::ssize(changes); ++i) {
-    monitor::SimulatedChange& change = changes[static_cast<std::size_t>(i)];
-    if (change.change != monitor::unchanged_by(candidate.kind) && (i < first || i > last)) continue;
-    if (auto moves = simulations.changed(cause, change.change)) change.machines = std::move(*moves);
+monitor::ChangeCandidate candidate_of(const Simulations& simulations, const Cause& cause) {
+  monitor::ChangeCandidate candidate{cause.name, {}, cause.kind, cause.unit};
+  for (const double change : cause.changes)
+    if (auto moves = simulations.changed(cause, change))
+      candidate.changes.push_back({change, std::move(*moves)});
+  return candidate;
+}
+
+Screening screened(const Simulations& pilot, const Simulations& simulations, const std::vector<Cause>& causes,
+                   const trials::Effort& effort) {
+  Screening screening;
+  for (const Cause& cause : causes) {
+    const bool ended = screening.untried.empty() && trials::within(effort, [&] {
+                         if (!acts(pilot, cause)) return;
+                         monitor::ChangeCandidate candidate = candidate_of(simulations, cause);
+                         if (candidate.changes.size() > 1)
+                           screening.candidates.push_back(std::move(candidate));
+                       });
+    if (!ended) screening.untried.push_back(cause.name);
   }
+  return screening;
+}
+
+/// Simulates so many changes about the interval, with more trials, and takes the machines without a change.
+void refine(monitor::ChangeCandidate& candidate, const monitor::ParameterChange& near, const Cause& cause,
+            std::size_t count, const Simulations& simulations) {
+  const bool is_factor = candidate.kind == ChangeKind::factor;
+  const auto place = [&](double change) { return is_factor ? std::log(change) : change; };
+  std::vector<monitor::SimulatedChange>& changes = candidate.changes;
+  const double first = place(changes.front().change);
+  const double last = place(changes.back().change);
+  const double width = std::max(place(near.high) - place(near.low), 0.04 * (last - first));
+  const double middle = 0.5 * (place(near.low) + place(near.high));
+  const double low = std::max(first, middle - 0.7 * width);
+  const double high = std::min(last, middle + 0.7 * width);
+  const auto set = [&](double change, Machines machines) {
+    const auto at = std::ranges::lower_bound(changes, change, {}, &monitor::SimulatedChange::change);
+    if (at != changes.end() && at->change == change)
+      at->machines = std::move(machines);
+    else
+      changes.insert(at, {change, std::move(machines)});
+  };
+  set(monitor::unchanged_by(candidate.kind), simulations.same());
+  for (std::size_t i = 0; i < count; ++i) {
+    const double at = std::lerp(low, high, static_cast<double>(i) / static_cast<double>(count - 1));
+    const double change = is_factor ? std::exp(at) : at;
+    if (auto moves = simulations.changed(cause, change)) set(change, std::move(*moves));
+  }
+}
+
+/// Most trials that an explanation takes.
+std::int64_t max_trials_of(const Alarm& alarm, const std::vector<Cause>& causes) {
+  const std::int64_t of_pilot = machines_of(alarm, pilot_trials).trials();
+  const std::int64_t of_screening = machines_of(alarm, screened_trials).trials();
+  std::int64_t trials = of_pilot + of_screening;
+  for (const Cause& cause : causes) trials += 2 * of_pilot + (std::ssize(cause.changes) - 1) * of_screening;
+  for (const Refinement& one : refinements)
+    trials += machines_of(alarm, one.trials).trials() *
+              static_cast<std::int64_t>(1 + one.changes * std::min(one.max_parameters, causes.size()));
+  return trials;
+}
+
+/// The explanation by more trials of those that are near. Keeps those among the candidates, and all that fit.
+monitor::ChangeExplanation refined(const Alarm& alarm, const Refinement& refinement,
+                                   const std::vector<Cause>& causes, const monitor::ChangeExplanation& before,
+                                   std::vector<monitor::ChangeCandidate>& candidates) {
+  const Simulations simulations(alarm, machines_of(alarm, refinement.trials));
+  std::vector<monitor::ChangeCandidate> kept;
+  for (std::size_t i = 0; i < before.ranked.size(); ++i) {
+    const monitor::ParameterChange& one = before.ranked[i];
+    if (i >= refinement.min_parameters && !one.fits()) continue;
+    kept.push_back(*std::ranges::find(candidates, one.parameter, &monitor::ChangeCandidate::parameter));
+    const bool is_near = kept.size() <= refinement.max_parameters;
+    refine(kept.back(), one, *std::ranges::find(causes, one.parameter, &Cause::name),
+           is_near ? refinement.changes : 0, simulations);
+  }
+  monitor::ChangeExplanation explanation = simulations.explained(kept);
+  candidates = std::move(kept);
+  explanation.tried = before.tried;
+  return explanation;
 }
 
 }  // namespace
-
-std::vector<std::string> unchanged_names(const std::vector<std::string>& lists) {
-  std::vector<std::string> names;
-  for (const std::string& list : lists)
-    for (std::size_t first = 0, end = 0; end != std::string::npos; first = end + 1) {
-      end = list.find(',', first);
-      names.push_back(list.substr(first, end == std::string::npos ? end : end - first));
-      if (std::ranges::any_of(all_causes(),
-                              [&](const Cause& one) { return is_named(one.name, names.back()); }))
-        continue;
-      std::vector<std::string_view> known;
-      for (const Cause& cause : all_causes()) known.push_back(cause.name);
-      throw Failure(ExitCode::bad_input,
-                    fmt::format("option '--unchanged': '{}' is not among the parameters that are tried; "
-                                "expected some of {}",
-                                text::printable(names.back()), fmt::join(known, ", ")));
-    }
-  return names;
-}
 
 monitor::ChangeExplanation explain_alarm(const reading::AllTrialsFile& file, const monitor::ModelMoves& moves,
                                          const monitor::MachineMonitor& machine, const monitor::MoveLog& log,
@@ -352,21 +327,29 @@ monitor::ChangeExplanation explain_alarm(const reading::AllTrialsFile& file, con
       if (field.column.name == one.measure.name) watched.push_back({&field, one.measure, one.evidence});
   std::ranges::stable_sort(watched, std::greater{}, &WatchedField::evidence);
   const Alarm alarm{file.study(), moves, machine.likes(), log, watched, effort};
-  const Simulations screening(alarm, max_screened_trials);
-  std::vector<monitor::ChangeCandidate> candidates = candidates_of(screening, alarm, unchanged);
-  if (screening.has_all(max_simulated_trials))
-    return screening.explained(std::move(candidates), monitor::plausible_change);
-  const monitor::ChangeExplanation screened = screening.explained(candidates, hopeless);
-  if (screened.told == monitor::ChangeTold::unknown) return screened;
-  const Simulations simulations(alarm, max_simulated_trials);
-  std::vector<monitor::ChangeCandidate> refined;
-  for (const monitor::ParameterChange& one : screened.parameters) {
-    refined.push_back(*std::ranges::find(candidates, one.parameter, &monitor::ChangeCandidate::parameter));
-    refine(refined.back(), one, simulations);
-  }
-  monitor::ChangeExplanation explanation =
-      simulations.explained(std::move(refined), monitor::plausible_change);
-  explanation.tried = screened.tried;
+  std::vector<Cause> causes = causes_of(file.study(), moves.point);
+  std::erase_if(causes, [&](const Cause& cause) {
+    return std::ranges::any_of(unchanged, [&](const auto& name) { return is_named(cause.name, name); });
+  });
+  monitor::ChangeExplanation explanation{.reason = "no parameter was tried"};
+  Screening screening;
+  if (!trials::within(effort, [&] {
+        const Simulations pilot(alarm, machines_of(alarm, pilot_trials));
+        const Simulations simulations(alarm, machines_of(alarm, screened_trials));
+        screening = screened(pilot, simulations, causes, effort);
+        if (!screening.candidates.empty() || screening.untried.empty())
+          explanation = simulations.explained(screening.candidates);
+      }))
+    for (const Cause& cause : causes) screening.untried.push_back(cause.name);
+  for (const Refinement& refinement : refinements)
+    if (explanation.told != monitor::ChangeTold::unknown)
+      trials::within(effort, [&] {
+        explanation = refined(alarm, refinement, causes, explanation, screening.candidates);
+      });
+  explanation.untried = std::move(screening.untried);
+  explanation.max_trials = max_trials_of(alarm, causes);
+  if (explanation.told == monitor::ChangeTold::one && !explanation.untried.empty())
+    explanation.told = monitor::ChangeTold::several;
   return explanation;
 }
 

@@ -13,20 +13,26 @@
 namespace zerocount::result_commands {
 
 /// Tells which parameter of the study changed in the machine of the log, after an alarm of the monitor. The
-/// study is simulated with each parameter of plant and friction between half and twice its value, with the
-/// same random numbers: first with few trials and every second change, then with all those that are not
-/// hopeless.
+/// study is simulated with each of causes_of() changed, with the same random numbers:
+///
+///     for each parameter, while the effort lasts
+///       leave it out if its extreme changes leave 16 trials as they are
+///       simulate 64 trials with each of its changes
+///     explain_change() by these
+///     for the 8 likeliest parameters that fit, and the 3 likeliest in any case
+///       simulate 128 trials with five changes about its interval
+///     explain_change() by these
+///     the same once more: for 4 and 2 parameters, 512 trials with each of four changes
+///
+/// So the answer takes a number of trials that depends on the study alone, and not on the computer. Where the
+/// effort ends before, it is that of the stage before, and ChangeExplanation::untried has the parameters that
+/// were not tried.
 /// @param file under one condition at one age @param moves of its baseline
 /// @param unchanged of unchanged_names()
-/// @throws trial::Interrupted if a stop is requested
+/// @throws trial::Interrupted if a stop is requested from outside
 monitor::ChangeExplanation explain_alarm(const reading::AllTrialsFile& file, const monitor::ModelMoves& moves,
                                          const monitor::MachineMonitor& machine, const monitor::MoveLog& log,
                                          const std::vector<std::string>& unchanged,
                                          const trials::Effort& effort);
-
-/// The names in comma-separated lists of parameters that cannot have changed: dotted paths, from which parts
-/// in the middle or at the end may be left out, such as `controller.kp`, `encoder.noise` or `controller`.
-/// @throws Failure (bad_input) if a name is not one of a parameter that is tried
-std::vector<std::string> unchanged_names(const std::vector<std::string>& lists);
 
 }  // namespace zerocount::result_commands

@@ -18,6 +18,7 @@
 #include "runners/command_line/command_line.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/commands/stage_progress.hpp"
+#include "runners/result_commands/change_causes.hpp"
 #include "runners/result_commands/changed_parameters.hpp"
 #include "runners/result_commands/machine_logs.hpp"
 #include "runners/result_commands/result_commands.hpp"
@@ -36,8 +37,8 @@ constexpr const char* monitor_help =
     "outcome, ...), with units as [ms] where they are not those of the program. An empty cell, or\n"
     "NaN, is what never happened. BASELINE is a log of earlier moves of the machine, or a results\n"
     "file: then an alarm can mean that the model is wrong, and names the parameters that explain it,\n"
-    "or says that these moves do not tell. For that it simulates the machines with each parameter\n"
-    "changed, for --budget at most.\n"
+    "or says that none of them does. For that it simulates the machines with each parameter changed,\n"
+    "in as many trials as that takes, or --budget at most.\n"
     "\n"
     "The test may be asked after every move: a false alarm within any number of moves has at most\n"
     "the probability --alarm, where the moves are exchangeable with those of the baseline. Moves\n"
@@ -83,8 +84,8 @@ LoadedBaseline load_baseline(const command_line::Arguments& arguments) {
         fmt::format("option '--group': {} is a simulated study, whose moves have no such groups; "
                     "expected a log of moves as BASELINE",
                     path.string()));
-  std::vector<std::string> unchanged = unchanged_names(arguments.values("unchanged"));
   reading::AllTrialsFile file = with_condition(arguments, reading::AllTrialsFile(path));
+  std::vector<std::string> unchanged = unchanged_names(file.study(), arguments.values("unchanged"));
   if (file.study().open_loop)
     throw Failure(
         ExitCode::bad_input,
@@ -103,18 +104,11 @@ std::optional<monitor::ChangeExplanation> explanation_of(const command_line::Arg
                                                          const monitor::MoveLog& log,
                                                          const std::stop_token& stop) {
   if (!baseline.file || state.alarm == nullptr || baseline.file->header().plugin) return std::nullopt;
-  constexpr double default_seconds = 120.0;
-  command_line::Budget budget = command_line::budget_option(arguments);
-  if (!budget.trials && !budget.seconds) budget.seconds = default_seconds;
+  const command_line::Budget budget = command_line::budget_option(arguments);
   const trials::Effort effort = trials::Effort(stop).share(budget.trials, budget.seconds);
-  monitor::ChangeExplanation explanation{
-      .reason =
-          "the budget ended before the machines were simulated with each parameter changed; expected a "
-          "larger --budget, or --unchanged with what cannot have changed"};
+  std::optional<monitor::ChangeExplanation> explanation;
   commands::with_progress("zerocount monitor", "simulating what may have changed", [&] {
-    return trials::within(effort, [&] {
-      explanation = explain_alarm(*baseline.file, baseline.of_file, machine, log, baseline.unchanged, effort);
-    });
+    explanation = explain_alarm(*baseline.file, baseline.of_file, machine, log, baseline.unchanged, effort);
   });
   return explanation;
 }
@@ -226,7 +220,8 @@ commands::Command monitor_command() {
         {"rig", "R", "only this machine of a results file, from 0"},
         {"seed", "N", "of ties and of simulated changes (default 1)"},
         {"budget", "B",
-         "of the simulations after an alarm: a number of trials, or a time such as 60s (default 2min)"},
+         "of the simulations after an alarm: a number of trials, or a time such as 60s (default: as many "
+         "trials as all parameters take, some 20000)"},
         {"follow", "", "read the log while it grows, and print lines of JSON until the alarm"},
         needing({"follow"}, {"idle", "S", "end after S seconds without new moves (default: never)"})},
        2,

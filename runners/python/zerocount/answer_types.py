@@ -2601,8 +2601,8 @@ class MonitorAnswer(Answer):
         - ``correlation``: rank correlation of successive values of the baseline; null: of a simulated one
         - ``dependence``: p-value of the order of the baseline's values, if they are exchangeable; null: of a simulated
           one
-        - ``seen_after``: moves after which a change of the asked size would have been seen with 90 %, where there are
-          as many; null: later, or not asked
+        - ``seen_after``: moves after which a change of the asked size, added to each value or as a factor of it, would
+          have been seen with 90 %, where there are as many; null: later, or not asked
 
     likes : pandas.DataFrame
         Medians of measures that differ from one kind of moves to another more than within.
@@ -2619,7 +2619,9 @@ class MonitorAnswer(Answer):
     parameters_since : int or None
         First move that the parameters are of, from 1; null: not asked.
     tried : list[str]
-        Parameters of the model that may have changed.
+        Parameters of the model that were tried and act on the measures.
+    untried : list[str]
+        Parameters for which the budget did not suffice.
     parameters : pandas.DataFrame
         Parameters of the model that explain the change.
 
@@ -2657,6 +2659,7 @@ class MonitorAnswer(Answer):
     told: Literal["one", "several", "none", "unknown"] | None
     parameters_since: int | None
     tried: list[str]
+    untried: list[str]
     parameters: pandas.DataFrame
 
 

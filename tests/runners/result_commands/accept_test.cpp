@@ -52,6 +52,16 @@ TEST_F(Accept, JudgesTheMachinesByTheGoalAndThePrediction) {
                    "; 29 moves in all, without another miss, can"));
 }
 
+// The log of one column of a machine that stopped settling ends with blank lines.
+TEST_F(Accept, CountsBlankLinesOfALogOfOneColumnAsMissedMoves) {
+  std::string text = "band_settling_time[1]\n";
+  for (int i = 0; i < 60; ++i) text += "0.001\n";
+  std::ofstream(folder_.path() / "log.csv") << text << std::string(40, '\n');
+  const Json judged = accepted({"log.csv", "--these"}, 1);
+  EXPECT_EQ(judged["goals"][0]["met"], 60);
+  EXPECT_EQ(judged["goals"][0]["moves"], 100);
+}
+
 TEST_F(Accept, CountsFromTheEndOfTheProfilesInTheLog) {
   run_study("rigs: 40\ngoal: {band: 1, after_profile: 0.03, moves: 0.9}\n");
   std::ofstream(folder_.path() / "log.csv")

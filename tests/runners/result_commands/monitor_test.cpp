@@ -69,6 +69,28 @@ TEST_F(Monitor, TakesAResultsFileAsTheBaseline) {
   EXPECT_TRUE(says(text, "an alarm can mean that the model is wrong"));
 }
 
+// A machine that never settles any more writes nothing but line feeds.
+TEST_F(Monitor, SeesMovesThatNeverSettleInALogOfOneColumn) {
+  write_log("before.csv", 200);
+  folder_.write("never.csv", "settling_time\n" + std::string(100, '\n'));
+  const Json never = json_of({"monitor", "before.csv", "never.csv"}, 1);
+  EXPECT_EQ(never["moves"], 100);
+  EXPECT_EQ(never["direction"], "higher");
+}
+
+TEST_F(Monitor, NamesTheMeasuresThatItCallsUnchanged) {
+  std::string text = "settling_time,overshoot,jerk_count\n";
+  for (int i = 0; i < 300; ++i)
+    text += fmt::format("{},{},0\n", 0.041 + 0.001 * ((7 * i + i / 10) % 10), 10 + (3 * i + i / 7) % 5);
+  folder_.write("before.csv", text);
+  const std::string said = program({"monitor", "before.csv", "before.csv"}).out;
+  EXPECT_TRUE(says(said,
+                   "a change of 20 % of the baseline's median (added to each value, or as a factor of it) "
+                   "would have been seen with 90 % in settling_time, overshoot"))
+      << said;
+  EXPECT_TRUE(says(said, "a proportion cannot change so much: jerk_count")) << said;
+}
+
 TEST_F(Monitor, AsksForThePointAndTheCondition) {
   run_study(
       "sweep: {grid: {controller.ki: [2.0e-5, 4.0e-5]}}\nconditions: {empty: {}, loaded: {plant.inertia: "
@@ -273,11 +295,23 @@ command: {targets: [{integers: [5, 30]}, {integers: [-30, -5]}], hold: 0.2}
   EXPECT_EQ(std::ranges::count(answer["tried"], "controller.deadband.enter"), 1);
   EXPECT_TRUE(says(refusal({"monitor", "study.h5", "moves.csv", "--unchanged", "friction.k3"}),
                    "'friction.k3' is not among the parameters that are tried"));
-  // The alarm does not wait for what a budget is too small for.
-  const Json unexplained = json_of({"monitor", "study.h5", "moves.csv", "--budget", "100"}, 1);
+  // The alarm does not wait for what a budget is too small for. What would have been enough is said.
+  const auto within = [&](std::int64_t trials) {
+    return json_of({"monitor", "study.h5", "moves.csv", "--budget", fmt::format("{}", trials)}, 1);
+  };
+  const Json unexplained = within(10);
   EXPECT_EQ(unexplained["status"], answer["status"]);
-  EXPECT_TRUE(unexplained["parameters"].empty()) << unexplained;
-  EXPECT_TRUE(says(program({"monitor", "study.h5", "moves.csv", "--budget", "100"}).out, "the budget ended"));
+  EXPECT_EQ(unexplained["told"], "unknown");
+  EXPECT_TRUE(unexplained["tried"].empty()) << unexplained;
+  const std::string text = program({"monitor", "study.h5", "moves.csv", "--budget", "10"}).out;
+  const std::size_t at = text.find("all parameters take at most ");
+  ASSERT_NE(at, std::string::npos) << text;
+  const std::int64_t enough = std::stoll(text.substr(at + 28));
+  const Json some = within(enough / 10);
+  EXPECT_FALSE(some["tried"].empty()) << "a parameter within the budget is tried";
+  EXPECT_FALSE(some["untried"].empty());
+  EXPECT_NE(some["told"], "one") << "another may explain it as well";
+  EXPECT_EQ(within(enough), answer) << "without a budget there are as many trials, on any computer";
   // A log as the baseline has no parameters.
   write_log("before.csv", 200);
   write_log("slower.csv", 200, 1.3);

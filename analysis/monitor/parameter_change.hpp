@@ -104,8 +104,8 @@ inline constexpr std::size_t min_moves_after = 20;
 ///
 /// A parameter *explains* the moves if Q at its most likely change is at most the 99 % quantile of Q for the
 /// right parameter (Hotelling's T²: x + x·(x + p)/2ν with the quantile x of χ² with p degrees of freedom),
-/// and at most 9.2 above the smallest such Q, which is a likelihood ratio of 1 %. So the right one is missing
-/// among those that explain the moves in one or two cases of a hundred. Where none explains them, none of the
+/// and at most 9.2 above the smallest such Q, which is a likelihood ratio of 1 %. If C were exact, the right
+/// one would be missing in one or two cases of a hundred. Where no parameter explains the moves, none of the
 /// candidates is right. Probabilities are by the likelihoods without |C|, which has the errors of the
 /// simulation, averaged over the range: all parameters have the same prior, log f or the amount evenly.
 ///

@@ -1,33 +1,52 @@
+#include "analysis/theory/hunting_prediction.hpp"
+
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
-#include "analysis/theory/point_theory.hpp"
+#include "analysis/theory/lasting_motion.hpp"
 #include "analysis/theory/theory_prediction.hpp"
 #include "core/friction/law.hpp"
+#include "core/loop/controller/controller.hpp"
+#include "core/loop/dac.hpp"
+#include "core/loop/encoder.hpp"
 #include "core/loop/reference.hpp"
 #include "core/trial/trial.hpp"
+#include "core/trial/watched_trial.hpp"
 
 namespace zerocount::theory {
 namespace {
 
-constexpr std::int64_t first_samples = 1 << 13;
-constexpr std::int64_t max_samples = 1 << 17;
-constexpr std::int64_t longer = 2;
-constexpr double min_amplitude = 1.0;  // counts: the encoder does not see less
-constexpr double min_periods = 2.0;    // in the last half of the hold
-constexpr double alike = 0.05;         // amplitudes of a cycle, measured in whole counts
+constexpr std::int64_t first_judged = 1 << 13;  // samples
+/// Samples that are judged first, in multiples of the longest time that the controller waits.
+constexpr double waits_judged = 8.0;
+/// Torque that does not move a standing axis, as a part of the breakaway torque.
+constexpr double part_of_breakaway = 0.05;
+
+bool has_load_friction(const trial::TrialParameters& p) {
+  return motion::has_load(p.plant) && p.load_side.friction.model != friction::LoadFrictionModel::none;
+}
+
+/// Whether a part of the loop that is not linear may sustain a cycle.
+bool may_hunt(const trial::TrialParameters& p) {
+  if (!p.command.torque.levels.empty() || p.command.profile.shape == loop::ReferenceShape::sine) return false;
+  const bool has_gap = motion::has_load(p.plant) && p.plant.load.gap > 0.0;
+  return friction::has_friction(p.friction.model) || has_load_friction(p) || has_gap;
+}
 
 /// The trial with this move from its start alone, and nothing that moves the axis by itself.
 trial::TrialParameters trial_of_move(trial::TrialParameters trial, const TargetStep& move) {
   trial.command.targets = {move.to - move.from};
   trial.command.exact_targets.clear();
   trial.verdict = {};
-  trial.encoder.fine_errors.noise = 0.0;
-  trial.encoder.coarse_errors.noise = 0.0;
+  for (loop::EncoderErrors* of :
+       {&trial.encoder.fine_errors, &trial.encoder.coarse_errors, &trial.encoder.other.errors})
+    of->noise = 0.0;
   trial.dac.noise = 0.0;
   for (trial::DisturbanceParameters* of : {&trial.disturbance, &trial.load_side.disturbance}) {
     of->vibration.clear();
@@ -36,78 +55,115 @@ trial::TrialParameters trial_of_move(trial::TrialParameters trial, const TargetS
   return trial;
 }
 
-trial::MoveOutcome held_for(trial::TrialParameters& trial, std::int64_t samples,
-                            const std::stop_token& stop) {
-  trial.command.hold = static_cast<double>(samples) / trial.controller.sample_rate;
-  trial.verdict.window = 0.5 * trial.command.hold;
-  trial.verdict.dwell = 1.0 / trial.controller.sample_rate;
-  return trial::run_trial(trial, {.sample = {}, .jerk = {}, .stop = stop}).moves.front();
+/// Number of the first sample at which the reference is at rest.
+double reference_ends_at(const trial::TrialParameters& p) {
+  const loop::ReferenceProfile& profile = p.command.profile;
+  const double duration =
+      profile.shape == loop::ReferenceShape::record
+          ? loop::record_duration(profile.record->time)
+          : loop::Reference(profile, 0, p.command.targets.front(), loop::fine_resolution(p.encoder))
+                .duration();
+  return std::ceil(duration * p.controller.sample_rate);
 }
 
-/// Whether the torque of a standing axis changes, so that it may break away later.
-bool has_integral(const loop::ControllerParameters& controller) {
-  const bool cascade = controller.blocks.structure == loop::ControlStructure::cascade;
-  return (cascade ? controller.blocks.cascade.ki : controller.ki) > 0.0 || controller.user.plugin;
+double longest_wait(const loop::ControlBlocks& blocks, double sample_rate) {
+  const double dwell = std::max(blocks.hold.enter < 0.0 ? 0.0 : blocks.hold.dwell,
+                                blocks.standstill.band < 0.0 ? 0.0 : blocks.standstill.dwell);
+  const double command = static_cast<double>(blocks.cascade.divider) + blocks.cascade.latency;
+  return std::max({dwell * sample_rate, command, static_cast<double>(blocks.derivative_window)});
 }
 
-bool stays_within_a_count(const trial::MoveOutcome& move) {
-  return move.outcome == trial::Outcome::zero_count || move.outcome == trial::Outcome::one_count;
+/// The longest time after which the controller changes its torque at a constant error, samples.
+double longest_wait(const loop::ControllerParameters& c) {
+  const double fine = std::max(longest_wait(c.blocks, c.sample_rate), c.delay);
+  if (!loop::has_coarse_phase(c)) return fine;
+  return std::max({fine, longest_wait(c.coarse.blocks, c.sample_rate), c.coarse.fine_dwell * c.sample_rate});
 }
 
-bool has_come_to_rest(const trial::MoveOutcome& move, const trial::TrialParameters& trial) {
-  if (move.final_settling_time <= 0.5 * trial.command.hold) return true;
-  return move.outcome == trial::Outcome::off_target && !has_integral(trial.controller) &&
-         move.midway_error == move.final_error;
+/// Change of the torque that does not move a standing axis, N m.
+double negligible_torque(const trial::TrialParameters& p) {
+  const double motor = friction::friction_at(p.friction, p.initial.position).breakaway;
+  const double load = p.load_side.friction.contact.breakaway;
+  double breakaway = 0.0;
+  if (friction::has_friction(p.friction.model)) breakaway = motor;
+  if (has_load_friction(p)) breakaway = breakaway > 0.0 ? std::min(breakaway, load) : load;
+  return std::max(part_of_breakaway * breakaway, 0.5 * p.dac.resolution);
 }
 
-bool is_cycle(const trial::MoveOutcome& move, double amplitude_before, const trial::TrialParameters& trial) {
-  return move.oscillation_amplitude > min_amplitude &&
-         min_periods * move.oscillation_period <= 0.5 * trial.command.hold &&
-         std::abs(move.oscillation_amplitude - amplitude_before) <= alike * move.oscillation_amplitude;
-}
+/// The motion of a loop from the end of its reference on, and what it comes to.
+class HeldLoop {
+ public:
+  HeldLoop(const trial::TrialParameters& p, std::int64_t reference_ends)
+      : p_(p),
+        reference_ends_(reference_ends),
+        next_judged_(static_cast<std::int64_t>(std::bit_ceil(static_cast<std::uint64_t>(
+            std::clamp(waits_judged * longest_wait(p.controller), static_cast<double>(first_judged),
+                       static_cast<double>(max_samples_held)))))),
+        has_load_(motion::has_load(p.plant)) {}
+
+  /// Takes the next sample. @returns whether it is still undecided
+  bool add(const trial::LoopSample& sample, HuntingPrediction& prediction) {
+    prediction.duration = sample.record.t;
+    if (sample.steps > max_steps_held) return false;
+    if (sample.record.k < reference_ends_) return true;
+    const double count = loop::fine_resolution(p_.encoder);
+    if (motor_.empty()) target_ = static_cast<double>(sample.record.reference);
+    motor_.push_back(static_cast<float>(sample.record.theta / count - target_));
+    if (has_load_) load_.push_back(static_cast<float>(sample.record.load_theta / count - target_));
+    torque_.push_back(static_cast<float>(
+        std::clamp(sample.wanted, loop::lowest_torque(p_.dac), loop::highest_torque(p_.dac))));
+    if (std::ssize(motor_) < next_judged_) return true;
+    next_judged_ *= 2;
+    judge(prediction);
+    return prediction.state == Hunting::undecided && std::ssize(motor_) < max_samples_held;
+  }
+
+ private:
+  void judge(HuntingPrediction& prediction) const {
+    const bool at_load = has_load_ && p_.plant.load.encoder == motion::EncoderPlace::load;
+    const std::vector<float>& closes = at_load ? load_ : motor_;
+    const std::vector<float>& other = at_load ? motor_ : load_;
+    const bool stands_here = stands(closes);
+    if (stands_here && (!has_load_ || stands(other))) {
+      if (torque_has_settled(torque_, negligible_torque(p_))) prediction.state = Hunting::rests;
+      return;
+    }
+    if (stands_here && !has_load_) return;
+    const std::optional<Cycle> cycle = lasting_cycle(stands_here ? other : closes);
+    if (!cycle) return;
+    prediction.state = Hunting::hunts;
+    prediction.amplitude = cycle->amplitude;
+    prediction.period = cycle->period / p_.controller.sample_rate;
+    if (has_load_)
+      prediction.mass = at_load != stands_here ? motion::EncoderPlace::load : motion::EncoderPlace::motor;
+  }
+
+  const trial::TrialParameters& p_;
+  std::int64_t reference_ends_;  ///< Number of the first sample that is kept.
+  std::int64_t next_judged_;     ///< Samples kept at which the motion is judged next.
+  bool has_load_;
+  double target_{0.0};  ///< Where the reference rests, counts.
+  // Of each sample: positions from the target, counts, and the wanted torque within the range of the
+  // converter, N m.
+  std::vector<float> motor_{}, load_{}, torque_{};
+};
 
 }  // namespace
 
-std::optional<HuntingPrediction> predict_hunting(const trial::TrialParameters& trial,
-                                                 const std::stop_token& stop) {
-  if (!trial.command.torque.levels.empty() || !friction::has_friction(trial.friction.model) ||
-      loop::moves_for_ever(trial.command.profile.shape))
-    return std::nullopt;
+std::optional<HuntingPrediction> predict_hunting(const trial::TrialParameters& trial) {
+  if (!may_hunt(trial)) return std::nullopt;
   const TargetStep move = std::ranges::max(target_steps(trial.command), {}, &TargetStep::length);
   trial::TrialParameters p = trial_of_move(trial, move);
   HuntingPrediction prediction{.step = move.length()};
-  trial::MoveOutcome before;
-  // The last half of the samples tells: the reference has long ended there.
-  const double profile =
-      loop::Reference(p.command.profile, 0, p.command.targets.front(), loop::fine_resolution(p.encoder))
-          .duration() *
-      p.controller.sample_rate;
-  if (!(3.0 * profile <= static_cast<double>(max_samples) * longer)) return prediction;
-  const std::int64_t first = std::max(first_samples, static_cast<std::int64_t>(3.0 * profile));
-  for (std::int64_t samples = first; samples <= std::max(max_samples, first); samples *= longer) {
-    trial::MoveOutcome outcome;
-    try {
-      outcome = held_for(p, samples, stop);
-    } catch (const trial::Interrupted&) {
-      return prediction;
-    }
-    prediction.duration = p.command.hold;
-    if (has_come_to_rest(outcome, p) || (stays_within_a_count(outcome) && stays_within_a_count(before))) {
-      prediction.state = Hunting::rests;
-      return prediction;
-    }
-    if (outcome.outcome == trial::Outcome::nonfinite) {
-      prediction.state = Hunting::diverges;
-      return prediction;
-    }
-    if (is_cycle(outcome, before.oscillation_amplitude, p)) {
-      prediction.state = Hunting::hunts;
-      prediction.amplitude = outcome.oscillation_amplitude;
-      prediction.period = outcome.oscillation_period;
-      return prediction;
-    }
-    before = outcome;
-  }
+  const double reference_ends = reference_ends_at(p);
+  if (!(reference_ends < static_cast<double>(max_steps_held))) return prediction;
+  const auto first = static_cast<std::int64_t>(reference_ends);
+  p.command.hold = static_cast<double>(first + max_samples_held) / p.controller.sample_rate;
+  HeldLoop loop(p, first);
+  const std::optional<trial::TrialOutcome> outcome =
+      trial::watch_trial(p, [&](const trial::LoopSample& sample) { return loop.add(sample, prediction); });
+  if (outcome && outcome->moves.front().outcome == trial::Outcome::nonfinite)
+    prediction.state = Hunting::diverges;
   return prediction;
 }
 
@@ -120,18 +176,23 @@ document::Description<HuntingPrediction> hunting_description() {
       return hunting.*number;
     };
   };
+  const auto mass_text = [](Of hunting) -> std::optional<std::string> {
+    if (!hunting.mass) return std::nullopt;
+    return *hunting.mass == motion::EncoderPlace::load ? "load" : "motor";
+  };
   static const std::vector<std::string> words{"rests", "hunts", "diverges", "undecided"};
   return document::Description<HuntingPrediction>()
       .value(document::with_words(document::everywhere("hunting", "hunting of trial 0",
                                                        "what the longest move of trial 0 comes to"),
                                   words),
              [](Of hunting) { return words[static_cast<std::size_t>(hunting.state)]; })
-      .shown_as([](Of hunting) -> std::string {
+      .shown_as([mass_text](Of hunting) -> std::string {
         switch (hunting.state) {
           case Hunting::rests:
             return "none, it comes to rest";
           case Hunting::hunts:
-            return fmt::format("amplitude {:.4g} counts, period {:.4g} s", hunting.amplitude, hunting.period);
+            return fmt::format("amplitude {:.4g} counts{}, period {:.4g} s", hunting.amplitude,
+                               hunting.mass ? " at the " + mass_text(hunting).value() : "", hunting.period);
           case Hunting::diverges:
             return "the motion grows without bound";
           case Hunting::undecided:
@@ -146,7 +207,10 @@ document::Description<HuntingPrediction> hunting_description() {
              if_hunts(&HuntingPrediction::amplitude))
       .value(in_data("hunting_period", "period of the oscillation", "s"),
              if_hunts(&HuntingPrediction::period))
-      .value(in_data("hunting_duration", "time that the move was held to see it", "s"),
+      .value(in_data("hunting_mass",
+                     "mass that oscillates, motor or load; null: it does not hunt, or has one mass"),
+             mass_text)
+      .value(in_data("hunting_duration", "time that was simulated to see it", "s"),
              &HuntingPrediction::duration);
 }
 

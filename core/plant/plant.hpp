@@ -57,6 +57,7 @@ class PlantWith : public Law {
     double remaining = duration;
     for (int step = 0; remaining > 0.0 && finite_; ++step) {
       if (step == step_limit) finite_ = false;
+      ++steps_;
       varying.theta = this->theta();
       if (load_) {
         load_->rotor_theta = varying.theta;
@@ -79,6 +80,8 @@ class PlantWith : public Law {
 
   /// False once the motion is lost (non-finite, or too many steps); it stays false.
   bool finite() const { return finite_; }
+  /// Integration steps since the start.
+  std::int64_t steps() const { return steps_; }
   /// The second mass; empty without one.
   const std::optional<motion::Load>& load() const { return load_; }
   std::optional<motion::Load>& load() { return load_; }
@@ -96,6 +99,7 @@ class PlantWith : public Law {
   double inertia_;
   double tolerance_;
   bool finite_{true};
+  std::int64_t steps_{0};
   std::optional<motion::Load> load_;
   friction::FrictionOfLoad load_friction_;
   motion::Disturbance disturbance_{};
@@ -165,6 +169,10 @@ class PlantOf {
   /// False once the motion is lost; it stays false.
   bool finite() const {
     return std::visit([](const auto& plant) { return plant.finite(); }, plant_);
+  }
+  /// Integration steps since the start.
+  std::int64_t steps() const {
+    return std::visit([](const auto& plant) { return plant.steps(); }, plant_);
   }
   /// How the law begins to slide.
   friction::Breakaway breakaway() const { return breakaway_; }

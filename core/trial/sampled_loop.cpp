@@ -46,9 +46,9 @@ SampledLoop::Decision SampledLoop::decide(std::int64_t k, std::int64_t i, const 
     const bool new_target = last_target_ && *last_target_ != target_;
     last_target_ = target_;
     const loop::Dither& dither = p_.controller.dither;
-    const double torque = controller_.update(reference, reading, output_.torque, motion, new_target, k) +
-                          loop::dither_torque(dither.amplitude, dither.frequency, p_.controller.sample_rate,
-                                              static_cast<double>(k));
+    wanted_ = controller_.update(reference, reading, output_.torque, motion, new_target, k);
+    const double torque = wanted_ + loop::dither_torque(dither.amplitude, dither.frequency,
+                                                        p_.controller.sample_rate, static_cast<double>(k));
     failed_ = !std::isfinite(torque);
     output_ = converter_.convert(failed_ ? 0.0 : torque);
   }
@@ -58,7 +58,7 @@ SampledLoop::Decision SampledLoop::decide(std::int64_t k, std::int64_t i, const 
     const bool closes = !motion::has_load(p_.plant) || p_.plant.load.encoder == p_.verdict.other_mass;
     other_mass_->add(i, closes ? theta : other, *reference_);
   }
-  return {reference, target, output_, runs, t >= reference_->duration()};
+  return {reference, target, output_, runs, t >= reference_->duration(), wanted_};
 }
 
 void SampledLoop::finish(MoveOutcome& outcome) {

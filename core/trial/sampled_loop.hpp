@@ -40,6 +40,8 @@ class SampledLoop {
     loop::DacOutput output;
     bool ran;      ///< the controller has run at this sample
     bool arrived;  ///< the reference stays at the target from now on
+    /// Torque of the controller when it last ran, before dither, limit and rounding, N m.
+    double wanted;
   };
   /// @param k number of the sample from the start of the trial. @param i from the start of the move.
   /// @param theta angle that the encoders have read, rad. @param other of the other mass, if there is one
@@ -67,6 +69,7 @@ class SampledLoop {
   std::int64_t target_{0};
   std::optional<std::int64_t> last_target_{};  // at the last sample at which the controller ran
   loop::DacOutput output_{};                   // of that sample
+  double wanted_{0.0};                         // likewise, N m
   bool failed_{false};
   std::int64_t phase_changes_before_{0};
 };

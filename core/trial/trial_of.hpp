@@ -6,6 +6,7 @@
 #include "core/trial/rig.hpp"
 #include "core/trial/sampled_loop.hpp"
 #include "core/trial/trial.hpp"
+#include "core/trial/watched_trial.hpp"
 
 /// A trial as a template over its plant, PlantOf a list of laws.
 namespace zerocount::trial {
@@ -67,8 +68,10 @@ MoveOutcome run_move(Rig<AnyPlant>& rig, const MoveTiming& timing, const Verdict
 }
 
 /// Closed loop: the controller follows a reference to each target.
+/// @throws Interrupted if `watch` ends the trial
 template <class AnyPlant>
-TrialOutcome follow_targets(const TrialParameters& p, const TrialObservers& observers) {
+TrialOutcome follow_targets(const TrialParameters& p, const TrialObservers& observers,
+                            const LoopWatch& watch = {}) {
   Rig<AnyPlant> rig(p);
   SampledLoop loop(p, rig.measurement());
   TrialOutcome outcome;
@@ -88,6 +91,7 @@ TrialOutcome follow_targets(const TrialParameters& p, const TrialObservers& obse
       record.phase = loop.phase();
       rig.drive(decision.output, record);
       if (loop.failed()) rig.fail();
+      if (watch && !watch({record, decision.wanted, rig.plant().steps()})) throw Interrupted{};
     };
     MoveOutcome move =
         run_move(rig, timing, p.verdict, static_cast<std::int64_t>(m), first, target, observers, decide);

@@ -12,6 +12,7 @@
 #include "analysis/parallel/parallel.hpp"
 #include "analysis/statistics/sample_size.hpp"
 #include "analysis/summary/chosen_point.hpp"
+#include "analysis/theory/hunting_prediction.hpp"
 #include "analysis/theory/point_theory.hpp"
 #include "core/loop/encoder.hpp"
 #include "core/text/text.hpp"
@@ -24,7 +25,6 @@
 #include "runners/status/progress.hpp"
 #include "runners/status/status.hpp"
 #include "runners/study_commands/study_commands.hpp"
-#include "runners/trials/effort.hpp"
 #include "runners/tuning/units/unit_runner.hpp"
 
 namespace zerocount::study_commands {
@@ -44,16 +44,15 @@ constexpr const char* check_help =
     "  - gain and phase margins of the sampled loop, with all blocks of the controller, at k1, at\n"
     "    k1 + k2, at the softest and the stiffest place of a profile, and while the rotor slides; with\n"
     "    a second mass also while the motor moves alone in a gap, and while the load stands or slides\n"
-    "  - the hunting of trial 0, with the amplitude and period of its longest move: that move is held\n"
-    "    longer and longer, without noise, until it rests or oscillates for good\n"
+    "  - the hunting of trial 0, with the amplitude and period of its longest move: the whole loop is\n"
+    "    simulated, without noise and vibration, until the axis rests or oscillates for good, for at\n"
+    "    most 1048576 samples after the end of the reference. Two masses: of the one that closes the\n"
+    "    loop, or of the other if it oscillates alone\n"
     "  - the bandwidth while it slides: the highest frequency at which the open loop has gain 1\n"
     "\n"
     "Example: zerocount check experiments/manifests/paper-gains.yaml\n";
 
 constexpr std::int64_t points_shown = 20;
-
-/// For the hunting of a point: no more where a contact that creeps fast makes a sample take milliseconds.
-constexpr double hunting_limit = 2.0;  // s
 
 /// A design point under a condition, its theory, and the targets of its trial 0 in counts, if they are in SI
 /// units.
@@ -391,7 +390,7 @@ std::vector<PointReading> examined_points(const study::Study& study, std::int64_
                      ? std::nullopt
                      : std::optional(study.conditions[static_cast<std::size_t>(condition)]),
                  theory::examine(study, point, condition, rotors),
-                 theory::predict_hunting(trial.parameters, trials::Effort().share({}, hunting_limit).stop()),
+                 theory::predict_hunting(trial.parameters),
                  targets_text(study, trial)};
   };
   std::vector<theory::KnownRotor> of_first;

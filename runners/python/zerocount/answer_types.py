@@ -142,7 +142,8 @@ class CheckAnswer(Answer):
         - ``hunting_step``: length of that move, count
         - ``hunting_amplitude``: half of the range of its oscillation; null: it does not hunt, count
         - ``hunting_period``: period of the oscillation, s
-        - ``hunting_duration``: time that the move was held to see it, s
+        - ``hunting_mass``: mass that oscillates, motor or load; null: it does not hunt, or has one mass
+        - ``hunting_duration``: time that was simulated to see it, s
         - ``targets``: targets of trial 0 in SI units, and their counts
 
     """

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "analysis/document/description.hpp"
+#include "core/motion/parameters.hpp"
+#include "core/trial/parameters.hpp"
+
+/// Hunting, the lasting oscillation of a position loop with friction or a gap, as a trial of the loop shows
+/// it.
+namespace zerocount::theory {
+
+enum class Hunting : std::uint8_t {
+  rests,     ///< The axis comes to rest, wherever it stands, or stays within a range of two counts.
+  hunts,     ///< It oscillates for good.
+  diverges,  ///< The motion leaves the finite numbers.
+  undecided  ///< The simulation ends before either is seen.
+};
+
+struct HuntingPrediction {
+  Hunting state{Hunting::undecided};
+  std::int64_t step{0};   ///< Length of the move, counts.
+  double amplitude{0.0};  ///< If it hunts: half of the range of the position, counts of the loop's encoder.
+  double period{0.0};     ///< If it hunts: s.
+  double duration{0.0};   ///< Time that was simulated, from the start of the move, s.
+  /// If it hunts and there are two masses: the one that oscillates. If both do: the one whose encoder closes
+  /// the loop.
+  std::optional<motion::EncoderPlace> mass{};
+};
+
+/// Samples after the end of the reference that are simulated at most.
+inline constexpr std::int64_t max_samples_held = 1 << 20;
+/// Integration steps of the plant that are simulated at most. A contact that creeps fast takes many in each
+/// sample.
+inline constexpr std::int64_t max_steps_held = 1 << 21;
+
+/// The longest move of the trial, from its start, without noise of encoders and converter and without
+/// vibration, which move the axis by themselves:
+///
+///   simulate until the reference is at rest
+///   for n = 2¹³, 2¹⁴ … max_samples_held samples from there on:
+///     rests   if both masses stand in the last ¾ of them, and the wanted torque will not move them
+///     hunts   if the position of a mass has a cycle that lasts
+///
+/// (lasting_motion.hpp). It ends undecided after max_samples_held samples or max_steps_held integration
+/// steps: the answer does not depend on the speed of the computer.
+///
+/// None for an open loop, a reference without end, and an axis with neither friction nor gap.
+std::optional<HuntingPrediction> predict_hunting(const trial::TrialParameters& trial);
+
+/// For data each number, for people a sentence.
+document::Description<HuntingPrediction> hunting_description();
+
+}  // namespace zerocount::theory

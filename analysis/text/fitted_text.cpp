@@ -103,6 +103,18 @@ struct ShownColumn {
   std::size_t width;  ///< that it is shown with
 };
 
+/// Width of a column of text on a terminal without limits: a long cell is wrapped between its words.
+std::size_t readable_width(const TextColumn& column, std::size_t wide) {
+  if (column.numeric || wide <= width_of_prose) return wide;
+  std::size_t width = std::max(width_of_prose, display_width(column.head));
+  for (const std::string& cell : column.cells) {
+    for (std::size_t begin = 0; begin < cell.size(); begin = end_of_word(cell, begin) + 1)
+      width = std::max(width,
+                       display_width(std::string_view(cell).substr(begin, end_of_word(cell, begin) - begin)));
+  }
+  return std::min(width, wide);
+}
+
 /// A row of a table: its cells side by side. @param row nothing: the heads
 void append_row(std::string& text, const std::vector<ShownColumn>& columns, std::optional<std::size_t> row) {
   std::vector<std::vector<std::string>> cells;
@@ -192,8 +204,8 @@ std::string aligned_table(const std::vector<TextColumn>& columns, std::optional<
   for (const TextColumn& column : columns) {
     std::size_t wide = display_width(column.head);
     for (const std::string& cell : column.cells) wide = std::max(wide, display_width(cell));
-    all.push_back({&column, wide, wide});
-    used += wide + gap;
+    all.push_back({&column, wide, all.empty() ? wide : readable_width(column, wide)});
+    used += all.back().width + gap;
   }
   if (all.empty()) return table;
   if (!width || used - gap <= *width) {
@@ -206,7 +218,7 @@ std::string aligned_table(const std::vector<TextColumn>& columns, std::optional<
   std::vector<ShownColumn> shown{key};
   used = 0;
   for (std::size_t i = 1; i < all.size(); ++i) {
-    all[i].width = std::min(all[i].wide, room);
+    all[i].width = std::min(all[i].width, room);
     if (used > 0 && used + gap + all[i].width > room) {
       append_table(table, shown);
       shown = {key};

@@ -115,7 +115,8 @@ struct TextColumn {
 /// One that is wider than `width` is divided into tables one below the other. Each repeats the first column,
 /// which names the rows, and takes as many of the other columns as fit; a column that does not fit by itself
 /// is wrapped within its cells, where words that are wider are broken.
-/// @param width columns of the terminal, at least 20; nothing: no limit
+/// @param width columns of the terminal, at least 20. Nothing: no limit, and the table is not divided. In
+/// either case a cell behind the first column is wrapped between its words at width_of_prose
 std::string aligned_table(const std::vector<TextColumn>& columns, std::optional<std::size_t> width = {});
 
 /// Escapes & < > " ' for text and quoted attributes of HTML or XML.

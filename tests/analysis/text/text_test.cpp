@@ -110,6 +110,31 @@ TEST(AlignedTable, HasTheWidthAndEveryWordOfATable) {
   }
 }
 
+// A long sentence in a cell makes no long lines where the width has no limit, and keeps its words whole.
+TEST(AlignedTable, WrapsLongCellsWhereTheWidthHasNoLimit) {
+  std::mt19937_64 random(2209);
+  for (int round = 0; round < 100; ++round) {
+    std::vector<TextColumn> columns{{"name", false, {}}, {"n", true, {}}, {"meaning", false, {}}};
+    std::vector<std::string> words;
+    for (int row = 0; row < 4; ++row) {
+      std::string sentence;
+      for (std::size_t word = random() % 200; word > 0; --word) {
+        words.push_back(std::string(1 + random() % 12, static_cast<char>('a' + random() % 26)));
+        sentence += (sentence.empty() ? "" : " ") + words.back();
+      }
+      columns[0].cells.push_back("row" + std::to_string(row));
+      columns[1].cells.emplace_back("7");
+      columns[2].cells.push_back(sentence);
+    }
+    const std::string table = aligned_table(columns);
+    EXPECT_LE(width_of(table), 4U + 2U + 1U + 2U + width_of_prose);
+    for (const std::string& word : words) EXPECT_NE(table.find(word), std::string::npos) << word;
+  }
+  const std::string path(150, 'p');
+  EXPECT_NE(aligned_table({{"name", false, {"a"}}, {"file", false, {path + " " + path}}}).find(path),
+            std::string::npos);
+}
+
 TEST(AlignedTable, RepeatsTheNamesOfTheRows) {
   const std::vector<TextColumn> columns{{"point", true, {"0", "1"}},
                                         {"zero-count", true, {"98.0 %", "7 %"}},

@@ -78,6 +78,18 @@ bool is_asked(const study::Goal& goal, const monitor::MoveLog& log, std::size_t 
   return std::ranges::find(goal.on, number) != goal.on.end();
 }
 
+/// A limit of a goal, and the column of a log that it is about.
+struct LoggedLimit {
+  const monitor::MonitoredMeasure& measure;
+  const std::vector<double>& values;  ///< [row]
+  double largest;
+};
+
+bool meets(const LoggedLimit& limit, std::size_t row) {
+  const double value = limit.values[row];
+  return monitor::is_nothing(limit.measure, value) || std::abs(value) <= limit.largest;
+}
+
 /// [move that the goal is about] whether it meets the goal.
 std::vector<bool> met_moves(const study::Goal& goal, const monitor::MoveLog& log,
                             const reading::AllTrialsFile& file) {
@@ -88,15 +100,16 @@ std::vector<bool> met_moves(const study::Goal& goal, const monitor::MoveLog& log
   // Without profiles' ends that the goal counts from no log needs them.
   const std::vector<double> travels = goal.within.after_profile ? values_of(log, "travel_time", file.axis())
                                                                 : std::vector<double>(times.size(), 0.0);
-  std::vector<const std::vector<double>*> limited;
-  for (const study::GoalLimit& limit : goal.limits)
-    limited.push_back(&values_of(log, study::name_in(goal, limit.measure), file.axis()));
+  std::vector<LoggedLimit> limits;
+  for (const study::GoalLimit& limit : goal.limits) {
+    const std::string name = study::name_in(goal, limit.measure);
+    limits.push_back({log.find(name)->measure, values_of(log, name, file.axis()), limit.largest});
+  }
   std::vector<bool> met;
   for (std::size_t row = 0; row < times.size(); ++row) {
     if (!asked[row]) continue;
     bool all = measures::is_in_time(times[row], goal.within.from_start(travels[row]));
-    for (std::size_t i = 0; i < limited.size(); ++i)
-      all = all && std::abs((*limited[i])[row]) <= goal.limits[i].largest;
+    for (const LoggedLimit& limit : limits) all = all && meets(limit, row);
     met.push_back(all);
   }
   if (met.empty())

@@ -36,9 +36,7 @@ std::optional<CountedLimit> counted_limit(const study::Goal& goal, const study::
     return std::nullopt;
   for (const layout::Measure& measure : layout::measure_table(features)) {
     if (measure.field.column.name == study::name_in(goal, limit.measure))
-      return CountedLimit{
-          [&field = measure.field](const trial::MoveOutcome& move) { return layout::value_of(field, move); },
-          limit.largest};
+      return CountedLimit{&measure, limit.largest};
   }
   return std::nullopt;
 }
@@ -77,8 +75,9 @@ std::vector<CountedGoal> asked_of_moves(const study::Study& study) {
 bool meets(const CountedGoal& goal, const trial::MoveOutcome& move) {
   if (!goal.slot && !goal.tolerance) return trial::is_success(move.outcome);
   if (!is_in_time(settling_time(goal, move), allowed_time(goal, move))) return false;
-  return std::ranges::all_of(
-      goal.limits, [&](const CountedLimit& limit) { return std::abs(limit.value(move)) <= limit.largest; });
+  return std::ranges::all_of(goal.limits, [&](const CountedLimit& limit) {
+    return trial::was_run(move) && is_within(ranked_value(*limit.measure, move), limit.largest);
+  });
 }
 
 std::int64_t count_moves(CellCounts& counts, const CountedGoal& goal, std::int64_t trial,
@@ -174,8 +173,7 @@ bool is_above(const MoveEvent& event) {
 }
 
 double value_of(const layout::Measure& measure, const trial::MoveOutcome& move) {
-  const double value = counted_value(measure, move);
-  return std::isnan(value) && measure.values.nan_is_late ? std::numeric_limits<double>::infinity() : value;
+  return ranked_value(measure, move).value_or(statistics::unknown);
 }
 
 /// Whether the moves of the event may be allowed different times.
@@ -242,10 +240,7 @@ bool happens(const MoveEvent& event, const trial::MoveOutcome& move) {
   if (event.text.empty())
     return std::ranges::any_of(
         event.goals, [&](const CountedGoal& goal) { return asks(goal, move) && !meets(goal, move); });
-  const double value = value_of(event.measure, move);
-  if (std::isnan(value) && trial::was_run(move) && move.outcome == trial::Outcome::nonfinite)
-    return is_above(event);
-  return text::holds(event.sign, value, event.limit);
+  return text::holds(event.sign, value_of(event.measure, move), event.limit);
 }
 
 std::string name_of(MoveScore score, const MoveEvent& event) {

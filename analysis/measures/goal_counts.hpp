@@ -24,9 +24,9 @@
 
 namespace zerocount::measures {
 
-/// A limit of a goal: the magnitude of this value of a move is at most `largest`.
+/// A limit of a goal: the magnitude of the measure is at most `largest`.
 struct CountedLimit {
-  std::function<double(const trial::MoveOutcome&)> value{};
+  const layout::Measure* measure{nullptr};  ///< a row of a table that stays (layout::measure_table())
   double largest{0.0};
 };
 
@@ -154,8 +154,8 @@ MoveEvent parse_event(const study::Study& study, std::string_view text);
 /// Whether the event can be that of this move: a goal is about it, or the event is not of goals.
 bool is_asked(const MoveEvent& event, const trial::MoveOutcome& move);
 
-/// Whether the event is that of this move. A time that the move never reached is later than any limit; a
-/// motion that was lost is above any limit.
+/// Whether the move shows the event. A value that is missing counts as ranked_value() says: an event that
+/// never came is worse than any limit, and nothing to measure is no event.
 bool happens(const MoveEvent& event, const trial::MoveOutcome& move);
 
 /// The continuous scores of a move. Each is larger the nearer a move is to some kind of failure.

@@ -113,7 +113,8 @@ void MeasureAccumulator::add_values(const MovesOfTrials& some) {
   }
   add_totals(some.first_trial, some.of_trial);
   if (in_clusters_)
-    clusters_.add_trials(some.first_trial, values_, some.of_trial, measure_->values.nan_is_late);
+    clusters_.add_trials(some.first_trial, values_, some.of_trial,
+                         measure_->values.missing == layout::Missing::late);
 }
 
 /// Adds values_, [trial, value], to the totals of the clusters. @param trial index of the first

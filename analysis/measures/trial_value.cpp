@@ -2,13 +2,44 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "results/layout/fields.hpp"
 
 namespace zerocount::measures {
+namespace {
+
+/// The value of an event that never came.
+double worst_value(const layout::CountedValues& values) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  return values.worse == layout::Worse::more ? infinity : -infinity;
+}
+
+bool ran_to_its_end(const trial::MoveOutcome& move) {
+  return !move.stopped && move.outcome != trial::Outcome::nonfinite;
+}
+
+}  // namespace
 
 double counted_value(const layout::Measure& measure, const trial::MoveOutcome& move) {
   return counted_value(measure, move, layout::value_of(measure.field, move));
+}
+
+std::optional<double> ranked_value(const layout::CountedValues& values, double value) {
+  if (std::isnan(value) || (values.negative_is_missing && value < 0.0))
+    return values.missing == layout::Missing::none ? std::nullopt : std::optional(worst_value(values));
+  return values.magnitude ? std::abs(value) : value;
+}
+
+std::optional<double> ranked_value(const layout::Measure& measure, const trial::MoveOutcome& move) {
+  const bool is_late = measure.values.missing == layout::Missing::late;
+  if (!trial::was_run(move)) return is_late ? std::optional(worst_value(measure.values)) : std::nullopt;
+  const std::optional<double> value = ranked_value(measure.values, counted_value(measure, move));
+  return value || ran_to_its_end(move) ? value : worst_value(measure.values);
+}
+
+bool is_within(std::optional<double> value, double largest) {
+  return !value || std::abs(*value) <= largest;
 }
 
 bool has_targets(const layout::Measure& measure, std::span<const trial::MoveOutcome> moves) {
@@ -28,7 +59,8 @@ double value_of_trial(const layout::Measure& measure, std::span<const trial::Mov
   const auto value_of_move = [&](const trial::MoveOutcome& move) {
     return layout::value_of(measure.field, move);
   };
-  double result = 0.0;
+  const bool may_lack_it = measure.values.missing == layout::Missing::none;
+  double result = may_lack_it ? statistics::unknown : 0.0;
   switch (measure.reduction) {
     case layout::MoveReduction::all:
     case layout::MoveReduction::any:
@@ -38,9 +70,9 @@ double value_of_trial(const layout::Measure& measure, std::span<const trial::Mov
     case layout::MoveReduction::largest:
       for (const trial::MoveOutcome& move : moves) {
         double value = std::abs(value_of_move(move));
-        if (std::isnan(value) && late && measure.values.nan_is_late) value = late();
-        if (std::isnan(value)) return statistics::unknown;
-        result = std::max(result, value);
+        if (std::isnan(value) && late && measure.values.missing == layout::Missing::late) value = late();
+        if (std::isnan(value) && !(may_lack_it && ran_to_its_end(move))) return statistics::unknown;
+        result = std::fmax(result, value);  // of NaN and a number the number
       }
       return result;
     case layout::MoveReduction::last:

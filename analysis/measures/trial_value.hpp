@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -23,6 +24,15 @@ inline double counted_value(const layout::Measure& measure, const trial::MoveOut
   return measure.values.magnitude ? std::abs(value) : value;
 }
 double counted_value(const layout::Measure& measure, const trial::MoveOutcome& move);
+
+/// A value as limits, events and rankings take it: infinite where an event never came, nothing where there is
+/// nothing to measure (layout::Missing). @param value of the measure's field
+std::optional<double> ranked_value(const layout::CountedValues& values, double value);
+/// The ranked value of a move. A value that is missing because the move was stopped, or lost its motion, is
+/// infinite for any measure. A move that was not run has nothing but times, which are late.
+std::optional<double> ranked_value(const layout::Measure& measure, const trial::MoveOutcome& move);
+/// Whether a ranked value meets a limit of its magnitude. Nothing to measure meets every limit.
+bool is_within(std::optional<double> value, double largest);
 
 /// Whether the moves have targets where the measure needs them.
 bool has_targets(const layout::Measure& measure, std::span<const trial::MoveOutcome> moves);

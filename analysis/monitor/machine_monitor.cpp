@@ -51,6 +51,7 @@ ChangeOfClass change_of_class(const MonitoredMeasure& measure, std::span<const d
                               std::optional<double> change) {
   if (baseline.empty()) return {};
   const double middle = typical_value(measure, {baseline.begin(), baseline.end()});
+  if (std::isinf(middle)) return {};
   ChangeOfClass to_see;
   const auto allow = [&](bool higher, bool lower) {
     if (higher) to_see.directions.push_back(Direction::higher);
@@ -62,7 +63,8 @@ ChangeOfClass change_of_class(const MonitoredMeasure& measure, std::span<const d
     return to_see;
   }
   const auto [low, high] = std::ranges::minmax(baseline);
-  if (middle == 0.0 || std::isinf(middle) || (low < 0.0 && high > 0.0 && !std::isinf(high))) return {};
+  const bool has_both_signs = low < 0.0 && high > 0.0 && std::isfinite(low) && std::isfinite(high);
+  if (middle == 0.0 || has_both_signs) return {};
   to_see.size = change.value_or(usual_relative_change) * std::abs(middle);
   allow(can_be(measure, middle + to_see.size), can_be(measure, middle - to_see.size));
   return to_see;

@@ -40,6 +40,7 @@ std::string with_unit(std::string number, const std::string& unit) {
 /// A typical value of a measure, of a quality its proportion.
 std::string typical_text(const MeasureState& state, double value) {
   if (state.measure.quality) return text::percent_near(value);
+  if (is_nothing(state.measure, value)) return "none";
   return std::isinf(value) ? "never" : with_unit(text::short_number(value), state.unit);
 }
 

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "analysis/measures/trial_value.hpp"
 #include "analysis/monitor/change_test.hpp"
 #include "analysis/statistics/quantile.hpp"
 #include "analysis/text/text.hpp"
@@ -70,6 +71,7 @@ Scale scale_of(const layout::Measure& row, bool quality) {
 using tables::Separator;
 
 constexpr double never = std::numeric_limits<double>::quiet_NaN();
+constexpr double nothing_to_measure = -std::numeric_limits<double>::infinity();  // ranked
 
 std::string lower_case(std::string_view text) {
   std::string lower(text);
@@ -189,10 +191,12 @@ bool can_be_in(const MonitoredMeasure& measure, std::string_view unit) {
 }
 
 double ranked_value(const MonitoredMeasure& measure, double number) {
-  if (std::isnan(number)) return std::numeric_limits<double>::infinity();
   if (measure.name == "outcome") return number == 0.0 ? 1.0 : 0.0;
-  if (measure.name == "arrival" && number < 0.0) return std::numeric_limits<double>::infinity();
-  return measure.row->values.magnitude ? std::abs(number) : number;
+  return measures::ranked_value(measure.row->values, number).value_or(nothing_to_measure);
+}
+
+bool is_nothing(const MonitoredMeasure& measure, double ranked) {
+  return measure.row->values.missing == layout::Missing::none && ranked == nothing_to_measure;
 }
 
 double serial_correlation(std::span<const double> values) {

@@ -73,9 +73,11 @@ std::string linear_unit(const MonitoredMeasure& measure);
 /// multiples of its unit, such as percent. Without a unit: yes.
 bool can_be_in(const MonitoredMeasure& measure, std::string_view unit);
 
-/// The value that is ranked, of the number that a results file or a log has. NaN, which stands for what never
-/// happened, becomes larger than any number.
+/// The value that is ranked, of the number that a results file or a log has. NaN is an event that never came,
+/// worse than any number, or nothing to measure (layout::Missing), less than any number.
 double ranked_value(const MonitoredMeasure& measure, double number);
+/// Whether a ranked value says that there was nothing to measure.
+bool is_nothing(const MonitoredMeasure& measure, double ranked);
 
 /// The rank correlation of successive values, 1 − V/2 with the rank version of von Neumann's ratio
 /// V = Σ(r_t − r_{t+1})²/Σ(r_t − r̄)² (Bartels, J. Amer. Statist. Assoc. 77 (1982) 40); 0 where all are equal.

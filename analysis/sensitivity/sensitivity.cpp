@@ -45,7 +45,7 @@ SensitivityOutput output_of(const layout::Measure& measure) {
           .unit = measure.field.column.unit,
           .meaning = std::string(measure.output->meaning),
           .yes_or_no = layout::is_quality(measure),
-          .of_every_trial = layout::is_quality(measure) || measure.values.nan_is_late,
+          .of_every_trial = layout::is_quality(measure) || measure.values.missing == layout::Missing::late,
           .never = measure.band ? "ended outside the band" : "never arrived",
           .value = [&measure](std::span<const trial::MoveOutcome> moves,
                               const std::function<double()>& duration) {

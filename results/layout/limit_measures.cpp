@@ -55,7 +55,7 @@ constexpr auto values_of_tolerances() {
 std::vector<Measure> measures_of_band(const trial::ErrorBands& bands, std::size_t slot) {
   using B = trial::BandOutcome;
   const std::int64_t band = bands.values()[slot];
-  const CountedValues times{.needs_target = true, .nan_is_late = true};
+  const CountedValues times{.needs_target = true, .missing = Missing::late};
   std::vector<Measure> measures;
   measures.push_back(
       {.field = field_of_band(band_fields()[0], band, values_of_bands<&B::entry_time>()[slot]),
@@ -117,7 +117,7 @@ std::vector<Measure> measures_of_tolerance(const trial::Tolerances& tolerances, 
         .field = {std::move(column), value, field.valid},
         .tolerance = tolerance,
         .only_with = only_with,
-        .values = {.needs_target = true, .nan_is_late = true},
+        .values = {.needs_target = true, .missing = Missing::late},
         .reduction = MoveReduction::largest,
         .point = {mass.empty()     ? "settling_time"
                   : mass == "load" ? "load_settling_time"

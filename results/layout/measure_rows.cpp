@@ -38,10 +38,12 @@ struct ShownMotion {
 
 /// A measure of the true motion: a move has one where it is not NaN, and a trial the largest of its moves.
 /// @param use the extra without which no file has it
-Measure of_motion(bool study::StudyFeatures::*use, const char* name, const char* unit, const char* long_name,
-                  double M::*member, const ShownMotion& shown = {}) {
+/// @param missing what a move without the measure lacks
+Measure of_motion(bool study::StudyFeatures::*use, Missing missing, const char* name, const char* unit,
+                  const char* long_name, double M::*member, const ShownMotion& shown = {}) {
   Measure measure{.field = field<M>(name, unit, long_name, member, an_error_or_nan),
                   .only_with = use,
+                  .values = {.missing = missing},
                   .reduction = MoveReduction::largest,
                   .point = mean_of_motion(name)};
   if (!shown.head.empty()) measure.summary = {use, {bounded_mean(shown.head)}, shown.legend};
@@ -95,10 +97,11 @@ MeasureTable own_measures() {
        .gate = {{"arrival_rate", Worse::less, margin_of_rates}}},
       {.field = field<M>("arrival", "1",
                          "first sample of the arrival dwell from the start of the move, -1 if never",
-                         &M::arrival, {"a sample, or -1", -1.0})},
+                         &M::arrival, {"a sample, or -1", -1.0}),
+       .values = {.negative_is_missing = true}},
       {.field = field<M>("settling_time", "s", "time of arrival from the start of the move, NaN if never",
                          &M::arrival_time, a_time_or_nan),
-       .values = {.needs_target = true, .nan_is_late = true},
+       .values = {.needs_target = true, .missing = Missing::late},
        .reduction = MoveReduction::largest,
        .point = {"settling_time",
                  {{{n}, "moves that arrived, of which mean, min and max are"},
@@ -126,7 +129,7 @@ MeasureTable own_measures() {
       {.field = field<M>("final_settling_time", "s",
                          "settling time at zero error, from the start of the move, NaN if never",
                          &M::final_settling_time, a_time_or_nan),
-       .values = {.needs_target = true, .nan_is_late = true},
+       .values = {.needs_target = true, .missing = Missing::late},
        .point =
            {"final_settling_time",
             {{{n}, "moves that ended at zero error, of which mean, min and max are"},
@@ -145,6 +148,7 @@ MeasureTable own_measures() {
            "zero_fraction", "1",
            "fraction of the samples from arrival to the end with an error of 0, NaN if never arrived",
            &M::zero_fraction, a_fraction_or_nan),
+       .values = {.worse = Worse::less},
        .point = {"zero_fraction",
                  {{{n}, "moves that arrived, of which the zero fractions are"},
                   {{mean}, "mean fraction of the samples since arrival with an error of 0"}}}},
@@ -254,6 +258,7 @@ MeasureTable own_measures() {
                    "move"}}},
       {.field = field<M>("travel_time", "s", "time until the reference or the $torque is where it is held",
                          &M::travel_time, a_time_or_nan),
+       .values = {.missing = Missing::none},
        .point = {"travel_time",
                  {{{mean}, "mean time until the reference or the $torque is where it is held, of the moves"},
                   {{max}, "longest time until the reference or the $torque is where it is held"}}},
@@ -288,6 +293,7 @@ MeasureTable own_measures() {
                          "move, NaN of others",
                          &M::oscillation_amplitude,
                          {.expected = "a finite amplitude, not negative, or NaN", .nan = true}),
+       .values = {.missing = Missing::none},
        .point = {"oscillation",
                  {{{n}, "moves that oscillated to their end"},
                   {{median}, "median amplitude of these moves in their last half", "amplitude_median"}}}},
@@ -295,6 +301,7 @@ MeasureTable own_measures() {
                          "mean time between upward crossings of the middle of these counts, NaN if fewer "
                          "than two",
                          &M::oscillation_period, a_time_or_nan),
+       .values = {.missing = Missing::none},
        .point = {"oscillation",
                  {{{median}, "median period of those of these moves that have one", "period_median"}}}},
       {.field = field<M>("reversal_depth", "1", "largest number of reversal points on the stack",
@@ -319,7 +326,8 @@ MeasureTable own_measures() {
        .gate = {{"jerk_count", Worse::more, 0.05, 0.1}}},
       {.field = field<M>("jerk_agreement", "1",
                          "proportion of the jerks in the direction of the holding $torque, NaN if none",
-                         &M::jerk_agreement, {"a proportion, or NaN", 0.0, 1.0, true})},
+                         &M::jerk_agreement, {"a proportion, or NaN", 0.0, 1.0, true}),
+       .values = {.missing = Missing::none}},
       {.field = field<M>("stopped", "1",
                          "the move had diverged and was ended there, or was not run after one that was",
                          &M::stopped),
@@ -342,26 +350,26 @@ MeasureTable own_measures() {
             "controller failed: proportion of trials that the controller ended by giving no finite torque; "
             "they count as nonfinite\n"}},
       of_motion(
-          &F::motion, "rest_error_rms", "count", "rms of the true error at rest, NaN if never at rest",
-          &M::rest_error_rms,
+          &F::motion, Missing::never, "rest_error_rms", "count",
+          "rms of the true error at rest, NaN if never at rest", &M::rest_error_rms,
           {"rest rms",
            "rest rms, rest p-p: of the true error (counts) from the entry into the rest band to the end "
            "of the move, mean over moves\n",
            "rms of the true error at rest, the largest of the trial's moves"}),
-      of_motion(&F::motion, "rest_error_range", "count",
+      of_motion(&F::motion, Missing::never, "rest_error_range", "count",
                 "peak to peak of the true error at rest, NaN if never at rest", &M::rest_error_range,
                 {"rest p-p"}),
-      of_motion(&F::motion, "rest_motion_rms", "rad", "rms of the true error at rest, NaN if never at rest",
-                &M::rest_motion_rms),
-      of_motion(&F::motion, "rest_motion_range", "rad",
+      of_motion(&F::motion, Missing::never, "rest_motion_rms", "rad",
+                "rms of the true error at rest, NaN if never at rest", &M::rest_motion_rms),
+      of_motion(&F::motion, Missing::never, "rest_motion_range", "rad",
                 "peak to peak of the true error at rest, NaN if never at rest", &M::rest_motion_range),
-      of_motion(&F::motion, "rest_torque_power", "(N m)^2",
+      of_motion(&F::motion, Missing::never, "rest_torque_power", "(N m)^2",
                 "mean square of the $torque at rest, NaN if never at rest", &M::rest_torque_power,
                 {"$torque power",
                  "$torque power, $torque noise: mean square of the $torque at rest, and of its changes from "
                  "sample to sample, mean over moves\n",
                  "mean square of the $torque at rest, the largest of the moves"}),
-      of_motion(&F::motion, "rest_torque_noise", "(N m)^2",
+      of_motion(&F::motion, Missing::never, "rest_torque_noise", "(N m)^2",
                 "mean square of the changes of the $torque from sample to sample at rest, NaN if never at "
                 "rest",
                 &M::rest_torque_noise, {"$torque noise"}),
@@ -391,15 +399,15 @@ MeasureTable own_measures() {
                    "step\n"},
        .output = {{"step_made", "all moves went the commanded step, to half of it"}}},
       of_motion(
-          &F::following, "following_error_rms", "count", "rms of the true following error, NaN of a step",
-          &M::following_error_rms,
+          &F::following, Missing::none, "following_error_rms", "count",
+          "rms of the true following error, NaN of a step", &M::following_error_rms,
           {"following rms", "following rms, peak: of the true following error (counts), mean over moves\n",
            "rms of the true following error, the largest of the moves"}),
-      of_motion(&F::following, "following_error_peak", "count",
+      of_motion(&F::following, Missing::none, "following_error_peak", "count",
                 "largest magnitude of the true following error, NaN of a step", &M::following_error_peak,
                 {"following peak", "", "largest magnitude of the true following error"}),
       of_motion(
-          &F::reversals, "reversal_spike", "count",
+          &F::reversals, Missing::none, "reversal_spike", "count",
           "largest magnitude of the true following error in the quarter of a period after a reversal of "
           "the sine, NaN if none",
           &M::reversal_spike,

@@ -17,13 +17,25 @@
 /// error bands, and of tolerances, have one row for all of them.
 namespace zerocount::layout {
 
-/// Which values of the moves count, in statistics and in outputs of a trial.
+/// Meaning of a value that a move lacks although it was run. A move that was stopped, or lost its motion,
+/// lacks values for that reason instead: they are worse than every limit, for any measure.
+enum class Missing {
+  never,  ///< An event did not come, such as rest. The value is worse than every limit.
+  late,   ///< As `never`, for a time. Quantiles are over all moves, and count it as later than any time.
+  none    ///< There is nothing to measure, such as an oscillation. The move meets every limit.
+};
+
+enum class Worse { less, more };
+
+/// Values of the moves that count, in statistics and in outputs of a trial.
 struct CountedValues {
-  bool needs_target{false};  ///< undefined for moves to a torque level; a sum over them is 0
-  bool needs_motion{false};  ///< undefined for moves whose motion was lost
-  bool nan_is_late{false};   ///< NaN is a time later than any other; otherwise it is not a value
-  bool magnitude{false};     ///< statistics are of the absolute value
-  bool mirrored{false};      ///< has the opposite sign in a move of the opposite direction
+  bool needs_target{false};         ///< undefined for moves to a torque level; a sum over them is 0
+  bool needs_motion{false};         ///< undefined for moves whose motion was lost
+  Missing missing{Missing::never};  ///< meaning of NaN
+  bool negative_is_missing{false};  ///< Negative values mean the same as NaN.
+  Worse worse{Worse::more};         ///< whether larger or smaller values are worse; orders Missing::never
+  bool magnitude{false};            ///< statistics are of the absolute value
+  bool mirrored{false};             ///< has the opposite sign in a move of the opposite direction
 };
 
 /// How the values of the moves make one value of their trial.
@@ -117,8 +129,6 @@ struct ExplainedOutput {
   std::string name;
   std::string_view meaning;
 };
-
-enum class Worse { less, more };
 
 /// A measure as the gate judges it: qualities by the proportion of trials that have them, sums by their mean
 /// over trials, others by the mean over trials of the mean over the moves that have a value.

@@ -34,10 +34,14 @@ struct UnitOfEntry {
 /// Units that one thread runs at once, of one entry or of several.
 using Block = std::vector<UnitOfEntry>;
 
-double value_of(const Criterion& criterion, const trial::MoveOutcome& move) {
-  const double value = measures::counted_value(*criterion.measure, move);
+/// Adds the criterion's value of a move, infinite for never, where the move has something to measure.
+void add_value(std::vector<double>& values, const Criterion& criterion, const trial::MoveOutcome& move) {
   const double scale = criterion.scale ? criterion.scale->from_start(move.travel_time) : 1.0;
-  return measures::lateness(value / scale);
+  if (!trial::was_run(move)) {
+    values.push_back(std::numeric_limits<double>::infinity());
+  } else if (const std::optional<double> value = measures::ranked_value(*criterion.measure, move)) {
+    values.push_back(measures::lateness(*value / scale));
+  }
 }
 
 /// Adds the moves of a trial to the result of its unit.
@@ -56,7 +60,7 @@ class TrialCounter {
         if (!measures::asks(goals_[goal], move)) continue;
         ++claim.moves;
         claim.met += measures::meets(goals_[goal], move) ? 1 : 0;
-        claim.values.push_back(value_of(criteria_[goal], move));
+        add_value(claim.values, criteria_[goal], move);
         result.slid = result.slid || move.broke_away;
       }
     }

@@ -41,6 +41,25 @@ TEST(MoveLog, ReadsMeasuresByNameWithBandsUnitsAndMissingValues) {
   EXPECT_EQ(log.find("band_settling_time[2]"), nullptr);
 }
 
+// A machine that begins to oscillate has a larger amplitude than before, and one that no longer arrives a
+// smaller fraction of its time at zero.
+TEST(MoveLog, RanksEmptyCellsByWhatTheyMean) {
+  const monitor::MoveLog log = log_of(
+      "settling_time,rest_error_rms,zero_fraction,arrival,oscillation_amplitude,jerk_agreement\n"
+      "0.05,0.3,0.9,7,4,0.5\n,,,-1,,\n");
+  for (const auto& [measure, missing] :
+       {std::pair{"settling_time", never}, std::pair{"rest_error_rms", never},
+        std::pair{"zero_fraction", -never}, std::pair{"arrival", never},
+        std::pair{"oscillation_amplitude", -never}, std::pair{"jerk_agreement", -never}}) {
+    const monitor::Moves::Column& column = *log.find(measure);
+    EXPECT_EQ(column.values.back(), missing) << measure;
+    const bool is_nothing =
+        column.measure.name == "oscillation_amplitude" || column.measure.name == "jerk_agreement";
+    EXPECT_EQ(monitor::is_nothing(column.measure, column.values.back()), is_nothing) << measure;
+    EXPECT_FALSE(monitor::is_nothing(column.measure, column.values.front())) << measure;
+  }
+}
+
 TEST(MoveLog, TakesMagnitudesOfErrorsAndDecimalCommas) {
   const monitor::MoveLog log = log_of("final_error;settling_time\n-3;0,05\n2;0,06\n");
   EXPECT_EQ(log.find("final_error")->values, (Values{3.0, 2.0}));

@@ -68,10 +68,10 @@ std::string name_text(const study::Goal& goal) {
   return goal.name.empty() ? "" : goal.name + ": ";
 }
 
-std::string_view ending_of(trial::Outcome outcome) {
+std::string ending_of(trial::Outcome outcome, std::string_view of_mass) {
   switch (outcome) {
     case trial::Outcome::zero_count:
-      return "it ends at zero counts";
+      return fmt::format("it ends at zero counts{}", of_mass);
     case trial::Outcome::one_count:
       return "it ends within one count of the target";
     case trial::Outcome::off_target:
@@ -126,7 +126,7 @@ std::string together_text(const Question& question, const measures::PointSummary
 }  // namespace
 
 std::string of_mass(const study::Goal& goal) {
-  if (goal.of_either) return " of the mass whose encoder closes the loop";
+  if (goal.of_either) return std::string(study::of_closing_mass({.motor_closes = true, .load_closes = true}));
   return goal.of ? fmt::format(" of the {}", study::mass_text(*goal.of)) : "";
 }
 
@@ -153,12 +153,18 @@ std::string claim_sentence(const Question& question) {
 }
 
 std::string question_sentence(const Question& question) {
-  if (!question.claim()) return "success: all moves of a trial end at zero counts";
+  if (!question.claim())
+    return fmt::format("success: all moves of a trial end at zero counts{}", question.of_mass);
   return (has_several(question) ? "the goals: " : "the goal: ") + claim_sentence(question);
 }
 
+std::string doing_text(const Question& question) {
+  if (!question.claim()) return fmt::format("end at zero counts{}", question.of_mass);
+  return has_several(question) ? "meet the goals that are about them" : "meet the goal";
+}
+
 std::string missing_text(const Question& question) {
-  if (!question.claim()) return "does not end at zero counts";
+  if (!question.claim()) return fmt::format("does not end at zero counts{}", question.of_mass);
   if (has_several(question)) return "misses a goal";
   return fmt::format("misses the goal: {} for good {}{}", band_text(*question.claim()),
                      after_text(question.claim()->within, fmt::format("{} s", question.claim()->within.time)),
@@ -166,7 +172,7 @@ std::string missing_text(const Question& question) {
 }
 
 std::string ending_text(const Question& question, std::span<const trial::MoveOutcome> moves) {
-  if (!question.claim()) return std::string(ending_of(trial::worst_outcome(moves)));
+  if (!question.claim()) return ending_of(trial::worst_outcome(moves), question.of_mass);
   const auto is_asked = [&](const trial::MoveOutcome& move) {
     return std::ranges::any_of(question.parts,
                                [&](const JudgedPart& part) { return measures::asks(part.counted, move); });

@@ -39,6 +39,9 @@ std::string goals_text(const Question& question, const measures::PointSummary& p
 /// s", "does not end at zero counts".
 std::string missing_text(const Question& question);
 
+/// Predicate of the moves of a trial that succeeds: "meet the goal", "end at zero counts".
+std::string doing_text(const Question& question);
+
 /// How the moves of a trial end: "2 of 3 moves meet the goal", or by the worst of them "it ends at zero
 /// counts".
 std::string ending_text(const Question& question, std::span<const trial::MoveOutcome> moves);

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
+#include <map>
+#include <mutex>
 #include <ranges>
 #include <type_traits>
 #include <utility>
@@ -23,45 +25,50 @@
 namespace zerocount::goal {
 namespace {
 
-constexpr QuestionWords words_of_goal{
-    .subject = "goal",
-    .title = "Moves in the goal",
-    .events = "moves",
-    .meeting = "moves that meet the goal",
-    .meet = "meet the goal",
-    .head = "moves in goal",
-    .rate = "rate of moves in goal",
-    .hits = "moves in goal",
-    .settles = "settles in the goal's band",
-    .failed = "missed the goal",
-    .succeeded = "met the goal",
-    .failure = "miss",
-    .failing = "trials that miss the goal",
-    .trial_rate = "rate of trials in goal",
-    .rig_head = "machines w/o miss",
-    .rig_meaning =
-        "proportion of machines all of whose moves meet the goal (the worst of several, under the "
-        "worst condition)",
-    .falls_short = "fall short of the goal by their observed rates"};
+const QuestionWords& words_of_goal() {
+  static const QuestionWords words{
+      .subject = "goal",
+      .title = "Moves in the goal",
+      .events = "moves",
+      .meeting = "moves that meet the goal",
+      .meet = "meet the goal",
+      .head = "moves in goal",
+      .rate = "rate of moves in goal",
+      .hits = "moves in goal",
+      .settles = "settles in the goal's band",
+      .failed = "missed the goal",
+      .succeeded = "met the goal",
+      .failure = "miss",
+      .failing = "trials that miss the goal",
+      .trial_rate = "rate of trials in goal",
+      .rig_head = "machines w/o miss",
+      .rig_meaning =
+          "proportion of machines all of whose moves meet the goal (the worst of "
+          "several, under the worst condition)",
+      .falls_short = "fall short of the goal by their observed rates"};
+  return words;
+}
 
-constexpr QuestionWords words_of_success{
-    .subject = "success",
-    .title = "Success",
-    .events = "trials",
-    .meeting = "trials that end at zero counts",
-    .meet = "end at zero counts",
-    .head = "zero-count",
-    .rate = "success rate",
-    .hits = "successes",
-    .settles = "arrives",
-    .failed = "failed",
-    .succeeded = "succeeded",
-    .failure = "failure",
-    .failing = "failed trials",
-    .trial_rate = "success rate",
-    .rig_head = "machines w/o failure",
-    .rig_meaning = "proportion of machines all of whose trials ended at zero error",
-    .falls_short = "are shown to succeed less often than the median world"};
+QuestionWords words_of_success(std::string_view of_mass) {
+  return {
+      .subject = "success",
+      .title = "Success",
+      .events = "trials",
+      .meeting = fmt::format("trials that end at zero counts{}", of_mass),
+      .meet = fmt::format("end at zero counts{}", of_mass),
+      .head = "zero-count",
+      .rate = "success rate",
+      .hits = "successes",
+      .settles = "arrives",
+      .failed = "failed",
+      .succeeded = "succeeded",
+      .failure = "failure",
+      .failing = "failed trials",
+      .trial_rate = "success rate",
+      .rig_head = "machines w/o failure",
+      .rig_meaning = fmt::format("proportion of machines all of whose trials ended at zero error{}", of_mass),
+      .falls_short = "are shown to succeed less often than the median world"};
+}
 
 /// The trials that succeed, each as one move.
 measures::MoveCounts successes_of(const measures::PointSummary& point) {
@@ -122,7 +129,8 @@ Question question_of(const study::Study& study) {
                     .worlds = study.worlds,
                     .stopped = study.stop.has_value(),
                     .conditions = study.conditions,
-                    .ages = study.ages};
+                    .ages = study.ages,
+                    .of_mass = study::of_closing_mass(study.features)};
   const std::vector<measures::CountedGoal> counted = measures::asked_of_moves(study);
   for (std::size_t i = 0; i < counted.size(); ++i) {
     question.parts.push_back({.number = i, .counted = counted[i]});
@@ -154,7 +162,18 @@ void require_targets(const study::Study& study, std::string_view path) {
 }
 
 const QuestionWords& words_of(const Question& question) {
-  return question.claim() ? words_of_goal : words_of_success;
+  if (question.claim()) return words_of_goal();
+  static std::mutex mutex;
+  static std::map<std::string_view, QuestionWords> of_success;  // references into a map stay valid
+  const std::lock_guard lock(mutex);
+  const auto known = of_success.find(question.of_mass);
+  return known != of_success.end()
+             ? known->second
+             : of_success.emplace(question.of_mass, words_of_success(question.of_mass)).first->second;
+}
+
+std::string success_verb(const Question& question) {
+  return question.of_mass.empty() ? "succeed" : fmt::format("end at zero counts{}", question.of_mass);
 }
 
 bool meets(const Question& question, std::span<const trial::MoveOutcome> moves) {
@@ -357,7 +376,8 @@ std::string_view judged_head(const Question& question) {
 }
 
 std::string_view judged_meeting(const Question& question) {
-  return is_of_machines(question) ? "machines that meet the goal" : words_of(question).meeting;
+  return is_of_machines(question) ? std::string_view("machines that meet the goal")
+                                  : std::string_view(words_of(question).meeting);
 }
 
 double confidence_of(const Question& question, double others) {

@@ -38,6 +38,8 @@ struct Question {
   /// (Study::conditions).
   std::vector<std::string> conditions{};
   study::Ages ages{};
+  /// study::of_closing_mass(): " of the motor", the mass whose zero counts are success.
+  std::string_view of_mass{};
 
   /// The claim that is judged, the first of several; nothing where success is not claimed.
   const std::optional<study::Goal>& claim() const { return parts.front().claim; }
@@ -73,13 +75,13 @@ inline Question success(const Question& question) {
 }
 
 /// How answers speak of the question. With a claim they count moves, else trials: success is of a whole
-/// trial.
+/// trial. On an axis with two masses, zero counts name the one whose encoder they are of.
 struct QuestionWords {
   std::string_view subject;      ///< "goal", "success"
   std::string_view title;        ///< of figures: "Moves in the goal", "Success"
   std::string_view events;       ///< what is counted: "moves", "trials"
-  std::string_view meeting;      ///< "moves that meet the goal", "trials that end at zero counts"
-  std::string_view meet;         ///< of moves: "meet the goal", "end at zero counts"
+  std::string meeting;           ///< "moves that meet the goal", "trials that end at zero counts"
+  std::string meet;              ///< of moves: "meet the goal", "end at zero counts"
   std::string_view head;         ///< of a column of their rate: "moves in goal", "zero-count"
   std::string_view rate;         ///< "rate of moves in goal", "success rate"
   std::string_view hits;         ///< "moves in goal", "successes"
@@ -90,10 +92,12 @@ struct QuestionWords {
   std::string_view failing;      ///< trials: "trials that miss the goal", "failed trials"
   std::string_view trial_rate;   ///< "rate of trials in goal", "success rate"
   std::string_view rig_head;     ///< of a column of rigs: "rigs w/o miss", "rigs w/o failure"
-  std::string_view rig_meaning;  ///< "proportion of rigs all of whose moves meet the goal" …
+  std::string rig_meaning;       ///< "proportion of rigs all of whose moves meet the goal" …
   std::string_view falls_short;  ///< of worlds: "fall short of the goal by their observed rates" …
 };
 const QuestionWords& words_of(const Question& question);
+/// Verb of trials that succeed: "succeed", with two masses "end at zero counts of the motor".
+std::string success_verb(const Question& question);
 
 /// Whether a trial with these moves meets the question: all of them do.
 bool meets(const Question& question, std::span<const trial::MoveOutcome> moves);

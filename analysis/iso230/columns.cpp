@@ -22,10 +22,11 @@ using PointTable = RepeatabilityTable<PointRepeatability>;
 
 /// A column for every value of `fields`, from every source. `values(repeatability, target)` has them.
 template <typename Values, typename ValuesOf>
-void add_values(TrialTable& table, std::span<const RepeatabilityField<Values>> fields, ValuesOf values) {
-  for (const DeviationSource& source : deviation_sources()) {
+void add_values(TrialTable& table, const DeviationSources& sources,
+                std::span<const RepeatabilityField<Values>> fields, ValuesOf values) {
+  for (const DeviationSource& source : sources) {
     for (const RepeatabilityField<Values>& field : fields) {
-      table.add({fmt::format("{}/{}", source.name, field.name), std::string(source.unit),
+      table.add({fmt::format("{}/{}", source.name, field.name), source.unit,
                  fmt::format("{}, {}", field.long_name, source.long_name)},
                 [&source, &field, values](Trial trial, std::size_t target) {
                   if (!trial.values) return statistics::unknown;
@@ -38,15 +39,14 @@ void add_values(TrialTable& table, std::span<const RepeatabilityField<Values>> f
 /// A column for every statistic of every value of `fields`, from every source. `values(source, target)` has
 /// the statistics, [field].
 template <typename Values, typename ValuesOf>
-void add_statistics(PointTable& table, std::span<const RepeatabilityField<Values>> fields, bool of_targets,
-                    ValuesOf values) {
-  for (std::size_t i = 0; i < deviation_sources().size(); ++i) {
-    const DeviationSource& source = deviation_sources()[i];
+void add_statistics(PointTable& table, const DeviationSources& sources,
+                    std::span<const RepeatabilityField<Values>> fields, bool of_targets, ValuesOf values) {
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    const DeviationSource& source = sources[i];
     for (std::size_t field = 0; field < fields.size(); ++field) {
       for (const ValueStatisticField& statistic : value_statistic_fields()) {
         if (of_targets && !statistic.of_targets) continue;
-        table.add({fmt::format("{}/{}_{}", source.name, fields[field].name, statistic.name),
-                   std::string(source.unit),
+        table.add({fmt::format("{}/{}_{}", source.name, fields[field].name, statistic.name), source.unit,
                    fmt::format("{} {}, {}", statistic.long_name, fields[field].long_name, source.long_name)},
                   [i, field, &statistic, values](Point point, std::size_t target) {
                     return statistic.value(values(point.sources[i], target)[field]);
@@ -126,7 +126,7 @@ const std::vector<text::ReportField<PointRepeatability>>& point_repeatability_fi
   return fields;
 }
 
-TrialTable trial_axis_table() {
+TrialTable trial_axis_table(const DeviationSources& sources) {
   TrialTable table{{"repeatability/trial", rows_of_trials(), {}, {}}};
   table.add({"evaluated",
              "1",
@@ -134,46 +134,61 @@ TrialTable trial_axis_table() {
              hdf5::Element::flag,
              {{0, "no"}, {1, "yes"}}},
             [](Trial trial, std::size_t) { return trial.values ? 1.0 : 0.0; });
-  add_values(table, axis_fields(), [](const Repeatability& r, std::size_t) { return r.axis; });
+  add_values(table, sources, axis_fields(), [](const Repeatability& r, std::size_t) { return r.axis; });
   return table;
 }
 
-TrialTable trial_target_table() {
+TrialTable trial_target_table(const DeviationSources& sources) {
   TrialTable table{{"repeatability/trial_target", rows_of_trials(), targets_of_list(), {}}};
   table.add({"position", "count", "the target, from the start of the trial"},
             [](Trial trial, std::size_t target) { return trial.positions[target]; });
-  add_values(table, target_fields(),
+  add_values(table, sources, target_fields(),
              [](const Repeatability& r, std::size_t target) { return r.targets[target]; });
   return table;
 }
 
-PointTable point_axis_table() {
+PointTable point_axis_table(const DeviationSources& sources) {
   PointTable table{{"repeatability/point", rows_of_points(), {}, {}}};
   for (const text::ReportField<PointRepeatability>& field : point_repeatability_fields())
     table.add({field.name, field.unit, field.long_name},
               [&field](Point point, std::size_t) { return field.value(point); });
-  add_statistics(table, axis_fields(), false,
+  add_statistics(table, sources, axis_fields(), false,
                  [](const SourceRepeatability& source, std::size_t) { return std::span(source.axis); });
   return table;
 }
 
-PointTable point_target_table() {
+PointTable point_target_table(const DeviationSources& sources) {
   PointTable table{{"repeatability/point_target", rows_of_points(), targets_of_list(), {}}};
   table.add({"position_min", "count", "smallest position of the target in a trial"},
             [](Point point, std::size_t target) { return point.positions[target].min; });
   table.add({"position_max", "count", "largest position of the target in a trial"},
             [](Point point, std::size_t target) { return point.positions[target].max; });
-  add_statistics(table, target_fields(), true, [](const SourceRepeatability& source, std::size_t target) {
-    return std::span(source.targets[target]);
-  });
+  add_statistics(table, sources, target_fields(), true,
+                 [](const SourceRepeatability& source, std::size_t target) {
+                   return std::span(source.targets[target]);
+                 });
   return table;
 }
 
-std::span<const DeviationSource> deviation_sources() {
-  static constexpr std::array<DeviationSource, 2> sources{
-      {{"true", "rad", "from the true position", &TrialRepeatability::from_position},
-       {"encoder", "count", "from the fine encoder", &TrialRepeatability::from_encoder}}};
-  return sources;
+const DeviationSources& deviation_sources(const study::StudyFeatures& features) {
+  const auto with = [](bool motor_closes, bool load_closes) {
+    using enum motion::EncoderPlace;
+    const std::string mass(
+        study::of_closing_mass({.motor_closes = motor_closes, .load_closes = load_closes}));
+    DeviationSources sources{
+        {"true", "rad", "from the true position" + mass, &TrialRepeatability::from_position},
+        {"encoder", "count", "from the fine encoder" + mass, &TrialRepeatability::from_encoder}};
+    if (motor_closes)
+      sources.push_back(
+          {"load_true", "rad", "from the true position of the load", &TrialRepeatability::of_load, load});
+    if (load_closes)
+      sources.push_back(
+          {"motor_true", "rad", "from the true position of the motor", &TrialRepeatability::of_motor, motor});
+    return sources;
+  };
+  static const std::array<DeviationSources, 4> all{with(false, false), with(true, false), with(false, true),
+                                                   with(true, true)};  // tables refer to them
+  return all[(features.motor_closes ? 1U : 0U) + (features.load_closes ? 2U : 0U)];
 }
 
 std::span<const RepeatabilityField<AxisRepeatability>> axis_fields() {

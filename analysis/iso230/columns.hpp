@@ -16,6 +16,8 @@
 #include "analysis/statistics/sums/moments.hpp"
 #include "analysis/statistics/unknown.hpp"
 #include "analysis/text/report_field.hpp"
+#include "core/motion/parameters.hpp"
+#include "experiments/study/features.hpp"
 #include "results/layout/layout.hpp"
 
 namespace zerocount::iso230 {
@@ -53,11 +55,30 @@ struct PointRepeatability {
   double zero_rate{statistics::unknown};                 ///< zero_repeatability / trials; NaN for n = 1
   statistics::ConfidenceInterval zero_bounds{0.0, 1.0};  ///< of zero_rate; with rigs Korn–Graubard
   std::vector<statistics::Moments> positions;            ///< [target], counts
-  std::vector<SourceRepeatability> sources;              ///< [deviation_sources()]
+  std::vector<SourceRepeatability> sources;              ///< [source]
+  bool has_load{false};                                  ///< There is a second mass in some trial.
+  /// Mass whose encoder closes the loop. Nothing on an axis with one mass, or where trials of the point
+  /// differ.
+  std::optional<motion::EncoderPlace> closing{};
 };
 
 /// The numbers of a point that are neither of the axis nor of a target.
 const std::vector<text::ReportField<PointRepeatability>>& point_repeatability_fields();
+
+/// The scale by which the deviations are measured.
+struct DeviationSource {
+  std::string name;       ///< "true", "encoder", "load_true" or "motor_true"
+  std::string unit;       ///< of the deviations, and of all values made of them
+  std::string long_name;  ///< ends the long_name of a value
+  Repeatability TrialRepeatability::*values;
+  /// Mass other than the one that closes the loop. Nothing: the source is of the one that does.
+  std::optional<motion::EncoderPlace> other{};
+};
+using DeviationSources = std::vector<DeviationSource>;
+
+/// The true position, then the encoder; with a second mass then the true position of each mass that does not
+/// close the loop somewhere.
+const DeviationSources& deviation_sources(const study::StudyFeatures& features);
 
 /// The repeatability part of the summary of a study with a sequence.
 struct RepeatabilitySummary {
@@ -65,10 +86,11 @@ struct RepeatabilitySummary {
   SequenceShape shape;
   std::vector<PointRepeatability> points;                   ///< [point]
   parameters::AxisKind axis{parameters::AxisKind::rotary};  ///< whose units the deviations have
+  const DeviationSources* sources{&deviation_sources({})};  ///< of which the points have values
 };
 
 /// A table of the group /repeatability of a results file. The columns of values are named "<source>/<value>",
-/// for every source in the order of deviation_sources() and axis_fields() or target_fields(); those of points
+/// for every source in order, and axis_fields() or target_fields(); those of points
 /// "<source>/<value>_<statistic>", in the order of value_statistic_fields(). The file, the CSV summary and
 /// the export have them from here.
 template <typename Row>
@@ -90,25 +112,14 @@ struct SequenceTrial {
 };
 
 /// /repeatability/trial: `evaluated`, then the values of the axis, [trial].
-RepeatabilityTable<SequenceTrial> trial_axis_table();
+RepeatabilityTable<SequenceTrial> trial_axis_table(const DeviationSources& sources);
 /// /repeatability/trial_target: `position`, then the values of the targets, [trial, target].
-RepeatabilityTable<SequenceTrial> trial_target_table();
+RepeatabilityTable<SequenceTrial> trial_target_table(const DeviationSources& sources);
 /// /repeatability/point: point_repeatability_fields(), then the statistics of the axis, [point].
-RepeatabilityTable<PointRepeatability> point_axis_table();
+RepeatabilityTable<PointRepeatability> point_axis_table(const DeviationSources& sources);
 /// /repeatability/point_target: `position_min`, `position_max`, then the statistics of the targets, [point,
 /// target].
-RepeatabilityTable<PointRepeatability> point_target_table();
-
-/// The scale by which the deviations are measured.
-struct DeviationSource {
-  std::string_view name;       ///< "true" or "encoder"
-  std::string_view unit;       ///< of the deviations, and of all values made of them
-  std::string_view long_name;  ///< ends the long_name of a value
-  Repeatability TrialRepeatability::*values;
-};
-
-/// The true position, then the encoder.
-std::span<const DeviationSource> deviation_sources();
+RepeatabilityTable<PointRepeatability> point_target_table(const DeviationSources& sources);
 
 template <typename Values>
 struct RepeatabilityField {

@@ -175,13 +175,23 @@ std::optional<TrialRepeatability> trial_repeatability(std::span<const study::Seq
   }
   if (std::any_of(moves.begin(), moves.end(), lost)) return std::nullopt;
   const double resolution = loop::fine_resolution(parameters.encoder);
-  const auto from_position = [&](std::size_t move) {
+  const auto of_motor = [&](std::size_t move) {
     const auto target = static_cast<double>(parameters.command.targets[move]);
     return moves[move].final_position - (target + 0.5 - parameters.initial.encoder_phase) * resolution;
   };
-  const auto from_encoder = [&](std::size_t move) { return static_cast<double>(-moves[move].final_error); };
-  return TrialRepeatability{repeatability_of(deviations(sequence, from_position)),
-                            repeatability_of(deviations(sequence, from_encoder))};
+  const auto by_encoder = [&](std::size_t move) { return static_cast<double>(-moves[move].final_error); };
+  TrialRepeatability trial;
+  trial.from_encoder = repeatability_of(deviations(sequence, by_encoder));
+  trial.from_position = trial.of_load = trial.of_motor = repeatability_of(deviations(sequence, of_motor));
+  if (!motion::has_load(parameters.plant)) return trial;
+  const bool load_closes = parameters.plant.load.encoder == motion::EncoderPlace::load;
+  const auto of_load = [&](std::size_t move) {
+    const trial::MoveOutcome& outcome = moves[move];
+    return -(load_closes ? outcome.true_error : outcome.other_true_error) * resolution;
+  };
+  trial.of_load = repeatability_of(deviations(sequence, of_load));
+  if (load_closes) trial.from_position = trial.of_load;
+  return trial;
 }
 
 }  // namespace zerocount::iso230

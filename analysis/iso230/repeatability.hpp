@@ -94,14 +94,17 @@ struct SequenceShape {
 
 SequenceShape shape_of(std::span<const study::SequenceMove> sequence);
 
-/// A trial as one run of the test of ISO 230-2, seen in two ways.
+/// A trial as one run of the test of ISO 230-2, seen in two ways, and from each of two masses.
 ///
 /// The deviation of a move from its target of p counts is, by the true position, θ − (p + ½ − φ)·Δx in rad,
-/// with θ at the last sample, φ the encoder's phase and Δx the fine encoder's resolution: from the middle of
-/// the target's count. By the encoder it is its fine count at the last sample less p, in counts.
+/// with θ of a mass at the last sample, and φ the phase and Δx the resolution of the fine encoder that closes
+/// the loop: from the middle of the target's count. By the encoder it is its fine count at the last sample
+/// less p, in counts.
 struct TrialRepeatability {
-  Repeatability from_position;  ///< rad
+  Repeatability from_position;  ///< of the mass whose encoder closes the loop, rad
   Repeatability from_encoder;   ///< counts
+  Repeatability of_motor;       ///< by the true position of the motor, rad
+  Repeatability of_load;        ///< likewise of the load; of the motor on an axis with one mass
 };
 
 /// The targets of a trial in the order of their list, counts.

@@ -1,6 +1,7 @@
 #include "analysis/iso230/results_group.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -21,25 +22,48 @@
 namespace zerocount::iso230 {
 namespace {
 
+using OutcomeFields = std::vector<layout::RecordField<trial::MoveOutcome>>;
+
 /// The columns of the outcomes that are read.
-const std::vector<layout::RecordField<trial::MoveOutcome>>& measured_fields() {
-  static const std::vector<layout::RecordField<trial::MoveOutcome>> fields = [] {
-    std::vector<layout::RecordField<trial::MoveOutcome>> kept;
-    for (const layout::RecordField<trial::MoveOutcome>& field : layout::outcome_fields()) {
-      const std::string& name = field.column.name;
-      if (name == "outcome" || name == "final_position" || name == "final_error") kept.push_back(field);
-    }
-    return kept;
-  }();
+OutcomeFields measured_fields(const study::StudyFeatures& features) {
+  constexpr std::array<std::string_view, 5> read{"outcome", "final_position", "final_error", "true_error",
+                                                 "load_true_error"};
+  OutcomeFields fields = layout::outcome_fields({.load_error = features.load_error});
+  std::erase_if(fields, [&](const auto& field) {
+    return std::ranges::find(read, std::string_view(field.column.name)) == read.end();
+  });
   return fields;
 }
 
-layout::TableReader open_outcomes(const hdf5::Group& root) {
+layout::TableReader open_outcomes(const hdf5::Group& root, const OutcomeFields& fields) {
   layout::Table table = layout::outcome_table();
   table.columns.clear();
-  for (const layout::RecordField<trial::MoveOutcome>& field : measured_fields())
-    table.columns.push_back(field.column);
+  for (const layout::RecordField<trial::MoveOutcome>& field : fields) table.columns.push_back(field.column);
   return layout::TableReader::open(root, table);
+}
+
+/// The sources of the study that the file has: earlier builds have none of a mass that does not close the
+/// loop.
+const DeviationSources& stored_sources(const hdf5::Group& root, const study::StudyFeatures& features) {
+  const DeviationSources& sources = deviation_sources(features);
+  const hdf5::Group trials = root.open_group("repeatability").open_group("trial");
+  const bool has_all = std::ranges::all_of(
+      sources, [&](const DeviationSource& source) { return trials.contains(source.name); });
+  return has_all ? sources : deviation_sources({});
+}
+
+/// Finds the masses of the trials of a point, which differ by conditions only.
+void find_masses(const study::Study& study, std::int64_t number, PointRepeatability& point) {
+  bool differ = false;
+  for (std::int64_t condition = 0; condition < study::condition_count(study); ++condition) {
+    const std::int64_t trial = condition * std::max<std::int64_t>(study.rigs, 1);  // TrialTurns
+    const motion::PlantParameters plant = study::commanded_trial(study, number, trial).parameters.plant;
+    if (!motion::has_load(plant)) continue;
+    differ = differ || (point.has_load && point.closing != plant.load.encoder);
+    point.has_load = true;
+    point.closing = plant.load.encoder;
+  }
+  if (differ) point.closing.reset();
 }
 
 void require_rows(const auto& io, std::int64_t rows) {
@@ -48,10 +72,9 @@ void require_rows(const auto& io, std::int64_t rows) {
 
 /// The trials of these rows.
 std::vector<SequenceTrial> evaluate(const study::Study& study, const hdf5::Group& root, const auto& outcomes,
-                                    std::int64_t first, std::int64_t count) {
+                                    const OutcomeFields& fields, std::int64_t first, std::int64_t count) {
   std::vector<SequenceTrial> trials;
-  const std::vector<trial::MoveOutcome> moves =
-      layout::read_records(outcomes, measured_fields(), first, count);
+  const std::vector<trial::MoveOutcome> moves = layout::read_records(outcomes, fields, first, count);
   for (std::int64_t row = first; row < first + count; ++row) {
     const trial::TrialParameters parameters =
         study::study_trial(study, row / study.trials, row % study.trials).parameters;
@@ -96,17 +119,19 @@ layout::TableIo create_table(hdf5::File& file, const study::Study& study, const 
 
 void write_trials(hdf5::File& file, const study::Study& study) {
   const std::int64_t rows = study::trial_count(study);
-  const layout::TableReader outcomes = open_outcomes(file);
+  const OutcomeFields fields = measured_fields(study.features);
+  const layout::TableReader outcomes = open_outcomes(file, fields);
   require_rows(outcomes, rows);
-  const RepeatabilityTable<SequenceTrial> of_axis = trial_axis_table();
-  const RepeatabilityTable<SequenceTrial> of_targets = trial_target_table();
+  const DeviationSources& sources = deviation_sources(study.features);
+  const RepeatabilityTable<SequenceTrial> of_axis = trial_axis_table(sources);
+  const RepeatabilityTable<SequenceTrial> of_targets = trial_target_table(sources);
   layout::TableIo axis = create_table(file, study, of_axis.table, rows, 1);
   layout::TableIo targets =
       create_table(file, study, of_targets.table, rows, shape_of(study.sequence).targets);
   const std::int64_t at_once = layout::chunk_rows(outcomes.width());
   for (std::int64_t first = 0; first < rows; first += at_once) {
     const std::vector<SequenceTrial> trials =
-        evaluate(study, file, outcomes, first, std::min(at_once, rows - first));
+        evaluate(study, file, outcomes, fields, first, std::min(at_once, rows - first));
     write_rows(axis, of_axis, first, trials);
     write_rows(targets, of_targets, first, trials);
   }
@@ -117,8 +142,8 @@ void write_points(hdf5::File& file, const study::Study& study, const Repeatabili
     layout::TableIo io = create_table(file, study, table.table, std::ssize(summary.points), width);
     write_rows(io, table, 0, summary.points);
   };
-  write(point_axis_table(), 1);
-  write(point_target_table(), summary.shape.targets);
+  write(point_axis_table(*summary.sources), 1);
+  write(point_target_table(*summary.sources), summary.shape.targets);
 }
 
 /// Rows [first, first + rows) of a column of numbers or flags, [row][second] flattened.
@@ -205,9 +230,10 @@ std::size_t overall_repeatability(const SequenceShape& shape) {
 }
 
 PointRepeatability point_statistics(const TrialsOfPoint& axis, const TrialsOfPoint& targets,
-                                    const SequenceShape& shape, const study::Study& study,
-                                    double confidence) {
+                                    const RepeatabilitySummary& summary, const study::Study& study) {
   constexpr std::size_t encoder = 1;  // of deviation_sources()
+  const SequenceShape& shape = summary.shape;
+  const double confidence = summary.confidence;
   PointRepeatability point;
   point.trials = study.trials;
   point.evaluated = std::ranges::count(axis.column(0)[0], 1.0);
@@ -227,7 +253,7 @@ PointRepeatability point_statistics(const TrialsOfPoint& axis, const TrialsOfPoi
     statistics::Moments& moments = point.positions.emplace_back();
     for (const double position : positions) moments.add(position);
   }
-  for (std::size_t source = 0; source < deviation_sources().size(); ++source)
+  for (std::size_t source = 0; source < summary.sources->size(); ++source)
     point.sources.push_back({axis.statistics(source, axis_fields().size(), confidence)[0],
                              targets.statistics(source, target_fields().size(), confidence)});
   return point;
@@ -242,26 +268,31 @@ void write_repeatability(hdf5::File& file, const study::Study& study) {
 
 std::vector<reading::ExportedTable> repeatability_exports(const reading::ResultsFile& file) {
   if (!file.root().contains("repeatability")) return {};
-  const parameters::AxisKind axis = file.trials()->features().axis;
-  return {exported("repeatability_trials.csv", layout::on_axis(trial_axis_table().table, axis)),
-          exported("repeatability_trial_targets.csv", layout::on_axis(trial_target_table().table, axis)),
-          exported("repeatability_points.csv", layout::on_axis(point_axis_table().table, axis)),
-          exported("repeatability_point_targets.csv", layout::on_axis(point_target_table().table, axis))};
+  const DeviationSources& sources = stored_sources(file.root(), file.study().features);
+  const auto table = [&](const char* name, const layout::Table& rows) {
+    return exported(name, layout::on_axis(rows, file.trials()->features().axis));
+  };
+  return {table("repeatability_trials.csv", trial_axis_table(sources).table),
+          table("repeatability_trial_targets.csv", trial_target_table(sources).table),
+          table("repeatability_points.csv", point_axis_table(sources).table),
+          table("repeatability_point_targets.csv", point_target_table(sources).table)};
 }
 
 RepeatabilitySummary read_repeatability(const hdf5::Group& root, const study::Study& study,
                                         double confidence) {
-  const layout::TableIo axis = layout::TableIo::open(root, trial_axis_table().table);
-  const layout::TableIo targets = layout::TableIo::open(root, trial_target_table().table);
-  RepeatabilitySummary summary{confidence, shape_of(study.sequence), {}, study.units.axis};
+  const DeviationSources& sources = stored_sources(root, study.features);
+  const layout::TableIo axis = layout::TableIo::open(root, trial_axis_table(sources).table);
+  const layout::TableIo targets = layout::TableIo::open(root, trial_target_table(sources).table);
+  RepeatabilitySummary summary{confidence, shape_of(study.sequence), {}, study.units.axis, &sources};
   require_rows(axis, study::trial_count(study));
   require_rows(targets, study::trial_count(study));
   if (targets.width() != summary.shape.targets)
     targets.row_scale().fail("it is of another number of targets");
   for (std::int64_t point = 0; point < study::point_count(study); ++point) {
     const std::int64_t first = point * study.trials;
-    summary.points.push_back(point_statistics({axis, first, study.trials}, {targets, first, study.trials},
-                                              summary.shape, study, confidence));
+    summary.points.push_back(
+        point_statistics({axis, first, study.trials}, {targets, first, study.trials}, summary, study));
+    find_masses(study, point, summary.points.back());
   }
   return summary;
 }

@@ -64,6 +64,7 @@ void add_each(std::vector<Summand>& sums, const std::vector<Summand>& added) {
 
 MoveKind move_kind(const study::Study& study) {
   MoveKind kind{.open_loop = study.open_loop, .shape = shape_of(study), .goals = counted_goals(study)};
+  kind.has_observed_counts = !study.observed_counts.empty();
   if (std::ranges::none_of(study.goals, &study::Goal::beside_load)) return kind;
   for (const study::Goal& goal : study.goals)
     kind.for_the_load.push_back(goal.beside_load ? counted_by(study::for_the_load(goal), study.features)
@@ -170,7 +171,7 @@ void PointAccumulator::add_moves(std::span<const trial::MoveOutcome> moves) {
   for (std::size_t i = 0; i < for_the_load_.size(); ++i)
     if (kind_.for_the_load[i])
       count_moves(for_the_load_[i], *kind_.for_the_load[i], first_trial_ + counted_.trials, moves);
-  if (kind_.has_groups()) add_to_groups(moves);
+  if (kind_.counts_trials()) add_to_groups(moves);
 }
 
 void PointAccumulator::add_to_groups(std::span<const trial::MoveOutcome> moves) {
@@ -290,7 +291,7 @@ void PointAccumulator::transfer(Self& self, Archive& archive) {
     while (self.kind_.open_loop && self.levels_.size() < self.counted_.by_move.size())
       self.add_level_accumulators();
   }
-  if (self.kind_.has_groups()) archive(self.groups_);
+  if (self.kind_.counts_trials()) archive(self.groups_);
   for (auto& measure : self.measures_) archive(measure);
   for (std::size_t level = 0; level < self.levels_.size(); ++level) {
     archive(self.lost_in_levels_[level]);
@@ -357,7 +358,7 @@ bool PointAccumulator::has_valid_rigs() const {
 }
 
 bool PointAccumulator::has_valid_groups() const {
-  if (!kind_.has_groups() || kind_.open_loop) return true;
+  if (!kind_.counts_trials() || kind_.open_loop) return true;
   return groups_.succeeded.is_valid(counted_.trials, 1) &&
          groups_.succeeded.sum().met == counted_.outcomes.zero_count &&
          (kind_.goals.empty() || groups_.meeting.is_valid(counted_.trials, 1));
@@ -421,7 +422,7 @@ PointSummary PointAccumulator::statistics(const StatisticsOptions& options) cons
   result.for_the_load = for_the_load_;
   for (const GoalSettling& settling : goal_settling_)
     result.goal_settling.push_back(settling.statistics(options.confidence));
-  if (kind_.has_groups() && result.judged > 0) result.trials_of_groups = groups_;
+  if (kind_.counts_trials() && result.judged > 0) result.trials_of_groups = groups_;
   if (options.stopped_by_outcomes)
     result.rigs.tolerance = {};  // it takes a number of trials that was fixed beforehand
   result.settles_within = tolerance_limits(trial_settling_times_.sample(), options);

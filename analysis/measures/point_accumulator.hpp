@@ -35,7 +35,12 @@ struct MoveKind {
   /// [goal] those with study::Goal::beside_load as goals of the load; empty where none has it
   std::vector<std::optional<CountedGoal>> for_the_load{};
 
-  bool has_groups() const { return shape.worlds > 0 || shape.conditions > 0; }
+  bool has_observed_counts{false};  ///< Trials of a real machine are compared with these.
+
+  /// Whether trials are counted by the question, beside their moves.
+  bool counts_trials() const {
+    return shape.worlds > 0 || shape.conditions > 0 || (has_observed_counts && !goals.empty());
+  }
 };
 
 /// The kind of the moves of a study.
@@ -183,7 +188,7 @@ class PointAccumulator {
   std::vector<CellCounts> goals_;                   ///< [goal]
   std::vector<CellCounts> for_the_load_;            ///< [goal] of MoveKind::for_the_load
   std::vector<GoalSettling> goal_settling_;         ///< [goal]
-  GroupTrials groups_;                              ///< empty without worlds and conditions
+  GroupTrials groups_;                              ///< where MoveKind::counts_trials()
   statistics::TrialClusters trial_settling_times_;  ///< of each trial: of its slowest move
   std::int64_t jerks_{0};
   statistics::Histogram<double> jerk_intervals_;

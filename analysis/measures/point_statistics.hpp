@@ -124,8 +124,9 @@ struct PointSummary : StatisticsOfMeasures, PointCounts {
   /// [goal][condition, or 0 without conditions] settling times of the moves that it asks; empty for a goal on
   /// all moves of a study without conditions, of which the measure of its band is
   std::vector<std::vector<SettlingTimes>> goal_settling;
-  std::optional<GroupTrials> trials_of_groups;  ///< of a study with targets, and with worlds or conditions
-  std::vector<LevelStatistics> levels;          ///< [move] in an open-loop study, otherwise empty
+  std::optional<GroupTrials>
+      trials_of_groups;                 ///< where MoveKind::counts_trials(), and the moves have targets
+  std::vector<LevelStatistics> levels;  ///< [move] in an open-loop study, otherwise empty
 
   /// The proportion of trials all of whose moves ended at zero error.
   const RateWithBounds& success_rate() const { return of(&trial::MoveOutcome::outcome).rate; }

@@ -102,7 +102,8 @@ void add_goal(std::vector<std::string>& lines, const ReportedStudy& reported,
 
 void add_success(std::vector<std::string>& lines, const ReportedStudy& reported, std::int64_t best) {
   const measures::PointSummary& point = point_of(reported, best);
-  lines.push_back(fmt::format("{} ended at zero counts{}{}.", of_all(point.outcomes.zero_count, point.trials),
+  lines.push_back(fmt::format("{} ended at zero counts{}{}{}.",
+                              of_all(point.outcomes.zero_count, point.trials), question_of(reported).of_mass,
                               bounds_text(reported, success_of(reported), best),
                               reported.summary.question.worlds > 0 ? ", on average over the worlds" : ""));
   if (point.outcomes.zero_count == point.trials)

@@ -184,12 +184,15 @@ std::string claim_of_chosen_point(const StudySummary& summary, const ChosenPoint
   const measures::PointSummary& point = point_of(summary, chosen.point);
   const std::string name = name_of_chosen(summary, chosen) + ": ";
   if (summary.features.dependent_trials) {
-    return name + fmt::format("{} of {} trials succeeded; dependent trials give no bounds",
-                              point.outcomes.zero_count, point.trials);
+    const std::string_view of_mass = summary.question.of_mass;
+    return name + fmt::format("{} of {} trials {}; dependent trials give no bounds",
+                              point.outcomes.zero_count, point.trials,
+                              of_mass.empty() ? "succeeded" : fmt::format("ended at zero counts{}", of_mass));
   }
   return name + averaged_over(summary) +
          statistics::claim_sentence(goal::claim_of_chosen(point, static_cast<std::size_t>(chosen.chosen_from),
-                                                          summary.question.stopped));
+                                                          summary.question.stopped),
+                                    goal::success_verb(summary.question));
 }
 
 std::string competition_text(const StudySummary& summary, const ChosenPoint& chosen) {

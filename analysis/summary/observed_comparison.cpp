@@ -1,6 +1,8 @@
 #include "analysis/summary/observed_comparison.hpp"
 
 #include <cstddef>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -10,54 +12,66 @@
 namespace zerocount::summary {
 namespace {
 
-/// The real rig lives in one world, which nobody knows: it differs from the simulation if it differs from
-/// each world.
-ObservedComparison compare_with_worlds(const std::vector<measures::MoveCounts>& worlds,
-                                       const study::ObservedCounts& counts) {
-  const statistics::Successes observed{counts.successes, counts.of};
-  ObservedComparison nearest{counts, std::nullopt, "no trial was simulated", true};
-  for (const measures::MoveCounts& world : worlds) {
-    if (world.moves == 0) continue;
-    statistics::ObservedTest test;
-    if (world.rigs.empty()) {
-      test = statistics::fisher_test(observed, {world.met, world.moves});
-    } else {
-      std::vector<std::int64_t> successes;
-      for (const statistics::RigMoves& rig : world.rigs) successes.push_back(rig.met);
-      test = statistics::rig_rank_test(observed, successes, world.rigs.front().trials);
-    }
-    if (!nearest.test || test.p > nearest.test->p) nearest.test = test;
-  }
-  return nearest;
+/// The simulated trials of a point, each as one move that meets what the study asks.
+struct AskedTrials {
+  measures::MoveCounts all;
+  std::vector<measures::MoveCounts> worlds;  ///< empty without worlds
+};
+
+AskedTrials asked_trials(const goal::Question& question, const measures::PointSummary& point) {
+  if (!question.claim() && !point.trials_of_groups) return {goal::counts_of(question, point), {}};
+  const measures::GroupTrials& trials = point.trials_of_groups.value();
+  const measures::CellCounts& asked = question.claim() ? trials.meeting : trials.succeeded;
+  return {asked.sum(), asked.by_world()};
 }
 
-/// Whether the real rig succeeded more often than the simulated trials.
-bool is_better(const measures::PointSummary& point, const study::ObservedCounts& counts) {
-  return statistics::rate(counts.successes, counts.of) >
-         statistics::rate(point.outcomes.zero_count, point.judged);
+statistics::ObservedTest test_of(const statistics::Successes& observed, const measures::MoveCounts& trials) {
+  if (trials.rigs.empty()) return statistics::fisher_test(observed, {trials.met, trials.moves});
+  std::vector<std::int64_t> successes;
+  for (const statistics::RigMoves& rig : trials.rigs) successes.push_back(rig.met);
+  return statistics::rig_rank_test(observed, successes, trials.rigs.front().trials);
+}
+
+/// The test in the world that is most like the real machine. It lives in one world, which nobody knows: it
+/// differs from the simulation if it differs from each world.
+ObservedComparison compare_with_worlds(ObservedComparison comparison, const statistics::Successes& observed,
+                                       const std::vector<measures::MoveCounts>& worlds) {
+  comparison.in_worlds = true;
+  for (const measures::MoveCounts& world : worlds) {
+    if (world.moves == 0) continue;
+    const statistics::ObservedTest test = test_of(observed, world);
+    if (!comparison.test || test.p > comparison.test->p) comparison.test = test;
+  }
+  if (!comparison.test) comparison.reason = "no trial was simulated";
+  return comparison;
+}
+
+/// Whether the real machine succeeded more often than the simulated trials.
+bool is_better(const ObservedComparison& comparison) {
+  return statistics::rate(comparison.counts.successes, comparison.counts.of) >
+         statistics::rate(comparison.simulated.successes, comparison.simulated.trials);
 }
 
 }  // namespace
 
-ObservedComparison compare_observed(const measures::PointSummary& point,
+ObservedComparison compare_observed(const goal::Question& question, const measures::PointSummary& point,
                                     const study::ObservedCounts& counts) {
-  if (point.judged == 0) return {counts, std::nullopt, "no trial was simulated"};
-  std::vector<measures::MoveCounts> worlds;
-  if (point.trials_of_groups) worlds = point.trials_of_groups->succeeded.by_world();
-  if (!worlds.empty() && (point.rigs.n == 0 || counts.of <= point.rigs.trials_of_rig))
-    return compare_with_worlds(worlds, counts);
+  ObservedComparison comparison{.counts = counts, .test = {}, .reason = ""};
+  if (point.judged == 0) {
+    comparison.reason = "no trial was simulated";
+    return comparison;
+  }
+  const AskedTrials trials = asked_trials(question, point);
+  comparison.simulated = {trials.all.met, trials.all.moves};
+  if (point.rigs.n > 0 && counts.of > point.rigs.trials_of_rig) {
+    comparison.reason = fmt::format("it takes {} trials or more on each simulated machine, here are {}",
+                                    counts.of, point.rigs.trials_of_rig);
+    return comparison;
+  }
   const statistics::Successes observed{counts.successes, counts.of};
-  if (point.rigs.n == 0) {
-    return {counts, statistics::fisher_test(observed, {point.outcomes.zero_count, point.judged}), {}};
-  }
-  if (counts.of > point.rigs.trials_of_rig) {
-    return {counts, std::nullopt,
-            fmt::format("it takes {} trials or more on each simulated machine, here are {}", counts.of,
-                        point.rigs.trials_of_rig)};
-  }
-  return {counts,
-          statistics::rig_rank_test(observed, point.rigs.successes_of_rigs, point.rigs.trials_of_rig),
-          {}};
+  if (!trials.worlds.empty()) return compare_with_worlds(std::move(comparison), observed, trials.worlds);
+  comparison.test = test_of(observed, trials.all);
+  return comparison;
 }
 
 std::string_view verdict_on(const ObservedComparison& comparison, double confidence) {
@@ -77,7 +91,7 @@ std::string statement_on(const measures::PointSummary& point, const ObservedComp
   }
   if (comparison.test->p <= 1.0 - confidence) {
     return fmt::format("differs (p = {}): the real machine succeeded {} often than the simulation says", p,
-                       is_better(point, comparison.counts) ? "more" : "less");
+                       is_better(comparison) ? "more" : "less");
   }
   if (comparison.test->lowest_p > 1.0 - confidence) {
     return fmt::format("consistent (p = {}), as any result would be: the trials{} are too few", p,
@@ -103,6 +117,7 @@ std::vector<layout::PointColumn> observed_columns(std::span<const measures::Poin
                                                   const study::Study& study, std::int64_t first) {
   std::vector<layout::PointColumn> columns;
   if (study.observed_counts.empty() || study.features.dependent_trials) return columns;
+  const goal::Question question = goal::question_of(study);
   for (const ObservedField& field : observed_fields()) {
     layout::PointColumn& column =
         columns.emplace_back(layout::PointColumn{field.name, field.unit, field.long_name, {}});
@@ -111,7 +126,7 @@ std::vector<layout::PointColumn> observed_columns(std::span<const measures::Poin
           study.observed_counts.find(study.points.labels[static_cast<std::size_t>(first) + i]);
       column.values.push_back(field.value(counts == study.observed_counts.end()
                                               ? std::optional<ObservedComparison>()
-                                              : compare_observed(points[i], counts->second)));
+                                              : compare_observed(question, points[i], counts->second)));
     }
   }
   return columns;

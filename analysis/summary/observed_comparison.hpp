@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "analysis/goal/question.hpp"
 #include "analysis/measures/point_statistics.hpp"
 #include "analysis/statistics/clusters/observed_test.hpp"
 #include "analysis/text/report_field.hpp"
@@ -16,16 +17,19 @@
 /// Counts on a real rig against the simulated trials of the same design point.
 namespace zerocount::summary {
 
-/// The comparison at a point: by fisher_test, or with rigs by rig_rank_test, because the observed trials are
-/// all of one rig.
+/// The comparison at a point: by fisher_test, or with machines by rig_rank_test, because the observed trials
+/// are all of one machine. A trial succeeds if it does what the study asks (goal::Question): all its moves
+/// meet the goals that are about them or, without a goal, end at zero counts.
 struct ObservedComparison {
   study::ObservedCounts counts;
+  statistics::Successes simulated{};             ///< trials of the point, with worlds of all together
   std::optional<statistics::ObservedTest> test;  ///< empty if the counts cannot be tested
   std::string reason;                            ///< why not
   bool in_worlds{false};                         ///< with the world that is most like the real rig
 };
 
-ObservedComparison compare_observed(const measures::PointSummary& point, const study::ObservedCounts& counts);
+ObservedComparison compare_observed(const goal::Question& question, const measures::PointSummary& point,
+                                    const study::ObservedCounts& counts);
 
 /// The words of verdict_on().
 inline constexpr std::string_view observed_verdicts[] = {"consistent", "differs", "too_few", "untested"};

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include <boost/algorithm/string/replace.hpp>
 #include <fmt/format.h>
 
 #include "analysis/goal/question.hpp"
@@ -310,9 +311,10 @@ void add_cells(PointDescription& point, const std::string& table, const std::str
 void add_success(PointDescription& point, const StudySummary& summary) {
   point.value(
       {.heading = fmt::format("zero-count [{}]", bounds_head(summary)),
-       .meaning = "zero-count: proportion of trials whose moves all ended at zero error; bounds of it "
-                  "after " +
-                  std::string(summary.features.rigs ? "Korn and Graubard" : "Clopper and Pearson") + ", in %",
+       .meaning = fmt::format(
+           "zero-count: proportion of trials whose moves all ended at zero error{}; bounds "
+           "of it after {}, in %",
+           summary.question.of_mass, summary.features.rigs ? "Korn and Graubard" : "Clopper and Pearson"),
        .unit = "1",
        .notation = Notation::percent,
        .own_table = zero_count_table(summary)},
@@ -404,9 +406,12 @@ std::string bounds_text(const layout::SummaryColumn& column, const measures::Mea
   return fmt::format(" [{}, {}]", text::short_number(low), text::short_number(high));
 }
 
-/// The lines of a legend, joined.
-std::string legend_line(parameters::AxisKind axis, const layout::Measure& measure) {
-  std::string legend = parameters::text_on(axis, measure.summary.legend);
+/// The lines of a legend, joined. With a second mass the rotor is the mass whose encoder closes the loop.
+std::string legend_line(const StudySummary& summary, const layout::Measure& measure) {
+  std::string legend = parameters::text_on(summary.features.axis, measure.summary.legend);
+  std::string_view mass = summary.question.of_mass;
+  if (constexpr std::string_view of = " of "; mass.starts_with(of))
+    boost::algorithm::replace_all(legend, "the rotor", mass.substr(of.size()));
   while (legend.ends_with('\n')) legend.pop_back();
   return legend;
 }
@@ -414,7 +419,7 @@ std::string legend_line(parameters::AxisKind axis, const layout::Measure& measur
 void add_measure(PointDescription& point, const std::string& table, const StudySummary& summary,
                  const layout::Measure& measure) {
   const parameters::AxisKind axis = summary.features.axis;
-  std::string legend = legend_line(axis, measure);
+  std::string legend = legend_line(summary, measure);
   for (const layout::SummaryColumn& column : measure.summary.columns) {
     add_cells(point, table, parameters::text_on(axis, column.head), std::exchange(legend, ""),
               [&measure, column](Statistics p) {

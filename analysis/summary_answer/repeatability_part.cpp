@@ -38,7 +38,12 @@ struct SourceReading {
   std::size_t source;
   std::size_t target{0};
 
-  const DeviationSource& from() const { return iso230::deviation_sources()[source]; }
+  const DeviationSource& from() const { return (*point.summary.repeatability->sources)[source]; }
+  /// The mass whose positions these are. Nothing on an axis with one mass, or where trials of the point
+  /// differ.
+  std::optional<motion::EncoderPlace> mass() const {
+    return from().other ? from().other : repeatability_of(point).closing;
+  }
   const iso230::SourceRepeatability& values() const { return repeatability_of(point).sources[source]; }
   const statistics::Moments& position() const { return repeatability_of(point).positions[target]; }
 };
@@ -76,6 +81,11 @@ std::vector<SourceReading> targets_of(Source s) {
   return targets;
 }
 
+std::optional<std::string> mass_of(Source s) {
+  if (!s.mass()) return std::nullopt;
+  return std::string(study::mass_text(*s.mass()));
+}
+
 SourceDescription source_object(parameters::AxisKind axis) {
   SourceDescription values, target, source;
   add_values(values, iso230::axis_fields(), false, of_axis);
@@ -88,26 +98,28 @@ SourceDescription source_object(parameters::AxisKind axis) {
   return source
       .value(document::in_data("unit", "of all values"),
              [axis](Source s) { return parameters::unit_on(axis, s.from().unit); })
+      .value(document::in_data("of", "mass whose positions these are; null on an axis with one mass"),
+             mass_of)
       .object({.key = "axis", .meaning = "values of the axis"}, values, std::identity())
       .table({.key = "targets", .meaning = "values of the targets"}, target, targets_of);
 }
 
-PointDescription repeatability_object(parameters::AxisKind axis) {
+PointDescription repeatability_object(const iso230::RepeatabilitySummary& summary) {
+  const parameters::AxisKind axis = summary.axis;
   PointDescription object;
   measures::add_fields(object, iso230::point_repeatability_fields(), axis, repeatability_of);
-  for (std::size_t source = 0; source < iso230::deviation_sources().size(); ++source) {
-    const DeviationSource& from = iso230::deviation_sources()[source];
-    object.object({.key = std::string(from.name), .meaning = std::string(from.long_name)},
-                  source_object(axis), [source](Point p) {
-                    return SourceReading{p, source};
-                  });
+  for (std::size_t source = 0; source < summary.sources->size(); ++source) {
+    const DeviationSource& from = (*summary.sources)[source];
+    object.object({.key = from.name, .meaning = from.long_name}, source_object(axis), [source](Point p) {
+      return SourceReading{p, source};
+    });
   }
   return object;
 }
 
 void add_csv_columns(PointDescription& point, const iso230::RepeatabilitySummary& summary) {
-  const auto axis = iso230::point_axis_table();
-  const auto targets = iso230::point_target_table();
+  const auto axis = iso230::point_axis_table(*summary.sources);
+  const auto targets = iso230::point_target_table(*summary.sources);
   // @param source with a slash; empty for the columns that are of none
   const auto add = [&](const std::string& prefix, const auto& table, const std::string& source,
                        std::size_t target) {
@@ -123,7 +135,7 @@ void add_csv_columns(PointDescription& point, const iso230::RepeatabilitySummary
     }
   };
   add("repeatability_", axis, "", 0);
-  for (const DeviationSource& source : iso230::deviation_sources()) {
+  for (const DeviationSource& source : *summary.sources) {
     const std::string path = fmt::format("{}/", source.name);
     const std::string prefix = fmt::format("repeatability_{}_", source.name);
     add(prefix, axis, path, 0);
@@ -134,7 +146,7 @@ void add_csv_columns(PointDescription& point, const iso230::RepeatabilitySummary
 
 /// Positions are shown as the trade states them: in seconds of arc, or µm.
 std::string shown_unit(const DeviationSource& source, parameters::AxisKind axis) {
-  return source.unit == "rad" ? parameters::unit_on(axis, "arcsec") : std::string(source.unit);
+  return source.unit == "rad" ? parameters::unit_on(axis, "arcsec") : source.unit;
 }
 double in_shown_unit(const DeviationSource& source, parameters::AxisKind axis, double value) {
   if (source.unit != "rad") return value;
@@ -155,13 +167,20 @@ std::string median_and_p95(const DeviationSource& source, parameters::AxisKind a
                      three_digits(in_shown_unit(source, axis, value.p95.value)));
 }
 
-/// The readings of all points, sources and, of a table of targets, targets.
+/// Whether the source repeats another at its point: the mass closes the loop there, or there is one mass.
+bool is_repeated(const SourceReading& reading) {
+  const std::optional<motion::EncoderPlace> other = reading.from().other;
+  const PointRepeatability& point = repeatability_of(reading.point);
+  return other && (!point.has_load || point.closing == other);
+}
+
+/// The readings of all points and sources; in a table of targets of all targets.
 std::vector<SourceReading> rows_of(const SummaryReading& s, std::size_t targets) {
   std::vector<SourceReading> rows;
   for (const PointReading& point : s.points) {
     for (std::size_t target = 0; target < targets; ++target) {
-      for (std::size_t source = 0; source < iso230::deviation_sources().size(); ++source)
-        rows.push_back({point, source, target});
+      for (std::size_t source = 0; source < s.summary.repeatability->sources->size(); ++source)
+        if (!is_repeated({point, source, target})) rows.push_back({point, source, target});
     }
   }
   return rows;
@@ -173,7 +192,9 @@ void add_label(SourceDescription& columns, const summary::StudySummary& summary)
 
 void add_source(SourceDescription& columns, parameters::AxisKind axis) {
   columns.value({.heading = "from"}, [axis](Source s) {
-    return fmt::format("{} ({})", s.from().name, shown_unit(s.from(), axis));
+    const std::string name = s.from().other ? "true" : s.from().name;
+    const std::optional<std::string> mass = mass_of(s);
+    return fmt::format("{}{} ({})", name, mass ? ", " + *mass : "", shown_unit(s.from(), axis));
   });
 }
 
@@ -265,9 +286,10 @@ std::string exact_points(const SummaryReading& s) {
     const PointRepeatability& point = repeatability_of(p);
     if (point.zero_repeatability != point.trials) continue;
     lines += fmt::format(
-        "{}: all {} trials repeat exactly: not 100 %, but at most {} of axes do not, with {:.6g} % "
+        "{}: all {} trials repeat exactly{}: not 100 %, but at most {} of axes do not, with {:.6g} % "
         "confidence\n",
         label(p), point.trials,
+        point.closing ? fmt::format(" by the encoder of the {}", study::mass_text(*point.closing)) : "",
         text::percent_at_most(statistics::proportion_at_most(0, point.trials, confidence)),
         100.0 * confidence);
   }
@@ -286,8 +308,8 @@ constexpr std::string_view repeatability_legend =
 
 void add_repeatability(PointDescription& point, const summary::StudySummary& summary) {
   if (!summary.repeatability) return;
-  point.object(in_json("repeatability", "values of ISO 230-2"),
-               repeatability_object(summary.repeatability->axis), std::identity());
+  point.object(in_json("repeatability", "values of ISO 230-2"), repeatability_object(*summary.repeatability),
+               std::identity());
   add_csv_columns(point, *summary.repeatability);
 }
 

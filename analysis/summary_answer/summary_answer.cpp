@@ -229,7 +229,8 @@ StudySummary full_study() {
   full.features.travel = full.features.phases = full.features.load = full.features.drive_torque = true;
   full.features.load_count = full.features.motor_count = true;
   full.features.load_error = full.features.motor_error = true;
-  full.features.encoder_errors = full.features.final_error = full.features.stopping = true;
+  full.features.coarse_errors = full.features.encoder_errors = full.features.final_error =
+      full.features.stopping = true;
   full.features.own_controller = full.features.rigs = true;
   full.question.parts.front().claim = study::Goal{.name = "goal", .machines = 0.99, .beside_load = true};
   full.question.parts.push_back(full.question.parts.front());
@@ -241,7 +242,9 @@ StudySummary full_study() {
   full.predictions.resize(1);
   full.observed_counts[""] = {};
   full.stop = study::StoppingRule{};
-  full.repeatability = iso230::RepeatabilitySummary{.shape = {1, 1, true, true}, .points = {}};
+  full.features.motor_closes = full.features.load_closes = true;
+  full.repeatability = iso230::RepeatabilitySummary{
+      .shape = {1, 1, true, true}, .points = {}, .sources = &iso230::deviation_sources(full.features)};
   full.unfinished = summary::UnfinishedStudy{};
   return full;
 }
@@ -363,6 +366,7 @@ document::AnswerType summary_type() {
   StudySummary without_machines = full_study();
   without_machines.features.rigs = false;
   without_machines.features.load_error = without_machines.features.motor_error = false;
+  without_machines.repeatability->sources = &iso230::deviation_sources({});
   without_machines.question.parts.front().claim->machines.reset();
   document::AnswerType type = summary_description(full_study()).complete_type();
   for (const StudySummary* other : {&without_machines, &plain, &levels})
@@ -391,7 +395,7 @@ PointReading read_point(const summary::StudySummary& summary, std::int64_t point
   if (summary.question.worlds > 0) reading.worlds = summary::worlds_of_point(summary, point);
   if (const auto counts = summary.observed_counts.find(reading.label());
       counts != summary.observed_counts.end())
-    reading.observed = summary::compare_observed(statistics, counts->second);
+    reading.observed = summary::compare_observed(summary.question, statistics, counts->second);
   return reading;
 }
 

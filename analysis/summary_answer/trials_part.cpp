@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/goal/goal_text.hpp"
 #include "analysis/measures/undecided_moves.hpp"
 #include "analysis/statistics/clusters/tolerance.hpp"
 #include "analysis/statistics/mean_bounds.hpp"
@@ -36,10 +37,11 @@ std::string undecided_text(Point p) {
 }
 
 std::string simulated_text(Point p) {
-  const measures::PointSummary& point = p.statistics();
-  if (point.judged == 0) return "–";
-  return fmt::format("{} of {}{}{}", text::percentage(point.outcomes.zero_count, point.judged), point.judged,
-                     point.rigs.n > 0 ? fmt::format(" on {} machines", point.rigs.n) : "",
+  const statistics::Successes& trials = p.observed->simulated;
+  if (trials.trials == 0) return "–";
+  const std::int64_t machines = p.statistics().rigs.n;
+  return fmt::format("{} of {}{}{}", text::percentage(trials.successes, trials.trials), trials.trials,
+                     machines > 0 ? fmt::format(" on {} machines", machines) : "",
                      p.summary.question.worlds > 0 ? ", on average over the worlds" : "");
 }
 
@@ -90,7 +92,8 @@ std::string assurance_statement(Point p) {
   const measures::PointSummary& point = p.statistics();
   const std::string settling = statistics::settling_sentence(point.settles_within);
   return (p.summary.question.worlds > 0 ? "on average over the worlds: " : "") +
-         statistics::claim_sentence(point.claim) + (settling.empty() ? "" : "; " + settling);
+         statistics::claim_sentence(point.claim, goal::success_verb(p.summary.question)) +
+         (settling.empty() ? "" : "; " + settling);
 }
 
 std::string title_of_assurance(const summary::StudySummary& summary) {
@@ -103,10 +106,11 @@ std::string title_of_assurance(const summary::StudySummary& summary) {
 
 std::string note_on_assurance(const summary::StudySummary& summary) {
   return fmt::format(
-      "bounds of one side each (Wilks; {}). success: of trials{}; arrive by: all moves of a trial; a "
+      "bounds of one side each (Wilks; {}). success: {}of trials{}; arrive by: all moves of a trial; a "
       "tolerance limit is later than the quantile of the trials at hand, and – where these are too few, or "
       "too many never arrive",
       summary.features.rigs ? "Korn and Graubard" : "Clopper and Pearson",
+      summary.question.of_mass.empty() ? "" : fmt::format("zero counts{}, ", summary.question.of_mass),
       shows_rigs(summary) ? "; of machines: their moves that end at zero error" : "");
 }
 
@@ -160,8 +164,9 @@ void add_undecided(PointDescription& point, const summary::StudySummary& summary
 void add_observed(PointDescription& point, const summary::StudySummary& summary) {
   if (summary.observed_counts.empty()) return;
   const std::string method = fmt::format(
-      "{}, each point by itself: it differs where p ≤ {}. Consistent counts do not prove the "
-      "simulation right: they only do not contradict it",
+      "A trial succeeds if all its moves {}. {}, each point by itself: it differs where p ≤ {}. Consistent "
+      "counts do not prove the simulation right: they only do not contradict it",
+      goal::doing_text(summary.question),
       summary.features.rigs ? "rank of the real machine among the simulated ones, by as many trials of each"
                             : "Fisher's exact test",
       text::percent(1.0 - summary.confidence));
@@ -177,6 +182,11 @@ void add_observed(PointDescription& point, const summary::StudySummary& summary)
       })
       .value({.key = "of", .meaning = "trials on the real machine", .column = "observed_trials"},
              [](Point p) { return p.observed->counts.of; })
+      .value(in_json("simulated_successes",
+                     "simulated trials that do what the study asks: its goals, or zero counts"),
+             [](Point p) { return p.observed->simulated.successes; })
+      .value(in_json("simulated_of", "simulated trials"),
+             [](Point p) { return p.observed->simulated.trials; })
       .value({.heading = "simulated"}, simulated_text)
       .value({.key = "p_value",
               .meaning = "two-sided p-value; null where it cannot be tested",

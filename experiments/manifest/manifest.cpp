@@ -266,6 +266,7 @@ study::Study read_manifest(const yaml::YamlNode& root, bool recorded, const sect
   read_retained(m);
   if (const auto field = yaml::find_field(m.root, "stop")) sections::read_stop(*field, m.reading);
   sections::read_goals(m.root, m.reading);
+  sections::measure_both_masses(m.plan());
   if (const auto field = yaml::find_field(m.root, "tune")) sections::read_tuning(*field, m.reading);
   sections::check_overrides(m.root, m.conditions,
                             samples != nullptr ? samples->columns : std::vector<yaml::Place>{}, m.reading);
@@ -289,6 +290,7 @@ study::Study read_manifest(const yaml::YamlNode& root, bool recorded, const sect
   study.plan = plan;
   if (problems.empty()) check_measured_machines(study, m.places, m.reading);
   if (problems.empty()) check_unseen_motions(study, m.places, m.reading);
+  study.features.coarse_errors = study.features.encoder_errors && study::has_coarse_encoder(*plan);
   study.premises = study::premises_of(*plan);
   study.warnings = std::move(m.reading.warnings);
   return study;

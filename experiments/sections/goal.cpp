@@ -145,20 +145,12 @@ void measure_for(const yaml::Field& field, const study::Goal& goal, keys::Readin
   measure_tolerance(field, *goal.tolerance, reading);
 }
 
-/// Whether some trial has two masses, and one whose loop is closed by the encoder of this one.
-bool closes_somewhere(const study::StudyPlan& plan, motion::EncoderPlace mass) {
-  const auto has_load = [](const study::ValueLimits& inertia) { return inertia.high > 0.0; };
-  return study::holds_somewhere(plan, "plant.load.inertia", has_load) &&
-         study::holds_somewhere(plan, study::two_encoders, [&](std::span<const study::ValueLimits> limits) {
-           return study::closes_at_load(limits) == (mass == motion::EncoderPlace::load);
-         });
-}
-
 /// Finds out which mass each goal is of, and lets the trials measure the position error of the other one.
 void choose_masses(const yaml::Field& of_goals, keys::Reading& reading,
                    const std::function<yaml::Field(const study::Goal&)>& field_of) {
   using enum motion::EncoderPlace;
-  const bool at_motor = closes_somewhere(reading.plan, motor), at_load = closes_somewhere(reading.plan, load);
+  const bool at_motor = study::closes_somewhere(reading.plan, motor);
+  const bool at_load = study::closes_somewhere(reading.plan, load);
   std::optional<motion::EncoderPlace>& other = reading.plan.common.verdict.other_mass;
   for (study::Goal& goal : reading.study.goals) {
     const auto of = yaml::find_field(field_of(goal), "of");
@@ -219,6 +211,14 @@ void read_goals(const yaml::Field& root, keys::Reading& reading) {
   choose_masses(field, reading, field_of);
   // A limit can be of the band of any goal.
   for (study::Goal& goal : goals) take_limits(field_of(goal), reading, goal);
+}
+
+void measure_both_masses(study::StudyPlan& plan) {
+  trial::VerdictParameters& verdict = plan.common.verdict;
+  if (!plan.sequence || verdict.other_mass || !study::closes_somewhere(plan, motion::EncoderPlace::motor))
+    return;
+  verdict.other_mass = motion::EncoderPlace::load;
+  verdict.position_error = true;
 }
 
 void read_stop(const yaml::Field& field, keys::Reading& reading) {

@@ -85,6 +85,10 @@ void check_overrides(const yaml::Field& root, const SweptAxis& conditions,
 /// study's rigs and all parameters must be read already.
 void read_goals(const yaml::Field& root, keys::Reading& reading);
 
+/// Lets the trials of a sequence measure the position of a load that does not close the loop. The study's
+/// goals must be read already.
+void measure_both_masses(study::StudyPlan& plan);
+
 /// Reads the stopping rule `stop`. The manifest's `trials` become the size of a block, and the study's number
 /// of trials becomes the maximum.
 void read_stop(const yaml::Field& field, keys::Reading& reading);

@@ -16,12 +16,15 @@ struct StudyFeatures {
   bool travel{false};                                       ///< the reference takes time to its target
   bool phases{false};                                       ///< the control has two phases
   bool load{false};                                         ///< there is a second mass
-  bool load_count{false};      ///< it has an encoder of its own, which does not close the (position) loop
-  bool motor_count{false};     ///< it has one, which closes that loop
-  bool load_error{false};      ///< its position error has measures of its own
-  bool motor_error{false};     ///< that of the motor has
-  bool drive_torque{false};    ///< the motor torque is not the (delayed) code times the resolution
+  bool motor_closes{false};  ///< With a second mass: in some trial the encoder of the motor closes the loop.
+  bool load_closes{false};   ///< Likewise that of the load.
+  bool load_count{false};    ///< it has an encoder of its own, which does not close the (position) loop
+  bool motor_count{false};   ///< it has one, which closes that loop
+  bool load_error{false};    ///< its position error has measures of its own
+  bool motor_error{false};   ///< that of the motor has
+  bool drive_torque{false};  ///< the motor torque is not the (delayed) code times the resolution
   bool encoder_errors{false};  ///< an encoder may have errors
+  bool coarse_errors{false};   ///< An encoder may have errors, and there is a coarse one beside the fine one.
   /// Moves may end beside their targets by design: no integral control, Coulomb friction, or moves that are
   /// long.
   bool final_error{false};
@@ -42,6 +45,12 @@ struct StudyFeatures {
   /// needed.
   bool spread_trials{false};
 };
+
+/// Words such as " of the motor" for the mass whose encoder closes the loop; empty for an axis with one mass.
+constexpr std::string_view of_closing_mass(const StudyFeatures& features) {
+  if (features.motor_closes && features.load_closes) return " of the mass whose encoder closes the loop";
+  return features.load_closes ? " of the load" : features.motor_closes ? " of the motor" : "";
+}
 
 /// Whether a study has an effect of a real axis.
 enum class PremiseState {

@@ -166,11 +166,30 @@ bool closes_at_load(std::span<const ValueLimits> limits) {
   return choice == loop::LoopEncoder::load;
 }
 
+bool closes_somewhere(const StudyPlan& plan, motion::EncoderPlace mass) {
+  const auto has_load = [](const ValueLimits& inertia) { return inertia.high > 0.0; };
+  return holds_somewhere(plan, "plant.load.inertia", has_load) &&
+         holds_somewhere(plan, two_encoders, [&](std::span<const ValueLimits> limits) {
+           return closes_at_load(limits) == (mass == motion::EncoderPlace::load);
+         });
+}
+
 bool can_have_coarse_phase(const ValueLimits& coarse_beyond) {
   trial::TrialParameters trial;
   parameters::parameter_table()[parameters::find_parameter("controller.coarse.coarse_beyond").value()].set(
       trial, coarse_beyond.low);
   return loop::has_coarse_phase(trial.controller);
+}
+
+bool has_coarse_encoder(const StudyPlan& plan) {
+  for (std::size_t slot = 0; slot < plan.table.rows.size(); ++slot)
+    if (plan.given[slot] && plan.table.rows[slot].name.starts_with("encoder.coarse")) return true;
+  const auto is_coarse = [](const ValueLimits& encoder) {
+    return encoder.low == static_cast<double>(loop::EncoderChoice::coarse);
+  };
+  return holds_somewhere(plan, "controller.encoder", is_coarse) ||
+         (holds_somewhere(plan, "controller.coarse.coarse_beyond", can_have_coarse_phase) &&
+          holds_somewhere(plan, "controller.coarse.encoder", is_coarse));
 }
 
 std::vector<std::size_t> slots_named(const StudyTable& table, std::span<const std::string_view> names) {

@@ -65,6 +65,11 @@ inline constexpr std::array<std::string_view, 5> two_encoders{
 /// @param limits of two_encoders.
 bool has_two_encoders(std::span<const ValueLimits> limits);
 bool closes_at_load(std::span<const ValueLimits> limits);
+/// Whether some trial has two masses, and some point a loop that is closed by the encoder of this one.
+bool closes_somewhere(const StudyPlan& plan, motion::EncoderPlace mass);
+
+/// Whether the axis has a coarse encoder beside the fine one: the manifest names it, or the control reads it.
+bool has_coarse_encoder(const StudyPlan& plan);
 
 /// The slots of these parameters, by their dotted paths.
 std::vector<std::size_t> slots_named(const StudyTable& table, std::span<const std::string_view> names);

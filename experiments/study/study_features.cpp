@@ -72,6 +72,8 @@ StudyFeatures find_features(const StudyPlan& plan, const Study& study) {
   for (const Effect& effect : effects())
     if (effect.feature != nullptr && !(features.*effect.feature))
       features.*effect.feature = acts(plan, effect);
+  features.motor_closes = closed_loop && closes_somewhere(plan, motion::EncoderPlace::motor);
+  features.load_closes = closed_loop && closes_somewhere(plan, motion::EncoderPlace::load);
   const auto closes_at = [&](bool load) {
     return features.load && holds_somewhere(plan, two_encoders, [&](std::span<const ValueLimits> limits) {
              return has_two_encoders(limits) && closes_at_load(limits) == load;

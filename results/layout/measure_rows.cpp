@@ -284,7 +284,7 @@ MeasureTable own_measures() {
                   {{mean}, "mean number of such samples per trial"},
                   {{whole_max}, "largest number of such samples of a trial"}}},
        .summary =
-           {&F::encoder_errors,
+           {&F::coarse_errors,
             {{"disagreeing", trials, CellText::proportion_of_trials}},
             "disagreeing: proportion of trials in which the coarse count was ever impossible given the "
             "fine one\n"}},

@@ -15,6 +15,7 @@
 #include "core/loop/dac.hpp"
 #include "core/loop/encoder.hpp"
 #include "core/text/text.hpp"
+#include "experiments/study/goal.hpp"
 #include "experiments/study/plan.hpp"
 #include "experiments/study/study_trial.hpp"
 
@@ -79,6 +80,30 @@ void add_friction(Facts& facts, const PointValues& values, friction::FrictionMod
   }
 }
 
+/// The masses of the axis, and the encoders that the loops read.
+void add_masses(Facts& facts, const PointValues& values, const trial::TrialParameters& p) {
+  if (!motion::has_load(p.plant)) return;
+  const auto name = [](motion::EncoderPlace mass) { return std::string(study::mass_text(mass)); };
+  const motion::EncoderPlace closing = p.plant.load.encoder;  // once the trial is complete
+  const motion::EncoderPlace other =
+      closing == motion::EncoderPlace::load ? motion::EncoderPlace::motor : motion::EncoderPlace::load;
+  const parameters::AxisKind axis = values.study().units.axis;
+  add(facts, "two masses", true);
+  add(facts, "friction of the load", p.load_side.friction.model != friction::LoadFrictionModel::none);
+  const study::ValueLimits constant = values.limits("disturbance.load.torque");
+  if (constant.low != 0.0 || constant.high != 0.0)
+    facts["constant on the load"] = values.text("disturbance.load.torque");
+  facts["closing mass"] = name(closing);
+  const bool is_cascade = p.controller.blocks.structure == loop::ControlStructure::cascade;
+  if (!values.study().open_loop) facts["loop that it closes"] = is_cascade ? "position loop" : "loop";
+  if (!loop::has_other(p.encoder)) return;
+  add(facts, "two encoders", true);
+  facts["other mass"] = name(other);
+  facts["other count"] = quantity_text(loop::other_resolution(p.encoder), parameters::unit_on(axis, "rad"));
+  if (is_cascade && !values.study().open_loop)
+    facts["velocity loop"] = name(p.controller.velocity_by_other ? other : closing);
+}
+
 void add_disturbance(Facts& facts, const PointValues& values,
                      const trial::DisturbanceParameters& disturbance) {
   const study::ValueLimits constant = values.limits("disturbance.torque");
@@ -101,6 +126,7 @@ Facts facts_of(const PointValues& values, const trial::TrialParameters& p) {
   if (!values.study().open_loop) add_controller(facts, values, p);
   add_friction(facts, values, p.friction.model);
   add_disturbance(facts, values, p.disturbance);
+  add_masses(facts, values, p);
   return facts;
 }
 

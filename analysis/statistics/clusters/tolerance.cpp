@@ -50,18 +50,18 @@ double rule_of_three(const SuccessClaim& claim) {
   return -std::log1p(-claim.confidence) / static_cast<double>(claim.rigs > 0 ? claim.rigs : claim.trials);
 }
 
-std::string claim_sentence(const SuccessClaim& claim) {
+std::string claim_sentence(const SuccessClaim& claim, std::string_view succeed) {
   if (claim.trials == 0) return "nothing: no trial";
   const std::string level = fmt::format("with {} confidence", text::percent(claim.confidence));
   const std::string subject = claim.rigs > 0 ? "trials on all machines" : "axes";
   const std::string trials = fmt::format("{} trials{}", claim.trials,
                                          claim.rigs > 0 ? fmt::format(" on {} machines", claim.rigs) : "");
   if (claim.failures == claim.trials) {
-    return fmt::format("at most {} of {} succeed, {} (no success in {})",
-                       text::percent_at_most(claim.success_at_most), subject, level, trials);
+    return fmt::format("at most {} of {} {}, {} (no success in {})",
+                       text::percent_at_most(claim.success_at_most), subject, succeed, level, trials);
   }
-  const std::string statement = fmt::format("at least {} of {} succeed, {}",
-                                            text::percent_at_least(claim.success_at_least), subject, level);
+  const std::string statement = fmt::format(
+      "at least {} of {} {}, {}", text::percent_at_least(claim.success_at_least), subject, succeed, level);
   if (claim.failures > 0) {
     return fmt::format("{} ({} {} in {})", statement, claim.failures,
                        claim.failures == 1 ? "failure" : "failures", trials);

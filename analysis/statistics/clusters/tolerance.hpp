@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/statistics/unknown.hpp"
@@ -57,7 +58,7 @@ double rule_of_three(const SuccessClaim& claim);
 /// "at least 99.9 % of axes succeed, with 95 % confidence", with the numbers of trials and failures.
 /// Proportions are rounded to the safe side. Without a failure the sentence adds the upper bound of the
 /// failures; without a success it gives the upper bound of the successes.
-std::string claim_sentence(const SuccessClaim& claim);
+std::string claim_sentence(const SuccessClaim& claim, std::string_view succeed = "succeed");
 
 /// "95 % settle within 0.062 s, 99 % within 0.081 s"; empty without limits.
 std::string settling_sentence(std::span<const ToleranceLimit> limits);

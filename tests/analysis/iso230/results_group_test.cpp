@@ -187,6 +187,60 @@ TEST(RepeatabilitySummary, IsASectionOfTheJson) {
   EXPECT_EQ(point["encoder"]["targets"][2]["reversal"]["p95"], -1.0);
 }
 
+/// The summary of trials whose moves end so many counts from the middle of their target's count, by mass.
+summary::StudySummary summary_of_masses(const std::string& closing, double motor, double load) {
+  const study::Study study = testing::sequence_study(
+      "cycles: 3", 20, "plant: {load: {inertia: 1.0e-4, encoder: " + closing + "}}\n");
+  std::vector<shards::TrialResult> results = testing::sequence_results(study);
+  for (shards::TrialResult& result : results) {
+    const trial::TrialParameters p =
+        study::study_trial(study, result.row / study.trials, result.row % study.trials).parameters;
+    for (std::size_t i = 0; i < study.sequence.size(); ++i) {
+      const double side =
+          study.sequence[i].direction > 0 ? 0.5 : -0.5;  // reversal of one for an offset of one
+      const double place = static_cast<double>(p.command.targets[i]) + 0.5 + side * motor;
+      trial::MoveOutcome& move = result.outcome.moves[i];
+      move.final_position = (place - p.initial.encoder_phase) * 2.0 * std::numbers::pi / p.encoder.fine;
+      move.true_error = -side * (closing == "load" ? load : motor);
+      move.other_true_error = closing == "load" ? statistics::unknown : -side * load;
+    }
+  }
+  const testing::TemporaryFolder folder;
+  testing::write_sequence_file(folder / "study.h5", study, results);
+  return summary::summarise(reading::AllTrialsFile(folder / "study.h5"));
+}
+
+TEST(RepeatabilitySummary, NamesTheMassOfEachValueAndHasThoseOfBoth) {
+  constexpr double arcsec = 360.0 * 3600.0 / 1620000.0;  // of a count
+  for (const bool load_closes : {false, true}) {
+    const summary::StudySummary summary = summary_of_masses(load_closes ? "load" : "motor", 3.0, 250.0);
+    const nlohmann::ordered_json json = testing::summary_json(summary);
+    const auto& point = json["points"][0]["repeatability"];
+    const auto& closing = point["true"];
+    const auto& other = point[load_closes ? "motor_true" : "load_true"];
+    const auto& motor = load_closes ? other : closing;
+    const auto& load = load_closes ? closing : other;
+    EXPECT_EQ(motor["of"], "motor");
+    EXPECT_EQ(load["of"], "load");
+    EXPECT_EQ(point["encoder"]["of"], closing["of"]);
+    constexpr double count = 2.0 * std::numbers::pi / 1620000.0;
+    EXPECT_NEAR(motor["axis"]["reversal"]["median"].get<double>(), 3.0 * count, 1e-9 * count);
+    EXPECT_NEAR(load["axis"]["reversal"]["median"].get<double>(), 250.0 * count, 1e-6 * count);
+    EXPECT_FALSE(point.contains(load_closes ? "load_true" : "motor_true"));
+    const std::string text = testing::summary_text(summary);
+    EXPECT_TRUE(says(text, "true, motor (arcsec)", "true, load (arcsec)",
+                     load_closes ? "encoder, load (count)" : "encoder, motor (count)"))
+        << text;
+    EXPECT_TRUE(says(text, fmt::format("{:.3g} ({:.3g})", 3.0 * arcsec, 3.0 * arcsec),
+                     fmt::format("{:.3g} ({:.3g})", 250.0 * arcsec, 250.0 * arcsec)))
+        << text;
+    // Without a goal the headline speaks of zero counts, and of whose.
+    EXPECT_TRUE(says(text.substr(0, text.find('\n')),
+                     load_closes ? "zero counts of the load" : "zero counts of the motor"))
+        << text;
+  }
+}
+
 /// What the judge is told of the study: all but the results.
 nlohmann::json facts_of(const study::Study& study) {
   nlohmann::json facts{{"points", study::point_count(study)}, {"trials", study.trials}};

@@ -1,5 +1,8 @@
 #include "analysis/iso230/repeatability.hpp"
 #include "core/failure/failure.hpp"
+#include "core/trial/trial.hpp"
+#include "experiments/manifest/load_study.hpp"
+#include "experiments/study/study_trial.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount::iso230 {
@@ -73,6 +76,64 @@ TEST(TrialRepeatability, DeviatesFromTheMiddleOfTheTargetsCountAndByWholeCounts)
     EXPECT_DOUBLE_EQ(read.repeatability_negative, 4.0 * std::sqrt(2.0));
     EXPECT_EQ(result->from_encoder.targets[1].repeatability, 0.0);
   }
+}
+
+// Each mass is measured by its own angle, from the middle of the target's count of the encoder that closes
+// the loop.
+TEST(TrialRepeatability, OfEachMassIsThatOfAnAxisWithThisMassAlone) {
+  std::mt19937_64 random(230);
+  std::normal_distribution<double> normal(0.0, 3.0);
+  for (const motion::EncoderPlace closing : {motion::EncoderPlace::motor, motion::EncoderPlace::load}) {
+    trial::TrialParameters parameters = with_targets(0.25);
+    std::vector<double> of_motor(12), of_load(12);
+    for (double& offset : of_motor) offset = normal(random);
+    for (double& offset : of_load) offset = normal(random);
+    const auto alone = [&](const std::vector<double>& offsets) {
+      return trial_repeatability(two_targets(), parameters, ending_at(parameters, offsets))->from_position;
+    };
+    const Repeatability motor_alone = alone(of_motor), load_alone = alone(of_load);
+    std::vector<trial::MoveOutcome> moves = ending_at(parameters, of_motor);
+    const bool load_closes = closing == motion::EncoderPlace::load;
+    for (std::size_t i = 0; i < moves.size(); ++i) {
+      moves[i].true_error = -(load_closes ? of_load : of_motor)[i];
+      if (!load_closes) moves[i].other_true_error = -of_load[i];
+    }
+    parameters.plant.load = {.inertia = 1e-4, .encoder = closing};
+    const auto both = trial_repeatability(two_targets(), parameters, moves);
+    const auto expect_same = [](const Repeatability& found, const Repeatability& expected) {
+      EXPECT_NEAR(found.axis.reversal, expected.axis.reversal, 1e-9 * count);
+      EXPECT_NEAR(found.axis.repeatability, expected.axis.repeatability, 1e-9 * count);
+      EXPECT_NEAR(found.axis.accuracy, expected.axis.accuracy, 1e-9 * count);
+      EXPECT_NEAR(found.targets[1].mean, expected.targets[1].mean, 1e-9 * count);
+    };
+    expect_same(both->of_motor, motor_alone);
+    expect_same(both->of_load, load_alone);
+    expect_same(both->from_position, load_closes ? load_alone : motor_alone);
+  }
+}
+
+// Friction leaves the load at the side of the gap from which it was pushed: the reversal grows by the gap.
+TEST(TrialRepeatability, ALoadBehindAGapReversesByTheGapMore) {
+  const study::Study study = manifest::parse_study(
+      "zerocount: 1\nname: gap\nseed: 1\ntrials: 1\n"
+      "plant: {inertia: 1.0e-4, presliding_damping: 1.0e-3, load: {inertia: 1.0e-4, stiffness: 400, damping: "
+      "5.0e-3, gap: 4.0e-3, damping_to_ground: 1.0e-3, encoder: motor, friction: {model: coulomb, breakaway: "
+      "1.0e-3, coulomb_ratio: 1}}}\n"
+      "friction: {model: none}\nencoder: {fine: 1000000}\ndac: {bits: 16, range: 2}\n"
+      "controller: {sample_rate: 8000, units: si, kp: 4.0, ki: 0, kd: 0.03}\n"
+      "command: {sequence: {targets: [-9000, 9000], overrun: 3000, cycles: 1, approach: bidirectional}, "
+      "hold: "
+      "1.0, profile: {shape: s_curve, velocity_limit: 0.5, acceleration_limit: 10, jerk_limit: 500}}\n",
+      "test");
+  const trial::TrialParameters parameters = study::study_trial(study, 0, 0).parameters;
+  const auto found = trial_repeatability(study.sequence, parameters, trial::run_trial(parameters).moves);
+  ASSERT_TRUE(found);
+  for (std::size_t target = 0; target < 2; ++target) {
+    const double motor = found->of_motor.targets[target].reversal;
+    const double load = found->of_load.targets[target].reversal;
+    EXPECT_NEAR(load, motor - 4.0e-3, 2.0e-5);  // friction twists the coupling by 2.5e-6 rad
+  }
+  EXPECT_EQ(found->from_position.axis.reversal, found->of_motor.axis.reversal);
 }
 
 TEST(TrialRepeatability, TargetsHaveTheOrderOfTheirList) {

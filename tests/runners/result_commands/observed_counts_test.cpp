@@ -69,6 +69,21 @@ TEST_F(ObservedCounts, AreOfOneOfTheRigs) {
   EXPECT_TRUE(short_trials[0]["observed_counts"]["p_value"].is_null());
 }
 
+// With noise the loop is within its band in time, and hardly ever ends at zero counts.
+TEST_F(ObservedCounts, AreOfTheGoalWhereTheStudyHasOne) {
+  const nlohmann::json point = points_of(
+      "observed: {high: {successes: 12, of: 12}}\nencoder: {fine_errors: {noise: 1}}\n"
+      "goal: {band: 12, within: 0.14, moves: 0.8}\n")[1];
+  const nlohmann::json& counts = point["observed_counts"];
+  EXPECT_EQ(counts["simulated_of"], 80);
+  EXPECT_EQ(counts["simulated_successes"], std::lround(80.0 * point["goal"]["rate"].get<double>()));
+  EXPECT_GT(counts["simulated_successes"].get<int>(), point["zero_count"].get<int>() + 40);
+  EXPECT_EQ(counts["verdict"], "consistent") << counts;
+  const std::string table = program({"summary", "out.h5"}).out;
+  EXPECT_TRUE(says(table, "A trial succeeds if all its moves meet the goal.")) << table;
+  EXPECT_FALSE(says(table, "coarse")) << table;
+}
+
 TEST_F(ObservedCounts, AreNotMissedWhereThereAreTextsOnly) {
   const nlohmann::json points = points_of("observed: {low: calm}\n");
   EXPECT_EQ(points[0]["observed"], "calm");

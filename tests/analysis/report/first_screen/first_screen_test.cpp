@@ -192,6 +192,37 @@ TEST(Diagram, EscapesTheNameOfAPluginAndHasAllItsParameters) {
   EXPECT_FALSE(says(html, "<script"));
 }
 
+TEST(Diagram, NamesTheMassThatEachEncoderReads) {
+  const std::string two_masses = "command: {targets: [3], hold: 0.15}\n";
+  const std::string of_load = diagram_html(
+      axis(two_masses +
+           "plant: {load: {inertia: 1.0e-4, encoder: load, gap: 2.0e-4, friction: {model: coulomb, "
+           "breakaway: 0.02}}}\ndisturbance: {load: {torque: 0.04}}\n"),
+      0);
+  EXPECT_TRUE(says(of_load, "<span>at the load, which closes the loop</span>", "gap 0.0002",
+                   "<span>friction of the load: coulomb, breakaway 0.02",
+                   "constant 0.04\u00a0N\u00a0m on the load"))
+      << of_load;
+  EXPECT_FALSE(says(of_load, "velocity loop"));
+  const std::string alone = diagram_html(axis(two_masses), 0);
+  EXPECT_FALSE(says(alone, "motor, which") || says(alone, "of the load") || says(alone, "on the load"));
+
+  // Two encoders: the position loop reads the load, the velocity loop the motor, and each has its own count.
+  const std::string both = diagram_html(
+      axis(two_masses +
+           "plant: {load: {inertia: 1.0e-4}}\n"
+           "encoder: {fine: 360000, fine_errors: {noise: 0.3}, load: {counts_per_revolution: 720000, "
+           "fine_errors: "
+           "{noise: 0.7}}}\n"
+           "controller: {structure: cascade, cascade: {kv: 40, kp: 0.03, ki: 0.3, position: load, velocity: "
+           "motor}}\n"),
+      0);
+  EXPECT_TRUE(says(both, "<span>1 count = 8.727", "at the load, which closes the position loop",
+                   "at the motor: 1 count = 17.45", "motor: noise 0.3", "load: noise 0.7",
+                   "the velocity loop reads the motor"))
+      << both;
+}
+
 TEST(Diagram, AnOpenLoopHasNoController) {
   const std::string html = diagram_html(axis("command: {torque: {levels: [0.1, 0]}}\n"), 0);
   EXPECT_TRUE(says(html, "<b>Torque levels</b>\n<span>0.1, 0\u00a0N\u00a0m</span>"));

@@ -307,13 +307,13 @@ TEST(SummaryTable, HasColumnsForWhatTheStudyUses) {
     EXPECT_EQ(plain.find(head), std::string::npos) << head;
   }
   summary.features = {.encoder_errors = true};
+  summary.points[0].of(&trial::MoveOutcome::true_error).mean = 0.3;
   const std::string without_coarse = summary_text(summary, {.legend = true});
   EXPECT_NE(without_coarse.find("|true e| mean"), std::string::npos);
   EXPECT_EQ(without_coarse.find("coarse"), std::string::npos) << "of an encoder that is not there";
   summary.features = {
       .travel = true, .phases = true, .encoder_errors = true, .coarse_errors = true, .final_error = true};
   summary.points[0].of(&trial::MoveOutcome::travel_time).mean = 0.25;
-  summary.points[0].of(&trial::MoveOutcome::true_error).mean = 0.3;
   const std::vector<std::string> lines = table_in(summary_text(summary));
   for (const char* head : {"travel (s)", "|e| median", "phase changes", "|true e| mean", "disagreeing"})
     EXPECT_NE(lines[0].find(head), std::string::npos) << head;

@@ -59,6 +59,13 @@ std::vector<WindowTerms> windows_of(const SlidingFit& fit, std::span<const Posit
   return found;
 }
 
+/// Position in the middle between a sample and the next: by the cubic through four of them, at the ends of
+/// the record their mean.
+double position_between(const std::vector<double>& position, std::size_t k) {
+  if (k == 0 || k + 2 >= position.size()) return 0.5 * (position[k] + position[k + 1]);
+  return (9.0 * (position[k] + position[k + 1]) - position[k - 1] - position[k + 2]) / 16.0;
+}
+
 /// Sum of squares that a regression leaves, with or without one more wave.
 double squares_left(const std::vector<WindowTerms>& windows, const PositionWave* wave) {
   const Eigen::Index known = windows.front().known.size();
@@ -116,9 +123,12 @@ void set_position_waves(std::vector<SlidingRecord>& records, std::span<const Pos
   for (SlidingRecord& record : records) {
     record.waves = waves.size();
     record.shape.clear();
+    record.shape_between.clear();
     if (waves.empty()) continue;
     for (const double position : record.position)
       record.shape.push_back(shape_at(record.origin + position, waves));
+    for (std::size_t k = 0; k + 1 < record.position.size(); ++k)
+      record.shape_between.push_back(shape_at(record.origin + position_between(record.position, k), waves));
   }
 }
 

@@ -10,20 +10,13 @@
 
 #include <Eigen/Core>
 
-#include "analysis/sliding_identification/sliding_fit.hpp"
+#include "analysis/sliding_identification/added_column.hpp"
 #include "analysis/statistics/distributions.hpp"
 #include "core/failure/failure.hpp"
 #include "core/numerics/dense.hpp"
 
 namespace zerocount::sliding_identification {
 namespace {
-
-constexpr double no_scale = std::numeric_limits<double>::min();
-
-/// The columns less what combinations of others explain of them.
-Eigen::MatrixXd without(const Eigen::MatrixXd& others, const Eigen::MatrixXd& columns) {
-  return columns - numerics::product(others, numerics::least_squares(others, columns));
-}
 
 /// A window of a fit, linear about it.
 struct LinearWindow {
@@ -37,12 +30,7 @@ LinearWindow linear_window(const FittedWindow& fitted, const SlidingFit& fit) {
   const SlidingRecord& record = *fitted.record;
   const Window& window = *fitted.window;
   const WindowSlopes slopes = slopes_of(fitted, fit.point);
-  std::vector<Eigen::Index> free;
-  for (Eigen::Index j = 0; j < slopes.by_point.cols(); ++j)
-    if (fit.free[static_cast<std::size_t>(j)]) free.push_back(j);
-  Eigen::MatrixXd known(slopes.residual.size(), std::ssize(free) + 1);
-  known << slopes.by_point(Eigen::all, free), slopes.residual;
-  LinearWindow linear{slopes.by_start, without(slopes.by_start, known), {}, {}};
+  LinearWindow linear{slopes.by_start, without(slopes.by_start, free_slopes(slopes, fit.free)), {}, {}};
   const double scale = std::exp(-fit.point[log_inertia]) / record.resolution;
   for (std::size_t k = window.first; k < window.last; ++k) {
     const double time = record.time[k + 1] - record.time[k];
@@ -50,7 +38,7 @@ LinearWindow linear_window(const FittedWindow& fitted, const SlidingFit& fit) {
                     window.direction * fit.point[coulomb_level] -
                     fit.point[viscous_damping] * record.velocity[k];
     for (std::size_t j = 0; j < position_terms && record.waves > 0; ++j)
-      torque -= record.shape[k][j] * fit.point[static_cast<Eigen::Index>(position_amplitudes + j)];
+      torque -= record.shape_between[k][j] * fit.point[static_cast<Eigen::Index>(position_amplitudes + j)];
     linear.interval.push_back(time);
     linear.per_inertia.push_back(scale * torque);
   }
@@ -74,13 +62,6 @@ Eigen::MatrixXd oscillations(const LinearWindow& window, std::complex<double> po
   }
 }
 
-/// Normal equations of A and the free parameters, in that order.
-struct Equations {
-  Eigen::MatrixXd information;
-  Eigen::VectorXd right;
-  double squares;  ///< of the residuals
-};
-
 Equations equations_of(const LinearWindow& window, std::complex<double> pole) {
   const Eigen::MatrixXd added = without(window.by_start, oscillations(window, pole));
   Eigen::MatrixXd columns(window.known.rows(), window.known.cols() + 1);
@@ -94,43 +75,26 @@ Equations equations_of(const LinearWindow& window, std::complex<double> pole) {
 /// A fit of A.
 struct Amplitude {
   double omega{0.0};
-  double gain{0.0};       ///< squares of the residuals that it explains
-  double explained{0.0};  ///< part of them
-  double variance{0.0};   ///< of independent residuals with which A has its standard error
+  AddedColumn column{};
 };
 
 Amplitude amplitude_at(const std::vector<LinearWindow>& windows, double omega, double damping) {
   const std::complex<double> pole = omega * std::complex(-damping, std::sqrt(1.0 - damping * damping));
   std::vector<Equations> parts;
-  for (const LinearWindow& window : windows) parts.push_back(equations_of(window, pole));
-  Equations total = parts.front();
-  double samples = static_cast<double>(windows.front().known.rows());
-  for (std::size_t i = 1; i < parts.size(); ++i) {
-    total.information += parts[i].information;
-    total.right += parts[i].right;
-    total.squares += parts[i].squares;
-    samples += static_cast<double>(windows[i].known.rows());
-  }
-  const Eigen::VectorXd scale = total.information.diagonal().cwiseMax(no_scale).cwiseSqrt().cwiseInverse();
-  const auto scaled = [&](const Eigen::MatrixXd& matrix) -> Eigen::MatrixXd {
-    return scale.asDiagonal() * matrix * scale.asDiagonal();
-  };
-  const Eigen::MatrixXd inverse = numerics::pseudo_inverse(scaled(total.information));
-  const Eigen::VectorXd found = inverse * scale.cwiseProduct(total.right);
-  double jackknife = 0.0;
-  for (const Equations& part : parts) {
-    const Eigen::VectorXd score = scale.cwiseProduct(part.right) - scaled(part.information) * found;
-    const double change = numerics::least_squares(scaled(total.information - part.information), score)(0, 0);
-    jackknife += change * change;
+  double samples = 0.0;
+  for (const LinearWindow& window : windows) {
+    parts.push_back(equations_of(window, pole));
+    samples += static_cast<double>(window.known.rows());
   }
   constexpr double of_start = 4.0;
-  const double freedom =
-      samples - of_start * static_cast<double>(parts.size()) - static_cast<double>(found.size());
-  const double squares = total.squares - found.dot(scale.cwiseProduct(total.right));
-  const double variance =
-      std::max(squares / std::max(freedom, 1.0), jackknife / std::max(inverse(0, 0), no_scale));
-  const double gain = found[0] * found[0] / std::max(inverse(0, 0), no_scale);
-  return {omega, gain, gain / std::max(squares + gain, no_scale), variance};
+  const double freedom = samples - of_start * static_cast<double>(parts.size()) -
+                         static_cast<double>(parts.front().right.size());
+  return {omega, added_column(parts, freedom)};
+}
+
+/// Variance of independent residuals with which A has its standard error.
+double variance_of(const AddedColumn& column) {
+  return std::max({column.white, column.clustered, std::numeric_limits<double>::min()});
 }
 
 /// By chance A is so many of its errors from 0 once in 1000 records, in any of the places.
@@ -157,7 +121,7 @@ double well_known_frequency(const std::vector<Amplitude>& amplitudes, const Ampl
   double high = best.omega;
   for (const Amplitude& one : amplitudes) {
     constexpr double visible = 20.0;  // of χ² with one degree of freedom
-    if (one.gain < best.gain - visible * best.variance) continue;
+    if (one.column.gain < best.column.gain - visible * variance_of(best.column)) continue;
     low = std::min(low, one.omega);
     high = std::max(high, one.omega);
   }
@@ -179,12 +143,13 @@ std::optional<SecondMass> shown_by(const SlidingFit& fit) {
   constexpr double rad_per_sample = 1.5;
   const std::vector<Amplitude> amplitudes =
       amplitudes_of(windows, 2.0 * std::numbers::pi / longest, rad_per_sample * rate);
-  const auto best = std::ranges::max_element(amplitudes, {}, &Amplitude::gain);
+  const auto best =
+      std::ranges::max_element(amplitudes, {}, [](const Amplitude& one) { return one.column.gain; });
   constexpr double least_explained = 0.03;
-  if (best == amplitudes.end() || best->explained < least_explained ||
-      std::sqrt(best->gain / best->variance) < least_ratio(windows.size()))
+  if (best == amplitudes.end() || best->column.explained < least_explained ||
+      std::sqrt(best->column.gain / variance_of(best->column)) < least_ratio(windows.size()))
     return std::nullopt;
-  return SecondMass{best->explained, well_known_frequency(amplitudes, *best)};
+  return SecondMass{best->column.explained, well_known_frequency(amplitudes, *best)};
 }
 
 }  // namespace

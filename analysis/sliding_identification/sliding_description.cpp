@@ -145,6 +145,28 @@ document::Description<SecondMass> second_mass_description() {
              &SecondMass::frequency);
 }
 
+document::Description<MissingTorque> missing_description() {
+  return document::Description<MissingTorque>()
+      .value(
+          with_words(
+              document::Item{.key = "cause", .heading = "goes with", .meaning = "what the torque goes with"},
+              cause_words()),
+          [](const MissingTorque& one) { return to_string(one.cause); })
+      .value({"torque", "torque", "the torque, in words"}, &MissingTorque::name)
+      .value({.key = "explained",
+              .heading = "of the squares",
+              .meaning = "proportion of the squares of the residuals that it explains",
+              .unit = "1",
+              .notation = document::Notation::percent},
+             &MissingTorque::explained)
+      .value(
+          {"visibility", "over chance",
+           "ratio of its coefficient to the standard error, over the ratio that chance exceeds once in 1000 "
+           "records",
+           "1"},
+          &MissingTorque::visibility);
+}
+
 document::Description<RepeatingForce> force_description() {
   return document::Description<RepeatingForce>()
       .value({"with", "with", "what the unexplained torque may repeat with"}, &RepeatingForce::with)
@@ -202,6 +224,8 @@ document::AnswerDescription<SlidingIdentification> sliding_answer() {
           in_data("second_mass",
                   "a second mass that the records show; null: none is shown, or another fault comes first"),
           second_mass_description(), &SlidingIdentification::second_mass)
+      .table({"missing", "Torques that the law lacks", "torques that the residuals show; empty: none"},
+             missing_description(), &SlidingIdentification::missing)
       .object(in_data("reversal", "friction after reversals; null: none without a standstill"),
               reversal_description(), [](Of i) { return i.reversal ? &*i.reversal : nullptr; })
       .sentence(reversal_sentence)

@@ -9,6 +9,8 @@
 #include "analysis/sliding_identification/sliding_fit.hpp"
 #include "analysis/sliding_identification/sliding_identification.hpp"
 #include "analysis/statistics/distributions.hpp"
+#include "core/numerics/interval.hpp"
+#include "experiments/parameters/parameter_table.hpp"
 
 namespace zerocount::sliding_identification {
 namespace {
@@ -29,8 +31,16 @@ struct Quantity {
   Scale scale;
   /// Why it is not identifiable if its interval is too wide; {0} is the interval's upper end, {1} the unit.
   const char* vague;
-  std::string alike{};  ///< name of a torque that cannot be told from it
+  std::string alike{};      ///< name of a torque that cannot be told from it
+  bool with_offset{false};  ///< In one direction it cannot be told from the offset.
 };
+
+/// Allowed values. The Coulomb level is a breakaway torque times a ratio.
+numerics::Interval range_of(const Quantity& quantity) {
+  const std::string key = quantity.name == "coulomb_level" ? "friction.breakaway" : quantity.key;
+  const auto row = parameters::find_parameter(key);
+  return row ? parameters::parameter_table()[*row].range : numerics::all_numbers();
+}
 
 /// Amplitude and phase of the torque A·sin(κ·x + phase) that acts on the axis; or its slope.
 void add_wave(const SlidingFit& fit, std::size_t number, std::vector<Quantity>& quantities) {
@@ -84,6 +94,9 @@ std::vector<Quantity> quantities_of(const SlidingFit& fit) {
        "the slow motion is too short"},
       {"offset", "", "N m", offset_torque, point[offset_torque], SlidingPoint::Unit(offset_torque),
        Scale::linear, ""}};
+  for (Quantity& quantity : quantities)
+    for (const char* name : {"coulomb_level", "breakaway_level", "coulomb_ratio"})
+      quantity.with_offset = quantity.with_offset || quantity.name == name;
   Quantity& offset = quantities.back();
   for (std::size_t i = 0; i < fit.waves.size(); ++i)
     if (const auto other = alike_wave(fit, i)) offset.alike = name_of(*other);
@@ -104,12 +117,44 @@ bool is_narrow(const ParameterEstimate& estimate, Scale scale) {
   return true;
 }
 
-ParameterEstimate estimate_of(const Quantity& quantity, const SlidingFit& fit, parameters::AxisKind axis) {
+/// An estimate that spans so many standard errors to each side.
+ParameterEstimate estimate_within(const Quantity& quantity, const SlidingFit& fit, double quantile) {
   ParameterEstimate estimate;
+  estimate.value = quantity.value;
+  estimate.standard_error = std::sqrt(quantity.gradient.dot(fit.covariance * quantity.gradient));
+  estimate.low = estimate.value - quantile * estimate.standard_error;
+  estimate.high = estimate.value + quantile * estimate.standard_error;
+  return estimate;
+}
+
+double quantile_of(const SlidingFit& fit, double probability) {
+  const double freedom =
+      std::max(1.0, static_cast<double>(fit.windows.size()) - static_cast<double>(sliding_dimension));
+  return statistics::student_t_quantile(freedom, probability);
+}
+
+/// Whether no allowed value is within the errors of the fit, which chance causes once in 1000 records.
+bool is_impossible(const Quantity& quantity, const SlidingFit& fit) {
+  if (!fit.free[quantity.coordinate] || quantity.scale == Scale::logarithmic) return false;
+  if (quantity.with_offset && !fit.free[offset_torque]) return false;
+  constexpr double chance = 1e-3;
+  const ParameterEstimate wide = estimate_within(quantity, fit, quantile_of(fit, 1.0 - 0.5 * chance));
+  const numerics::Interval range = range_of(quantity);
+  return wide.high < range.low || wide.low > range.high;
+}
+
+std::string value_and_range(const Quantity& quantity, const ParameterEstimate& estimate) {
+  return fmt::format("the fit gives {:.3g} [{:.3g}, {:.3g}] {}, which is not {}", estimate.value,
+                     estimate.low, estimate.high, estimate.unit, numerics::range_text(range_of(quantity)));
+}
+
+ParameterEstimate estimate_of(const Quantity& quantity, const SlidingFit& fit, parameters::AxisKind axis) {
+  ParameterEstimate estimate = estimate_within(quantity, fit, quantile_of(fit, 0.975));
   estimate.name = quantity.name;
   estimate.key = quantity.key;
   estimate.unit = quantity.name.ends_with("phase") ? quantity.unit : parameters::unit_on(axis, quantity.unit);
   estimate.status = EstimateStatus::estimated;
+  const std::string torque = parameters::text_on(axis, "$torque");
   if (!fit.free[quantity.coordinate]) {
     leave_open(estimate,
                quantity.coordinate == offset_torque
@@ -118,20 +163,27 @@ ParameterEstimate estimate_of(const Quantity& quantity, const SlidingFit& fit, p
                      "Coulomb level");
     return estimate;
   }
+  if (quantity.with_offset && !fit.free[offset_torque]) {
+    leave_open(estimate,
+               quantity.name == "coulomb_level"
+                   ? fmt::format("the motion has one direction, in which an offset of the {} cannot be "
+                                 "told from it: together they are {:.4g} [{:.4g}, {:.4g}] {}",
+                                 torque, estimate.value, estimate.low, estimate.high, estimate.unit)
+                   : fmt::format("the motion has one direction, in which an offset of the {} cannot be "
+                                 "told from the Coulomb level",
+                                 torque));
+    return estimate;
+  }
   if (!quantity.alike.empty()) {
     leave_open(estimate,
                fmt::format("over so small a part of a {} it cannot be told from {}; move farther",
                            axis == parameters::AxisKind::linear ? "pitch" : "revolution", quantity.alike));
     return estimate;
   }
-  const double freedom =
-      std::max(1.0, static_cast<double>(fit.windows.size()) - static_cast<double>(sliding_dimension));
-  const double quantile = statistics::student_t_quantile(freedom, 0.975);
-  estimate.value = quantity.value;
-  estimate.standard_error = std::sqrt(quantity.gradient.dot(fit.covariance * quantity.gradient));
-  estimate.low = estimate.value - quantile * estimate.standard_error;
-  estimate.high = estimate.value + quantile * estimate.standard_error;
-  if (!is_narrow(estimate, quantity.scale)) {
+  const numerics::Interval range = range_of(quantity);
+  if (is_impossible(quantity, fit)) {
+    leave_open(estimate, value_and_range(quantity, estimate));
+  } else if (!is_narrow(estimate, quantity.scale)) {
     leave_open(estimate,
                fmt::format(fmt::runtime(quantity.vague), std::max(estimate.high, 0.0), estimate.unit));
   } else if (quantity.scale == Scale::logarithmic) {
@@ -139,6 +191,11 @@ ParameterEstimate estimate_of(const Quantity& quantity, const SlidingFit& fit, p
     estimate.standard_error *= estimate.value;
     estimate.low = std::exp(estimate.low);
     estimate.high = std::exp(estimate.high);
+  } else if (!numerics::contains(range, estimate.value)) {
+    leave_open(estimate, value_and_range(quantity, estimate));
+  } else {
+    estimate.low = std::max(estimate.low, range.low);
+    estimate.high = std::min(estimate.high, range.high);
   }
   return estimate;
 }
@@ -149,6 +206,17 @@ std::vector<ParameterEstimate> estimates_of(const SlidingFit& fit, parameters::A
   std::vector<ParameterEstimate> estimates;
   for (const Quantity& quantity : quantities_of(fit)) estimates.push_back(estimate_of(quantity, fit, axis));
   return estimates;
+}
+
+std::string impossible_parameter(const SlidingFit& fit, parameters::AxisKind axis) {
+  for (const Quantity& quantity : quantities_of(fit)) {
+    if (!is_impossible(quantity, fit)) continue;
+    ParameterEstimate estimate = estimate_within(quantity, fit, quantile_of(fit, 0.975));
+    estimate.unit = parameters::unit_on(axis, quantity.unit);
+    return fmt::format("of {} {}: the law is not that of the axis", quantity.name,
+                       value_and_range(quantity, estimate));
+  }
+  return "";
 }
 
 namespace {

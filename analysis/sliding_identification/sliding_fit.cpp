@@ -172,8 +172,8 @@ SlidingFit fit_sliding(std::span<const SlidingRecord> records, const SlidingPoin
   const double variance = squares / std::max(1.0, samples - 2.0 * windows - parameters);  // of a residual
   SlidingMatrix covariance = variance * numerics::pseudo_inverse(scaled(scale, total.information));
   covariance = enlarged(covariance, jackknife(scale, total, by_window));
-  constexpr std::size_t min_strokes = 12;  // with fewer the variance between strokes is known too badly
-  if (by_stroke.size() >= min_strokes) covariance = enlarged(covariance, jackknife(scale, total, by_stroke));
+  if (by_stroke.size() >= min_independent_strokes)
+    covariance = enlarged(covariance, jackknife(scale, total, by_stroke));
   fit.covariance = scaled(scale, covariance);
   return fit;
 }

@@ -35,6 +35,9 @@ struct SlidingFit {
   double unexplained_torque{0.0};   ///< its root mean square
 };
 
+/// Least number of strokes whose variance counts: with fewer it is known too badly.
+constexpr std::size_t min_independent_strokes = 12;
+
 /// The starting point: least squares of the torque on acceleration, direction, velocity, 1 and a torque that
 /// repeats with the pitch (the inverse dynamics), over all samples of the strokes. Its derivatives are
 /// differences of the readings over a few samples, whose errors bias it; the fit does not use them.
@@ -74,7 +77,12 @@ double stribeck_gain(const SlidingFit& fit, double velocity);
 constexpr double min_excess_ratio = 3.5;  ///< of the Stribeck excess to its standard error
 
 /// The reported parameters with their 95 % intervals. What the fit has no parameter for, or knows too badly,
-/// is not identifiable.
+/// is not identifiable, nor is a value outside of the range that the table of parameters allows. An interval
+/// ends where that range does.
 std::vector<fit::ParameterEstimate> estimates_of(const SlidingFit& fit, parameters::AxisKind axis);
+
+/// A sentence on a parameter of which the errors of the fit leave no allowed value; empty if there is none.
+/// Chance causes it once in 1000 records of an axis at the end of the range.
+std::string impossible_parameter(const SlidingFit& fit, parameters::AxisKind axis);
 
 }  // namespace zerocount::sliding_identification

@@ -8,12 +8,14 @@
 
 #include <fmt/format.h>
 
+#include "analysis/sliding_identification/missing_torque.hpp"
 #include "analysis/sliding_identification/sliding_fit.hpp"
 #include "core/failure/failure.hpp"
 
 namespace zerocount::sliding_identification {
 namespace {
 
+constexpr double least_used = 0.25;      // of the travel
 constexpr double max_unexplained = 0.1;  // of the torque; the records of a real machine leave 0.035
 
 bool moves_along(std::span<const SlidingRecord> records, double direction) {
@@ -87,7 +89,9 @@ SlidingFit best_fit(std::span<const SlidingRecord> records, const std::vector<Po
   try {
     SlidingFit fit = fit_sliding(records, start, free, waves);
     const SlidingPoint error = fit.covariance.diagonal().cwiseSqrt();
-    const bool shown = fit.point[stribeck_excess] >= min_excess_ratio * error[stribeck_excess] &&
+    // A level below 0 makes up for another force that the law lacks.
+    const bool shown = (!free[offset_torque] || fit.point[coulomb_level] > 0.0) &&
+                       fit.point[stribeck_excess] >= min_excess_ratio * error[stribeck_excess] &&
                        error[log_stribeck_velocity] < 0.5 * fit::max_half_width(true);
     return shown ? fit : without;
   } catch (const Failure&) {
@@ -212,17 +216,32 @@ bool is_cut(const SlidingIdentification& identification) {
   });
 }
 
-/// Part of the unexplained torque that the position must predict to be of account: a tenth, and where the
-/// readings alone may leave that torque, three standard deviations of what ten classes of so many windows do
-/// by chance.
+/// Proportion of the variance of the unexplained torque that ten classes of so many windows predict by
+/// chance: three standard deviations.
+double predicted_by_chance(const SlidingIdentification& identification) {
+  double windows = 0.0;
+  for (const SlidingRecord& record : identification.records)
+    windows += static_cast<double>(record.windows.size());
+  return 3.0 * std::sqrt(20.0) / windows;
+}
+
+/// Proportion of the unexplained torque that the position must predict to be of account: a tenth, and where
+/// the readings alone may leave that torque, what chance does.
 double least_explained(const SlidingIdentification& identification) {
   constexpr double tolerated = 0.1;
   constexpr double of_readings = 0.6;  // steps; independent errors of readings leave 0.3 to 0.5
   if (is_cut(identification) || identification.misfit > of_readings) return tolerated;
-  double windows = 0.0;
-  for (const SlidingRecord& record : identification.records)
-    windows += static_cast<double>(record.windows.size());
-  return std::max(tolerated, 3.0 * std::sqrt(20.0) / windows);
+  return std::max(tolerated, predicted_by_chance(identification));
+}
+
+/// What predicts most of the unexplained torque, if that is half of it and more than chance does.
+const RepeatingForce* main_part(const SlidingIdentification& identification) {
+  constexpr double most_of_it = 0.5;
+  const auto most = std::ranges::max_element(identification.forces, {}, &RepeatingForce::predicted);
+  return most != identification.forces.end() &&
+                 most->predicted >= std::max(most_of_it, predicted_by_chance(identification))
+             ? &*most
+             : nullptr;
 }
 
 /// The torques of the position that the fit has tried.
@@ -234,6 +253,51 @@ std::string tried_text(const SlidingIdentification& identification) {
   return identification.records.front().pitch > 0.0
              ? "tried are forces that are proportional to it or act a whole number of times in a pitch"
              : "tried is a force proportional to it; --pitch tries those that repeat with a pitch";
+}
+
+std::string advice_on_lag(double lag, double delay) {
+  const double better = std::round(delay + lag);
+  if (better == delay || better < 0.0) return "record torque and position of the same instant";
+  return fmt::format("--delay {:.0f} says so, or record torque and position of the same instant", better);
+}
+
+/// What would help against a torque that goes with this.
+std::string advice_on(const MissingTorque& torque, double delay) {
+  switch (torque.cause) {
+    case TorqueCause::lag:
+      return advice_on_lag(torque.coefficient, delay);
+    case TorqueCause::speed:
+      return "a record of a narrower range of speeds has less of it (--exclude)";
+    case TorqueCause::direction:
+      return "the two directions need laws of their own";
+    case TorqueCause::load:
+      return "a record with less acceleration and gravity has less of it";
+    case TorqueCause::position:
+      return "a record of a part of the travel has less of it (--exclude)";
+    case TorqueCause::time:
+      return "record the axis when it is warm, or identify parts of the record (--exclude)";
+  }
+  return "";
+}
+
+/// The torque that the residuals show best, and others of another cause that explain nearly as much.
+std::string missing_text(const SlidingIdentification& identification) {
+  const MissingTorque& best = identification.missing.front();
+  std::string others;
+  for (const MissingTorque& one : identification.missing) {
+    constexpr double nearly = 0.5;
+    if (one.cause == best.cause || one.explained < nearly * best.explained) continue;
+    if (others.find(one.name) == std::string::npos) others += (others.empty() ? "" : ", ") + one.name;
+  }
+  const std::string what =
+      best.cause == TorqueCause::lag
+          ? fmt::format("the motion follows the {} by {:.1f} samples {} than the record says, which explains",
+                        parameters::text_on(identification.axis, "$torque"), std::abs(best.coefficient),
+                        best.coefficient > 0.0 ? "later" : "earlier")
+          : fmt::format("the law lacks {}, which explains", best.name);
+  return fmt::format("{} {:.0f} % of the squares of the residuals{}, so the intervals may not hold; {}", what,
+                     100.0 * best.explained, others.empty() ? "" : " (nearly as well: " + others + ")",
+                     advice_on(best, identification.records.front().delay));
 }
 
 std::string second_mass_text(const SecondMass& mass) {
@@ -249,6 +313,12 @@ std::string second_mass_text(const SecondMass& mass) {
       "what one mass leaves follows the torque as with a second mass behind a spring, or with a "
       "delay: that explains {:.0f} % of its squares, {}",
       percent, advice);
+}
+
+/// Whether the second mass is named before a torque that the law lacks: it explains more, and has a
+/// resonance.
+bool is_better(const SecondMass& mass, const std::vector<MissingTorque>& missing) {
+  return missing.empty() || (mass.frequency > 0.0 && mass.explained > missing.front().explained);
 }
 
 void refuse_unexplained(const SlidingIdentification& result) {
@@ -268,16 +338,34 @@ void refuse_unexplained(const SlidingIdentification& result) {
 std::string reason_of_distrust(const SlidingIdentification& identification) {
   if (std::ranges::none_of(identification.parameters, fit::is_estimated))
     return "no parameter is identifiable from these records";
+  if (const double used = used_proportion(identification.records); used < least_used)
+    return fmt::format(
+        "only {:.0f} % of the travel is in strokes that are long enough for a fit; sample faster, or move "
+        "farther "
+        "between stops and reversals",
+        100.0 * used);
   const std::string left =
       fmt::format("{:.3g} {} (of {:.3g}) that the law leaves unexplained", identification.unexplained_torque,
                   parameters::unit_on(identification.axis, "N m"), identification.torque);
   const auto position = std::ranges::find(identification.forces, "position", &RepeatingForce::with);
-  if (position != identification.forces.end() && position->predicted >= least_explained(identification))
+  const bool with_position =
+      position != identification.forces.end() && position->predicted >= least_explained(identification);
+  const bool in_position =
+      !identification.missing.empty() && identification.missing.front().cause == TorqueCause::position;
+  if (with_position && (identification.missing.empty() || in_position))
     return fmt::format("the position explains {:.0f} % of the {}; {}", 100.0 * position->predicted, left,
                        tried_text(identification));
   if (identification.second_mass) return second_mass_text(*identification.second_mass);
-  if (identification.forces.empty() && is_cut(identification))
-    return "one stroke does not tell whether the position explains the " + left;
+  if (!identification.missing.empty()) return missing_text(identification);
+  if (!identification.impossible.empty()) return identification.impossible;
+  if (const RepeatingForce* force = main_part(identification))
+    return fmt::format("{} predicts {:.0f} % of the {}", force->with, 100.0 * force->predicted, left);
+  if (identification.one_direction)
+    return fmt::format(
+        "the motion has one direction, in which an offset of the {} cannot be told from the Coulomb "
+        "friction; "
+        "record strokes in the other direction, too",
+        parameters::text_on(identification.axis, "$torque"));
   return "";
 }
 
@@ -291,13 +379,19 @@ SlidingIdentification identify_sliding(std::vector<SlidingRecord> records) {
   result.misfit = fit.misfit;
   result.unexplained_torque = fit.unexplained_torque;
   result.torque = torque_rms(records);
+  result.impossible = impossible_parameter(fit, result.axis);
+  result.one_direction = !fit.free[offset_torque];
+  for (MissingTorque& one : tried_torques(fit))
+    if (one.visibility >= 1.0) result.missing.push_back(std::move(one));
   set_correlation(fit, result);
   result.runs = free_runs(fit);
   result.forces = repeating_forces(fit);
   result.reversal = reversal_friction(fit);
   result.records = std::move(records);
-  // Another force that the law lacks would look like a second mass.
-  if (reason_of_distrust(result).empty()) result.second_mass = visible_second_mass(fit, result.records);
+  // Another force that the law lacks would look like a second mass, and a second mass like a lag.
+  if (reason_of_distrust(result).empty() || !result.missing.empty() || result.one_direction)
+    result.second_mass = visible_second_mass(fit, result.records);
+  if (result.second_mass && !is_better(*result.second_mass, result.missing)) result.second_mass.reset();
   refuse_unexplained(result);
   result.fragment = sliding_fragment(result);
   return result;

@@ -6,6 +6,7 @@
 
 #include "analysis/document/answer.hpp"
 #include "analysis/fit/report.hpp"
+#include "analysis/sliding_identification/missing_torque.hpp"
 #include "analysis/sliding_identification/reversal_friction.hpp"
 #include "analysis/sliding_identification/second_mass.hpp"
 #include "analysis/sliding_identification/sliding_record.hpp"
@@ -24,14 +25,17 @@ struct SlidingIdentification : fit::FitReport {
   /// Whether a torque that acts twice in a revolution or pitch would explain the records as well as one that
   /// acts once.
   bool could_be_two_periods{false};
-  std::optional<SecondMass> second_mass;     ///< that the fit of one mass lacks
-  double misfit{0.0};                        ///< root mean square of the residuals, in resolutions
-  double unexplained_torque{0.0};            ///< root mean square over the windows, N m or N
-  double torque{0.0};                        ///< root mean square of the torque in the strokes, N m or N
-  std::vector<FreeRun> runs;                 ///< of the records
-  std::vector<RepeatingForce> forces;        ///< what the unexplained torque repeats with
-  std::optional<ReversalFriction> reversal;  ///< nothing without a reversal
-  std::vector<std::string> correlated;       ///< names of the fitted parameters
+  std::optional<SecondMass> second_mass;  ///< that the fit of one mass lacks
+  std::vector<MissingTorque> missing;  ///< Torques that the law lacks and the residuals show, the best first.
+  std::string impossible;              ///< See impossible_parameter().
+  bool one_direction{false};           ///< Whether all strokes have the same direction.
+  double misfit{0.0};                  ///< root mean square of the residuals, in resolutions
+  double unexplained_torque{0.0};      ///< root mean square over the windows, N m or N
+  double torque{0.0};                  ///< root mean square of the torque in the strokes, N m or N
+  std::vector<FreeRun> runs;           ///< of the records
+  std::vector<RepeatingForce> forces;  ///< what the unexplained torque repeats with
+  std::optional<ReversalFriction> reversal;        ///< nothing without a reversal
+  std::vector<std::string> correlated;             ///< names of the fitted parameters
   std::vector<std::vector<double>> correlation{};  ///< of their errors, in that order
 };
 
@@ -39,7 +43,8 @@ struct SlidingIdentification : fit::FitReport {
 ///
 /// Fitted are the inertia, the Coulomb level, the viscous damping and an offset. The Stribeck curve is added
 /// if the record shows it: its excess over the Coulomb level is more than 3.5 standard errors above 0, and
-/// its velocity is known to a factor of 2. With motion in one direction only, the offset is taken for 0.
+/// its velocity is known to a factor of 2. With motion in one direction only, the offset is taken for 0, and
+/// the Coulomb level, which then contains it, is not told.
 /// The windows begin with 256 samples. While the residuals are larger than the steps of the readings, forces
 /// that the law lacks make them, which add up in a window: they are quartered, to 64 and to 16 samples.
 ///
@@ -51,9 +56,11 @@ struct SlidingIdentification : fit::FitReport {
 /// fit leaves more than a third of the torque unexplained.
 SlidingIdentification identify_sliding(std::vector<SlidingRecord> records);
 
-/// Why the result must not be trusted: no parameter is estimated, the position explains a tenth or more of
-/// what the law leaves unexplained, or a second mass is shown. Otherwise empty, or another fault of the
-/// record.
+/// Why the result must not be trusted, and what would help; empty if it may be.
+///
+/// The reasons: no parameter is estimated, one came out beyond its allowed range, the strokes are less than a
+/// quarter of the travel, have one direction, or leave residuals that go with something (MissingTorque,
+/// RepeatingForce, SecondMass).
 std::string reason_of_distrust(const SlidingIdentification& identification);
 
 /// The parameters as a fragment of a manifest. If sliding shows no level above the Coulomb level, the

@@ -1,6 +1,7 @@
 #include "analysis/sliding_identification/sliding_record.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -127,6 +128,7 @@ SlidingRecord sliding_record(const records::RawSeries& series, double pitch) {
   record.axis = fit::axis_of(series);
   record.torque = fit::courses_of(series, sampled);
   record.smoothing = smoothing_samples;
+  record.delay = series.delay;
   const double unit = series.count_size > 0.0 ? series.count_size : 1.0;
   record.origin = unit * series.angle.front();
   record.pitch = series.linear ? pitch : 2.0 * std::numbers::pi;
@@ -146,6 +148,7 @@ SlidingRecord sliding_record(const records::RawSeries& series, double pitch) {
   set_velocities(record);
   const std::vector<Window> runs = runs_of(directions_of(record, series));
   if (series.sliding.empty()) record.presliding_travel = presliding_travel(record, runs);
+  for (const Window& run : runs) record.moved += travel_of(record, run);
   find_strokes(record, runs);
   if (record.strokes.empty()) {
     fit::refuse(
@@ -162,6 +165,16 @@ SlidingRecord sliding_record(const records::RawSeries& series, double pitch) {
   }
   cut_windows(record, max_window_samples);
   return record;
+}
+
+double used_proportion(std::span<const SlidingRecord> records) {
+  double used = 0.0;
+  double moved = 0.0;
+  for (const SlidingRecord& record : records) {
+    moved += record.moved;
+    for (const Window& stroke : record.strokes) used += travel_of(record, stroke);
+  }
+  return moved > 0.0 ? used / moved : 0.0;
 }
 
 void cut_windows(SlidingRecord& record, std::size_t samples) {
@@ -209,15 +222,20 @@ class SlidingAxis {
 
   const Number& position() const { return position_; }
 
-  /// @param first, last torques against the drive that depend on the position, at both ends
-  void advance(const motion::TorqueCourse& course, double duration, const Number& first, const Number& last) {
+  /// @param of_position torques against the drive that depend on the position, at the begin, in the middle
+  /// and at the end: a parabola, because a straight line leaves a force that follows the torque as a second
+  /// mass does where cogging is passed in a few samples.
+  void advance(const motion::TorqueCourse& course, double duration,
+               const std::array<Number, 3>& of_position) {
     const double rate = std::max(friction_rate_, motion::is_constant(course) ? 0.0 : course.rate);
     constexpr double max_steps = 200.0;  // no meaning beyond: the parameters are far off
     const double steps = std::clamp(std::ceil(20.0 * rate * duration), 1.0, max_steps);
     for (double i = 0.0; i < steps; i += 1.0) {
       const auto torque = [&](double at) -> Number {
+        const double s = at / steps;
         return motion::course_after(course, at * duration / steps).now - offset_ -
-               (first + at / steps * (last - first));
+               ((1.0 - s) * (1.0 - 2.0 * s) * of_position[0] + 4.0 * s * (1.0 - s) * of_position[1] +
+                s * (2.0 * s - 1.0) * of_position[2]);
       };
       step(torque(i), torque(i + 0.5), torque(i + 1.0), duration / steps);
     }
@@ -256,18 +274,22 @@ struct WindowResiduals {
   bool operator()(const Number* point, const Number* start, Number* residuals) const {
     using std::isfinite;
     SlidingAxis<Number> axis(point, start, window.direction);
-    const auto of_position = [&](std::size_t k) {
+    const auto torque_of = [&](const PositionShape& shape) {
       Number torque(0.0);
-      for (std::size_t j = 0; j < terms; ++j) torque += record.shape[k][j] * point[position_amplitudes + j];
+      for (std::size_t j = 0; j < terms; ++j) torque += shape[j] * point[position_amplitudes + j];
       return torque;
     };
-    Number here = of_position(window.first);
+    const auto of_position = [&](const std::vector<PositionShape>& shapes, std::size_t k) {
+      return terms == 0 ? Number(0.0) : torque_of(shapes[k]);
+    };
+    Number here = of_position(record.shape, window.first);
     for (std::size_t k = window.first; k <= window.last; ++k) {
       if (!isfinite(axis.position())) return false;
       *residuals++ = (axis.position() - record.position[k]) / record.resolution;
       if (k == window.last) break;
-      const Number next = of_position(k + 1);
-      axis.advance(record.torque[k], record.time[k + 1] - record.time[k], here, next);
+      const Number next = of_position(record.shape, k + 1);
+      axis.advance(record.torque[k], record.time[k + 1] - record.time[k],
+                   {here, of_position(record.shape_between, k), next});
       here = next;
     }
     return true;

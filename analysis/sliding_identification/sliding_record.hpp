@@ -36,15 +36,18 @@ struct SlidingRecord {
   std::vector<motion::TorqueCourse> torque;  ///< [sample] from t_k to t_{k+1}
   std::vector<double> position;              ///< [sample] as read, from 0 at the first sample
   std::vector<double> velocity;  ///< [sample] over `smoothing` samples to both sides, for the start
+  double delay{0.0};             ///< Delay of the torque that the record was read with, samples.
   double resolution{0.0};        ///< step of the readings, or three standard deviations of their noise
   double origin{0.0};            ///< reading at the first sample, rad or m
   double pitch{0.0};     ///< travel with which a torque may repeat: 2π, of a linear axis 0 if unknown
   bool turns{false};     ///< whether it moves by a fiftieth of the pitch or more
   std::size_t waves{0};  ///< torques that depend on the position (set_position_waves())
-  std::vector<PositionShape> shape{};  ///< [sample]; empty without such torques
+  std::vector<PositionShape> shape{};          ///< [sample]; empty without such torques
+  std::vector<PositionShape> shape_between{};  ///< [interval] in its middle
   std::size_t smoothing{1};
   std::size_t window_samples{0};  ///< about which the windows have
   double presliding_travel{0.0};  ///< from a standstill or a reversal, before the axis slides; 0: not seen
+  double moved{0.0};  ///< Travel of all motions in one direction, rad or m; the strokes are parts of it.
   std::vector<Window> strokes;
   std::vector<Window> windows;
   double min_velocity{0.0};  ///< smallest |velocity| in the strokes
@@ -57,6 +60,9 @@ inline std::size_t samples_of(const Window& window) {
 
 constexpr std::size_t max_window_samples = 256;
 constexpr std::size_t min_window_samples = 16;
+
+/// Proportion of the travel of the records that is in windows.
+double used_proportion(std::span<const SlidingRecord> records);
 
 /// Finds the strokes of a series, and cuts them into windows of max_window_samples.
 ///
@@ -95,8 +101,9 @@ using SlidingPoint = Eigen::Matrix<double, sliding_dimension, 1>;
 /// core/friction/sliding/sliding.hpp with an offset and with the torques p of the record's waves, by the
 /// classical Runge–Kutta method, with steps of at most a sampling interval and a twentieth of the time
 /// constants of the friction and of the amplifier. The derivatives are those of these steps, by forward
-/// automatic differentiation. p is taken at the positions that were read: their errors are small beside a
-/// wave, and p is then known but for its amplitudes. The evaluation fails where the motion is not finite.
+/// automatic differentiation. p is taken at the positions that were read, and between two of them at that of
+/// the cubic through four: their errors are small beside a wave, and p is then known but for its amplitudes.
+/// The evaluation fails where the motion is not finite.
 /// @param record and @param window must outlive the result.
 std::unique_ptr<ceres::CostFunction> window_residuals(const SlidingRecord& record, const Window& window);
 

@@ -67,11 +67,13 @@ constexpr const char* identify_help =
     "this. Its parameters are drawn independently; --posterior writes joint draws, for the key\n"
     "samples of a manifest. --plot draws each record with the fit, its residuals, and the torque\n"
     "over the angle: as a page (.html), or one record as a picture (.svg or .png), which needs node,\n"
-    "and rsvg-convert for PNG (Debian: nodejs, librsvg2-bin).\n"
+    "and rsvg-convert for PNG (Debian: nodejs, librsvg2-bin). Records of sliding have no drawing yet:\n"
+    "--plot and --sliding exclude each other.\n"
     "\n"
     "Unsuitable records are refused with the reason and exit code 4, files that are not such\n"
     "tables with exit code 2. The exit code is 3 if nothing can be identified, if encoder and noise do\n"
-    "not explain the residuals, or if what --sliding leaves goes with the position: do not trust it.\n"
+    "not explain the residuals. Of --sliding it is also 3 if what the law leaves goes with something, as a\n"
+    "delay, the speed, the load, the position or the time, or if the motion has one direction.\n"
     "\n"
     "Examples: zerocount identify ramps.csv steps.csv holds.csv --counts-per-revolution 1620000\n"
     "          zerocount identify tests.h5 --format yaml -o friction.yaml\n"
@@ -331,8 +333,9 @@ ExitCode identify(const command_line::Arguments& arguments) {
                             [&] { return identify_records(arguments, outputs, std::move(options)); });
 }
 
-/// An option of material tests.
+/// An option of material tests, whose help says that sliding records do not have it.
 command_line::OptionSpec of_tests(command_line::OptionSpec option) {
+  option.help += "; not with --sliding";
   return command_line::excluding({"sliding"}, std::move(option));
 }
 

@@ -108,16 +108,15 @@ TEST(UnexplainedForce, NeedsStrokes) {
   std::mt19937_64 random(16);
   const SlidingIdentification found = identify(closed_loop_record({}, {}, {{0.1228, 0.6}}, 1, random));
   EXPECT_TRUE(found.forces.empty());
-  EXPECT_EQ(reason_of_distrust(found), "");
+  EXPECT_NE(reason_of_distrust(found).find("the motion has one direction"), std::string::npos)
+      << reason_of_distrust(found);
   const auto json = document::json(sliding_identification::sliding_answer().of(found));
   EXPECT_EQ(json["unexplained"].size(), 0u);
   EXPECT_NEAR(json["simulation"][0]["proportion"].get<double>(), found.runs[0].rms / found.runs[0].stroke,
               1e-15);
   SlidingAxis cogged;
   cogged.ripple = {{2.0, 600.0, 0.3}};
-  EXPECT_NE(reason_of_distrust(identify(closed_loop_record(cogged, {}, {{0.1228, 0.6}}, 1, random)))
-                .find("one stroke does not tell"),
-            std::string::npos);
+  EXPECT_NE(reason_of_distrust(identify(closed_loop_record(cogged, {}, {{0.1228, 0.6}}, 1, random))), "");
 }
 
 // After a reversal Dahl's friction is Fc·(1 − 2·exp(−σ0·x/Fc)): nine tenths of 2·Fc are done at ln 10·Fc/σ0.

@@ -24,6 +24,7 @@ class MovingJoint {
     torque_ = torque;
     constexpr int parts = 8;
     for (int i = 0; i < parts; ++i) step(duration / parts);
+    time_ += duration;
   }
 
  private:
@@ -43,13 +44,21 @@ class MovingJoint {
 
   double level(double speed, int direction) const {
     const double ratio = joint_.stribeck_velocity > 0.0 ? speed / joint_.stribeck_velocity : 0.0;
-    return joint_.coulomb + 0.5 * direction * joint_.directional + joint_.excess * std::exp(-ratio * ratio);
+    return joint_.coulomb * (1.0 - joint_.coulomb_drift * time_) + 0.5 * direction * joint_.directional +
+           joint_.excess * std::exp(-ratio * ratio);
+  }
+
+  /// Friction by the torque u − d that the transmission carries, with d all other torques but the friction.
+  double load_friction(const State& y) const {
+    return joint_.load_friction * 0.5 * std::abs(2.0 * torque_ - drive(y));
   }
 
   State slopes(const State& y) const {
     State slope{};
     if (direction_ != 0) {
-      const double friction = joint_.damping * y[1] + direction_ * level(y[1], direction_);
+      const double damping = joint_.damping * (1.0 + joint_.damping_asymmetry * direction_);
+      const double friction = damping * y[1] + joint_.quadratic * y[1] * std::abs(y[1]) +
+                              direction_ * (level(y[1], direction_) + load_friction(y));
       slope[0] = y[1];
       slope[1] = (drive(y) - friction) / joint_.inertia;
     }
@@ -71,7 +80,7 @@ class MovingJoint {
     if (direction_ == 0) {
       const double torque = drive(state_);
       const int towards = torque > 0.0 ? 1 : -1;
-      if (std::abs(torque) > level(0.0, towards)) direction_ = towards;
+      if (std::abs(torque) > level(0.0, towards) + load_friction(state_)) direction_ = towards;
     }
     const State end = after(time);
     if (direction_ == 0 || direction_ * end[1] >= 0.0) {
@@ -93,6 +102,7 @@ class MovingJoint {
   const Joint& joint_;
   State state_{};
   double torque_{0.0};
+  double time_{0.0};
   int direction_{0};  // of the slide; 0 at rest
 };
 
@@ -178,7 +188,9 @@ records::RawSeries joint_record(const Joint& joint, const std::vector<double>& t
     series.time.push_back(joint.sample_time * static_cast<double>(series.time.size()));
     series.torque.push_back(torque);
     series.angle.push_back(reading);
-    motion.advance(torque, joint.sample_time);
+    const std::size_t acting = series.torque.size() - 1;
+    const auto delay = static_cast<std::size_t>(joint.torque_delay);
+    motion.advance(acting < delay ? 0.0 : series.torque[acting - delay], joint.sample_time);
   }
   return series;
 }

@@ -24,9 +24,15 @@ struct Joint {
   double load{0.0};              ///< inertia of the second mass, kg m²; gravity acts on it
   double coupling_damping{0.0};  ///< N m s/rad
   double directional{0.0};       ///< how much larger the Coulomb level is forward than backward, N m
-  double sample_time{1e-3};      ///< s
-  double resolution{0.0};        ///< rad
-  double noise{0.0};             ///< of the readings, standard deviation, rad
+  double quadratic{0.0};         ///< Drag per square of the speed, N m s²/rad².
+  double damping_asymmetry{
+      0.0};                   ///< Excess of the damping forward over the mean of both directions, relative.
+  double load_friction{0.0};  ///< Friction per torque that the transmission carries, dimensionless.
+  double coulomb_drift{0.0};  ///< Relative fall of the Coulomb level per second.
+  int torque_delay{0};        ///< Samples by which the torque acts after it is recorded.
+  double sample_time{1e-3};   ///< s
+  double resolution{0.0};     ///< rad
+  double noise{0.0};          ///< of the readings, standard deviation, rad
 };
 
 /// A joint of random size with an encoder of random fineness; without gravity, ripple and second mass.

@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 
 #include "analysis/sliding_identification/added_column.hpp"
+#include "analysis/sliding_identification/missing_torque.hpp"
 #include "analysis/statistics/distributions.hpp"
 #include "core/failure/failure.hpp"
 #include "core/numerics/dense.hpp"
@@ -148,6 +149,9 @@ std::optional<SecondMass> shown_by(const SlidingFit& fit) {
   constexpr double least_explained = 0.03;
   if (best == amplitudes.end() || best->column.explained < least_explained ||
       std::sqrt(best->column.gain / variance_of(best->column)) < least_ratio(windows.size()))
+    return std::nullopt;
+  const std::vector<MissingTorque> others = tried_torques(fit);
+  if (others.front().visibility >= 1.0 && others.front().explained > best->column.explained)
     return std::nullopt;
   return SecondMass{best->column.explained, well_known_frequency(amplitudes, *best)};
 }

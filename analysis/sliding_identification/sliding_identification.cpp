@@ -315,10 +315,12 @@ std::string second_mass_text(const SecondMass& mass) {
       percent, advice);
 }
 
-/// Whether the second mass is named before a torque that the law lacks: it explains more, and has a
-/// resonance.
-bool is_better(const SecondMass& mass, const std::vector<MissingTorque>& missing) {
-  return missing.empty() || (mass.frequency > 0.0 && mass.explained > missing.front().explained);
+/// Whether the second mass is named before a torque that the law lacks: its resonance is one that a window of
+/// the usual length shows. A slower one would make up for any force.
+bool is_better(const SecondMass& mass, const SlidingIdentification& identification) {
+  const std::vector<double>& time = identification.records.front().time;
+  const double rate = static_cast<double>(time.size() - 1) / time.back();
+  return identification.missing.empty() || mass.frequency * static_cast<double>(max_window_samples) > rate;
 }
 
 void refuse_unexplained(const SlidingIdentification& result) {
@@ -391,7 +393,7 @@ SlidingIdentification identify_sliding(std::vector<SlidingRecord> records) {
   // Another force that the law lacks would look like a second mass, and a second mass like a lag.
   if (reason_of_distrust(result).empty() || !result.missing.empty() || result.one_direction)
     result.second_mass = visible_second_mass(fit, result.records);
-  if (result.second_mass && !is_better(*result.second_mass, result.missing)) result.second_mass.reset();
+  if (result.second_mass && !is_better(*result.second_mass, result)) result.second_mass.reset();
   refuse_unexplained(result);
   result.fragment = sliding_fragment(result);
   return result;

@@ -997,6 +997,15 @@ class IdentifySlidingAnswer(Answer):
         Root mean square of the torque in the strokes, N m or N.
     second_mass : SecondMass or None
         A second mass that the records show; null: none is shown, or another fault comes first.
+    missing : pandas.DataFrame
+        Torques that the residuals show; empty: none.
+
+        - ``cause``: what the torque goes with
+        - ``torque``: the torque, in words
+        - ``explained``: proportion of the squares of the residuals that it explains
+        - ``visibility``: ratio of its coefficient to the standard error, over the ratio that chance exceeds once in
+          1000 records
+
     reversal : Reversal or None
         Friction after reversals; null: none without a standstill.
     simulation : pandas.DataFrame
@@ -1033,6 +1042,7 @@ class IdentifySlidingAnswer(Answer):
     unexplained_torque: float | None
     torque: float | None
     second_mass: SecondMass | None
+    missing: pandas.DataFrame
     reversal: Reversal | None
     simulation: pandas.DataFrame
     unexplained: pandas.DataFrame

@@ -108,38 +108,6 @@ TEST(SlidingMotion, IsThatOfThePlant) {
   }
 }
 
-// Cogging whose period is passed in 30 samples: read between the samples by a straight line it would be 0.1 %
-// too small, which moves the axis by some 1e-6 rad.
-TEST(SlidingMotion, CoggingBetweenSamplesIsThatOfThePlant) {
-  constexpr double cogging = 0.2;
-  constexpr double wave_number = 400.0;
-  SlidingRecord record = wavy_record(1.0, 0.0);
-  motion::PlantParameters parameters;
-  parameters.inertia = inertia;
-  parameters.sliding_damping = damping;
-  friction::FrictionAlongRotor friction;
-  friction.model = friction::FrictionModel::coulomb;
-  friction.uniform.breakaway = coulomb;
-  friction.uniform.coulomb_ratio = 1.0;
-  motion::PlantStart start;
-  start.velocity = 0.5;
-  plant::Plant judge(parameters, friction, start, {1e-13});
-  judge.disturb({.ripple = {{cogging, wave_number, 0.0}}});
-  for (std::size_t k = 0; k < record.time.size(); ++k) {
-    record.position[k] = judge.theta();
-    judge.advance(record.torque[k], 1e-3);
-  }
-  const sliding_identification::PositionWave wave{wave_number, wave_number};
-  std::vector<SlidingRecord> records{record};
-  set_position_waves(records, {&wave, 1});
-  SlidingPoint point = SlidingPoint::Zero();
-  point.head<3>() << std::log(inertia), coulomb, damping;
-  point[sliding_identification::position_amplitudes] = -cogging;
-  MotionStart from;
-  from << point, 0.0, 0.5;
-  EXPECT_LT(window_motion(records.front(), {0, 199, 0, 1.0}, from).position.cwiseAbs().maxCoeff(), 1e-7);
-}
-
 TEST(SlidingMotion, DerivativesAreThoseOfTheMotion) {
   const SlidingRecord record = wavy_record(1.0, 0.0);
   const Window window{3, 180, 0, 1.0};

@@ -315,8 +315,17 @@ std::string second_mass_text(const SecondMass& mass) {
       percent, advice);
 }
 
-/// Whether the second mass is named before a torque that the law lacks: its resonance is one that a window of
-/// the usual length shows. A slower one would make up for any force.
+/// Whether a second mass is looked for: other forces that the law lacks would look like one, but one looks
+/// like a lag.
+bool may_have_second_mass(const SlidingIdentification& identification) {
+  return identification.missing.empty()
+             ? reason_of_distrust(identification).empty() || identification.one_direction ||
+                   main_part(identification) != nullptr
+             : identification.missing.front().cause == TorqueCause::lag;
+}
+
+/// Whether the second mass is named before a lag: its resonance is one that a window of the usual length
+/// shows.
 bool is_better(const SecondMass& mass, const SlidingIdentification& identification) {
   const std::vector<double>& time = identification.records.front().time;
   const double rate = static_cast<double>(time.size() - 1) / time.back();
@@ -390,9 +399,7 @@ SlidingIdentification identify_sliding(std::vector<SlidingRecord> records) {
   result.forces = repeating_forces(fit);
   result.reversal = reversal_friction(fit);
   result.records = std::move(records);
-  // Another force that the law lacks would look like a second mass, and a second mass like a lag.
-  if (reason_of_distrust(result).empty() || !result.missing.empty() || result.one_direction)
-    result.second_mass = visible_second_mass(fit, result.records);
+  if (may_have_second_mass(result)) result.second_mass = visible_second_mass(fit, result.records);
   if (result.second_mass && !is_better(*result.second_mass, result)) result.second_mass.reset();
   refuse_unexplained(result);
   result.fragment = sliding_fragment(result);

@@ -50,7 +50,7 @@ TEST(SecondMass, IsNamedWithItsResonance) {
     const double resonance = 25.0 + 10.0 * i;
     add_second_mass(motion.joint, 1.0, resonance, 0.05);
     const SlidingIdentification found = identified(motion, random);
-    ASSERT_TRUE(found.second_mass) << i;
+    ASSERT_TRUE(found.second_mass) << i << ": " << reason_of_distrust(found);
     EXPECT_NEAR(found.second_mass->frequency, resonance, 0.2 * resonance) << i;
     EXPECT_NE(reason_of_distrust(found).find("a second mass behind a spring"), std::string::npos);
   }

@@ -66,6 +66,19 @@ ExitCode run(const std::vector<std::string>& words) {
   }
 }
 
+extern "C" void end_interrupted(int) {
+  _exit(static_cast<int>(ExitCode::interrupted));
+}
+
+/// Signals that end a command which has nothing to keep: the exit code tells it. Commands that have something
+/// to keep watch these signals themselves (status::InterruptionWatch). Signals that the parent ignores stay
+/// ignored.
+void end_by_signals() {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    if (std::signal(signal, end_interrupted) == SIG_IGN) std::signal(signal, SIG_IGN);
+  }
+}
+
 /// Takes the places of closed standard streams, so that no file opened later gets one of them, and with it
 /// what is written to the stream. Reading and writing them fails as before.
 void occupy_closed_streams() {
@@ -85,6 +98,7 @@ int main(int count, char** words) {
   std::signal(SIGPIPE, SIG_IGN);
   // Where the parent ignored it, the ends of child processes would be lost.
   std::signal(SIGCHLD, SIG_DFL);
+  end_by_signals();
   occupy_closed_streams();
   return static_cast<int>(run({words + 1, words + count}));
 }

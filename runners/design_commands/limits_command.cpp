@@ -111,9 +111,9 @@ std::string not_simulated_text(const std::vector<Limit>& limits) {
   std::vector<std::string> names;
   for (const Limit& one : limits)
     if (!one.rate) names.push_back(one.effect);
-  return names.empty() ? ""
-                       : fmt::format("; not simulated, for the reasons in their rows: {}",
-                                     fmt::join(names, ", "));
+  return names.empty()
+             ? ""
+             : fmt::format("; not simulated, for the reasons in their rows: {}", fmt::join(names, ", "));
 }
 
 /// Tells what was not tried, and whether there were too few units to show a cause.
@@ -297,7 +297,7 @@ Failure too_small(const command_line::Budget& budget, const study::Study& study,
 ExitCode limits(const command_line::Arguments& arguments) {
   const ExaminedPoint examined = point_to_examine(arguments);
   const command_line::Budget budget = command_line::budget_option(arguments);
-  const status::InterruptionWatch interruption;
+  const status::InterruptionWatch interruption(status::InterruptionWatch::Unstopped::end);
   const trials::Effort effort = trials::Effort(interruption.token()).share(budget.trials, budget.seconds);
   commands::StageProgress progress("zerocount limits", false);
   std::optional<document::Answer> answer;

@@ -197,7 +197,7 @@ ExitCode find_worst(const command_line::Arguments& arguments,
                     const std::optional<std::filesystem::path>& output) {
   const ExaminedPoint examined = point_to_examine(arguments);
   if (output) require_manifest(examined, *output);
-  const status::InterruptionWatch interruption;
+  const status::InterruptionWatch interruption(status::InterruptionWatch::Unstopped::end);
   Search search{examined.study, unless_interrupted([&] {
                   return tuning::worst_machines(examined.study,
                                                 trials::replicates_of(examined.study, examined.point),

@@ -159,7 +159,7 @@ ExitCode follow(const command_line::Arguments& arguments) {
   const monitor::MonitorSettings settings = settings_from(arguments);
   require_log(path);
   const LoadedBaseline baseline = load_baseline(arguments);
-  const status::InterruptionWatch interruption;
+  const status::InterruptionWatch interruption(status::InterruptionWatch::Unstopped::end);
   GrowingLog growing(path, settings.group);
   std::optional<monitor::MachineMonitor> machine;
   std::optional<ExitCode> code;  // of the last line
@@ -185,7 +185,7 @@ ExitCode follow(const command_line::Arguments& arguments) {
 ExitCode monitor_machine(const command_line::Arguments& arguments) {
   if (arguments.has("follow")) return follow(arguments);
   const LoadedBaseline baseline = load_baseline(arguments);
-  const status::InterruptionWatch interruption;
+  const status::InterruptionWatch interruption(status::InterruptionWatch::Unstopped::end);
   const monitor::MonitorSettings settings = settings_from(arguments);
   const monitor::MoveLog log = read_log(arguments.operands()[1], settings.group);
   monitor::MachineMonitor machine(baseline.moves, log, settings);

@@ -1,8 +1,10 @@
 #include "runners/status/progress.hpp"
 
+#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <ctime>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -26,6 +28,19 @@ sigset_t watched_signals() {
   return signals;
 }
 
+using Clock = std::chrono::steady_clock;
+
+/// Signals that arrive within this time after the first one are the same request. `timeout` of the GNU core
+/// utilities, for example, sends its signal to the process and then to the process group.
+constexpr std::chrono::seconds one_request{1};
+
+/// Time in which work that loses nothing must stop by itself.
+constexpr std::chrono::milliseconds time_to_stop{500};
+
+[[noreturn]] void end_interrupted() {
+  _exit(static_cast<int>(ExitCode::interrupted));
+}
+
 /// Whether somebody who sends the signal again wants the end at once. The system repeats SIGXCPU every
 /// second, and sends SIGHUP beside SIGTERM.
 bool is_of_user(int signal) {
@@ -34,19 +49,23 @@ bool is_of_user(int signal) {
 
 }  // namespace
 
-InterruptionWatch::InterruptionWatch() {
+InterruptionWatch::InterruptionWatch(Unstopped unstopped) {
   const sigset_t signals = watched_signals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-  watcher_ = std::jthread([this, signals](const std::stop_token& done) {
+  watcher_ = std::jthread([this, signals, unstopped](const std::stop_token& done) {
     const timespec patience{0, 50'000'000};  // ns
-    bool asked = false;
+    std::optional<Clock::time_point> first_of_user;
+    std::optional<Clock::time_point> first;
     while (!done.stop_requested()) {
       const int signal = sigtimedwait(&signals, nullptr, &patience);
+      const Clock::time_point now = Clock::now();
+      if (unstopped == Unstopped::end && first && now - *first > time_to_stop) end_interrupted();
       if (signal < 0) continue;
+      if (!first) first = now;
       interrupted_.request_stop();
       if (!is_of_user(signal)) continue;
-      if (asked) _exit(static_cast<int>(ExitCode::interrupted));
-      asked = true;
+      if (!first_of_user) first_of_user = now;
+      if (now - *first_of_user > one_request) end_interrupted();
     }
   });
 }

@@ -11,13 +11,20 @@
 namespace zerocount::status {
 
 /// Turns SIGINT, SIGTERM, SIGHUP (the terminal has closed), SIGXCPU (the limit of processor time) and SIGUSR1
-/// (the warning of a batch system) into a request to stop during its lifetime. A second SIGINT or SIGTERM
-/// ends the process at once, with the exit code of an interruption.
+/// (the warning of a batch system) into a request to stop during its lifetime. Signals within a second after
+/// the first one are the same request. A later SIGINT or SIGTERM ends the process at once, with the exit code
+/// of an interruption.
 ///
 /// Construct it before other threads are started, because threads inherit the set of blocked signals.
 class InterruptionWatch {
  public:
-  InterruptionWatch();
+  /// What becomes of work that does not stop soon after a request.
+  enum class Unstopped : std::uint8_t {
+    wait,  ///< It goes on until it stops by itself, since something is to be kept or removed.
+    end    ///< The process ends, with the exit code of an interruption; nothing is lost.
+  };
+
+  explicit InterruptionWatch(Unstopped unstopped = Unstopped::wait);
   InterruptionWatch(const InterruptionWatch&) = delete;
   InterruptionWatch& operator=(const InterruptionWatch&) = delete;
   ~InterruptionWatch();

@@ -116,6 +116,38 @@ class Interruptions(Runs):
             self.assertIn("ulimit -u", said[0])
 
 
+class Signals(Runs):
+    def begun(self, *words, seconds):
+        """A command that has been running for so long."""
+        process = subprocess.Popen([PROGRAM, *words], cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        time.sleep(seconds)
+        self.assertIsNone(process.poll(), "the command ended before the signal")
+        return process
+
+    def test_two_signals_within_a_second_are_one_request(self):
+        process = subprocess.Popen([PROGRAM, "run", "long.yaml", "-o", "two.h5", "--threads", "1"], cwd=self.folder, stderr=subprocess.PIPE, text=True)
+        while not list((self.folder / "two.h5.shards").glob("*.shard")):
+            time.sleep(0.01)
+        for _ in range(3):
+            process.send_signal(signal.SIGTERM)
+            time.sleep(0.02)
+        _, said = process.communicate()
+        self.assertEqual(process.returncode, 130)
+        self.assertIn("are kept", said)
+
+    def test_a_command_with_nothing_to_keep_ends_within_a_second(self):
+        (self.folder / "days.csv").write_text("settling_time\n" + "".join(f"{0.01 + (i * 7919 % 997) * 1e-6:.6f}\n" for i in range(2_000_000)))
+        (self.folder / "baseline.csv").write_text("settling_time\n" + "".join(f"{0.01 + (i * 7919 % 997) * 1e-6:.6f}\n" for i in range(1000)))
+        for kind in (signal.SIGINT, signal.SIGTERM):
+            with self.subTest(kind.name):
+                process = self.begun("monitor", "baseline.csv", "days.csv", "--measure", "settling_time", seconds=0.3)
+                start = time.monotonic()
+                process.send_signal(kind)
+                process.wait()
+                self.assertEqual(process.returncode, 130)
+                self.assertLess(time.monotonic() - start, 3.0)  # on a busy machine
+
+
 class Files(Runs):
     def outputs(self):
         """Every kind of file that a verb replaces, and the command that makes it."""

@@ -22,6 +22,7 @@
 #include "results/shards/shard.hpp"
 #include "runners/child_process/child_process.hpp"
 #include "runners/command_line/command_line.hpp"
+#include "runners/plugins/crash_message.hpp"
 #include "runners/plugins/plugin_library.hpp"
 #include "runners/status/status.hpp"
 #include "runners/verification/replay.hpp"
@@ -136,6 +137,7 @@ study::Study load_study(const fs::path& operand, const command_line::Arguments& 
     return path;
   };
   const auto load_plugin = [&](const std::string& path) {
+    plugins::name_in_crashes(folder / path);
     return plugins::load_plugin(input(folder / path));
   };
   const auto read_table = [&](const std::string& path, std::string_view what) {
@@ -161,6 +163,7 @@ std::optional<std::int64_t> study_point(const command_line::Arguments& arguments
 std::shared_ptr<const plugin::ControllerPlugin> plugin_option(const command_line::Arguments& arguments) {
   const std::optional<std::string> path = arguments.value("plugin");
   if (!path) return nullptr;
+  plugins::name_in_crashes(*path);
   const sections::LoadedPlugin loaded = plugins::load_plugin(*path);
   if (const auto* fault = std::get_if<plugin::PluginFault>(&loaded))
     arguments.refuse(fmt::format("option '--plugin': {}; expected {}", fault->what, fault->expected));

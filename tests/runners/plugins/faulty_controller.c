@@ -24,7 +24,8 @@ enum {
   POINTER_INTO_STATE,
   NOT_A_NUMBER,
   REFUSES_START,
-  OTHER_ARITHMETIC
+  OTHER_ARITHMETIC,
+  CRASHES
 };
 
 typedef struct {
@@ -61,6 +62,7 @@ static double step(void* memory, const zerocount_setup* setup, const zerocount_s
   double* integral = &s->integral;
   if (FAULT == GLOBAL_STATE || FAULT == GLOBAL_STATE_FROM_START) integral = &outside;
   if (FAULT == POINTER_INTO_STATE) integral = s->place;
+  if (FAULT == CRASHES && now->k >= 100) *(volatile double*)8 = 0.0;
   if (FAULT == NOT_A_NUMBER && now->k >= 100) return NAN;
   *integral += setup->parameters[0] * (now->error + s->last_error);
   *integral = fmin(fmax(*integral, setup->lowest_torque), setup->highest_torque);

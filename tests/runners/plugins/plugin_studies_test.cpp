@@ -1,5 +1,7 @@
 // Files of a study with a plugin: what is recorded, and what other commands do with them.
 
+#include <csignal>
+
 #include "results/reading/all_trials_file.hpp"
 #include "tests/runners/plugins/plugin_manifest.hpp"
 #include "tests/runners/program.hpp"
@@ -210,6 +212,14 @@ TEST(BuiltInLaw, WholeRunsAreEqualToTheBit) {
     for (std::size_t i = 0; i < one.size(); ++i)
       EXPECT_TRUE(one[i] == other[i] || (std::isnan(one[i]) && std::isnan(other[i]))) << measure << " " << i;
   }
+}
+
+TEST(CrashingPlugin, IsNamed) {
+  const TemporaryFolder folder;
+  folder.write("study.yaml", plugin_manifest(faulty_controller(18)));
+  const ProgramResult result = zerocount_program({"trace", "study.yaml"}, folder.path());
+  EXPECT_EQ(result.code, 128 + SIGSEGV);
+  EXPECT_TRUE(says(result.err, "crashed", faulty_controller(18)));
 }
 
 // Controllers of the user's own that cannot be used: each is refused, with its place in the manifest.

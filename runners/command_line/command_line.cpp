@@ -119,6 +119,16 @@ OptionSpec written_file(OptionSpec option) {
   return option;
 }
 
+OptionSpec results_file(OptionSpec option) {
+  option.file = FileUse::results;
+  return option;
+}
+
+OptionSpec page_file(OptionSpec option) {
+  option.file = FileUse::page;
+  return option;
+}
+
 OptionSpec renewed_file(OptionSpec option) {
   option.file = FileUse::renewed;
   return option;

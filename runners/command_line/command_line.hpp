@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/failure/failure.hpp"
+
 namespace zerocount::command_line {
 
 /// What a command does with the file that the value of an option names.
@@ -17,6 +19,8 @@ enum class FileUse {
   none,     ///< the value is not a path
   read,     ///< an input
   written,  ///< an output; an existing one is replaced only with --force
+  results,  ///< a results file; as `written`, but an existing one stays if the command fails
+  page,     ///< a page; an unfinished one is replaced, and another only with --force
   renewed   ///< an output of which the command itself decides what becomes of an existing one
 };
 
@@ -55,6 +59,10 @@ OptionSpec of_operands(std::vector<std::string> operands, OptionSpec option);
 OptionSpec read_file(OptionSpec option);
 /// The option, whose value is the path of an output.
 OptionSpec written_file(OptionSpec option);
+/// The option, whose value is the path of a results file to make.
+OptionSpec results_file(OptionSpec option);
+/// The option, whose value is the path of a page.
+OptionSpec page_file(OptionSpec option);
 /// The option, whose value is the path of an output that may exist.
 OptionSpec renewed_file(OptionSpec option);
 
@@ -163,7 +171,9 @@ OptionSpec force_option();
 
 /// The rule, for the help of every verb with --force.
 inline constexpr std::string_view overwriting_rule =
-    "An existing output is replaced only with --force, and only after the new one is complete.\n";
+    "An existing output is replaced only with --force, and only after the new one is complete.\n"
+    "If the command fails, the output that was to be replaced is removed, unless it is a results\n"
+    "file, so that no earlier answer stands beside the failure.\n";
 
 /// Compares the files of a command, as its options describe them, before any work. Two paths are the same
 /// file where they lead to it, through links or a relative path, whether or not it exists.
@@ -173,6 +183,29 @@ void require_separate_files(const Arguments& arguments);
 
 /// The outputs that the options of the command name.
 std::vector<std::filesystem::path> outputs_of(const Arguments& arguments);
+
+/// The refusal of an output that is also an input or another output, and so must stay as it is.
+class RefusedOutput : public Failure {
+ public:
+  explicit RefusedOutput(const Failure& failure) : Failure(failure) {}
+};
+
+/// Outputs that exist before a command and that --force tells it to replace. Results files are not among
+/// them.
+class EarlierAnswers {
+ public:
+  explicit EarlierAnswers(const Arguments& arguments);
+  /// Removes the outputs that the command has not replaced, for when it has failed. Write-protected files
+  /// stay.
+  void remove_remaining() const;
+
+ private:
+  struct Answer {
+    std::filesystem::path path;
+    std::filesystem::file_time_type written;
+  };
+  std::vector<Answer> answers_;
+};
 
 /// The results file of --output. Checks before any work that its folder exists.
 /// @throws Failure: bad_input if it names a folder, a link, a device or a pipe, or a file that exists, unless

@@ -43,10 +43,10 @@ fs::path file_in_folder(const Arguments& arguments, std::string_view option) {
 
 fs::path output_of_option(const Arguments& arguments, std::string_view option) {
   const FileUse use = arguments.file_use(option);
-  if (use != FileUse::written && use != FileUse::renewed)
+  if (use == FileUse::none || use == FileUse::read)
     throw std::logic_error("option not declared as an output");
   fs::path output = file_in_folder(arguments, option);
-  if (use == FileUse::written) require_replaceable(arguments, output);
+  if (use == FileUse::written || use == FileUse::results) require_replaceable(arguments, output);
   return output;
 }
 
@@ -88,14 +88,23 @@ CommandFiles files_of(const Arguments& arguments) {
   return files;
 }
 
+[[noreturn]] void refuse_output(const Arguments& arguments, const std::string& problem) {
+  try {
+    arguments.refuse(problem);
+  } catch (const Failure& failure) {
+    throw RefusedOutput(failure);
+  }
+}
+
 [[noreturn]] void refuse_input(const Arguments& arguments, const fs::path& output) {
-  arguments.refuse(
-      fmt::format("{} is an input and must not be overwritten; name another output", output.string()));
+  refuse_output(arguments, fmt::format("{} is an input and must not be overwritten; name another output",
+                                       output.string()));
 }
 
 [[noreturn]] void refuse_equal_outputs(const Arguments& arguments, const fs::path& output,
                                        const std::string& options = "") {
-  arguments.refuse(fmt::format("{} is the name of two outputs{}; name two files", output.string(), options));
+  refuse_output(arguments,
+                fmt::format("{} is the name of two outputs{}; name two files", output.string(), options));
 }
 
 }  // namespace
@@ -131,6 +140,36 @@ std::vector<fs::path> outputs_of(const Arguments& arguments) {
   std::vector<fs::path> outputs;
   for (NamedFile& output : files_of(arguments).outputs) outputs.push_back(std::move(output.path));
   return outputs;
+}
+
+EarlierAnswers::EarlierAnswers(const Arguments& arguments) {
+  const std::string force = force_option().name;
+  if (std::ranges::find(arguments.spec().options, force, &OptionSpec::name) == arguments.spec().options.end())
+    return;
+  if (!arguments.has(force)) return;
+  for (const OptionSpec& option : arguments.spec().options) {
+    if (option.file != FileUse::written && option.file != FileUse::page) continue;
+    for (const std::string& path : arguments.values(long_name(option))) {
+      std::error_code error;
+      const bool is_file =
+          !yaml::is_standard_stream(path) && fs::is_regular_file(fs::symlink_status(path, error));
+      const fs::file_time_type written = is_file ? fs::last_write_time(path, error) : fs::file_time_type{};
+      if (is_file && !error) answers_.push_back({path, written});
+    }
+  }
+}
+
+void EarlierAnswers::remove_remaining() const {
+  for (const Answer& answer : answers_) {
+    std::error_code error;
+    if (fs::last_write_time(answer.path, error) != answer.written || error) continue;
+    try {
+      storage::require_replaceable(answer.path);
+    } catch (const Failure&) {
+      continue;
+    }
+    fs::remove(answer.path, error);
+  }
 }
 
 OptionSpec force_option() {

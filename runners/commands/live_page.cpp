@@ -81,7 +81,7 @@ std::optional<fs::path> page_option(const command_line::Arguments& arguments, co
 }
 
 command_line::OptionSpec watch_option() {
-  return command_line::renewed_file(
+  return command_line::page_file(
       {"watch", "PAGE",
        "a page (*.html) for a browser that shows the work while it is done, and at the end its answer"});
 }

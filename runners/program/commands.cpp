@@ -180,7 +180,15 @@ ExitCode run_command_line(std::span<const std::string> words) {
   command_line::require_separate_files(arguments);
   std::optional<parallel::ThreadLimit> limit;
   if (!asks_for_threads(command, arguments)) limit.emplace(parallel::processors());
-  return command.run(arguments);
+  const command_line::EarlierAnswers earlier(arguments);
+  try {
+    return command.run(arguments);
+  } catch (const command_line::RefusedOutput&) {
+    throw;
+  } catch (...) {
+    earlier.remove_remaining();
+    throw;
+  }
 }
 
 }  // namespace zerocount::program

@@ -289,7 +289,7 @@ commands::Command tune_command() {
             {"budget", "B", "of all: a number of trials, or a time such as 60s or 5min"},
             command_line::written_file({"manifest,m", "TUNED", "write the manifest with the tuned values"}),
             extras_spec(),
-            command_line::renewed_file(
+            command_line::page_file(
                 {"report", "PAGE", "write a page (*.html) with maps, what was tried, and the proof"}),
             commands::watch_option(),
             commands::timeline_option(),

@@ -1,5 +1,5 @@
-// Where verbs read and write: one rule for what exists already, "-" for the standard streams, names that tell
-// the kind of a file.
+// Where commands read and write: one rule for what exists already, "-" for the standard streams, names that
+// tell the kind of a file.
 
 #include "tests/runners/program.hpp"
 #include "tests/support/raw_hdf5.hpp"
@@ -76,6 +76,32 @@ TEST_F(Places, NoVerbReplacesWhatExistsWithoutForce) {
     const ProgramResult help = program({verb.arguments[0], "--help"});
     EXPECT_TRUE(says(help.out, "is replaced only with --force"));
   }
+}
+
+// A report of an earlier command that says "passed" would be read as the answer of one that failed.
+TEST_F(Places, NoAnswerOfAnEarlierCommandStaysBesideAFailure) {
+  folder_.write("damaged.h5", folder_.read("all.h5").substr(0, 5000));
+  const std::vector<Writing> failing{
+      {"gate.json", {"compare", "all.h5", "damaged.h5", "--json", "gate.json"}},
+      {"gate.xml", {"compare", "all.h5", "damaged.h5", "--junit", "gate.xml"}},
+      {"gate.md", {"compare", "all.h5", "none.h5", "--markdown", "gate.md"}},
+      {"report.html", {"report", "damaged.h5", "-o", "report.html"}},
+      {"trace.csv", {"trace", "damaged.h5", "-o", "trace.csv"}},
+      {"trace.csv", {"trace", "all.h5", "--trial", "1000000", "-o", "trace.csv"}},
+      {"success.svg", {"plot", "damaged.h5", "--figure", "success", "-o", "success.svg"}}};
+  for (Writing command : failing) {
+    SCOPED_TRACE(::testing::PrintToString(command.arguments));
+    folder_.write(command.output, "passed");
+    EXPECT_NE(program(command.arguments).code, 0);
+    EXPECT_EQ(folder_.read(command.output), "passed") << "without --force";
+    command.arguments.emplace_back("--force");
+    EXPECT_NE(program(command.arguments).code, 0);
+    EXPECT_FALSE(fs::exists(at(command.output)));
+  }
+  const std::string before = folder_.read("all.h5");
+  fs::copy_file(at("all.h5"), at("merged.h5"));
+  EXPECT_NE(program({"merge", "part1.h5", "damaged.h5", "-o", "merged.h5", "--force"}).code, 0);
+  EXPECT_EQ(folder_.read("merged.h5"), before) << "results are kept until there are new ones";
 }
 
 TEST_F(Places, AnInputIsNeverReplaced) {

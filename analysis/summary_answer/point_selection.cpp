@@ -168,9 +168,10 @@ std::vector<bool> holds_at(const StudySummary& summary, const std::string& text,
   const text::Relation condition = parts_of_condition(text);
   if (const std::vector<std::string>* const texts = texts_of(summary, condition.name))
     return texts_hold(*texts, condition);
-  const std::vector<double> values = values_of(summary, condition.name, known);
   const auto limit = text::parse_number<double>(condition.limit);
   if (!limit) refuse(text);
+  const std::vector<double> values =
+      text::values_as_written(condition.sign, values_of(summary, condition.name, known), condition.limit);
   std::vector<bool> holds;
   holds.reserve(values.size());
   for (const double value : values) holds.push_back(text::holds(condition.sign, value, *limit));
@@ -211,7 +212,7 @@ void require_columns(const StudySummary& summary, const PointSelection& selectio
   for (const std::string& column : columns_needed(summary, selection)) values_of(summary, column, {});
 }
 
-std::vector<std::int64_t> selected_points(const StudySummary& summary, const PointSelection& selection,
+std::vector<std::int64_t> matching_points(const StudySummary& summary, const PointSelection& selection,
                                           const std::map<std::string, std::vector<double>>& known) {
   std::vector<std::int64_t> points(summary.points.size());
   std::iota(points.begin(), points.end(), std::int64_t{0});
@@ -228,9 +229,17 @@ std::vector<std::int64_t> selected_points(const StudySummary& summary, const Poi
     std::erase_if(points, [&](std::int64_t point) { return !holds[static_cast<std::size_t>(point)]; });
   }
   if (points.empty()) throw Failure(ExitCode::inconclusive, "no design point meets the conditions");
+  return points;
+}
+
+std::vector<std::int64_t> first_points(std::vector<std::int64_t> points, const PointSelection& selection) {
   if (selection.top && *selection.top < std::ssize(points))
     points.resize(static_cast<std::size_t>(*selection.top));
   return points;
+}
+
+std::vector<std::int64_t> selected_points(const StudySummary& summary, const PointSelection& selection) {
+  return first_points(matching_points(summary, selection), selection);
 }
 
 namespace {
@@ -393,6 +402,7 @@ std::optional<SelectedSummary> summarise_selected(const std::filesystem::path& p
   if (!is_summarised_by_point(study) || file.moves() != study.moves) return std::nullopt;
   SelectedSummary selected{summary::summary_without_points(study, statistics::summary_confidence),
                            {},
+                           0,
                            measures_of_merit(file, goal::question_of(study))};
   StudySummary& summary = selected.summary;
   summary.name = file.header().name;
@@ -410,7 +420,9 @@ std::optional<SelectedSummary> summarise_selected(const std::filesystem::path& p
   }
   if (!read_predictions(summary, file) || !outline_points(summary, file, study, *selected.measures))
     return std::nullopt;
-  selected.points = selected_points(summary, selection, known);
+  std::vector<std::int64_t> matching = matching_points(summary, selection, known);
+  selected.matching = std::ssize(matching);
+  selected.points = first_points(std::move(matching), selection);
   if (selected.points.size() > max_selected) return std::nullopt;
   summary.complete = selected.points;
   summary.complete.push_back(summary::choose_point(summary, point).point);

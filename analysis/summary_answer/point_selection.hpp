@@ -31,21 +31,30 @@ bool needs_mean_bounds(const PointSelection& selection);
 /// @throws Failure (bad_input) where the summary has no value of a name that is needed
 void require_columns(const summary::StudySummary& summary, const PointSelection& selection);
 
-/// The selected points in their order. Values have the names of the columns of the CSV, where a '.' may
-/// stand for '_' ("settling_time.p95"), and those of swept parameters, which may be shortened to an end that
-/// no other has ("ki"). A value that is NaN comes last, and meets no condition. Names, such as those of cases
-/// and labels, are equal (= or ==) or not (!=), and are sorted by the alphabet.
+/// The points that meet all conditions, in their order; `top` is left out of account. Values have the names
+/// of the columns of the CSV, where a '.' may stand for '_' ("settling_time.p95"), and those of swept
+/// parameters, which may be shortened to an end that no other has ("ki"). A number may be written as answers
+/// show it, rounded (text::values_as_written). A value that is NaN comes last, and meets no condition. Names,
+/// such as those of cases and labels, are equal (= or ==) or not (!=), and are sorted by the alphabet.
 /// @throws Failure (bad_input) for an unknown name or a condition that is none, (inconclusive) if no point
 /// is left
 /// @param known [name of a column][point] values that the file stores, in place of those of the statistics
-std::vector<std::int64_t> selected_points(const summary::StudySummary& summary,
+std::vector<std::int64_t> matching_points(const summary::StudySummary& summary,
                                           const PointSelection& selection,
                                           const std::map<std::string, std::vector<double>>& known = {});
+
+/// The first of the points, as many as the selection asks for.
+std::vector<std::int64_t> first_points(std::vector<std::int64_t> points, const PointSelection& selection);
+
+/// The first_points() of the matching_points().
+std::vector<std::int64_t> selected_points(const summary::StudySummary& summary,
+                                          const PointSelection& selection);
 
 /// A summary in which only some points have all statistics (StudySummary::complete).
 struct SelectedSummary {
   summary::StudySummary summary;
-  std::vector<std::int64_t> points{};  ///< that are selected, in their order
+  std::vector<std::int64_t> points{};  ///< Selected points, in their order.
+  std::int64_t matching{0};            ///< Number of points that meet the conditions; `top` shows fewer.
   /// The measures of the points that have few; the summary refers to them.
   std::shared_ptr<const layout::MeasureTable> measures{};
 };

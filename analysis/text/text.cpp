@@ -57,7 +57,7 @@ std::string percentage(std::int64_t successes, std::int64_t trials) {
 }
 
 std::string short_number(double value) {
-  return std::isnan(value) ? "–" : fmt::format("{:.4g}", value);
+  return std::isnan(value) ? "–" : fmt::format("{:.{}g}", value, short_digits);
 }
 
 std::size_t display_width(std::string_view text) {

@@ -88,9 +88,23 @@ std::optional<Relation> parse_relation(std::string_view text);
 /// Whether the value lies so; never of NaN.
 bool holds(Sign sign, double value, double limit);
 
+/// The values, in which each that is shown as the limit is replaced by the limit, so that a number copied
+/// from an answer means the value that the answer shows rounded. Nothing is replaced if a value is equal to
+/// the limit.
+///
+///     = and !=   compare at the digits in which the limit is written
+///     others     compare at these digits too, but at no fewer than answers show (short_digits):
+///                11767.76 is at most 11767.7 and at most 1.176e4, but 12 300 is not at most 1.2e4
+///
+/// @param limit a number as text
+std::vector<double> values_as_written(Sign sign, std::vector<double> values, std::string_view limit);
+
 /// k of n as a percentage with at most one decimal; "–" if n is 0. Values that would round to 0 % or 100 %
 /// are written "< 0.1 %" or "> 99.9 %".
 std::string percentage(std::int64_t successes, std::int64_t trials);
+
+/// Significant digits of short_number(), the fewest that an answer shows.
+inline constexpr int short_digits = 4;
 
 /// `value` with four significant digits, "–" for NaN.
 std::string short_number(double value);

@@ -40,7 +40,8 @@ constexpr const char* summary_help =
     "and whether it lies at an end of the sweep.\n"
     "--sort, --where and --top choose rows. They take the names of the columns of --format csv\n"
     "and of swept parameters, which may be shortened (ki). Conditions are <, <=, >, >=, = and !=;\n"
-    "cases and labels can be equal or not: 'case != best'.\n"
+    "cases and labels can be equal or not: 'case != best'. A number may be written as an answer\n"
+    "shows it, rounded: 'ki = 11767.7' means the point that is shown so.\n"
     "The formats json and csv have more statistics than the table. The file stores 95 % bounds;\n"
     "others are computed.\n"
     "--confirm N runs the best point again, with N new trials from a fresh seed, and prints what\n"
@@ -140,7 +141,9 @@ summary_answer::SelectedSummary summary_of_all(const command_line::Arguments& ar
   const bool with_bounds = (is_whole && !table) || summary_answer::needs_mean_bounds(selection);
   summary::StudySummary summary = summary_of(path, confidence, with_bounds);
   std::vector<std::int64_t> points =
-      selected_by(arguments, [&] { return summary_answer::selected_points(summary, selection); });
+      selected_by(arguments, [&] { return summary_answer::matching_points(summary, selection); });
+  const std::int64_t matching = std::ssize(points);
+  points = summary_answer::first_points(std::move(points), selection);
   constexpr std::ptrdiff_t one_by_one = 200;  // points; more are read quicker with all others
   if (with_bounds || (table && !summary.features.motion && !summary.features.following)) {
     // They have what is shown.
@@ -151,7 +154,7 @@ summary_answer::SelectedSummary summary_of_all(const command_line::Arguments& ar
   } else {
     summary = summary::summarise_file(path, confidence, true);
   }
-  return {std::move(summary), std::move(points), {}};
+  return {std::move(summary), std::move(points), matching, {}};
 }
 
 ExitCode summarise_file(const command_line::Arguments& arguments) {
@@ -165,6 +168,10 @@ ExitCode summarise_file(const command_line::Arguments& arguments) {
         return some ? *std::move(some) : summary_of_all(arguments, confidence);
       });
   const summary::StudySummary& summary = selected.summary;
+  if (arguments.has("where")) {
+    status::tell("{} of {} points {} the conditions\n", selected.matching, summary.points.size(),
+                 selected.matching == 1 ? "meets" : "meet");
+  }
   summary_answer::SummaryReading reading = summary_answer::read_summary(
       summary, {std::move(selected.points), command_line::point_option(arguments, summary.labels),
                 arguments.has("legend")});

@@ -1,10 +1,12 @@
 // The point that all outputs speak of, and its competitors.
 #include "analysis/summary/chosen_point.hpp"
 
+#include <cmath>
 #include <random>
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -126,6 +128,33 @@ TEST(ShownPoints, AreSortedSelectedAndCountedByTheirValues) {
   EXPECT_THROW(selected_points(study, {.where = {"ki"}}), Failure);
   EXPECT_THROW(selected_points(study, {.where = {"ki > many"}}), Failure);
   EXPECT_THROW(selected_points(study, {.where = {"ki > 9"}}), Failure);
+}
+
+// Values of a sweep have 17 digits, and people copy those that an answer shows.
+TEST(ShownPoints, AreFoundByANumberAsAnAnswerShowsIt) {
+  StudySummary study =
+      swept_study({independent(10, 100), independent(90, 100), independent(85, 100), independent(20, 100)});
+  using Points = std::vector<std::int64_t>;
+  std::mt19937_64 random(98);
+  std::uniform_real_distribution<double> exponent(-9.0, 9.0);
+  for (int round = 0; round < 200; ++round) {
+    const double scale = std::pow(10.0, exponent(random));
+    study.axes[0].numbers = {1.0 * scale, 1.17 * scale, 1.5 * scale, 2.3 * scale};
+    for (const char* const form : {"{:.4g}", "{:.6g}", "{:.9g}", "{}"}) {
+      const std::string shown = fmt::format(fmt::runtime(form), study.axes[0].numbers[1]);
+      SCOPED_TRACE(shown);
+      EXPECT_EQ(selected_points(study, {.where = {"ki = " + shown}}), Points{1});
+      EXPECT_EQ(selected_points(study, {.where = {"ki != " + shown}}), (Points{0, 2, 3}));
+      EXPECT_EQ(selected_points(study, {.where = {"ki <= " + shown}}), (Points{0, 1}));
+      EXPECT_EQ(selected_points(study, {.where = {"ki >= " + shown}}), (Points{1, 2, 3}));
+      EXPECT_EQ(selected_points(study, {.where = {"ki < " + shown}}), Points{0});
+      EXPECT_EQ(selected_points(study, {.where = {"ki > " + shown}}), (Points{2, 3}));
+    }
+  }
+  study.axes[0].numbers = {11767.68, 12300.0, 1.0, 1.3};
+  EXPECT_EQ(selected_points(study, {.where = {"ki = 1.2e4"}}), (Points{0, 1}));  // two digits are given
+  EXPECT_EQ(selected_points(study, {.where = {"ki <= 1.2e4"}}), (Points{0, 2, 3}));
+  EXPECT_EQ(selected_points(study, {.where = {"ki = 1"}}), Points{2}) << "an equal value is meant alone";
 }
 
 TEST(ShownPoints, OfNamedCasesAreSelectedAndSortedByTheirNames) {

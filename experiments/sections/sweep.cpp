@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <set>
 #include <span>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/text/text.hpp"
 #include "experiments/keys/manifest_keys.hpp"
 #include "experiments/parameters/unknown_key.hpp"
 #include "experiments/sections/sections.hpp"
@@ -143,14 +145,24 @@ void read_grid(const yaml::Field& sweep, const yaml::Field& grid, std::vector<Sw
   }
 }
 
+/// Reports the name of a case that would be taken for the number of a design point.
+void check_case_name(const yaml::Field& cases, const yaml::YamlEntry& entry, yaml::Problems& problems) {
+  if (!text::parse_number<std::int64_t>(entry.key)) return;
+  problems.add(entry.place, yaml::entry_of(cases, entry).path,
+               "the name of a case is a whole number, which stands for the number of a design point",
+               fmt::format("a name such as 'case {}'", entry.key));
+}
+
 void read_cases(const yaml::Field& sweep, const yaml::Field& cases, std::vector<SweptAxis>& axes,
                 SweepReading& state) {
   if (!yaml::check_map(cases, "a map from names to cases", state.reading.problems)) return;
   const auto& entries = cases.node->entries;
   if (entries.empty() || !check_point_count(sweep, entries.size(), state)) return;
   SweptAxis axis{.cases = true, .name = "case", .place = cases.node->place};
-  for (const yaml::YamlEntry& entry : entries)
+  for (const yaml::YamlEntry& entry : entries) {
+    check_case_name(cases, entry, state.reading.problems);
     read_option(cases, entry, OptionWords{"case", refusal_of_sweep}, axis, state.reading);
+  }
   state.in_cases.insert(axis.slots.begin(), axis.slots.end());
   axes.push_back(std::move(axis));
 }

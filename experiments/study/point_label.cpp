@@ -61,9 +61,9 @@ std::optional<std::int64_t> point_with_both(std::string_view text, std::span<con
 }  // namespace
 
 std::optional<std::int64_t> point_named(std::string_view text, std::span<const std::string> labels) {
+  if (const auto point = point_with_number(text, labels)) return point;
   const auto found = std::ranges::find(labels, text);
   if (found != labels.end()) return found - labels.begin();
-  if (const auto point = point_with_number(text, labels)) return point;
   if (const auto point = point_with_short_label(text, labels)) return point;
   return point_with_both(text, labels);
 }

@@ -367,6 +367,9 @@ def test_a_point_is_named_by_its_number_or_label(small: zc.Results) -> None:
     for wrong, ask in zip((-1, 3, "3", "0.5", "", "controller.ki", 99), asks):
         with pytest.raises(zc.ManifestError, match="expected 0 to 2 or a label"):
             ask(wrong)
+    for ask in asks:
+        with pytest.raises(zc.ArgumentError, match="expected a whole number"):
+            ask(True)
 
 
 @pytest.mark.parametrize("path", SHIPPED, ids=lambda path: path.stem)

@@ -512,12 +512,13 @@ def point_number(point: int | str, labels: list[str], where: object) -> int:
 
 
 def _point_named(name: str, labels: list[str]) -> int | None:
-    """The point of this name, as the program reads it: its label, its number, the label with the paths of keys shortened
-    to their ends, or both: ``3 (ki=5000)``. None where no point, or more than one, has the name."""
-    if name in labels:
-        return labels.index(name)
+    """The point of this name, as the program reads it: its number, its label, the label with the paths of keys shortened
+    to their ends, or both: ``3 (ki=5000)``. A whole number is always the number of a point. None where no point, or more
+    than one, has the name."""
     if (number := _whole(name)) is not None and number < len(labels):
         return number
+    if name in labels:
+        return labels.index(name)
     short = [point for point, label in enumerate(labels) if _shortens(name, label)]
     if len(short) == 1:
         return short[0]

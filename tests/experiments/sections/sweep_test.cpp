@@ -51,6 +51,19 @@ TEST(Sweep, CasesAreNamed) {
   EXPECT_EQ(study::study_trial(study, 0, 0).parameters.dac.bits, 12);
 }
 
+// `--point 1` is the point with this number, whatever the cases are called.
+TEST(Sweep, ACaseCannotHaveTheNameOfANumberOfAPoint) {
+  for (const std::string name : {"'0'", "'1'", "\"12\"", "'-3'"}) {
+    EXPECT_NE(
+        failure_of("{cases: {" + name + ": {controller.ki: 1.0e-5}}}")
+            .find("the name of a case is a whole number, which stands for the number of a design point"),
+        std::string::npos)
+        << name;
+  }
+  for (const std::string name : {"a1", "1a", "'1.5'", "'1 2'"})
+    EXPECT_EQ(swept("{cases: {" + name + ": {controller.ki: 1.0e-5}}}").points.labels.size(), 1U) << name;
+}
+
 TEST(Sweep, CasesAndGridTogetherAreTheirProductWithTheCasesSlowest) {
   const study::Study study =
       swept("{grid: {controller.kp: [0, 1.0e-4]}, cases: {a: {dac.bits: 10}, b: {dac.bits: 14}}}");

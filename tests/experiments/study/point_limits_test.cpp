@@ -102,14 +102,14 @@ const std::vector<std::string> labels{"controller.kp=0, controller.ki=5000",
                                       "controller.kp=0, controller.ki=1e+04", "a b, controller.coarse.kp=1",
                                       "2 c", "1"};
 
-TEST(PointLabel, IsTheLabelTheNumberOrWhatTablesShow) {
+TEST(PointLabel, IsTheNumberTheLabelOrWhatTablesShow) {
   for (const char* const name : {"controller.kp=0, controller.ki=5000", "0", "kp=0 ki=5000", "kp=0, ki=5000",
                                  "0 (kp=0 ki=5000)", "controller.kp=0 controller.ki=5000"})
     EXPECT_EQ(study::point_named(name, labels), 0) << name;
   EXPECT_EQ(study::point_named("a b kp=1", labels), 2);
   EXPECT_EQ(study::point_named("a b coarse.kp=1", labels), 2);
   EXPECT_EQ(study::point_named("3", labels), 3);
-  EXPECT_EQ(study::point_named("1", labels), 4);  // a label before a number
+  EXPECT_EQ(study::point_named("1", labels), 1);  // the number, though point 4 has this label
 }
 
 TEST(PointLabel, NamesOnePointOrNone) {

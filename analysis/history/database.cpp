@@ -335,6 +335,18 @@ Addition add_run(const std::filesystem::path& path, const RunRecord& run, const 
   return addition;
 }
 
+bool has_run(const std::filesystem::path& path, const std::string& file_sha256, const Wait& wait) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) return false;
+  bool found = false;
+  with_database(path, 0, wait, [&](Database& database) {
+    if (is_new(database)) return;
+    check_pages(database);
+    found = find_run(database, file_sha256).has_value();
+  });
+  return found;
+}
+
 std::vector<RunRecord> read_runs(const std::filesystem::path& path, const Wait& wait) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) {

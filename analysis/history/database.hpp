@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "analysis/history/run_record.hpp"
@@ -36,6 +37,10 @@ enum class Addition {
 /// @throws Failure: bad_data where the file is damaged, something else, or of a newer version of the schema;
 /// machine_failed where it cannot be written.
 Addition add_run(const std::filesystem::path& database, const RunRecord& run, const Wait& wait = {});
+
+/// Whether the history has the run of a file with this checksum. No history has it where there is no file.
+/// @throws Failure as add_run()
+bool has_run(const std::filesystem::path& database, const std::string& file_sha256, const Wait& wait = {});
 
 /// All runs of a history, by the time at which they were made.
 /// @throws Failure: bad_input where there is no such file, otherwise as add_run().

@@ -15,6 +15,7 @@
 #include "analysis/report/figures/answer_figures.hpp"
 #include "analysis/report/page.hpp"
 #include "results/reading/all_trials_file.hpp"
+#include "results/storage/file_contents.hpp"
 #include "runners/answers/answer_format.hpp"
 #include "runners/command_line/command_line.hpp"
 #include "runners/commands/command.hpp"
@@ -78,18 +79,29 @@ ExitCode add(const command_line::Arguments& arguments) {
   std::optional<history::RunRecord> of_monitor = history::monitor_record(file);
   if (of_monitor && arguments.has("compare"))
     arguments.refuse("option '--compare': an answer of monitor is compared already; expected a results file");
-  history::RunRecord run =
-      of_monitor ? std::move(*of_monitor)
-                 : commands::with_progress("zerocount history", "computing statistics",
-                                           [&] { return history::record_of(reading::AllTrialsFile(file)); });
+  const auto say_already_there = [&] {
+    status::tell("{}: already in {}, nothing to do\n", file, database.string());
+    return ExitCode::success;
+  };
+  history::RunRecord run;
+  if (of_monitor) {
+    run = std::move(*of_monitor);
+  } else {
+    const reading::AllTrialsFile results(file);
+    // The statistics of a large file take long. Its checksum tells whether they are needed.
+    if (!arguments.has("compare") &&
+        history::has_run(database, storage::recorded_checksum(results.path()), patience_with(database)))
+      return say_already_there();
+    run = commands::with_progress("zerocount history", "computing statistics",
+                                  [&] { return history::record_of(results); });
+  }
   if (const auto json = arguments.value("compare")) history::add_comparison(run, *json);
   switch (history::add_run(database, run, patience_with(database))) {
     case history::Addition::added:
       status::tell("{}: added to {}\n", file, database.string());
       break;
     case history::Addition::already_there:
-      status::tell("{}: already in {}, nothing to do\n", file, database.string());
-      break;
+      return say_already_there();
     case history::Addition::comparison_added:
       status::tell("{}: already in {}; added its comparison\n", file, database.string());
       break;

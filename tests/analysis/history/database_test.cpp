@@ -92,8 +92,11 @@ TEST_F(HistoryDatabase, GivesBackWhatWasAdded) {
 
 TEST_F(HistoryDatabase, AddsARunOnce) {
   history::RunRecord run = run_of_day(1, 0.5);
+  EXPECT_FALSE(history::has_run(path(), run.file_sha256));
   EXPECT_EQ(history::add_run(path(), run), Addition::added);
   EXPECT_EQ(history::add_run(path(), run), Addition::already_there);
+  EXPECT_TRUE(history::has_run(path(), run.file_sha256));
+  EXPECT_FALSE(history::has_run(path(), run_of_day(2, 0.5).file_sha256));
   compare_with_baseline(run, 0.5);
   EXPECT_EQ(history::add_run(path(), run), Addition::comparison_added);
   EXPECT_EQ(history::add_run(path(), run), Addition::already_there);

@@ -202,8 +202,10 @@ std::vector<double> ArrayFile::values(const std::string& path) const {
   const hssize_t size = H5Sget_simple_extent_npoints(space.get());
   require(size < 0 ? -1 : 0, "the size of an array cannot be read");
   std::vector<double> values(static_cast<std::size_t>(size));
-  require(H5Dread(dataset.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
-          path + ": " + std::string(unreadable_values));
+  const herr_t status =
+      H5Dread(dataset.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+  if (status < 0) require_known_filters(dataset.get(), file_name(), path);
+  require(status, path + ": " + std::string(unreadable_values));
   return values;
 }
 

@@ -69,9 +69,10 @@ void Dataset::write_by_library(std::int64_t first, std::int64_t rows, const void
 void Dataset::read_by_library(std::int64_t first, std::int64_t rows, void* data) const {
   const LibraryUse use;
   const Selection selection = select(first, rows);
-  require(H5Dread(id(), types_of(element_).memory, selection.memory.get(), selection.file.get(), H5P_DEFAULT,
-                  data),
-          unreadable_values);
+  const herr_t status = H5Dread(id(), types_of(element_).memory, selection.memory.get(), selection.file.get(),
+                                H5P_DEFAULT, data);
+  if (status < 0) require_known_filters(id(), file_name(), path());
+  require(status, unreadable_values);
 }
 
 void Dataset::write_texts(std::span<const std::string> texts) {

@@ -54,6 +54,10 @@ Handle creation_properties(Id kind);
 
 inline constexpr std::string_view unreadable_values = "its values cannot be read or their checksum is wrong";
 
+/// @throws Failure (bad_data) with the filter's name and the remedy if a dataset is stored through a filter
+/// that the library does not have. @param file, path name the dataset in the message
+void require_known_filters(Id dataset, const std::string& file, const std::string& path);
+
 /// Bytes of a row of a dataset with this extent: its first dimension counts the rows.
 std::size_t row_size(Element element, std::span<const Size> extent);
 

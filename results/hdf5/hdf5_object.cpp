@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include <fmt/format.h>
@@ -81,6 +82,27 @@ Handle creation_properties(Id kind) {
   demand(H5Pset_attr_creation_order(properties.get(), order));
   if (kind != H5P_DATASET_CREATE) demand(H5Pset_link_creation_order(properties.get(), order));
   return properties;
+}
+
+void require_known_filters(Id dataset, const std::string& file, const std::string& path) {
+  const Handle properties(H5Dget_create_plist(dataset), H5Pclose);
+  const int filters = H5Pget_nfilters(properties.get());
+  for (int i = 0; i < filters; ++i) {
+    unsigned flags = 0;
+    unsigned config = 0;
+    std::size_t values = 0;
+    std::array<char, 64> name{};
+    const H5Z_filter_t filter = H5Pget_filter2(properties.get(), static_cast<unsigned>(i), &flags, &values,
+                                               nullptr, name.size() - 1, name.data(), &config);
+    if (filter < 0 || H5Zfilter_avail(filter) != 0) continue;
+    throw Failure(
+        ExitCode::bad_data,
+        text::printable_lines(fmt::format(
+            "{}: {} is stored through the HDF5 filter {} (number {}), which this program does not have; "
+            "expected deflate (gzip) or no compression: write it again so, or convert it with "
+            "'h5repack -f GZIP=1 OLD NEW'",
+            file, path, name[0] != '\0' ? name.data() : "without a name", filter)));
+  }
 }
 
 std::size_t row_size(Element element, std::span<const Size> extent) {

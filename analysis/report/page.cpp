@@ -58,6 +58,12 @@ Scripts scripts_of_figures() {
 /// The mark of an unfinished page, in its head.
 constexpr std::string_view unfinished_mark = "<meta name=\"zerocount\" content=\"unfinished\">\n";
 
+/// The element that names what a page was made from.
+std::string source_element(const std::string& source) {
+  if (source.empty()) return "";
+  return fmt::format("<meta name=\"zerocount-source\" content=\"{}\">\n", document::markup(source));
+}
+
 std::string state_elements(PageState state) {
   if (state == PageState::finished) return "";
   const std::string reload =
@@ -142,13 +148,22 @@ std::string filled(std::string_view pattern, const std::map<std::string_view, st
   }
 }
 
-}  // namespace
-
-bool is_unfinished_page(const std::filesystem::path& path) {
+/// The first bytes of a page, among them the elements that describe it.
+std::string head_of(const std::filesystem::path& path) {
   std::string head(1000, '\0');
   std::ifstream file(path, std::ios::binary);
   file.read(head.data(), static_cast<std::streamsize>(head.size()));
-  return head.find(unfinished_mark) != std::string::npos;
+  return head;
+}
+
+}  // namespace
+
+bool is_unfinished_page(const std::filesystem::path& path) {
+  return head_of(path).find(unfinished_mark) != std::string::npos;
+}
+
+bool is_page_of(const std::filesystem::path& path, const std::string& source) {
+  return !source.empty() && head_of(path).find(source_element(source)) != std::string::npos;
 }
 
 std::string html_page(const ReportPage& page) {
@@ -172,7 +187,7 @@ std::string html_page(const ReportPage& page) {
                  {"figures", script_json({{"theme", figure_theme()}, {"figures", std::move(figures)}})},
                  {"scripts", scripts.elements},
                  {"script-hashes", scripts.hashes},
-                 {"state", state_elements(page.state)}});
+                 {"state", state_elements(page.state) + source_element(page.source)}});
 }
 
 std::string html_folded(const std::string& head, const std::string& html) {

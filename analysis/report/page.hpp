@@ -36,6 +36,7 @@ struct ReportPage {
   std::vector<PageSection> sections;
   std::string kind{"report"};  ///< the command that wrote it
   PageState state{PageState::finished};
+  std::string source{};  ///< Identifies what the page was made from, for is_page_of(); empty: nothing.
 };
 
 /// The report as one self-contained HTML document, without network requests.
@@ -44,6 +45,9 @@ std::string html_page(const ReportPage& page);
 
 /// Whether the file is a page that is live or unfinished.
 bool is_unfinished_page(const std::filesystem::path& path);
+
+/// Whether the file is a page that was made from this source.
+bool is_page_of(const std::filesystem::path& path, const std::string& source);
 
 /// HTML below the line `head`, which shows and hides it. It is not printed.
 std::string html_folded(const std::string& head, const std::string& html);

@@ -119,15 +119,16 @@ ExitCode write_index(const command_line::Arguments& arguments, const std::filesy
       arguments.refuse(
           fmt::format("option '--{}': is of one results file; expected none with a folder", option));
   }
-  const report::ReportPage page =
+  const report::ReportPage index_page =
       folder_index(arguments.operands()[0], output,
                    [&](const std::filesystem::path& file, const std::filesystem::path& place) {
                      command_line::require_apart(arguments, place, {{output}});
                      commands::require_page_place(arguments, place);
-                     command_line::write_text(
-                         place, report::html_page(report_of(arguments, reading::AllTrialsFile(file)).page));
+                     report::ReportPage page = report_of(arguments, reading::AllTrialsFile(file)).page;
+                     page.source = report_source(file);
+                     command_line::write_text(place, report::html_page(page));
                    });
-  command_line::write_text(output, report::html_page(page));
+  command_line::write_text(output, report::html_page(index_page));
   return ExitCode::success;
 }
 
@@ -143,6 +144,7 @@ ExitCode write_report(const command_line::Arguments& arguments) {
   const std::stop_token stop = interruption ? interruption->token() : std::stop_token();
   const reading::AllTrialsFile file(arguments.operands()[0]);
   report::ReportPage page = report_of(arguments, file).page;
+  page.source = report_source(file.path());
   add_parts(page, part_sections({file, command_line::point_option(arguments, file.point_labels())}, parts,
                                 budget, stop));
   if (stop.stop_requested()) page.state = report::PageState::unfinished;
@@ -207,7 +209,7 @@ std::vector<command_line::OptionSpec> options_of_report(std::vector<command_line
 
 commands::Command report_command() {
   return {{"report", "FILE | FOLDER",
-           options_of_report(with_part_options({command_line::renewed_file(
+           options_of_report(with_part_options({command_line::page_file(
                {"output,o", "PAGE",
                 "the page to write, such as report.html; - is standard output (required)"})}))},
           "write one HTML page on a results file, or an index of a folder of them",
@@ -222,7 +224,7 @@ commands::Command plot_command() {
            {{"figure", "NAME", "name of the figure"},
             command_line::needing(
                 {"figure"},
-                command_line::renewed_file(
+                command_line::page_file(
                     {"output,o", "PICTURE",
                      "the file to write: *.svg, *.png, *.html or *.json; - is standard output, as SVG"}))})},
       "draw one figure of the report",

@@ -13,6 +13,7 @@
 #include "core/failure/failure.hpp"
 #include "results/layout/header.hpp"
 #include "results/shards/pieces.hpp"
+#include "results/storage/file_contents.hpp"
 #include "runners/result_commands/report_parts.hpp"
 
 namespace zerocount::result_commands {
@@ -47,14 +48,6 @@ std::vector<fs::path> results_in_folder(const fs::path& folder) {
   std::ranges::sort(files);
   files.erase(std::unique(files.begin(), files.end()), files.end());
   return files;
-}
-
-bool is_newer(const fs::path& page, const fs::path& file) {
-  std::error_code error;
-  const fs::file_time_type of_page = fs::last_write_time(page, error);
-  if (error) return false;
-  const fs::file_time_type of_file = fs::last_write_time(file, error);
-  return !error && of_page >= of_file;
 }
 
 /// @throws Failure if the file cannot be read
@@ -103,6 +96,11 @@ std::string table_of(const std::vector<IndexedFile>& rows) {
 
 }  // namespace
 
+std::string report_source(const fs::path& file) {
+  return fmt::format("{} by zerocount {}", storage::recorded_checksum(file),
+                     layout::current_provenance().git_commit);
+}
+
 report::ReportPage folder_index(const fs::path& folder, const fs::path& index,
                                 const std::function<void(const fs::path&, const fs::path&)>& write_page) {
   std::vector<IndexedFile> rows;
@@ -111,7 +109,7 @@ report::ReportPage folder_index(const fs::path& folder, const fs::path& index,
     IndexedFile& row = rows.back();
     if (!row.has_report) continue;
     const fs::path page = index.parent_path() / fs::path(file.filename()).replace_extension(".html");
-    if (!is_newer(page, file)) write_page(file, page);
+    if (!report::is_page_of(page, report_source(file))) write_page(file, page);
     row.page = page.filename().string();
   }
   if (rows.empty())

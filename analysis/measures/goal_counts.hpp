@@ -68,8 +68,9 @@ inline double lateness(double time) {
   return std::isnan(time) ? std::numeric_limits<double>::infinity() : time;
 }
 
-/// Whether a time is in time, both in s: a sample at the very end is, although k·T may be rounded up.
-constexpr double rounding_of_times = 1.0 + 1e-12;
+/// Whether a time is in time, both in s. A sample at the very end is, although k·T may be rounded up, and
+/// although a manifest may write the allowed time with few digits: 0.016333333333 s for 49 samples at 3 kHz.
+constexpr double rounding_of_times = 1.0 + 1e-9;
 inline bool is_in_time(double time, double allowed) {
   return time <= allowed * rounding_of_times;  // not NaN
 }

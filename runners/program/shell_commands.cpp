@@ -179,7 +179,8 @@ commands::Command completion_command() {
           "\n"
           "Examples:\n"
           "  source <(zerocount completion bash)\n"
-          "  zerocount completion zsh > ~/.zfunc/_zerocount     where ~/.zfunc is in $fpath\n"
+          "  source <(zerocount completion zsh)                  or, where ~/.zfunc is in $fpath:\n"
+          "  zerocount completion zsh > ~/.zfunc/_zerocount\n"
           "  zerocount completion fish > ~/.config/fish/completions/zerocount.fish\n",
           print_completion};
 }

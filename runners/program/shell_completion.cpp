@@ -178,7 +178,7 @@ complete -F _zerocount zerocount
 )bash";
 
 constexpr std::string_view zsh_script = R"zsh(#compdef zerocount
-# Completion of zerocount for zsh: put it into a folder of $fpath as _zerocount.
+# Completion of zerocount for zsh: put it into a folder of $fpath as _zerocount, or read it with source.
 _zerocount() {
   local candidate
   local -a line found shown blank
@@ -196,7 +196,12 @@ _zerocount() {
   done
   compadd "${blank[@]}" -l -d shown -a -- found
 }
-_zerocount "$@"
+if [[ ${funcstack[1]} == _zerocount ]]; then  # read by the completion system from a folder of $fpath
+  _zerocount "$@"
+else  # read by source
+  (( ${+functions[compdef]} )) || { autoload -Uz compinit && compinit }
+  compdef _zerocount zerocount
+fi
 )zsh";
 
 constexpr std::string_view fish_script =

@@ -129,11 +129,12 @@ class Completions(unittest.TestCase):
             (folder / name).write_text(text)
 
     def shell(self, name):
-        if shutil.which(name) is None:
+        if shutil.which(name.split()[0]) is None:
             self.skipTest(f"{name} is not installed")
         words, setup = {
             "bash": (["bash", "--norc", "--noprofile", "-i"], [f"source {self.folder}/bash"]),
             "zsh": (["zsh", "-f", "-i"], [f"fpath=({self.folder} $fpath)", "autoload -Uz compinit", "compinit -u -D"]),
+            "zsh by source": (["zsh", "-f", "-i"], [f"source {self.folder}/_zerocount"]),
             "fish": (["fish", "--no-config", "-i"], [f"source {self.folder}/fish"]),
         }[name]
         shell = Shell(words, setup, self.folder)
@@ -174,6 +175,11 @@ class Completions(unittest.TestCase):
 
     def test_zsh(self):
         self.check_all("zsh")
+
+    def test_zsh_that_reads_the_script_with_source(self):
+        shell = self.shell("zsh by source")
+        self.assertEqual(shell.run("zerocount rare axis.yaml --condition n\t")[-1], "no load")
+        self.assertEqual(shell.run("zerocount summary ax\t")[-1], "axis.yaml")
 
     def test_fish(self):
         self.check_all("fish")

@@ -159,9 +159,9 @@ std::string explanation_text(const ChangeExplanation& explanation) {
           : std::string("compared with the simulated machines, from the first move on");
   if (explanation.told == ChangeTold::none)
     return fmt::format(
-        "no single parameter of those tried explains these moves (the nearest is as far from them as {:.1f} "
-        "times "
-        "the 99 % limit of the right one); {}{}",
+        "no single parameter of those tried explains these moves (the misfit of the nearest is {:.1f} times "
+        "its "
+        "99 % limit); {}{}",
         explanation.misfit / explanation.max_misfit, since, untried_text(explanation));
   std::vector<std::string> texts;
   for (const ParameterChange& change : explanation.parameters)

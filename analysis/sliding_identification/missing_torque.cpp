@@ -317,6 +317,35 @@ double variance_factor(const SlidingFit& fit, const TriedTorque& tried, const Ad
   return std::max(1.0, factor);
 }
 
+/// Mean squares of torques over all strokes, (N m)².
+struct MeanSquares {
+  double drive{0.0};          ///< Mean square of u.
+  std::vector<double> tried;  ///< [tried torque] mean square with the coefficient 1.
+};
+
+MeanSquares mean_squares(const SlidingFit& fit, std::span<const TriedTorque> tried) {
+  MeanSquares means{.tried = std::vector<double>(tried.size(), 0.0)};
+  double count = 0.0;
+  for (const FittedWindow& fitted : fit.windows) {
+    const WindowSlopes slopes = slopes_of(fitted, fit.point);
+    for (const Instant& one : instants_of(fitted, fit.point, slopes.residual, extent_of(*fitted.record))) {
+      ++count;
+      means.drive += one.torque * one.torque;
+      for (std::size_t j = 0; j < tried.size(); ++j) {
+        const double torque = tried[j].torque(one);
+        means.tried[j] += torque * torque;
+      }
+    }
+  }
+  means.drive /= std::max(count, 1.0);
+  for (double& one : means.tried) one /= std::max(count, 1.0);
+  return means;
+}
+
+/// A torque that is smaller than this part of the drive's moves no estimate by more than about as much.
+/// Records without noise show such torques, which are those of rounding.
+constexpr double negligible_torque = 1e-4;
+
 }  // namespace
 
 std::string_view to_string(TorqueCause cause) {
@@ -332,6 +361,7 @@ std::vector<MissingTorque> tried_torques(const SlidingFit& fit) {
   for (const FittedWindow& fitted : fit.windows) max_speed = std::max(max_speed, fitted.record->max_velocity);
   const std::vector<TriedTorque> tried = torques_to_try(max_speed);
   const Parts parts = parts_of(fit, tried);
+  const MeanSquares sizes = mean_squares(fit, tried);
   const double chance = 1e-3 / static_cast<double>(tried.size());
   std::vector<MissingTorque> found;
   for (std::size_t j = 0; j < tried.size(); ++j) {
@@ -352,6 +382,8 @@ std::vector<MissingTorque> tried_torques(const SlidingFit& fit) {
     if (one.visibility >= 1.0)
       narrow(std::sqrt(column.gain / (column.white * variance_factor(fit, tried[j], column, parts, j))) /
              limit);
+    if (std::abs(column.coefficient) * std::sqrt(sizes.tried[j]) < negligible_torque * std::sqrt(sizes.drive))
+      one.visibility = 0.0;
     found.push_back(std::move(one));
   }
   std::ranges::stable_sort(found, std::ranges::greater(), &MissingTorque::visibility);

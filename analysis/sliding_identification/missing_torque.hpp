@@ -35,7 +35,7 @@ std::vector<std::string> cause_words();
 /// independent, and the larger error counts.
 struct MissingTorque {
   TorqueCause cause{};
-  std::string name{};       ///< The torque, in words: "the square of the speed".
+  std::string name{};       ///< Name, such as "drag that grows with the square of the speed".
   double coefficient{0.0};  ///< Its coefficient, in units of the torque.
   double visibility{0.0};   ///< Ratio of the coefficient to its error over the limit of chance.
   double explained{0.0};    ///< Proportion of the squares of the residuals.

@@ -61,7 +61,7 @@ inline std::size_t samples_of(const Window& window) {
 constexpr std::size_t max_window_samples = 256;
 constexpr std::size_t min_window_samples = 16;
 
-/// Proportion of the travel of the records that is in windows.
+/// Proportion of the travel of the records that lies in strokes.
 double used_proportion(std::span<const SlidingRecord> records);
 
 /// Finds the strokes of a series, and cuts them into windows of max_window_samples.

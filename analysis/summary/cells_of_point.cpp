@@ -55,7 +55,8 @@ goal::BoundedProportion success_of(const std::vector<measures::MoveCounts>& worl
   return lowest;
 }
 
-/// Of two proportions of trials that succeed; one without trials is the better.
+/// Whether one proportion of successful trials ranks below another. A proportion without trials is never the
+/// worse one.
 bool is_worse(const goal::BoundedProportion& one, const goal::BoundedProportion& other) {
   if (std::isnan(one.value) || std::isnan(other.value))
     return std::isnan(other.value) > std::isnan(one.value);

@@ -192,6 +192,8 @@ constexpr std::array<GoalTest, 14> goal_tests{
      {nullptr, encoder_misplaces_the_target, true, true}}};
 
 constexpr std::int64_t max_simulated_samples = std::int64_t{1} << 20;  // of all trials
+/// Samples that a point may take under a condition, however many of them there are.
+constexpr std::int64_t min_simulated_samples_of_cell = std::int64_t{1} << 14;
 
 /// A trial, and its outcome where a test has needed it.
 struct ExaminedTrial {
@@ -222,7 +224,7 @@ bool settles(const study::Study& study, const study::Goal& goal, const trial::Tr
                                     })
                           : time_in(study.features.bands.values(), goal.band,
                                     [&](std::size_t slot) { return move.bands[slot].settling_time; });
-  constexpr double rounding = 1.0 + 1e-12;
+  constexpr double rounding = 1.0 + 1e-9;                              // as measures::is_in_time()
   return time <= goal.within.from_start(move.travel_time) * rounding;  // not NaN
 }
 
@@ -262,7 +264,7 @@ std::optional<Doubt> doubt_of_moves(const GoalTest& test, const study::Study& st
     std::vector<Doubt> doubts;
     for (const MoveOfTrial& move : all) doubts.push_back(test.of_move(move));
     const bool is_doubted = std::ranges::any_of(doubts, [](const Doubt& doubt) { return doubt.ratio > 1.0; });
-    if (test.needs_trial && is_doubted && !simulate(trial, examined.samples_left) && moves > 0.0) break;
+    if (test.needs_trial && is_doubted && !simulate(trial, examined.samples_left)) break;
     moves_of_trial = std::max(moves_of_trial, static_cast<double>(all.size()));
     moves += static_cast<double>(all.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -301,9 +303,13 @@ std::vector<std::string> worst_lines(const study::Study& study, bool (*is_wanted
       std::min(study::draw_count(study),
                std::clamp<std::int64_t>(max_trials_doubted / (turns.conditions * std::ssize(points)),
                                         max_whole_trials, max_draws_of_moves));
-  std::int64_t samples_left = max_simulated_samples;
+  const std::int64_t samples_of_cell = std::max(
+      max_simulated_samples / (std::ssize(points) * turns.conditions), min_simulated_samples_of_cell);
+  std::int64_t all_samples_left = max_simulated_samples;
   for (const std::int64_t point : points) {
     for (std::int64_t condition = 0; condition < turns.conditions; ++condition) {
+      const std::int64_t samples = std::min(samples_of_cell, all_samples_left);
+      std::int64_t samples_left = samples;
       std::vector<ExaminedTrial> trials;
       for (std::int64_t draw = 0; draw < draws; ++draw)
         trials.push_back({study::study_trial(study, point, turns.trial_of(draw, condition)).parameters});
@@ -318,6 +324,7 @@ std::vector<std::string> worst_lines(const study::Study& study, bool (*is_wanted
                                         (goal.name.empty() ? "" : "goal " + goal.name + ": ") + doubt->text};
         }
       }
+      all_samples_left -= samples - samples_left;
     }
   }
   std::vector<std::string> lines;

@@ -60,7 +60,7 @@ double reference_ends_at(const trial::TrialParameters& p) {
   const loop::ReferenceProfile& profile = p.command.profile;
   const double duration =
       profile.shape == loop::ReferenceShape::record
-          ? loop::record_duration(profile.record->time)
+          ? loop::record_duration(profile.record->time, 1.0 / p.controller.sample_rate)
           : loop::Reference(profile, 0, p.command.targets.front(), loop::fine_resolution(p.encoder))
                 .duration();
   return std::ceil(duration * p.controller.sample_rate);
@@ -128,7 +128,6 @@ class HeldLoop {
       if (torque_has_settled(torque_, negligible_torque(p_))) prediction.state = Hunting::rests;
       return;
     }
-    if (stands_here && !has_load_) return;
     const std::optional<Cycle> cycle = lasting_cycle(stands_here ? other : closes);
     if (!cycle) return;
     prediction.state = Hunting::hunts;

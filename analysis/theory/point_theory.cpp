@@ -61,7 +61,8 @@ double sampled_bound(double stiffness, const trial::TrialParameters& p) {
   return bound;
 }
 
-/// Whether friction holds the load: within the twist that this friction makes, which is no way to go.
+/// Whether friction holds a mass. Such a mass does not approach the target, so the state has no time constant
+/// of a move.
 bool holds_load(const LoadState& state) {
   return state.friction.stiffness > 0.0 || state.friction.load_stiffness > 0.0;
 }

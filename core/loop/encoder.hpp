@@ -97,11 +97,11 @@ inline double counts_per_sample(const CountsBefore& before) {
 
 /// Place and velocity of the masses when a trial starts.
 struct StartOfMotion {
-  double phase{0.5};        ///< of the encoder of the mass that closes the loop, in [0, 1)
-  double other_phase{0.5};  ///< of the encoder of the other mass, in [0, 1)
-  double theta{0.0};        ///< of the mass that closes the loop, rad
-  double other_theta{0.0};  ///< of the other mass, rad
-  double velocity{0.0};     ///< of both, rad/s
+  double phase{0.5};        ///< Phase of the encoder on the mass that closes the loop, in [0, 1).
+  double other_phase{0.5};  ///< Phase of the encoder on the other mass, in [0, 1).
+  double theta{0.0};        ///< Angle of the mass that closes the loop, rad.
+  double other_theta{0.0};  ///< Angle of the other mass, rad.
+  double velocity{0.0};     ///< Velocity of both masses, rad/s.
 };
 
 }  // namespace zerocount::loop

@@ -253,7 +253,8 @@ std::vector<Margin> gains_on_circle(const FrozenLoop& loop, const SampledRespons
   return gains;
 }
 
-/// Those of `gains` next to which the loop is stable: between two of them it is so everywhere or nowhere.
+/// Gains at which stability begins or ends. Between two neighbouring gains the loop is either stable or
+/// unstable throughout.
 std::vector<Margin> edges_of_stability(const FrozenLoop& loop, const std::vector<Margin>& gains) {
   constexpr double beyond = 1.5;  // the first or the last one
   std::vector<char> stable;       // [interval], the first one below all gains

@@ -46,8 +46,8 @@ constexpr const char* check_help =
     "    a second mass also while the motor moves alone in a gap, and while the load stands or slides\n"
     "  - the hunting of trial 0, with the amplitude and period of its longest move: the whole loop is\n"
     "    simulated, without noise and vibration, until the axis rests or oscillates for good, for at\n"
-    "    most 1048576 samples after the end of the reference. Two masses: of the one that closes the\n"
-    "    loop, or of the other if it oscillates alone\n"
+    "    most 1048576 samples after the end of the reference. With two masses the numbers are those of\n"
+    "    the mass that closes the loop, or of the other one if it oscillates alone\n"
     "  - the bandwidth while it slides: the highest frequency at which the open loop has gain 1\n"
     "\n"
     "Example: zerocount check experiments/manifests/paper-gains.yaml\n";

@@ -20,9 +20,9 @@ namespace zerocount::trials {
 bool is_retained(const study::Study& study, std::int64_t index);
 
 /// The engine that runs the trials of the study, as its file names it: the one asked for; the reference also
-/// where the lanes of the batch engine lack a feature of every design point, by its first trial under each
-/// condition. A study with points of both kinds is run by the batch engine, which passes the trials that it
-/// lacks to the reference.
+/// if the lanes of the batch engine lack a feature of each examined trial: up to 64 of each design point
+/// under each condition, some 4096 in all. If lanes can run some of them, it is the batch engine, which
+/// passes the other trials to the reference.
 study::Engine engine_that_runs(const study::Study& study);
 
 /// Trials that follow one another.

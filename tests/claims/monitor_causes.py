@@ -121,7 +121,7 @@ def judged(program, name, number, seed):
     text = f"{name} {number}: {text}, {len(columns)} columns, {'from a change on' if since_before else 'all moves'}: "
     if told is None:
         return text + "no alarm", None, 0
-    right = told in ("none", "unknown") or bool(set(named) & NAMES.get(parameter, {parameter}))
+    right = told == "none" or bool(set(named) & NAMES.get(parameter, {parameter}))
     shown = ", ".join(f"{one['parameter']} {one['probability']:.2f}" for one in answer["parameters"][:6])
     return text + f"{'' if right else 'WRONG '}{told} of {len(answer['tried'])}: {shown}", right, len(named)
 

@@ -126,7 +126,7 @@ struct alignas(64) LoopLanes {
   Lanes target;       ///< counts
   Lanes integral;     ///< I, N m
   Lanes error;        ///< of the last sample, counts
-  Lanes count;        ///< of the last sample; before the first, the count before it less the first
+  Lanes count;        ///< count of the last sample; before the first sample n_{−1} − n_0
   Lanes quiet_from;   ///< samples may be passed while θ/Δx + phase − count lies from here, counts;
   Lanes quiet_to;     ///< to here. 0 and 1 where nothing is measured but what the encoder reads; infinite
                       ///< where that is not measured either

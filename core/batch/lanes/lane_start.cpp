@@ -21,7 +21,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Those of the encoder that closes the loop.
+/// Counts before the first sample, of the fine encoder, which closes every loop that the kernels run.
 loop::CountsBefore counts_before(const trial::TrialParameters& p) {
   const loop::StartOfMotion start = trial::start_of_motion(p);
   return {loop::fine_encoder(p.encoder, start.phase), start.theta, start.velocity,

@@ -152,8 +152,8 @@ void add_feedforward(const IdealisedPoint& point, std::vector<Effect>& all) {
   }
 }
 
-// Profile. Its duration shrinks, its path stays. Of a step that the torque range tames a profile without
-// limits is not the best one: two are tried.
+// Profile. Its duration shrinks, its path stays. If the torque range already tames the step, the fastest
+// profile need not be the best, so two are tried.
 
 constexpr std::array<int, 2> faster_profiles{2, 8};
 

@@ -173,10 +173,10 @@ const Limit* main_cause(const std::vector<Limit>& limits);
 ///
 ///   - each parameter that has not its ideal value (parameters::Ideal)
 ///   - friction that varies along the track, or from contact to contact; each spectrum of the disturbance
-///   - what several values idealise: a rigid axis or a stiffer coupling, no constant disturbance and no
-///   ripple
-///     (with what holds them), each filter, the integral under friction, a feed-forward that fits the axis, a
-///     faster profile, a finer converter, a wider torque range, a finer encoder, twice the sample rate
+///   - idealisations of several values: a rigid axis or a stiffer coupling, no constant disturbance, no
+///     ripple (each with what holds it at the start), each filter, the integral under friction, a
+///     feed-forward that fits the axis, a faster profile, a finer converter, a wider torque range, a finer
+///     encoder, twice the sample rate
 ///
 /// Each changes one thing. Where a point is without the effect, its row is absent or has the rate of the
 /// point.

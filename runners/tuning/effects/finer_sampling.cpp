@@ -26,11 +26,7 @@ constexpr std::int64_t counts_per_count = 4;
 constexpr double finer = counts_per_count;
 constexpr double half_a_count = finer / 2.0;
 
-/// The encoders that close the loop, in any phase of any trial of the point.
-struct LoopEncoders {
-  bool fine{false};
-  bool coarse{false};
-};
+}  // namespace
 
 LoopEncoders encoders_of(const PointEdit& at) {
   LoopEncoders encoders;
@@ -44,6 +40,8 @@ LoopEncoders encoders_of(const PointEdit& at) {
     add("controller.coarse.encoder");
   return encoders;
 }
+
+namespace {
 
 void refine(PointEdit& at, std::string_view per_revolution, std::string_view length,
             std::string_view errors) {

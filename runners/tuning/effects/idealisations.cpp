@@ -52,14 +52,6 @@ using study::ValueLimits;
 
 // Ideal values.
 
-/// Whether the coarse encoder closes the loop in any phase of any trial of the point.
-bool coarse_encoder_closes_the_loop(const PointEdit& at) {
-  const auto coarse = static_cast<double>(loop::EncoderChoice::coarse);
-  return at.limits("controller.encoder").high == coarse ||
-         (study::can_have_coarse_phase(at.limits("controller.coarse.coarse_beyond")) &&
-          at.limits("controller.coarse.encoder").high == coarse);
-}
-
 /// Whether a torque may act from the start on, which an integral then holds.
 bool can_have_load_torque(const PointEdit& at) {
   bool found = can_differ_from(0.0, at.limits("disturbance.torque")) ||
@@ -77,7 +69,7 @@ bool can_have_load_torque(const PointEdit& at) {
 /// Whether the parameter can be a cause of failures at the point, for reasons that are no effect rules.
 bool can_be_a_cause(const PointEdit& at, std::string_view name) {
   // The error is measured with the fine encoder, whichever closes the loop.
-  if (is_within(name, "encoder.coarse_errors")) return coarse_encoder_closes_the_loop(at);
+  if (is_within(name, "encoder.coarse_errors")) return encoders_of(at).coarse;
   // An integral holds the load: it goes with the disturbance.
   if (name == "initial.integral") return !can_have_load_torque(at);
   // A sine or a record may begin in motion, and the axis with it.

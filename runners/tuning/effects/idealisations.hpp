@@ -48,6 +48,13 @@ bool acts(const IdealisedPoint& point, std::string_view name);
 /// error in the coarse phase".
 std::string name_in_phase(std::string_view effect, std::string_view parameter);
 
+/// The encoders that close the loop, in any phase of any trial of the point.
+struct LoopEncoders {
+  bool fine{false};
+  bool coarse{false};
+};
+LoopEncoders encoders_of(const study::PointEdit& at);
+
 /// Finer encoders: one, or one for each mass that has its own.
 void add_finer_encoders(const IdealisedPoint& point, const study::Study& study, std::vector<Effect>& all);
 

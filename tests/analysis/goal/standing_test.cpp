@@ -76,7 +76,7 @@ TEST_EACH_SEED(FewMachines, AreJudgedByTheBoundsAndWhereTheseAreEqualByTheObserv
 }
 
 // A study of few machines shows nothing of a proportion of machines: its bounds are 0 under every condition.
-TEST(Standing, OfClaimsThatShowNothingTheObservedMachinesDecide) {
+TEST(Standing, ObservedMachinesRankClaimsWithEqualBounds) {
   const study::Goal goal{.within = 0.05, .moves = 0.9, .machines = 0.9};
   measures::CellCounts counts({.rigs = 3, .conditions = 3});
   const std::vector<std::vector<std::int64_t>> met{{5, 5, 5}, {5, 5, 4}, {5, 5, 5}};
@@ -119,7 +119,7 @@ Question question_of_goal() {
 
 // The bounds of points without a miss are equal, and then the faster one is the better. No miss makes a point
 // better.
-TEST(Standing, OfPointsWithFewMachinesTheObservedProportionsDecideBeforeTheTimes) {
+TEST(Standing, ObservedProportionsRankPointsBeforeTimes) {
   Question question = question_of_goal();
   const auto is_better = [&](const measures::PointSummary& a, const measures::PointSummary& b) {
     return merits_of(question, a) > merits_of(question, b);
@@ -132,7 +132,7 @@ TEST(Standing, OfPointsWithFewMachinesTheObservedProportionsDecideBeforeTheTimes
 }
 
 // Of conditions that are alike in all proportions the slowest is the worst: the time beside them is its own.
-TEST(Standing, OfEqualProportionsTheLatestIsTheWorst) {
+TEST(Standing, TheLaterOfEqualConditionsIsTheWorst) {
   Question question = question_of_goal();
   question.conditions = {"empty", "loaded", "cold"};
   measures::PointSummary point;

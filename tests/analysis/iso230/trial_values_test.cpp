@@ -80,7 +80,7 @@ TEST(TrialRepeatability, DeviatesFromTheMiddleOfTheTargetsCountAndByWholeCounts)
 
 // Each mass is measured by its own angle, from the middle of the target's count of the encoder that closes
 // the loop.
-TEST(TrialRepeatability, OfEachMassIsThatOfAnAxisWithThisMassAlone) {
+TEST(TrialRepeatability, EachMassHasTheValuesOfAnAxisWithThisMassAlone) {
   std::mt19937_64 random(230);
   std::normal_distribution<double> normal(0.0, 3.0);
   for (const motion::EncoderPlace closing : {motion::EncoderPlace::motor, motion::EncoderPlace::load}) {

@@ -80,7 +80,7 @@ TEST(MissingValues, MeetALimitOnlyWhereThereIsNothingToMeasure) {
   EXPECT_EQ(met, nothing_to_measure);
 }
 
-TEST(MissingValues, OfAMoveThatWasCutMissEveryLimit) {
+TEST(MissingValues, AStoppedMoveMissesEveryLimit) {
   for (const std::string& measure : lacking_measures()) {
     trial::MoveOutcome stopped = settled_move();
     stopped.stopped = true;
@@ -115,7 +115,7 @@ TEST(MissingValues, AreAnEventOnlyWhereAnEventNeverCame) {
   }
 }
 
-TEST(MissingValues, OfAMoveWithNothingToMeasureLeaveTheTrialThoseOfItsOthers) {
+TEST(MissingValues, AMoveWithoutAValueDoesNotHideThoseOfOtherMoves) {
   const layout::MeasureTable& table = layout::measure_table();
   for (const layout::Measure& measure : table) {
     if (measure.field.column.name != "following_error_peak") continue;
@@ -128,7 +128,7 @@ TEST(MissingValues, OfAMoveWithNothingToMeasureLeaveTheTrialThoseOfItsOthers) {
   }
 }
 
-TEST(MissingValues, OfAnOscillationDoNotMakeSettledMovesMiss) {
+TEST(MissingValues, ALimitOnOscillationIsMetByMovesThatDoNotOscillate) {
   const study::Study without = study_with("goal: {band: 1, within: 0.2, moves: 0.9}\n");
   const study::Study limited = study_with(
       "goal: {band: 1, within: 0.2, moves: 0.9, limits: {oscillation_amplitude: 5, oscillation_period: "

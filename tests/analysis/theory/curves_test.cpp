@@ -280,7 +280,7 @@ study::Study machine_with_gap(const std::string& load, const std::string& cascad
 
 // The bound of the integral gain and the loops are of all states of the load: what is stable in contact is
 // not said to be stable where the motor alone is not.
-TEST(PointTheory, IsOfTheMotorAloneInItsGapToo) {
+TEST(PointTheory, IncludesTheMotorAloneInItsGap) {
   const std::string cascade = "structure: cascade, cascade: {kv: 40, kp: 0.12, ki: 1}";
   const PointTheory theory = examine(machine_with_gap("encoder: motor", cascade), 0);
   ASSERT_EQ(theory.loops.size(), 2U);

@@ -134,7 +134,7 @@ TEST(TrialLoops, AreThoseOfSpringAndSliding) {
 }
 
 // The page, check and tune take the ends of a profile from one place.
-TEST(TrialLoops, AreThoseOfTheEndsOfAProfileToo) {
+TEST(TrialLoops, IncludeTheEndsOfAProfile) {
   const friction::Profile profile{friction::Marginal::normal, 100.0, 20.0, {0.0, 1.0}, {0.0, 0.0}};
   trial::TrialParameters p = rich_trial();
   p.friction.profiled = {

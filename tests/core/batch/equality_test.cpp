@@ -157,7 +157,7 @@ TEST(ATrialThatStartsInMotion, IsFollowedAsByTheReference) {
 }
 
 /// What the contact cannot carry the integral holds, through delay, amplifier, late samples and blocks.
-TEST(AHeldStart, IsTheReferencesInTheLanes) {
+TEST(AHeldStart, RunsInLanesAsInTheReference) {
   std::vector<trial::TrialParameters> trials;
   for (std::uint64_t i = 0; i < 120; ++i) {
     trial::TrialParameters p = trial_for_lanes(TrialKind::loaded, 91000 + i);

@@ -59,7 +59,7 @@ std::string shaken_axis(int machines, const std::string& more = "") {
 }
 
 // Few machines bound the proportion of all machines alike under both conditions, whatever their moves do.
-TEST_F(Judge, OfFewMachinesTheWorstConditionIsThatOfTheMissesAndAllNumbersAreOfIt) {
+TEST_F(Judge, WithFewMachinesTheConditionWithMissesIsTheWorstAndAllNumbersAreItsOwn) {
   folder_.write("shelf.yaml", shaken_axis(5));
   ASSERT_EQ(program({"run", "shelf.yaml", "-o", "shelf.h5", "--quiet"}).code, 0);
   const Json judged = json_of({"judge", "shelf.h5"});

@@ -190,7 +190,7 @@ std::string engine_line(const std::string& text) {
 }
 
 /// A study of which no trial runs in lanes is the reference's, and its file says so, whatever was asked for.
-/// That of a study with points of both kinds says who passed them on.
+/// If only some points run in lanes, the file names the batch engine.
 TEST_F(EngineOption, NamesTheEngineThatRanTheTrials) {
   folder_.write("study.yaml", small_manifest(4));
   const std::vector<std::string> gap{"--set", "plant.load={inertia: 1.0e-4, gap: 1.0e-4}"};

@@ -141,7 +141,7 @@ TEST(CountDifference, ContinuesTheMotionBeforeTheFirstSample) {
   }
 }
 
-TEST(CountDifference, OfAnAxisAtRestBeginsAtZeroWhateverTheFirstCount) {
+TEST(CountDifference, StartsAtZeroForAnAxisAtRest) {
   CountDifference difference(0.5, 4, {.encoder = {1e-6, 0.3}, .theta = 7e-4});
   EXPECT_EQ(difference.step(-12345.0), 0.0);
   EXPECT_EQ(difference.step(-12345.0), 0.0);

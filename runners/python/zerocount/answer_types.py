@@ -489,10 +489,11 @@ class SummaryAnswer(Answer):
         - ``observed``: what was observed on the real machine
         - ``undecided``.* (moves, off_target, still_falling, falling_with_ripple, about_to_arrive, hold_at_least): moves
           that are neither stable nor shown unstable
-        - ``observed_counts``.* (successes, of, p_value, lowest_p_value, verdict, statement): trials on the real machine
-          against those simulated
+        - ``observed_counts``.* (successes, of, simulated_successes, simulated_of, p_value, lowest_p_value, verdict,
+          statement): trials on the real machine against those simulated
         - ``repeatability``.* (trials, evaluated, zero_repeatability, zero_repeatability_rate,
-          zero_repeatability_rate_low, zero_repeatability_rate_high, true, encoder): values of ISO 230-2
+          zero_repeatability_rate_low, zero_repeatability_rate_high, true, encoder, load_true, motor_true): values of
+          ISO 230-2
         - ``stopping``.* (success_rate_low, success_rate_high, confidence, halfwidth, halfwidth_asked,
           halfwidth_confidence, reached, of_rigs): what the rule that ended the study asked for, and what was reached
         - ``worlds``.* (n, success, success_rates, goal_rates, goal_status, met, missed, undecided, bad_worlds, rule):

@@ -138,9 +138,9 @@ TEST(RigPlan, WithOneTrialARigIsThatOfIndependentTrials) {
 }
 
 TEST(RigPlan, ManyTrialsLeaveWhatDiffersBetweenRigs) {
-  // ±z·s/√R, with Student's t and Clopper–Pearson a little more.
+  // ±z·s/√R; Student's t, Clopper–Pearson and the limit by the number of machines take a little more.
   const auto rigs = static_cast<double>(rigs_for_halfwidth(0.05, 0.95, 0.8, 0.2, 100'000));
-  EXPECT_NEAR(rigs, std::pow(1.96 * 0.2 / 0.05, 2), 0.08 * rigs);
+  EXPECT_NEAR(rigs, std::pow(1.96 * 0.2 / 0.05, 2), 0.12 * rigs);
   // Machines that differ less may hide some that always fail, which limits the lower bound to p·α^(1/R).
   const auto alike = static_cast<double>(rigs_for_halfwidth(0.02, 0.95, 0.8, 0.1, 100'000));
   const double below = 0.8 * (1.0 - std::pow(0.025, 1.0 / alike));

@@ -529,7 +529,7 @@ TEST(FittingValues, AnAxisHoldsWhatItsContactOrTheIntegralCarries) {
       refusal_of(manifest_commanding("{torque: {levels: [0.1]}}",
                                      load + "disturbance: {torque: 0.1, load: {torque: 0.1, ripple: "
                                             "[{amplitude: 0.2, periods: 1}]}}\ninitial: {holding: true}\n")),
-      "8:20: initial.holding | a disturbance of 0.4 N m can reach | friction.breakaway"));
+      "8:20: initial.holding | a disturbance of 0.4 N m can reach the friction of 0.3 N m"));
   EXPECT_EQ(refusal(load + "friction: {model: none}\ndisturbance: {load: {torque: 1}}\n"), "");
   EXPECT_TRUE(has_faults(refusal_of(manifest_commanding(
                              "{targets: [0], hold: 1}",

@@ -15,7 +15,7 @@ using command_line::FileUse;
 using command_line::OptionSpec;
 
 bool is_output(const OptionSpec& option) {
-  return option.file == FileUse::written || option.file == FileUse::renewed;
+  return option.file != FileUse::none && option.file != FileUse::read;
 }
 
 /// A word of the command line of a command under test.

@@ -72,8 +72,8 @@ TEST_F(ObservedCounts, AreOfOneOfTheRigs) {
 // With noise the loop is within its band in time, and hardly ever ends at zero counts.
 TEST_F(ObservedCounts, AreOfTheGoalWhereTheStudyHasOne) {
   const nlohmann::json point = points_of(
-      "observed: {high: {successes: 12, of: 12}}\nencoder: {fine_errors: {noise: 1}}\n"
-      "goal: {band: 12, within: 0.14, moves: 0.8}\n")[1];
+      "observed: {low: {successes: 12, of: 12}}\nencoder: {fine_errors: {noise: 1}}\n"
+      "goal: {band: 12, within: 0.14, moves: 0.8}\n")[0];
   const nlohmann::json& counts = point["observed_counts"];
   EXPECT_EQ(counts["simulated_of"], 80);
   EXPECT_EQ(counts["simulated_successes"], std::lround(80.0 * point["goal"]["rate"].get<double>()));

@@ -199,7 +199,7 @@ TEST(Diagram, NamesTheMassThatEachEncoderReads) {
            "plant: {load: {inertia: 1.0e-4, encoder: load, gap: 2.0e-4, friction: {model: coulomb, "
            "breakaway: 0.02}}}\ndisturbance: {load: {torque: 0.04}}\n"),
       0);
-  EXPECT_TRUE(says(of_load, "<span>at the load, which closes the loop</span>", "gap 0.0002",
+  EXPECT_TRUE(says(of_load, "<span>at the load, which closes the loop</span>", "gap 200",
                    "<span>friction of the load: coulomb, breakaway 0.02",
                    "constant 0.04\u00a0N\u00a0m on the load"))
       << of_load;

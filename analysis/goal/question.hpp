@@ -81,7 +81,7 @@ struct QuestionWords {
   std::string_view title;        ///< of figures: "Moves in the goal", "Success"
   std::string_view events;       ///< what is counted: "moves", "trials"
   std::string meeting;           ///< "moves that meet the goal", "trials that end at zero counts"
-  std::string meet;              ///< of moves: "meet the goal", "end at zero counts"
+  std::string meet;              ///< Predicate of moves: "meet the goal", "end at zero counts".
   std::string_view head;         ///< of a column of their rate: "moves in goal", "zero-count"
   std::string_view rate;         ///< "rate of moves in goal", "success rate"
   std::string_view hits;         ///< "moves in goal", "successes"

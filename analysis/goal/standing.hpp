@@ -15,7 +15,7 @@ double logit_difference(double a, double b);
 struct Standing {
   int status{0};         ///< rank_of(); 0 without a claim
   double bound{0.0};     ///< logit_difference() of the lower bound of what is claimed and what is asked for
-  double observed{0.0};  ///< The same for the observed proportion; infinite where nothing was observed.
+  double observed{0.0};  ///< Like `bound`, by the observed proportion; infinite where nothing was observed.
   /// Bound and observed proportion of the moves, if the claim is about machines.
   double bound_of_moves{0.0}, observed_of_moves{0.0};
   /// Minus the 95 % quantile of the settling time, as a proportion of the time allowed; 0 where it is not

@@ -68,7 +68,7 @@ const std::vector<text::ReportField<PointRepeatability>>& point_repeatability_fi
 /// The scale by which the deviations are measured.
 struct DeviationSource {
   std::string name;       ///< "true", "encoder", "load_true" or "motor_true"
-  std::string unit;       ///< of the deviations, and of all values made of them
+  std::string unit;       ///< Unit of the deviations, and of all values made of them.
   std::string long_name;  ///< ends the long_name of a value
   Repeatability TrialRepeatability::*values;
   /// Mass other than the one that closes the loop. Nothing: the source is of the one that does.
@@ -86,7 +86,7 @@ struct RepeatabilitySummary {
   SequenceShape shape;
   std::vector<PointRepeatability> points;                   ///< [point]
   parameters::AxisKind axis{parameters::AxisKind::rotary};  ///< whose units the deviations have
-  const DeviationSources* sources{&deviation_sources({})};  ///< of which the points have values
+  const DeviationSources* sources{&deviation_sources({})};  ///< Sources that the points have values of.
 };
 
 /// A table of the group /repeatability of a results file. The columns of values are named "<source>/<value>",

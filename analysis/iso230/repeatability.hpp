@@ -101,10 +101,10 @@ SequenceShape shape_of(std::span<const study::SequenceMove> sequence);
 /// the loop: from the middle of the target's count. By the encoder it is its fine count at the last sample
 /// less p, in counts.
 struct TrialRepeatability {
-  Repeatability from_position;  ///< of the mass whose encoder closes the loop, rad
+  Repeatability from_position;  ///< Position of the mass whose encoder closes the loop, rad.
   Repeatability from_encoder;   ///< counts
-  Repeatability of_motor;       ///< by the true position of the motor, rad
-  Repeatability of_load;        ///< likewise of the load; of the motor on an axis with one mass
+  Repeatability of_motor;       ///< True position of the motor, rad.
+  Repeatability of_load;        ///< True position of the load, rad; of the motor on an axis with one mass.
 };
 
 /// The targets of a trial in the order of their list, counts.

@@ -188,7 +188,7 @@ class PointAccumulator {
   std::vector<CellCounts> goals_;                   ///< [goal]
   std::vector<CellCounts> for_the_load_;            ///< [goal] of MoveKind::for_the_load
   std::vector<GoalSettling> goal_settling_;         ///< [goal]
-  GroupTrials groups_;                              ///< where MoveKind::counts_trials()
+  GroupTrials groups_;                              ///< Trials of groups, if MoveKind::counts_trials().
   statistics::TrialClusters trial_settling_times_;  ///< of each trial: of its slowest move
   std::int64_t jerks_{0};
   statistics::Histogram<double> jerk_intervals_;

@@ -125,7 +125,7 @@ struct PointSummary : StatisticsOfMeasures, PointCounts {
   /// all moves of a study without conditions, of which the measure of its band is
   std::vector<std::vector<SettlingTimes>> goal_settling;
   std::optional<GroupTrials>
-      trials_of_groups;                 ///< where MoveKind::counts_trials(), and the moves have targets
+      trials_of_groups;  ///< Empty unless MoveKind::counts_trials() and the moves have targets.
   std::vector<LevelStatistics> levels;  ///< [move] in an open-loop study, otherwise empty
 
   /// The proportion of trials all of whose moves ended at zero error.

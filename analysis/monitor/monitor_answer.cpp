@@ -143,8 +143,7 @@ std::string untried_text(const ChangeExplanation& explanation) {
   const std::size_t more = explanation.untried.size() - shown;
   return fmt::format(
       "; the budget ended before {}{} {} tried: all parameters take at most {} trials, expected a --budget "
-      "of as "
-      "many, a time such as 10min, or --unchanged with what cannot have changed",
+      "of as many, a time such as 10min, or --unchanged with what cannot have changed",
       fmt::join(std::span(explanation.untried).first(shown), ", "),
       more > 0 ? fmt::format(" and {} more", more) : "", shown + more == 1 ? "was" : "were",
       explanation.max_trials);
@@ -160,8 +159,7 @@ std::string explanation_text(const ChangeExplanation& explanation) {
   if (explanation.told == ChangeTold::none)
     return fmt::format(
         "no single parameter of those tried explains these moves (the misfit of the nearest is {:.1f} times "
-        "its "
-        "99 % limit); {}{}",
+        "its 99 % limit); {}{}",
         explanation.misfit / explanation.max_misfit, since, untried_text(explanation));
   std::vector<std::string> texts;
   for (const ParameterChange& change : explanation.parameters)

@@ -119,8 +119,8 @@ OptionSpec written_file(OptionSpec option) {
   return option;
 }
 
-OptionSpec results_file(OptionSpec option) {
-  option.file = FileUse::results;
+OptionSpec kept_file(OptionSpec option) {
+  option.file = FileUse::kept;
   return option;
 }
 

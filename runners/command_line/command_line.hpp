@@ -19,7 +19,7 @@ enum class FileUse {
   none,     ///< the value is not a path
   read,     ///< an input
   written,  ///< an output; an existing one is replaced only with --force
-  results,  ///< a results file; as `written`, but an existing one stays if the command fails
+  kept,     ///< an output that people go on with, as results; as `written`, but it stays if the command fails
   page,     ///< a page; an unfinished one is replaced, and another only with --force
   renewed   ///< an output of which the command itself decides what becomes of an existing one
 };
@@ -59,8 +59,8 @@ OptionSpec of_operands(std::vector<std::string> operands, OptionSpec option);
 OptionSpec read_file(OptionSpec option);
 /// The option, whose value is the path of an output.
 OptionSpec written_file(OptionSpec option);
-/// The option, whose value is the path of a results file to make.
-OptionSpec results_file(OptionSpec option);
+/// The option, whose value is the path of an output that stays if the command fails.
+OptionSpec kept_file(OptionSpec option);
 /// The option, whose value is the path of a page.
 OptionSpec page_file(OptionSpec option);
 /// The option, whose value is the path of an output that may exist.
@@ -173,7 +173,7 @@ OptionSpec force_option();
 inline constexpr std::string_view overwriting_rule =
     "An existing output is replaced only with --force, and only after the new one is complete.\n"
     "If the command fails, the output that was to be replaced is removed, unless it is a results\n"
-    "file, so that no earlier answer stands beside the failure.\n";
+    "file or the manifest of 'new', so that no earlier answer stands beside the failure.\n";
 
 /// Compares the files of a command, as its options describe them, before any work. Two paths are the same
 /// file where they lead to it, through links or a relative path, whether or not it exists.
@@ -190,8 +190,8 @@ class RefusedOutput : public Failure {
   explicit RefusedOutput(const Failure& failure) : Failure(failure) {}
 };
 
-/// Outputs that exist before a command and that --force tells it to replace. Results files are not among
-/// them.
+/// Outputs that exist before a command and that --force tells it to replace, without those that are kept
+/// (FileUse::kept).
 class EarlierAnswers {
  public:
   explicit EarlierAnswers(const Arguments& arguments);

@@ -46,7 +46,7 @@ fs::path output_of_option(const Arguments& arguments, std::string_view option) {
   if (use == FileUse::none || use == FileUse::read)
     throw std::logic_error("option not declared as an output");
   fs::path output = file_in_folder(arguments, option);
-  if (use == FileUse::written || use == FileUse::results) require_replaceable(arguments, output);
+  if (use == FileUse::written || use == FileUse::kept) require_replaceable(arguments, output);
   return output;
 }
 

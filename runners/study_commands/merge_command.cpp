@@ -57,7 +57,7 @@ ExitCode merge(const command_line::Arguments& arguments) {
 commands::Command merge_command() {
   return {{"merge",
            "PART... -o FILE",
-           {command_line::results_file({"output,o", "FILE", "the results file to make (required)"}),
+           {command_line::kept_file({"output,o", "FILE", "the results file to make (required)"}),
             command_line::force_option()},
            1,
            100000},

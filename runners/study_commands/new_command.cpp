@@ -187,7 +187,7 @@ commands::Command new_command() {
         of_guide({"secant", "K@M", "with --guide: measured force over travel, N/m, at a travel, m"}),
         command_line::excluding(
             {"list"},
-            command_line::written_file({"output,o", "FILE", "the manifest to make; default: NAME.yaml"})),
+            command_line::kept_file({"output,o", "FILE", "the manifest to make; default: NAME.yaml"})),
         command_line::excluding({"list"}, command_line::force_option())},
        0,
        1,

@@ -292,6 +292,31 @@ TEST_F(Datasets, WhatDoesNotFitIsNamed) {
   }
 }
 
+// h5py compresses with lzf where one asks for speed, and the HDF5 library does not have this filter.
+TEST_F(Datasets, BehindAnUnknownFilterAreNamedWithTheFilterAndTheRemedy) {
+  const std::string script =
+      folder_
+          .write("filter.py",
+                 "import sys, h5py, numpy\n"
+                 "f = h5py.File(sys.argv[1], 'w')\n"
+                 "for name in ('t', 'i'): f[name] = numpy.arange(500.0)\n"
+                 "f.create_dataset('x', data=numpy.arange(500.0), chunks=True, compression='lzf')\n")
+          .string();
+  const std::string command = ZEROCOUNT_PYTHON " '" + script + "' '" + (folder_ / "lzf.h5").string() + "'";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  try {
+    records::read_columns(records::DatasetFile(folder_ / "lzf.h5"),
+                          columns({"time=/t", "torque=/i", "angle=/x[rad]"}));
+    ADD_FAILURE();
+  } catch (const Failure& failure) {
+    EXPECT_EQ(failure.code(), ExitCode::bad_data);
+    const std::string said = failure.what();
+    EXPECT_NE(said.find("/x is stored through the HDF5 filter lzf"), std::string::npos) << said;
+    EXPECT_NE(said.find("h5repack -f GZIP=1"), std::string::npos) << said;
+    EXPECT_EQ(said.find("damaged"), std::string::npos) << said;
+  }
+}
+
 // A trace says where the axis slides. A logger may call something else its mode.
 TEST_F(ColumnSeries, OnlyTheModesOfATraceAreFlagsOfSliding) {
   const RawSeries trace = one("t,torque,theta,mode\n0,1,0,stick\n1,1,1,slide\n2,1,3,slide\n", {});

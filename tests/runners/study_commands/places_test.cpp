@@ -102,6 +102,9 @@ TEST_F(Places, NoAnswerOfAnEarlierCommandStaysBesideAFailure) {
   fs::copy_file(at("all.h5"), at("merged.h5"));
   EXPECT_NE(program({"merge", "part1.h5", "damaged.h5", "-o", "merged.h5", "--force"}).code, 0);
   EXPECT_EQ(folder_.read("merged.h5"), before) << "results are kept until there are new ones";
+  folder_.write("mine.yaml", "my manifest");
+  EXPECT_NE(program({"new", "no-such-study", "-o", "mine.yaml", "--force"}).code, 0);
+  EXPECT_EQ(folder_.read("mine.yaml"), "my manifest") << "a typing error costs nobody a manifest";
 }
 
 TEST_F(Places, AnInputIsNeverReplaced) {

@@ -20,6 +20,7 @@
 #include "results/layout/header.hpp"
 #include "results/reading/results_file.hpp"
 #include "results/shards/shard.hpp"
+#include "results/storage/file_contents.hpp"
 #include "runners/child_process/child_process.hpp"
 #include "runners/command_line/command_line.hpp"
 #include "runners/plugins/crash_message.hpp"
@@ -170,6 +171,11 @@ std::shared_ptr<const plugin::ControllerPlugin> plugin_option(const command_line
   return std::get<std::shared_ptr<const plugin::ControllerPlugin>>(loaded);
 }
 
+std::string report_source(const std::filesystem::path& file) {
+  return fmt::format("{} by zerocount {}", storage::recorded_checksum(file),
+                     layout::current_provenance().git_commit);
+}
+
 report::StudyReport verified_report(const reading::AllTrialsFile& file, report::ReportOptions options) {
   options.check = [&](const report::ReplayedTrial& replayed) {
     auto [different, parting] = verification::compare_with_record(file, file.study(), replayed.result);
@@ -181,6 +187,8 @@ report::StudyReport verified_report(const reading::AllTrialsFile& file, report::
     return different;
   };
   report::StudyReport report = report::study_report(file, options);
+  const bool is_of_file_alone = !options.point && !options.comparison && !options.history;
+  if (is_of_file_alone) report.page.source = report_source(file.path());
   for (const std::string& warning : report.warnings) status::tell("zerocount: warning: {}\n", warning);
   return report;
 }

@@ -84,7 +84,10 @@ std::optional<std::int64_t> study_point(const command_line::Arguments& arguments
 /// The user's controller for the trials of a results file, of the option --plugin; null if none is given.
 std::shared_ptr<const plugin::ControllerPlugin> plugin_option(const command_line::Arguments& arguments);
 
-/// The report of a results file, with a warning for each trial that is simulated again and differs from its
+/// The source of the report of a results file: its contents, by their checksum, and the build of the program.
+std::string report_source(const std::filesystem::path& file);
+
+/// The report of a results file, with its report_source() if no option adds to the file, and with a warning for each trial that is simulated again and differs from its
 /// record. Prints the warnings.
 /// @throws Failure as report::study_report
 report::StudyReport verified_report(const reading::AllTrialsFile& file, report::ReportOptions options = {});

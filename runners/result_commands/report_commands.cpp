@@ -49,7 +49,7 @@ constexpr const char* report_help =
     "Ctrl-C the page has the parts that are ready, and the exit code is 130.\n"
     "\n"
     "Of a FOLDER the page is an index of its results files: study, date, goal, verdict, and a link to\n"
-    "the report of each, which is written beside the index unless there is one as new as its file.\n"
+    "the report of each, which is written beside the index unless there is one of the same contents.\n"
     "\n"
     "Examples:\n"
     "  zerocount report gains.h5 -o gains.html\n"
@@ -124,9 +124,8 @@ ExitCode write_index(const command_line::Arguments& arguments, const std::filesy
                    [&](const std::filesystem::path& file, const std::filesystem::path& place) {
                      command_line::require_apart(arguments, place, {{output}});
                      commands::require_page_place(arguments, place);
-                     report::ReportPage page = report_of(arguments, reading::AllTrialsFile(file)).page;
-                     page.source = report_source(file);
-                     command_line::write_text(place, report::html_page(page));
+                     const reading::AllTrialsFile results(file);
+                     command_line::write_text(place, report::html_page(report_of(arguments, results).page));
                    });
   command_line::write_text(output, report::html_page(index_page));
   return ExitCode::success;
@@ -144,7 +143,7 @@ ExitCode write_report(const command_line::Arguments& arguments) {
   const std::stop_token stop = interruption ? interruption->token() : std::stop_token();
   const reading::AllTrialsFile file(arguments.operands()[0]);
   report::ReportPage page = report_of(arguments, file).page;
-  page.source = report_source(file.path());
+  if (!parts.empty()) page.source.clear();
   add_parts(page, part_sections({file, command_line::point_option(arguments, file.point_labels())}, parts,
                                 budget, stop));
   if (stop.stop_requested()) page.state = report::PageState::unfinished;

@@ -13,7 +13,7 @@
 #include "core/failure/failure.hpp"
 #include "results/layout/header.hpp"
 #include "results/shards/pieces.hpp"
-#include "results/storage/file_contents.hpp"
+#include "runners/commands/command.hpp"
 #include "runners/result_commands/report_parts.hpp"
 
 namespace zerocount::result_commands {
@@ -96,11 +96,6 @@ std::string table_of(const std::vector<IndexedFile>& rows) {
 
 }  // namespace
 
-std::string report_source(const fs::path& file) {
-  return fmt::format("{} by zerocount {}", storage::recorded_checksum(file),
-                     layout::current_provenance().git_commit);
-}
-
 report::ReportPage folder_index(const fs::path& folder, const fs::path& index,
                                 const std::function<void(const fs::path&, const fs::path&)>& write_page) {
   std::vector<IndexedFile> rows;
@@ -109,7 +104,7 @@ report::ReportPage folder_index(const fs::path& folder, const fs::path& index,
     IndexedFile& row = rows.back();
     if (!row.has_report) continue;
     const fs::path page = index.parent_path() / fs::path(file.filename()).replace_extension(".html");
-    if (!report::is_page_of(page, report_source(file))) write_page(file, page);
+    if (!report::is_page_of(page, commands::report_source(file))) write_page(file, page);
     row.page = page.filename().string();
   }
   if (rows.empty())

@@ -14,14 +14,11 @@
 
 namespace zerocount::result_commands {
 
-/// The source of the report of a results file: its contents, by their checksum, and the build of the program.
-std::string report_source(const std::filesystem::path& file);
-
 /// The page of a folder of results, such as a nightly job publishes: for each file its study, date, goal and
 /// verdict, and a link to its report; the newest first. A file that cannot be read says why, and a run that
 /// has not ended says so.
-/// @param write_page writes the report of a file to a page beside the index, and gives it the source
-/// report_source(); it is not called if the page there was made from this source
+/// @param write_page writes the report of a file to a page beside the index; it is not called if the page
+/// there has the source commands::report_source() of the file
 /// @throws Failure (bad_input) without a results file in the folder, and what `write_page` throws
 report::ReportPage folder_index(const std::filesystem::path& folder, const std::filesystem::path& index,
                                 const std::function<void(const std::filesystem::path& file,

@@ -98,11 +98,6 @@ study::Study load_study(const std::filesystem::path& manifest, const std::vector
                         const sections::Companions& companions) {
   const std::string source = yaml::name_of_text(manifest);
   std::string text = yaml::read_text(manifest, yaml::max_manifest_size, "a manifest");
-  if (text.starts_with("\x89HDF")) {
-    throw Failure(
-        ExitCode::bad_input,
-        fmt::format("{}: this is an HDF5 file, such as a results file; expected a manifest", source));
-  }
   return new_study(std::move(text), source, overrides, companions);
 }
 

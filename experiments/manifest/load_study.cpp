@@ -71,8 +71,10 @@ study::Study read_study(std::string text, std::string_view source,
   std::deque<std::string> override_sources;
   root = manifest_text::apply_overrides(root, given_overrides, override_sources, problems);
   std::vector<std::string> overrides = given_overrides;
+  std::vector<std::string> warnings;
   if (root) {
-    const std::vector<std::string> tables = sections::table_overrides(*root, companions.samples, problems);
+    const std::vector<std::string> tables =
+        sections::table_overrides(*root, companions.samples, problems, warnings);
     const yaml::YamlPointer named = root;
     root = manifest_text::apply_overrides(root, tables, override_sources, problems);
     for (const char* const record : {"command.torque.file", "command.reference.file"})
@@ -85,6 +87,7 @@ study::Study read_study(std::string text, std::string_view source,
   study::Study study = read_manifest(*root, recorded, companions, samples ? &*samples : nullptr, problems);
   problems.raise_if_any();
 
+  if (!recorded) study.warnings.insert(study.warnings.begin(), warnings.begin(), warnings.end());
   study.manifest.sha256 = hash::sha256_hex(text);
   study.study_sha256 = hash::sha256_hex(joined(*written, study));
   study.manifest.text = std::move(text);

@@ -7,8 +7,8 @@
 namespace zerocount::monitor {
 namespace {
 
-constexpr std::size_t enough_rows =
-    10;  // different ones: of their orders one in 10!, 3e-7, is that of the other log
+/// Different rows with which chance is unlikely: one in 10! orders of them is that of another log.
+constexpr std::size_t enough_rows = 10;
 
 /// Columns of the same measure in two logs, as they were written where signs were taken off.
 struct SharedColumn {

@@ -222,8 +222,7 @@ struct MonitorReading {
   MonitorState state;
   std::string log{};                              ///< name of the file of the moves
   const ChangeExplanation* explanation{nullptr};  ///< of an alarm beside a simulated study; null: none
-  std::int64_t repeated{
-      0};  ///< first moves of the log that are equal to those of the baseline, equal_moves()
+  std::int64_t repeated{0};                       ///< equal_moves() of the log and a measured baseline
 };
 
 document::AnswerDescription<MonitorReading> monitor_answer();

@@ -197,8 +197,9 @@ std::optional<std::string> resembling_column(std::string_view measure, std::span
     whose.push_back(&head);
   }
   if (near.empty()) return std::nullopt;
-  const std::string nearest(yaml::nearest_name(wanted, near));
-  return *whose[static_cast<std::size_t>(std::ranges::find(near, nearest) - near.begin())];
+  // A name that is too long for nearest_name() contains the first of these.
+  const auto nearest = std::ranges::find(near, yaml::nearest_name(wanted, near));
+  return nearest == near.end() ? *whose.front() : *whose[static_cast<std::size_t>(nearest - near.begin())];
 }
 
 std::optional<std::string> misspelt_measure(std::string_view head) {

@@ -138,6 +138,10 @@ TEST(MisspeltMeasure, IsTheOneWithTheSameLetters) {
   EXPECT_EQ(monitor::misspelt_measure("Band Settling Time 12"), "band_settling_time[12]");
   for (const std::string other : {"day", "t", "", "time", "12", "settling"})
     EXPECT_FALSE(monitor::misspelt_measure(other)) << other;
+  const std::string long_name = std::string(100, 'x') + "_settling_time";
+  EXPECT_EQ(monitor::resembling_column("settling_time", std::vector<std::string>{long_name}), long_name);
+  EXPECT_EQ(monitor::resembling_column(long_name, std::vector<std::string>{"t", "settling_time"}),
+            "settling_time");
   EXPECT_FALSE(
       monitor::resembling_column("settling_time", std::vector<std::string>{"day", "t", "", "x [mm]"}));
 }

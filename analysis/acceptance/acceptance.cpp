@@ -17,6 +17,7 @@
 #include "analysis/measures/goal_counts.hpp"
 #include "analysis/measures/trial_value.hpp"
 #include "analysis/statistics/clusters/observed_test.hpp"
+#include "analysis/text/text.hpp"
 #include "core/failure/failure.hpp"
 #include "core/random/random_numbers.hpp"
 #include "experiments/designs/designs.hpp"
@@ -50,11 +51,17 @@ std::vector<std::string> measures_of(const study::Goal& goal) {
   return names;
 }
 
+/// A measure that a log lacks, and the column of the log that looks like it.
+std::string missing_text(const monitor::MoveLog& log, const std::string& measure) {
+  const std::optional<std::string> near = monitor::resembling_column(measure, log.other_columns);
+  return near ? fmt::format("{} (its column '{}' looks like it)", measure, text::printable(*near)) : measure;
+}
+
 void require_columns(const std::vector<study::Goal>& goals, const monitor::MoveLog& log) {
   std::set<std::string> missing;
   for (const study::Goal& goal : goals)
     for (const std::string& name : measures_of(goal))
-      if (log.find(name) == nullptr) missing.insert(name);
+      if (log.find(name) == nullptr) missing.insert(missing_text(log, name));
   if (!missing.empty())
     throw Failure(ExitCode::bad_input, fmt::format("{}: has no column {}, which the goal asks for", log.name,
                                                    fmt::join(missing, ", ")));
@@ -327,16 +334,25 @@ double rank_test_of(std::int64_t met, std::int64_t moves, std::span<const statis
   return statistics::rig_rank_test({met, moves}, successes, simulated[0].moves).p;
 }
 
+/// What the first log lacks that does not tell the values of the axis: "a.csv has no column final_error".
+/// Empty if all tell them.
+std::string lacking_for_standard(std::span<const monitor::MoveLog> logs) {
+  for (const monitor::MoveLog& log : logs) {
+    const bool has_error = log.find("final_error") != nullptr;
+    if (has_error && log.labels.numbered) continue;
+    return fmt::format("{} has no column {}", log.name,
+                       has_error ? missing_text(log, "move") : missing_text(log, "final_error"));
+  }
+  return "";
+}
+
 /// The values of the axis, where the study has a sequence of moves and each log the columns `final_error` and
 /// `move`; empty otherwise. A run of the test is as many rows with the numbers 0 to the last one in this
 /// order; other rows are left out.
 std::vector<StandardValue> standard_values(const reading::AllTrialsFile& file, std::int64_t point,
                                            std::span<const monitor::MoveLog> logs) {
   const Sequence sequence = file.study().sequence;
-  const bool told = std::ranges::all_of(logs, [](const monitor::MoveLog& log) {
-    return log.find("final_error") != nullptr && log.labels.numbered;
-  });
-  if (sequence.empty() || !told) return {};
+  if (sequence.empty() || !lacking_for_standard(logs).empty()) return {};
   Values measured;
   for (const monitor::MoveLog& log : logs) add_measured(sequence, log, measured);
   if (measured.empty()) return {};
@@ -419,6 +435,7 @@ Acceptance accept(const reading::AllTrialsFile& file, std::int64_t point,
   judge(acceptance, study.goals, measured);
   acceptance.worlds = study.worlds;
   acceptance.standard_values = standard_values(file, point, logs);
+  if (!study.sequence.empty()) acceptance.standard_lacks = lacking_for_standard(logs);
   for (const study::Premise& premise : study.premises)
     if (premise.state == study::PremiseState::assumed) acceptance.assumed.emplace_back(premise.assumption);
   return acceptance;

@@ -87,6 +87,7 @@ struct Acceptance {
   std::int64_t simulated{0};                     ///< machines
   std::int64_t worlds{0};                        ///< of the study; 0: none
   std::vector<StandardValue> standard_values{};  ///< of a study with a sequence, where the logs tell them
+  std::string standard_lacks{};  ///< why there are none: "a.csv has no column final_error"; empty: there are
   /// Effects that the study is without, which its manifest does not name.
   std::vector<std::string> assumed{};
 };

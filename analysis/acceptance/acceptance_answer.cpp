@@ -274,6 +274,16 @@ document::AnswerDescription<Acceptance> acceptance_answer() {
                      "values of the axis; empty without a sequence, or without the columns final_error and "
                      "move in every log"),
           standard_rows(), &Acceptance::standard_values)
+      .value(
+          in_data("standard_lacks",
+                  "why there are no values of ISO 230-2: the column that a log lacks; empty: there are, or "
+                  "the study has no sequence"),
+          &Acceptance::standard_lacks)
+      .sentence([](Of a) {
+        return a.standard_lacks.empty() ? std::string()
+                                        : fmt::format("the values of ISO 230-2 are not judged, because {}",
+                                                      text::printable(a.standard_lacks));
+      })
       .table(everywhere("machines", "machines", "each machine that was measured"), machine_rows(),
              &Acceptance::machines)
       .value({.key = "assumed",

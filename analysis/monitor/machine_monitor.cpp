@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -12,6 +13,7 @@
 
 #include "analysis/monitor/change_test.hpp"
 #include "analysis/parallel/parallel.hpp"
+#include "analysis/text/text.hpp"
 #include "core/failure/failure.hpp"
 #include "core/numerics/interval.hpp"
 #include "core/random/random_numbers.hpp"
@@ -185,19 +187,80 @@ bool is_wanted(const MonitorSettings& settings, const MonitoredMeasure& measure)
   return std::ranges::find(settings.measures, measure.name) != settings.measures.end();
 }
 
-[[noreturn]] void refuse_without_common(const Baseline& baseline, const MoveLog& log,
-                                        const MonitorSettings& settings) {
-  const auto names = [](const auto& columns) {
-    std::vector<std::string> all;
-    all.reserve(columns.size());
-    for (const auto& column : columns) all.push_back(column.measure.name);
-    return fmt::format("{}", fmt::join(all, ", "));
+/// Heads of the columns of one side that are not watched.
+std::vector<std::string> unread_columns(const Moves& side, const std::vector<std::string>& watched) {
+  std::vector<std::string> heads = side.other_columns;
+  for (const Moves::Column& column : side.columns)
+    if (std::ranges::find(watched, column.measure.name) == watched.end())
+      heads.push_back(column.measure.name);
+  return heads;
+}
+
+/// Measures of one side that the other one lacks.
+std::vector<std::string> missing_measures(const Moves& side, const Moves& other) {
+  std::vector<std::string> missing;
+  for (const Moves::Column& column : side.columns)
+    if (other.find(column.measure.name) == nullptr) missing.push_back(column.measure.name);
+  return missing;
+}
+
+/// "; its column 'Settling_Time' looks like it", or empty.
+std::string near_text(const Moves& side, const std::string& measure) {
+  const std::optional<std::string> near = resembling_column(measure, unread_columns(side, {}));
+  return near ? fmt::format("; its column '{}' looks like it", text::printable(*near)) : "";
+}
+
+/// "settling_time, overshoot and 30 more"
+std::string names_of(const Moves& side) {
+  constexpr std::size_t max_shown = 8;
+  std::vector<std::string> names;
+  for (const Moves::Column& column : side.columns) names.push_back(column.measure.name);
+  const std::size_t more = names.size() > max_shown ? names.size() - max_shown : 0;
+  names.resize(names.size() - more);
+  return fmt::format("{}{}", fmt::join(names, ", "), more > 0 ? fmt::format(" and {} more", more) : "");
+}
+
+/// The label if only one side has it.
+std::optional<UnwatchedMeasure> unused_label(const Baseline& baseline, const MoveLog& log,
+                                             const std::string& label, bool MoveLabels::*has) {
+  if (baseline.labels.*has == log.labels.*has) return std::nullopt;
+  const bool is_missing = baseline.labels.*has;
+  const Moves& without = is_missing ? static_cast<const Moves&>(log) : baseline;
+  UnwatchedMeasure unused{label, is_missing ? WhyUnwatched::missing : WhyUnwatched::not_in_baseline,
+                          resembling_column(label, without.other_columns)};
+  const auto is_label = [&](const std::string& head) {
+    return std::ranges::equal(column_head(head).name, label, [](char a, char b) {
+      return std::tolower(static_cast<unsigned char>(a)) == static_cast<unsigned char>(b);
+    });
   };
+  if (baseline.is_model && !(unused.near && is_label(*unused.near))) return std::nullopt;
+  return unused;
+}
+
+/// Labels by which moves are like each other that only one side has.
+std::vector<UnwatchedMeasure> labels_on_one_side(const Baseline& baseline, const MoveLog& log) {
+  std::vector<UnwatchedMeasure> labels;
+  for (const auto& [label, has] :
+       {std::pair{"move", &MoveLabels::numbered}, std::pair{"target", &MoveLabels::targeted}})
+    if (std::optional<UnwatchedMeasure> unused = unused_label(baseline, log, label, has))
+      labels.push_back(std::move(*unused));
+  return labels;
+}
+
+[[noreturn]] void refuse_without_common(const Baseline& baseline, const MoveLog& log,
+                                        std::span<const UnwatchedMeasure> unwatched) {
+  std::string hints;
+  for (const UnwatchedMeasure& one : unwatched) {
+    if (one.why == WhyUnwatched::accumulates)
+      hints += fmt::format("; {} is compared only where --measure names it", one.measure);
+    if (one.near)
+      hints += fmt::format("; the column '{}' of {} looks like {}", text::printable(*one.near),
+                           one.why == WhyUnwatched::missing ? log.name : baseline.name, one.measure);
+  }
   throw Failure(
       ExitCode::bad_input,
-      fmt::format("{}: no measure to compare{}: it has {}, and {} has {}; expected columns named alike",
-                  log.name, settings.measures.empty() ? "" : " among those of --measure", names(log.columns),
-                  baseline.name, names(baseline.columns)));
+      fmt::format("{}: no measure to compare: it has {}, and {} has {}; expected columns named alike{}",
+                  log.name, names_of(log), baseline.name, names_of(baseline), hints));
 }
 
 }  // namespace
@@ -274,18 +337,23 @@ MachineMonitor::MachineMonitor(const Baseline& baseline, const MoveLog& log, Mon
     first = end;
   }
   std::vector<std::vector<double>> values;
-  for (const auto& [before, column] : common_columns(baseline, log)) values.push_back(add(*before, *column));
-  if (states_.empty()) refuse_without_common(baseline, log, settings_);
+  const std::vector<Pair> common = common_columns(baseline, log);
+  for (const auto& [before, column] : common) values.push_back(add(*before, *column));
+  if (settings_.measures.empty()) note_unwatched(baseline, log, common);
+  unused_labels_ = labels_on_one_side(baseline, log);
+  if (states_.empty()) refuse_without_common(baseline, log, unwatched_);
   for (MeasureState& state : states_) state.evidence = 1.0 / static_cast<double>(states_.size());
   if (!baseline.is_model) test_dependence(values);
 }
 
 std::vector<MachineMonitor::Pair> MachineMonitor::common_columns(const Baseline& baseline,
                                                                  const MoveLog& log) {
-  for (const std::string& name : settings_.measures)
-    if (log.find(name) == nullptr || baseline.find(name) == nullptr)
-      throw Failure(ExitCode::bad_input, fmt::format("--measure {}: {} has no such measure", name,
-                                                     log.find(name) == nullptr ? log.name : baseline.name));
+  for (const std::string& name : settings_.measures) {
+    if (log.find(name) != nullptr && baseline.find(name) != nullptr) continue;
+    const Moves& without = log.find(name) == nullptr ? static_cast<const Moves&>(log) : baseline;
+    throw Failure(ExitCode::bad_input, fmt::format("--measure {}: {} has no such measure{}", name,
+                                                   without.name, near_text(without, name)));
+  }
   std::vector<Pair> common;
   for (const MoveLog::Column& column : log.columns) {
     const MoveLog::Column* const before = baseline.find(column.measure.name);
@@ -300,6 +368,26 @@ std::vector<MachineMonitor::Pair> MachineMonitor::common_columns(const Baseline&
     common.emplace_back(before, &column);
   }
   return common;
+}
+
+void MachineMonitor::note_unwatched(const Baseline& baseline, const MoveLog& log,
+                                    const std::vector<Pair>& common) {
+  std::vector<std::string> watched;
+  for (const auto& [before, column] : common) watched.push_back(column->measure.name);
+  const auto note = [&](const Moves& side, const Moves& other, WhyUnwatched why) {
+    const std::vector<std::string> missing = missing_measures(side, other);
+    const std::vector<std::string> unread = unread_columns(other, watched);
+    for (const std::string& measure : missing) {
+      std::optional<std::string> near = resembling_column(measure, unread);
+      if (near && resembling_column(column_head(*near).name, missing) != measure) near.reset();
+      unwatched_.push_back({measure, why, std::move(near)});
+    }
+  };
+  note(baseline, log, WhyUnwatched::missing);
+  note(log, baseline, WhyUnwatched::not_in_baseline);
+  for (const Moves::Column& column : log.columns)
+    if (column.measure.accumulates && baseline.find(column.measure.name) != nullptr)
+      unwatched_.push_back({column.measure.name, WhyUnwatched::accumulates});
 }
 
 std::vector<double> MachineMonitor::add(const MoveLog::Column& before, const MoveLog::Column& column) {

@@ -99,6 +99,20 @@ struct MeasureState {
   std::optional<std::int64_t> seen_after{};
 };
 
+/// Why a measure of the baseline, or of the moves, is not watched, or a label not used.
+enum class WhyUnwatched {
+  missing,          ///< the moves have no such column
+  not_in_baseline,  ///< the baseline has no such column
+  accumulates       ///< it grows from move to move, and is not named in the settings
+};
+
+struct UnwatchedMeasure {
+  std::string measure;
+  WhyUnwatched why;
+  /// Column of the side without the measure whose name resembles it.
+  std::optional<std::string> near{};
+};
+
 struct MonitorState {
   MachineStatus status{MachineStatus::undecided};
   const MeasureState* alarm{nullptr};  ///< the measure that gave the first alarm
@@ -140,6 +154,11 @@ class MachineMonitor {
   const MonitorSettings& settings() const { return settings_; }
   /// Columns of the log that nothing is compared with.
   const std::vector<std::string>& unused() const { return unused_; }
+  /// Measures of either side that are not watched; empty where the settings name measures.
+  const std::vector<UnwatchedMeasure>& unwatched() const { return unwatched_; }
+  /// The columns move and target, by which moves are like each other, that only one of two logs has. Beside a
+  /// simulated study, which has both: those that the log has in another letter case.
+  const std::vector<UnwatchedMeasure>& unused_labels() const { return unused_labels_; }
 
  private:
   struct Watched {
@@ -159,6 +178,8 @@ class MachineMonitor {
   /// The columns of the log that are watched, each with that of the baseline.
   using Pair = std::pair<const MoveLog::Column*, const MoveLog::Column*>;
   std::vector<Pair> common_columns(const Baseline& baseline, const MoveLog& log);
+  /// @param common the columns that are watched
+  void note_unwatched(const Baseline& baseline, const MoveLog& log, const std::vector<Pair>& common);
   /// @returns the values of the baseline, in their order
   std::vector<double> add(const MoveLog::Column& before, const MoveLog::Column& column);
   /// @param values [measure][value]
@@ -174,6 +195,8 @@ class MachineMonitor {
 
   MonitorSettings settings_;
   std::vector<std::string> unused_{};
+  std::vector<UnwatchedMeasure> unwatched_{};
+  std::vector<UnwatchedMeasure> unused_labels_{};
   std::vector<std::size_t> baseline_ends_;  ///< [value] one past its last move
   Likes likes_;
   std::map<std::vector<std::size_t>, std::size_t> classes_{};  ///< of values: sets of likes
@@ -199,6 +222,7 @@ struct MonitorReading {
   MonitorState state;
   std::string log{};                              ///< name of the file of the moves
   const ChangeExplanation* explanation{nullptr};  ///< of an alarm beside a simulated study; null: none
+  std::int64_t repeated{0};                       ///< equal_moves() of the log and a measured baseline
 };
 
 document::AnswerDescription<MonitorReading> monitor_answer();

@@ -26,6 +26,7 @@ using Of = const MonitorReading&;
 const std::vector<std::string> directions{"higher", "lower"};
 const std::vector<std::string> statuses{"changed", "unchanged", "undecided"};
 const std::vector<std::string> told_words{"one", "several", "none", "unknown"};
+const std::vector<std::string> why_words{"missing", "not_in_baseline", "accumulates", "no_change_to_see"};
 const std::vector<std::string> like_words{"", "direction", "move", "target and direction", "move and target"};
 
 template <class Enumeration>
@@ -75,6 +76,59 @@ bool has_size(const MeasureState& state) {
   return !state.to_see.directions.empty();
 }
 
+/// A measure that `unchanged` says nothing about.
+struct NotJudged {
+  std::string measure;
+  std::string why;  ///< one of why_words
+  std::optional<std::string> near{};
+};
+
+/// The measures that are not watched, and without an alarm those without a change to be seen.
+std::vector<NotJudged> not_judged(Of r) {
+  std::vector<NotJudged> all;
+  for (const UnwatchedMeasure& one : r.monitor.unwatched())
+    all.push_back({one.measure, word_of(why_words, one.why), one.near});
+  if (r.state.alarm != nullptr) return all;
+  for (const MeasureState& state : r.monitor.measures())
+    if (!has_size(state)) all.push_back({state.measure.name, why_words.back()});
+  return all;
+}
+
+/// "jerk_count, settling_time (its column 'Settling_Time' looks like it)", for the measures with this reason.
+std::string names_not_judged(Of r, WhyUnwatched why) {
+  std::vector<std::string> names;
+  for (const UnwatchedMeasure& one : r.monitor.unwatched())
+    if (one.why == why)
+      names.push_back(one.near ? fmt::format("{} (its column '{}' looks like it)", one.measure, *one.near)
+                               : one.measure);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// "; not judged: jerk_count, overshoot and 3 more", of the measures of the baseline; or empty.
+std::string not_judged_text(Of r) {
+  constexpr std::size_t max_shown = 3;
+  std::vector<std::string> names;
+  for (const NotJudged& one : not_judged(r))
+    if (one.why != word_of(why_words, WhyUnwatched::not_in_baseline)) names.push_back(one.measure);
+  if (names.empty()) return "";
+  const std::size_t more = names.size() > max_shown ? names.size() - max_shown : 0;
+  names.resize(names.size() - more);
+  return fmt::format("; not judged: {}{}", fmt::join(names, ", "),
+                     more > 0 ? fmt::format(" and {} more", more) : "");
+}
+
+/// The columns of the moves that are not measures and that nothing is compared with; a measure that one of
+/// them seems to mean stands behind it.
+std::string unused_columns(Of r) {
+  std::vector<std::string> columns;
+  for (const std::string& column : r.monitor.unused()) {
+    if (measure_named(column_head(column).name)) continue;  // see unwatched()
+    const std::optional<std::string> measure = misspelt_measure(column);
+    columns.push_back(measure ? fmt::format("{} (looks like {})", column, *measure) : column);
+  }
+  return fmt::format("{}", fmt::join(columns, ", "));
+}
+
 /// "20 % of the baseline's median (added to each value, or as a factor of it) or 0.1 of a proportion", with
 /// the parts that the judged measures have.
 std::string asked_change(Of r) {
@@ -101,8 +155,8 @@ std::string headline_of(Of r) {
                        *alarm->alarm_at, r.state.moves);
   if (r.state.status == MachineStatus::unchanged)
     return fmt::format(
-        "unchanged: no alarm in {} moves, in which a change of {} would have been seen with 90 % in {}",
-        r.state.moves, asked_change(r), names_of(r, has_size));
+        "unchanged: no alarm in {} moves, in which a change of {} would have been seen with 90 % in {}{}",
+        r.state.moves, asked_change(r), names_of(r, has_size), not_judged_text(r));
   if (r.state.moves == 0) return "undecided: there are no moves yet";
   if (r.monitor.values() == 0 && r.monitor.unlike() > 0)
     return fmt::format("undecided: none of {} moves is like one of the baseline; the first is {}",
@@ -187,7 +241,23 @@ std::string notes_of(Of r) {
         "not judged, because the median is 0 or infinite, values have both signs, or a proportion cannot "
         "change so much: ",
         names_of(r, [](const MeasureState& s) { return !has_size(s); }));
-  note("columns that are not compared: ", fmt::format("{}", fmt::join(monitor.unused(), ", ")));
+  note(fmt::format("not judged, because {} has no such column: ", text::printable(r.log)),
+       names_not_judged(r, WhyUnwatched::missing));
+  note("not judged, because the baseline has no such column: ",
+       names_not_judged(r, WhyUnwatched::not_in_baseline));
+  note("not judged, because the value grows from move to move (--measure judges it all the same): ",
+       names_not_judged(r, WhyUnwatched::accumulates));
+  note("columns that are not compared: ", unused_columns(r));
+  for (const UnwatchedMeasure& label : monitor.unused_labels())
+    notes.push_back(text::printable(
+        fmt::format("moves are not compared with those of the same {}, because {} has no such column{}",
+                    label.measure, label.why == WhyUnwatched::missing ? r.log : r.baseline.name,
+                    label.near ? fmt::format("; its column '{}' looks like it", *label.near) : "")));
+  if (r.repeated > 0)
+    notes.push_back(fmt::format(
+        "the first {} of these moves have the same values as those of the baseline: if they are the same "
+        "moves, they tell nothing of a change",
+        r.repeated));
   if (likes.count() > 1) {
     notes.push_back(fmt::format("moves are compared with those of the same {} ({} in the baseline)",
                                 word_of(like_words, likes.by()), likes.count()));
@@ -294,6 +364,19 @@ Description<MeasureState> measure_description() {
              &MeasureState::seen_after);
 }
 
+Description<NotJudged> not_judged_description() {
+  return Description<NotJudged>()
+      .value(in_data("measure", "name of the measure"), &NotJudged::measure)
+      .value(with_words(in_data("why",
+                                "missing: the moves have no such column; not_in_baseline: the baseline has "
+                                "none; accumulates: it grows from move to move, and --measure does not name "
+                                "it; no_change_to_see: it has no size of change, see `change`"),
+                        why_words),
+             &NotJudged::why)
+      .value(in_data("near", "column of the side that lacks the measure whose name resembles it; null: none"),
+             &NotJudged::near);
+}
+
 Description<LikeValue> like_description() {
   return Description<LikeValue>()
       .value(everywhere("measure", "measure", "name of the measure"), &LikeValue::measure)
@@ -395,6 +478,9 @@ document::AnswerDescription<MonitorReading> monitor_answer() {
       .value(in_data("baseline_moves", "moves of the baseline"), [](Of r) { return r.baseline.moves; })
       .value(in_data("baseline_machines", "simulated machines of the baseline; null: it was measured"),
              [](Of r) { return r.baseline.is_model ? std::optional(r.baseline.machines) : std::nullopt; })
+      .value(in_data("repeated",
+                     "first moves that have the same values as the first ones of a measured baseline"),
+             &MonitorReading::repeated)
       .value(in_data("unused", "columns of the moves that nothing is compared with"),
              [](Of r) { return r.monitor.unused(); })
       .value(in_data("alike", "what moves are compared by; empty: all with all"),
@@ -403,6 +489,10 @@ document::AnswerDescription<MonitorReading> monitor_answer() {
              [](Of r) { return r.monitor.unlike(); })
       .table({.key = "measures", .meaning = "each measure"}, measure_description(),
              [](Of r) { return r.monitor.measures(); })
+      .table({.key = "not_judged",
+              .meaning = "measures of which 'unchanged' says nothing",
+              .shown = document::Shown::in_json},
+             not_judged_description(), not_judged)
       .table(
           {.key = "likes",
            .meaning = "medians of measures that differ from one kind of moves to another more than within"},

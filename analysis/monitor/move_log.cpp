@@ -20,6 +20,7 @@
 #include "core/text/text.hpp"
 #include "core/text/unit.hpp"
 #include "experiments/parameters/study_units.hpp"
+#include "experiments/yaml/problems.hpp"
 
 namespace zerocount::monitor {
 namespace {
@@ -79,6 +80,27 @@ std::string lower_case(std::string_view text) {
     return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   });
   return lower;
+}
+
+/// The letters and digits of a name, in lower case.
+std::string letters_of(std::string_view name) {
+  std::string letters = lower_case(name);
+  std::erase_if(letters, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; });
+  return letters;
+}
+
+/// Whether the longer name has the shorter one as a part of it.
+bool is_within(std::string_view part, std::string_view whole) {
+  constexpr std::size_t shortest = 5;  // shorter ones are parts of words by chance
+  return part.size() >= shortest && whole.find(part) != std::string_view::npos;
+}
+
+/// "; 'Settling_Time' looks like settling_time" of the first column that is a misspelt measure; or empty.
+std::string misspelling_in(std::span<const std::string> heads) {
+  for (const std::string& head : heads)
+    if (const std::optional<std::string> measure = misspelt_measure(head))
+      return fmt::format("; '{}' looks like {}", text::printable(head), *measure);
+  return "";
 }
 
 /// The number in a cell; nothing if there is none.
@@ -160,6 +182,39 @@ ColumnHead column_head(std::string_view text) {
             std::string(without_blanks_around(inside))};
   }
   return {std::string(text), {}};
+}
+
+std::optional<std::string> resembling_column(std::string_view measure, std::span<const std::string> heads) {
+  const std::string wanted = letters_of(measure);
+  std::vector<std::string> near;          // letters of the columns that resemble it
+  std::vector<const std::string*> whose;  // heads of these columns
+  for (const std::string& head : heads) {
+    const std::string letters = letters_of(column_head(head).name);
+    if (letters == wanted) return head;
+    if (!is_within(letters, wanted) && !is_within(wanted, letters) && !yaml::is_near(wanted, letters))
+      continue;
+    near.push_back(letters);
+    whose.push_back(&head);
+  }
+  if (near.empty()) return std::nullopt;
+  // A name that is too long for nearest_name() contains the first of these.
+  const auto nearest = std::ranges::find(near, yaml::nearest_name(wanted, near));
+  return nearest == near.end() ? *whose.front() : *whose[static_cast<std::size_t>(nearest - near.begin())];
+}
+
+std::optional<std::string> misspelt_measure(std::string_view head) {
+  const std::string name = column_head(head).name;
+  const std::string letters = letters_of(name);
+  const std::size_t digits = letters.find_last_not_of("0123456789") + 1;
+  for (const layout::Measure& row : table_with_both()) {
+    const std::string_view stem = indexed(row.field.column.name).stem;
+    const bool has_index = row.band || row.tolerance;
+    if (letters_of(stem) != letters.substr(0, has_index ? digits : letters.size())) continue;
+    if (!has_index) return std::string(stem);
+    const std::string indexed_name = fmt::format("{}[{}]", stem, letters.substr(digits));
+    if (measure_named(indexed_name)) return indexed_name;
+  }
+  return std::nullopt;
 }
 
 double si_factor(std::string_view unit) {
@@ -297,7 +352,7 @@ void MoveLog::read_header(std::string_view line) {
     column_at_.push_back(columns.size());
     if (!measure) {
       column_at_.back() = std::string::npos;
-      if (!cell.empty()) others_.emplace_back(cell);
+      if (!cell.empty()) other_columns.emplace_back(cell);
       note_label(column_at_.size() - 1, head);
       continue;
     }
@@ -317,8 +372,9 @@ void MoveLog::read_header(std::string_view line) {
     throw Failure(
         ExitCode::bad_input,
         fmt::format("{}:{}: no column is named like a measure of moves ({}); expected names such as "
-                    "settling_time, band_settling_time[1], overshoot, outcome",
-                    name, line_, text::printable(fmt::format("{}", fmt::join(heads_, ", ")).substr(0, 200))));
+                    "settling_time, band_settling_time[1], overshoot, outcome{}",
+                    name, line_, text::printable(fmt::format("{}", fmt::join(heads_, ", ")).substr(0, 200)),
+                    misspelling_in(heads_)));
 }
 
 void MoveLog::read_row(std::string_view line) {

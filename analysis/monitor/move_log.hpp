@@ -61,6 +61,15 @@ struct ColumnHead {
 };
 ColumnHead column_head(std::string_view text);
 
+/// The column whose name resembles that of the measure: the same letters and digits in any case, one of the
+/// two names within the other, or few letters apart. Nothing if none does.
+/// @param heads of the columns, with their units
+std::optional<std::string> resembling_column(std::string_view measure, std::span<const std::string> heads);
+
+/// The measure that the column's name stands for in another letter case, or with other marks between its
+/// words: settling_time of "Settling-Time [ms]", and band_settling_time[1] of "BandSettlingTime 1".
+std::optional<std::string> misspelt_measure(std::string_view head);
+
 /// Factor from the unit of a column to SI, as far as the program knows units; 1 without one.
 double si_factor(std::string_view unit);
 /// Whether numbers of one unit can be compared with those of the other, both in SI. Without a unit: yes.
@@ -103,6 +112,8 @@ struct Moves {
   /// (column `trial`) begins at 0. A `move` that is not a whole number is none.
   MoveLabels labels{};
   std::vector<std::string> groups{};  ///< [move] the cell of the group, of a log that is read with one
+  /// Heads of the columns of a log that are not measures, with their units.
+  std::vector<std::string> other_columns{};
 
   /// Null if there is none.
   const Column* find(std::string_view measure) const;
@@ -135,8 +146,7 @@ class MoveLog : public Moves {
   void require_header() const;
 
   bool has_header() const { return !heads_.empty(); }
-  /// Names of the columns that are not measures, as the header has them.
-  const std::vector<std::string>& others() const { return others_; }
+  const std::vector<std::string>& others() const { return other_columns; }
 
  private:
   void read_line(std::string_view line);
@@ -157,7 +167,6 @@ class MoveLog : public Moves {
   tables::Separator separator_{tables::Separator::comma};
   std::vector<std::string> heads_;      ///< of all columns
   std::vector<std::size_t> column_at_;  ///< [cell] its place among the columns; npos if it has none
-  std::vector<std::string> others_;
   LabelCells label_cells_{};
   double target_factor_{1.0};  ///< to SI, or counts
   std::string trial_;          ///< of the last row

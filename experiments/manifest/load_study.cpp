@@ -71,8 +71,10 @@ study::Study read_study(std::string text, std::string_view source,
   std::deque<std::string> override_sources;
   root = manifest_text::apply_overrides(root, given_overrides, override_sources, problems);
   std::vector<std::string> overrides = given_overrides;
+  std::vector<std::string> warnings;
   if (root) {
-    const std::vector<std::string> tables = sections::table_overrides(*root, companions.samples, problems);
+    const std::vector<std::string> tables =
+        sections::table_overrides(*root, companions.samples, problems, warnings);
     const yaml::YamlPointer named = root;
     root = manifest_text::apply_overrides(root, tables, override_sources, problems);
     for (const char* const record : {"command.torque.file", "command.reference.file"})
@@ -85,6 +87,7 @@ study::Study read_study(std::string text, std::string_view source,
   study::Study study = read_manifest(*root, recorded, companions, samples ? &*samples : nullptr, problems);
   problems.raise_if_any();
 
+  if (!recorded) study.warnings.insert(study.warnings.begin(), warnings.begin(), warnings.end());
   study.manifest.sha256 = hash::sha256_hex(text);
   study.study_sha256 = hash::sha256_hex(joined(*written, study));
   study.manifest.text = std::move(text);
@@ -98,11 +101,6 @@ study::Study load_study(const std::filesystem::path& manifest, const std::vector
                         const sections::Companions& companions) {
   const std::string source = yaml::name_of_text(manifest);
   std::string text = yaml::read_text(manifest, yaml::max_manifest_size, "a manifest");
-  if (text.starts_with("\x89HDF")) {
-    throw Failure(
-        ExitCode::bad_input,
-        fmt::format("{}: this is an HDF5 file, such as a results file; expected a manifest", source));
-  }
   return new_study(std::move(text), source, overrides, companions);
 }
 

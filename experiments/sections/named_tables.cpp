@@ -6,8 +6,10 @@
 
 #include <fmt/format.h>
 
+#include "core/text/text.hpp"
 #include "core/text/unit.hpp"
 #include "experiments/keys/manifest_keys.hpp"
+#include "experiments/tables/time_gaps.hpp"
 
 namespace zerocount::sections {
 namespace {
@@ -31,8 +33,9 @@ struct Recorded {
   std::string_view quantity;         ///< in the plural
   std::vector<std::string> columns;  ///< names of its column, of which the table has one
   text::Dimension dimension;
-  std::string_view units;  ///< such as its column can have
-  std::string header;      ///< such as the table can have
+  std::string_view units;    ///< such as its column can have
+  std::string header;        ///< such as the table can have
+  std::string_view between;  ///< value between two rows
 };
 
 /// The table of a record.
@@ -41,6 +44,7 @@ struct RecordTable {
   const tables::TextTable& table;
   const Recorded& recorded;
   yaml::Problems& problems;
+  double first{0.0};  ///< time of the first row, s
 
   /// The column with one of these names. Reports its absence, and a unit of another dimension.
   std::optional<FoundColumn> column(const std::vector<std::string>& names, text::Dimension dimension,
@@ -62,13 +66,12 @@ struct RecordTable {
   }
 
   /// Times from 0 on (s) and values in SI units; none after a report.
-  Pairs pairs() const {
+  Pairs pairs() {
     const auto time = column({"t", "time"}, text::Dimension::time, "s, ms or us");
     if (!time) return {};
     const auto value = column(recorded.columns, recorded.dimension, recorded.units);
     if (!value) return {};
     Pairs found;
-    double first = 0.0;
     for (std::size_t row = 0; row < table.rows(); ++row) {
       for (const FoundColumn& one : {*time, *value}) {
         if (std::isfinite(table.number(row, one.index))) continue;
@@ -127,28 +130,17 @@ std::optional<tables::TextTable> named_table(const std::optional<yaml::Field>& f
   return std::nullopt;
 }
 
-void add_spectra_below(const yaml::Field& disturbance, const SamplesReader& read, yaml::Problems& problems,
-                       std::vector<std::string>& overrides) {
-  constexpr std::string_view expected = "a line 'frequency in Hz, density' for each point, such as 10, 1e-9";
-  const auto list = yaml::find_field(disturbance, "vibration");
-  if (!list || list->node->kind != yaml::YamlNode::Kind::list) return;
-  for (const yaml::Field& element : shapes::items_of(*list)) {
-    const auto field = yaml::find_field(element, "spectrum");
-    const auto table = named_table(field, "spectra", expected, read, problems);
-    const Pairs points = table ? points_of(*field, *table, expected, problems) : Pairs{};
-    if (!points.empty()) overrides.push_back(fmt::format("{}={}", field->path, list_of(points)));
-  }
-}
-
 Recorded torques(bool linear) {
+  constexpr std::string_view held = "the value before it is held";
   if (linear)
     return {"forces",
             {"force", "drive_force", "torque"},
             text::Dimension::force,
             "N, mN or kN",
-            "t [s], force [N]"};
-  return {
-      "torques", {"torque", "drive_torque"}, text::Dimension::torque, "N m or mN m", "t [s], torque [N m]"};
+            "t [s], force [N]",
+            held};
+  return {"torques",     {"torque", "drive_torque"}, text::Dimension::torque,
+          "N m or mN m", "t [s], torque [N m]",      held};
 }
 
 Recorded positions(bool linear, const std::string& column) {
@@ -156,53 +148,117 @@ Recorded positions(bool linear, const std::string& column) {
           {column},
           linear ? text::Dimension::length : text::Dimension::angle,
           linear ? "m, mm or um" : "rad, mrad or deg",
-          fmt::format("t [s], {} [{}]", column, linear ? "m" : "rad")};
+          fmt::format("t [s], {} [{}]", column, linear ? "m" : "rad"),
+          "a straight line joins them"};
 }
 
-/// The record in the file that the field names; empty without one and after a report.
-Pairs pairs_in(const std::optional<yaml::Field>& field, const Recorded& recorded, const SamplesReader& read,
-               yaml::Problems& problems) {
+/// Where the tables of a manifest are read from, and what is found.
+struct TableReading {
+  const SamplesReader& read;
+  yaml::Problems& problems;
+  std::vector<std::string>& warnings;
+  std::vector<std::string> overrides{};
+};
+
+void add_spectra_below(const yaml::Field& disturbance, TableReading& reading) {
+  constexpr std::string_view expected = "a line 'frequency in Hz, density' for each point, such as 10, 1e-9";
+  const auto list = yaml::find_field(disturbance, "vibration");
+  if (!list || list->node->kind != yaml::YamlNode::Kind::list) return;
+  for (const yaml::Field& element : shapes::items_of(*list)) {
+    const auto field = yaml::find_field(element, "spectrum");
+    const auto table = named_table(field, "spectra", expected, reading.read, reading.problems);
+    const Pairs points = table ? points_of(*field, *table, expected, reading.problems) : Pairs{};
+    if (!points.empty()) reading.overrides.push_back(fmt::format("{}={}", field->path, list_of(points)));
+  }
+}
+
+/// Adds a warning of the gaps of a record across which the value changes: rows of a standstill may be left
+/// out.
+/// @param first time of the first row in the record, s @param place_of the place of a row
+template <class PlaceOf>
+void warn_of_gaps(const Pairs& rows, double first, const Recorded& recorded, std::string_view path,
+                  const PlaceOf& place_of, TableReading& reading) {
+  std::vector<double> times;
+  for (const auto& [time, value] : rows) times.push_back(time);
+  std::vector<tables::TimeGap> gaps = tables::time_gaps(times);
+  std::erase_if(gaps,
+                [&](const tables::TimeGap& gap) { return rows[gap.row].second == rows[gap.row - 1].second; });
+  if (gaps.empty()) return;
+  const tables::TimeGap& gap = gaps.front();
+  reading.warnings.push_back(yaml::at_place(
+      place_of(gap.row), path,
+      fmt::format("no rows for {:.6g} s, between {:.9g} and {:.9g} s, where others are {:.6g} s apart: {}{}",
+                  gap.step, first + times[gap.row - 1], first + times[gap.row], gap.usual, recorded.between,
+                  gaps.size() > 1 ? fmt::format("; such gaps in all: {}", gaps.size()) : "")));
+}
+
+/// The pairs of a list in the manifest, as far as all are plain numbers; empty otherwise.
+Pairs pairs_of_list(const yaml::Field& list) {
+  Pairs pairs;
+  for (const yaml::YamlPointer& item : list.node->items) {
+    if (item->kind != yaml::YamlNode::Kind::list || item->items.size() != 2) return {};
+    const auto time = text::parse_number<double>(item->items[0]->text);
+    const auto value = text::parse_number<double>(item->items[1]->text);
+    if (!time || !value || (!pairs.empty() && !(*time > pairs.back().first))) return {};
+    pairs.emplace_back(*time, *value);
+  }
+  return pairs;
+}
+
+/// The record in the file that the field names; empty without one and after a report. Warns of gaps in it,
+/// and in a list that stands in its place.
+Pairs pairs_in(const std::optional<yaml::Field>& field, const Recorded& recorded, TableReading& reading) {
   const std::string expected =
       fmt::format("a header such as {}, and 2 to {} rows of numbers", recorded.header, keys::max_record_rows);
-  const auto table = named_table(field, recorded.quantity, expected, read, problems);
+  if (field && field->node->kind == yaml::YamlNode::Kind::list) {
+    const auto place_of = [&](std::size_t row) {
+      const yaml::Place& place = field->node->items[row]->place;
+      return place.line > 0 ? place : yaml::Place{"--set"};  // an override is as long as its list
+    };
+    warn_of_gaps(pairs_of_list(*field), 0.0, recorded, field->path, place_of, reading);
+  }
+  const auto table = named_table(field, recorded.quantity, expected, reading.read, reading.problems);
   if (!table) return {};
-  if (table->rows() >= 2 && table->rows() <= keys::max_record_rows)
-    return RecordTable{*field, *table, recorded, problems}.pairs();
-  add_fault(*field, 1, fmt::format("the table has {} rows", table->rows()), expected, problems);
-  return {};
+  if (table->rows() < 2 || table->rows() > keys::max_record_rows) {
+    add_fault(*field, 1, fmt::format("the table has {} rows", table->rows()), expected, reading.problems);
+    return {};
+  }
+  RecordTable record{*field, *table, recorded, reading.problems};
+  Pairs pairs = record.pairs();
+  const auto place_of = [&](std::size_t row) {
+    return yaml::Place{field->node->text, static_cast<int>(table->line(row)), 1};
+  };
+  if (!pairs.empty()) warn_of_gaps(pairs, record.first, recorded, field->path, place_of, reading);
+  return pairs;
 }
 
-void add_torque(const yaml::Field& torque, bool linear, const SamplesReader& read, yaml::Problems& problems,
-                std::vector<std::string>& overrides) {
-  const Pairs pairs = pairs_in(yaml::find_field(torque, "file"), torques(linear), read, problems);
-  if (!pairs.empty()) overrides.push_back(fmt::format("{}.file={}", torque.path, list_of(pairs)));
+void add_torque(const yaml::Field& torque, bool linear, TableReading& reading) {
+  const Pairs pairs = pairs_in(yaml::find_field(torque, "file"), torques(linear), reading);
+  if (!pairs.empty()) reading.overrides.push_back(fmt::format("{}.file={}", torque.path, list_of(pairs)));
 }
 
-void add_reference(const yaml::Field& reference, bool linear, const SamplesReader& read,
-                   yaml::Problems& problems, std::vector<std::string>& overrides) {
+void add_reference(const yaml::Field& reference, bool linear, TableReading& reading) {
   const auto file = yaml::find_field(reference, "file");
   const auto column = yaml::find_field(reference, "column");
   if (column && file && file->node->kind == yaml::YamlNode::Kind::list)
-    return problems.add(*column, "it has no effect: the record is a list of pairs",
-                        "the name of a table in command.reference.file, or the key left out");
+    return reading.problems.add(*column, "it has no effect: the record is a list of pairs",
+                                "the name of a table in command.reference.file, or the key left out");
   const bool is_named = column && column->node->kind == yaml::YamlNode::Kind::scalar;
-  const Pairs pairs =
-      pairs_in(file, positions(linear, is_named ? column->node->text : "reference"), read, problems);
+  const Pairs pairs = pairs_in(file, positions(linear, is_named ? column->node->text : "reference"), reading);
   // The column goes with the table.
-  if (!pairs.empty()) overrides.push_back(fmt::format("{}={{file: {}}}", reference.path, list_of(pairs)));
+  if (!pairs.empty())
+    reading.overrides.push_back(fmt::format("{}={{file: {}}}", reference.path, list_of(pairs)));
 }
 
-void add_records(const yaml::Field& root, const SamplesReader& read, yaml::Problems& problems,
-                 std::vector<std::string>& overrides) {
+void add_records(const yaml::Field& root, TableReading& reading) {
   const auto command = yaml::find_field(root, "command");
   if (!command) return;
   const auto axis = yaml::find_field(root, "axis");
   const bool linear =
       axis && axis->node->kind == yaml::YamlNode::Kind::scalar && axis->node->text == "linear";
-  if (const auto torque = yaml::find_field(*command, "torque"))
-    add_torque(*torque, linear, read, problems, overrides);
+  if (const auto torque = yaml::find_field(*command, "torque")) add_torque(*torque, linear, reading);
   if (const auto reference = yaml::find_field(*command, "reference"))
-    add_reference(*reference, linear, read, problems, overrides);
+    add_reference(*reference, linear, reading);
 }
 
 }  // namespace
@@ -268,15 +324,14 @@ std::shared_ptr<const trial::SpectrumParameters> read_spectrum(const yaml::Field
 }
 
 std::vector<std::string> table_overrides(const yaml::YamlNode& root, const SamplesReader& read,
-                                         yaml::Problems& problems) {
-  std::vector<std::string> overrides;
+                                         yaml::Problems& problems, std::vector<std::string>& warnings) {
+  TableReading reading{read, problems, warnings};
   if (const auto disturbance = yaml::find_field({&root, ""}, "disturbance")) {
-    add_spectra_below(*disturbance, read, problems, overrides);
-    if (const auto load = yaml::find_field(*disturbance, "load"))
-      add_spectra_below(*load, read, problems, overrides);
+    add_spectra_below(*disturbance, reading);
+    if (const auto load = yaml::find_field(*disturbance, "load")) add_spectra_below(*load, reading);
   }
-  add_records({&root, ""}, read, problems, overrides);
-  return overrides;
+  add_records({&root, ""}, reading);
+  return reading.overrides;
 }
 
 }  // namespace zerocount::sections

@@ -48,8 +48,10 @@ std::shared_ptr<const trial::SpectrumParameters> read_spectrum(const yaml::Field
 /// force or drive_force; of a reference the one that command.reference.column names, else `reference`. Each
 /// has its unit in brackets or else is in SI units; the first time becomes 0. Other columns are not read. The
 /// table of a spectrum has the columns frequency and density, under any names.
+/// @param warnings is given one of each record with gaps in its times (tables::time_gaps()) across which the
+/// value changes, of a list of pairs too
 std::vector<std::string> table_overrides(const yaml::YamlNode& root, const SamplesReader& read,
-                                         yaml::Problems& problems);
+                                         yaml::Problems& problems, std::vector<std::string>& warnings);
 
 constexpr std::size_t max_samples_size = std::size_t{1} << 24;  ///< bytes of the table
 constexpr std::size_t max_samples = 100'000;                    ///< rows

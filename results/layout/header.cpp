@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <optional>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -16,6 +17,7 @@
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/manifest_text/manifest_text.hpp"
 #include "experiments/study/study.hpp"
+#include "experiments/yaml/text_file.hpp"
 #include "results/hdf5/foreign_file.hpp"
 #include "results/layout/point_sums.hpp"
 #include "results/layout/recorded_values.hpp"
@@ -391,9 +393,12 @@ hdf5::File open_results(const std::filesystem::path& path, Checksum checksum) {
   if (!storage::FileDescriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC)).valid())
     storage::fail_with(path, "read", errno);
   if (!hdf5::is_hdf5(path)) {
-    throw Failure(
-        ExitCode::bad_data,
-        fmt::format("{}: not a results file of zerocount: it is not in the HDF5 format", path.string()));
+    constexpr std::size_t bytes_read = 4096;
+    const std::optional<yaml::OtherFormat> other = yaml::other_format(storage::bytes_at(path, 0, bytes_read));
+    throw Failure(ExitCode::bad_data,
+                  fmt::format("{}: not a results file of zerocount: it is not in the HDF5 format{}{}{}{}",
+                              path.string(), other ? ", but " : "", other ? other->what : "",
+                              other && !other->remedy.empty() ? ", " : "", other ? other->remedy : ""));
   }
   if (checksum == Checksum::not_yet) return hdf5::open_foreign(path);
   storage::require_valid_checksum(path);

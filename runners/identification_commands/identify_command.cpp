@@ -384,6 +384,7 @@ std::vector<command_line::OptionSpec> identify_options() {
        answers::format_option({"yaml"}),
        command_line::written_file({"output,o", "FILE", "write there instead of to standard output"}),
        commands::timeline_option(),
+       {"allow-equal", "", "take files with the same readings as records of different tests"},
        {"quiet,q", "", "print no progress"},
        command_line::needing({"output", "posterior", "plot"}, command_line::force_option())});
   return options;

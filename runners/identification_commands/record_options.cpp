@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "analysis/records/dataset_file.hpp"
+#include "analysis/records/equal_series.hpp"
 #include "core/failure/failure.hpp"
 #include "core/text/text.hpp"
 #include "experiments/tables/text_table.hpp"
@@ -140,6 +141,23 @@ void refuse_options_without_file(const command_line::Arguments& arguments,
           "a table; a results file says this itself");
 }
 
+/// Series of one operand.
+struct FileSeries {
+  std::size_t operand;
+  records::RawSeries series;
+};
+
+/// Readings that are given twice would count as independent ones, which narrows the intervals.
+void refuse_equal_files(const command_line::Arguments& arguments, const std::vector<FileSeries>& found) {
+  for (std::size_t i = 0; i < found.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (found[i].operand != found[j].operand && records::are_equal(found[i].series, found[j].series))
+        arguments.refuse(fmt::format(
+            "{} and {} have the same readings, which would count twice; expected each record once, or "
+            "--allow-equal if they are of two tests",
+            found[j].series.name, found[i].series.name));
+}
+
 /// Refuses options of which no record that was read has anything.
 void refuse_options_without_effect(const command_line::Arguments& arguments,
                                    const std::vector<records::RawSeries>& series) {
@@ -217,7 +235,7 @@ std::vector<records::RawSeries> read_all_series(const command_line::Arguments& a
   files.reserve(paths.size());
   for (const std::string& path : paths) files.push_back(record_file(path, choice));
   refuse_options_without_file(arguments, files);
-  std::vector<records::RawSeries> found;
+  std::vector<FileSeries> of_files;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     const std::string& path = paths[i];
     if (files[i] != RecordFile::results) {
@@ -225,15 +243,18 @@ std::vector<records::RawSeries> read_all_series(const command_line::Arguments& a
            files[i] == RecordFile::datasets
                ? records::read_columns(records::DatasetFile(path), choice)
                : records::read_columns(tables::TextTable(path, choice.separator), choice))
-        found.push_back(std::move(series));
+        of_files.push_back({i, std::move(series)});
       continue;
     }
     constexpr std::int64_t most = std::int64_t{1} << 53;
     const std::int64_t index = arguments.whole_number("trial", 0, most).value_or(0);
     for (const std::int64_t point : points_of(arguments, path, index)) {
-      found.push_back(records::read_study_series(path, point, index, choice));
+      of_files.push_back({i, records::read_study_series(path, point, index, choice)});
     }
   }
+  if (!arguments.has("allow-equal")) refuse_equal_files(arguments, of_files);
+  std::vector<records::RawSeries> found;
+  for (FileSeries& one : of_files) found.push_back(std::move(one.series));
   for (const records::RawSeries& series : found) {
     for (const std::string& note : series.notes)
       status::tell("zerocount identify: {}: {}\n", series.name, note);

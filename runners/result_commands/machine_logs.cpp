@@ -66,6 +66,10 @@ bool GrowingLog::read() {
   require_same_beginning(file, size);
   const std::int64_t before = log_.moves;
   const std::string text = bytes_at(file, read_, size - read_);
+  // Zero bytes at the end are room for lines to come.
+  if (read_ == 0)
+    yaml::require_text(path_.string(), std::string_view(text).substr(0, text.find_last_not_of('\0') + 1),
+                       expected_log);
   remember(std::string_view(text).substr(0, log_.read(text)));
   return log_.moves > before;
 }

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/monitor/equal_logs.hpp"
 #include "analysis/monitor/machine_monitor.hpp"
 #include "analysis/monitor/monitor_baseline.hpp"
 #include "analysis/monitor/move_log.hpp"
@@ -38,7 +39,8 @@ constexpr const char* monitor_help =
     "NaN, is what never happened. BASELINE is a log of earlier moves of the machine, or a results\n"
     "file: then an alarm can mean that the model is wrong, and names the parameters that explain it,\n"
     "or says that none of them does. For that it simulates the machines with each parameter changed,\n"
-    "in as many trials as that takes, or --budget at most.\n"
+    "in as many trials as that takes, or --budget at most. A measure that only one of both has, also\n"
+    "one whose column has another name, is not judged: the answer names it, and a column like it.\n"
     "\n"
     "The test may be asked after every move: a false alarm within any number of moves has at most\n"
     "the probability --alarm, where the moves are exchangeable with those of the baseline. Moves\n"
@@ -139,8 +141,12 @@ ExitCode print_state(const command_line::Arguments& arguments, monitor::MachineM
   machine.update(log);
   const monitor::MonitorState state = machine.state();
   const auto explanation = explanation_of(arguments, baseline, machine, state, log, stop);
-  const monitor::MonitorReading reading{machine, baseline.moves, state, log.name,
-                                        explanation ? &*explanation : nullptr};
+  const monitor::MonitorReading reading{machine,
+                                        baseline.moves,
+                                        state,
+                                        log.name,
+                                        explanation ? &*explanation : nullptr,
+                                        baseline.file ? 0 : monitor::equal_moves(baseline.moves, log)};
   const ExitCode code = monitor::exit_code_of(state.status);
   if (!arguments.has("follow")) return answers::print(arguments, monitor::monitor_answer(), reading, code);
   const document::Answer answer = monitor::monitor_answer().of(reading, code, document::Audience::json);

@@ -55,6 +55,20 @@ def test_moves_of_other_columns_are_refused() -> None:
         zc.monitor({"overshoot": [1, 2]}, {"settling_time": [1.0]})
 
 
+def test_what_is_not_judged_is_named() -> None:
+    """A column under another name is told from one that is not there."""
+    before = {"settling_time": times(1, 100), "overshoot": list(range(100)), "jerk_count": [0, 1] * 50}
+    moves = {"settling_time": times(2, 100), "Over_Shoot": list(range(100))}
+    answer = zc.monitor(before, moves)
+    missing = answer.not_judged[answer.not_judged.why == "missing"]
+    assert list(missing.measure) == ["overshoot", "jerk_count"]
+    assert list(missing.near)[0] == "Over_Shoot"
+    with pytest.raises(zc.ManifestError, match="the column 'Settling_Time' of .* looks like settling_time"):
+        zc.monitor(before, {"Settling_Time": times(2, 10), "stable": [1] * 10})
+    with pytest.raises(zc.ManifestError, match="'Settling_Time' looks like settling_time"):
+        zc.monitor(before, {"Settling_Time": times(2, 10)})
+
+
 def test_refused_moves_are_not_added() -> None:
     watch = zc.monitor({"settling_time": times(1, 10)})
     with pytest.raises(ValueError, match="no columns"):

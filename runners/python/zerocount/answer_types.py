@@ -2592,6 +2592,8 @@ class MonitorAnswer(Answer):
         Moves of the baseline.
     baseline_machines : int or None
         Simulated machines of the baseline; null: it was measured.
+    repeated : int
+        First moves that have the same values as the first ones of a measured baseline.
     unused : list[str]
         Columns of the moves that nothing is compared with.
     alike : str
@@ -2615,6 +2617,14 @@ class MonitorAnswer(Answer):
           one
         - ``seen_after``: moves after which a change of the asked size, added to each value or as a factor of it, would
           have been seen with 90 %, where there are as many; null: later, or not asked
+
+    not_judged : pandas.DataFrame
+        Measures of which 'unchanged' says nothing.
+
+        - ``measure``: name of the measure
+        - ``why``: missing: the moves have no such column; not_in_baseline: the baseline has none; accumulates: it grows
+          from move to move, and --measure does not name it; no_change_to_see: it has no size of change, see `change`
+        - ``near``: column of the side that lacks the measure whose name resembles it; null: none
 
     likes : pandas.DataFrame
         Medians of measures that differ from one kind of moves to another more than within.
@@ -2663,10 +2673,12 @@ class MonitorAnswer(Answer):
     log: str
     baseline_moves: int
     baseline_machines: int | None
+    repeated: int
     unused: list[str]
     alike: str
     unlike: int
     measures: pandas.DataFrame
+    not_judged: pandas.DataFrame
     likes: pandas.DataFrame
     told: Literal["one", "several", "none", "unknown"] | None
     parameters_since: int | None
@@ -2736,6 +2748,9 @@ class AcceptAnswer(Answer):
         - ``within``: measured runs in the predicted interval
         - ``runs``: measured runs
 
+    standard_lacks : str
+        Why there are no values of ISO 230-2: the column that a log lacks; empty: there are, or the study has no
+        sequence.
     machines : pandas.DataFrame
         Each machine that was measured.
 
@@ -2755,6 +2770,7 @@ class AcceptAnswer(Answer):
     simulated_machines: int
     goals: pandas.DataFrame
     standard: pandas.DataFrame
+    standard_lacks: str
     machines: pandas.DataFrame
     assumed: list[str]
 

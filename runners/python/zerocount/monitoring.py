@@ -179,7 +179,8 @@ def monitor(baseline: Any, moves: Any = None, **options: Any) -> Monitor | Monit
     Returns
     -------
     MonitorAnswer or Monitor
-        The answer, with ``status``, ``measure``, ``direction``, ``since``, ``alarm_at``; or what gives one for each update.
+        The answer, with ``status``, ``measure``, ``direction``, ``since``, ``alarm_at``, and ``not_judged``, the measures that only one of both has;
+        or what gives one for each update.
 
     Raises
     ------

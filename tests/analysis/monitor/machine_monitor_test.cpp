@@ -241,10 +241,74 @@ TEST(MachineMonitor, RefusesWhatCannotBeCompared) {
       "columns named alike");
   EXPECT_EQ(message("overshoot\n1\n", "overshoot\n1\n", {.measures = {"stable"}}),
             "--measure stable: moves.csv has no such measure");
+  EXPECT_EQ(message("stable\n1\n", "Stable,overshoot\n1,1\n", {.measures = {"stable"}}),
+            "--measure stable: moves.csv has no such measure; its column 'Stable' looks like it");
+  EXPECT_TRUE(says(message("overshoot\n1\n", "settling_time,Overshoot\n1,1\n", {}), "no measure to compare",
+                   "the column 'Overshoot' of moves.csv looks like overshoot"));
+  EXPECT_TRUE(says(message("creep\n1e-6\n", "creep\n1e-6\n", {}), "no measure to compare",
+                   "creep is compared only where --measure names it"));
   EXPECT_EQ(message("overshoot\n", "overshoot\n1\n", {}, ExitCode::bad_data),
             "baseline.csv: has no moves; expected a row for each move of the baseline");
   EXPECT_EQ(message("overshoot\n1\n", "overshoot\n1\n", {.block = 2}, ExitCode::bad_data),
             "the baseline has 1 moves; expected at least a block of 2");
+}
+
+/// Names of the measures that are not watched for this reason, each with the column like it.
+std::vector<std::string> unwatched(const std::string& before, const std::string& after,
+                                   monitor::WhyUnwatched why, const MonitorSettings& settings = {}) {
+  const MachineMonitor machine(monitor::baseline_of(log_of(before, "baseline.csv")), log_of(after), settings);
+  std::vector<std::string> names;
+  for (const monitor::UnwatchedMeasure& one : machine.unwatched())
+    if (one.why == why) names.push_back(one.near ? one.measure + " " + *one.near : one.measure);
+  return names;
+}
+
+using Names = std::vector<std::string>;
+
+TEST(MachineMonitor, NamesEachMeasureOfTheBaselineThatTheMovesLack) {
+  using enum monitor::WhyUnwatched;
+  const std::string before = "settling_time,overshoot,jerk_count\n0.1,1,0\n0.2,2,0\n";
+  EXPECT_EQ(unwatched(before, "settling_time,overshoot\n0.1,1\n", missing), Names{"jerk_count"});
+  for (const std::string head : {"Settling_Time", "SETTLING_TIME [ms]", "settling time", "SettlingTime",
+                                 "settling_time_ms", "setling_time"})
+    EXPECT_EQ(unwatched(before, "overshoot,jerk_count," + head + "\n1,0,0.1\n", missing),
+              Names{"settling_time " + head});
+  EXPECT_EQ(unwatched(before, "overshoot,jerk_count,day\n1,0,0.1\n", missing), Names{"settling_time"});
+  EXPECT_EQ(unwatched("band_settling_time[1],overshoot\n0.1,1\n", "band_settling_time[2],overshoot\n0.1,1\n",
+                      missing),
+            Names{"band_settling_time[1] band_settling_time[2]"});
+  EXPECT_TRUE(unwatched(before, before, missing).empty());
+  EXPECT_TRUE(unwatched(before, "overshoot\n1\n", missing, {.measures = {"overshoot"}}).empty())
+      << "the others are not asked for";
+}
+
+TEST(MachineMonitor, NamesMeasuresThatTheBaselineLacks) {
+  using enum monitor::WhyUnwatched;
+  const std::string after = "settling_time,overshoot\n0.1,1\n";
+  EXPECT_EQ(unwatched("Settling_Time,overshoot\n0.1,1\n", after, not_in_baseline),
+            Names{"settling_time Settling_Time"});
+  EXPECT_EQ(unwatched("overshoot\n1\n", after, not_in_baseline), Names{"settling_time"});
+  const std::string grows = "creep,overshoot\n1e-6,1\n";
+  EXPECT_EQ(unwatched(grows, grows, accumulates), Names{"creep"});
+}
+
+// Without the column on both sides moves of all kinds are compared with each other, which is said.
+TEST(MachineMonitor, NamesLabelsThatOneSideLacks) {
+  const auto labels = [](const std::string& before, const std::string& after) {
+    const MachineMonitor machine(monitor::baseline_of(log_of(before, "baseline.csv")), log_of(after), {});
+    std::vector<std::string> names;
+    for (const monitor::UnwatchedMeasure& label : machine.unused_labels())
+      names.push_back(label.measure +
+                      (label.why == monitor::WhyUnwatched::missing ? " of baseline " : " of moves ") +
+                      label.near.value_or(""));
+    return names;
+  };
+  const std::string with = "move,target,overshoot\n0,5,1\n";
+  EXPECT_EQ(labels(with, "move,Target [rad],overshoot\n0,5,1\n"), Names{"target of baseline Target [rad]"});
+  EXPECT_EQ(labels(with, "overshoot\n1\n"), (Names{"move of baseline ", "target of baseline "}));
+  EXPECT_EQ(labels("overshoot,MOVE\n1,0\n", "move,overshoot\n0,1\n"), Names{"move of moves MOVE"});
+  EXPECT_TRUE(labels(with, with).empty());
+  EXPECT_TRUE(labels("overshoot\n1\n", "overshoot\n1\n").empty());
 }
 
 // Moves beside those that are like them.

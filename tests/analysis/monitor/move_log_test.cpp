@@ -124,6 +124,28 @@ TEST(MoveLog, NamesBandsAndTolerancesAsTheProgramDoes) {
   EXPECT_FALSE(monitor::measure_named("band_settling_time[1.5]"));
 }
 
+// Each measure in other letters is taken for itself, and for no other one.
+TEST(MisspeltMeasure, IsTheOneWithTheSameLetters) {
+  study::StudyFeatures features;
+  for (const layout::Measure& row : layout::measure_table(features)) {
+    const std::string name = row.field.column.name;
+    std::string upper = name;
+    std::ranges::transform(upper, upper.begin(), [](char c) { return static_cast<char>(std::toupper(c)); });
+    std::ranges::replace(upper, '_', '-');
+    EXPECT_EQ(monitor::misspelt_measure(upper + " [s]"), name);
+    EXPECT_EQ(monitor::resembling_column(name, std::vector<std::string>{"day", upper, name + "_2"}), upper);
+  }
+  EXPECT_EQ(monitor::misspelt_measure("Band Settling Time 12"), "band_settling_time[12]");
+  for (const std::string other : {"day", "t", "", "time", "12", "settling"})
+    EXPECT_FALSE(monitor::misspelt_measure(other)) << other;
+  const std::string long_name = std::string(100, 'x') + "_settling_time";
+  EXPECT_EQ(monitor::resembling_column("settling_time", std::vector<std::string>{long_name}), long_name);
+  EXPECT_EQ(monitor::resembling_column(long_name, std::vector<std::string>{"t", "settling_time"}),
+            "settling_time");
+  EXPECT_FALSE(
+      monitor::resembling_column("settling_time", std::vector<std::string>{"day", "t", "", "x [mm]"}));
+}
+
 TEST(MoveLog, ReadsPiecesAsTheyGrow) {
   for (const std::string text :
        {"t,settling_time\n1,0.1\n2,\n\n3,0.3\n4,\n", "settling_time\n0.1\n\n0.3\n\n"})
@@ -142,6 +164,8 @@ TEST(MoveLog, NamesThePlaceOfWhatItCannotRead) {
       "2 moves.csv: is empty; expected a header with names of measures, such as settling_time, and a row "
       "for each move");
   EXPECT_TRUE(says(refusal("time,position\n1,2\n"), "2 moves.csv:1: no column is named like a measure"));
+  EXPECT_TRUE(
+      says(refusal("Day,Settling-Time [ms]\n1,2\n"), "'Settling-Time [ms]' looks like settling_time"));
   EXPECT_EQ(refusal("settling_time,settling_time [ms]\n1,2\n"),
             "2 moves.csv:1: two columns are named 'settling_time'");
   EXPECT_EQ(refusal("move,settling_time,move\n0,1,0\n"), "2 moves.csv:1: two columns are named 'move'");

@@ -75,6 +75,57 @@ TEST(ReferenceOfAFile, IsCutByAShorterHoldWithAWarning) {
   EXPECT_TRUE(warnings_of("9").empty());
 }
 
+/// A record of 1000 rows, 1 ms apart, without the 50 rows from this one on.
+/// @param row the line of a row
+template <class Row>
+std::string record_without(int lost, const Row& row) {
+  std::string text;
+  for (int k = 0; k < 1000; ++k)
+    if (k < lost || k >= lost + 50) text += row(0.001 * k, 1e-3 * std::sin(0.009 * k));
+  return text;
+}
+
+TEST(ReferenceOfAFile, GapInItsTimesIsSaidWithLineAndTimes) {
+  const auto table_row = [](double t, double x) { return fmt::format("{:.3f},{:.9f}\n", 2.0 + t, x); };
+  const std::string table = "# axis 1\nt,reference\n" + record_without(400, table_row);
+  const study::Study study = followed_study(followed("{file: r.csv}"), table);
+  ASSERT_EQ(study.warnings.size(), 1u);
+  EXPECT_EQ(
+      study.warnings.front(),
+      "r.csv:403:1: command.reference.file: no rows for 0.051 s, between 2.399 and 2.45 s, where others are "
+      "0.001 s apart: a straight line joins them");
+  const study::Study again =
+      manifest::recorded_study(study.manifest.text, "followed.yaml", study.manifest.overrides, {});
+  EXPECT_TRUE(again.warnings.empty()) << again.warnings.front() << ": it was said when the study was made";
+  EXPECT_TRUE(followed_study(followed("{file: r.csv}"), "t,reference\n" + record_without(1000, table_row))
+                  .warnings.empty());
+
+  const auto pair = [](double t, double x) { return fmt::format("[{:.3f}, {:.9f}], ", t, x); };
+  const std::vector<std::string> of_list =
+      followed_study(followed("{file: [" + record_without(700, pair) + "]}")).warnings;
+  ASSERT_EQ(of_list.size(), 1u);
+  EXPECT_TRUE(says(of_list.front(), "followed.yaml:5:", "between 0.699 and 0.75 s"));
+}
+
+TEST(ReferenceOfAFile, RowsMayBeLeftOutWhereItStands) {
+  std::string table = "t,reference\n";
+  for (int k = 0; k <= 300; ++k) table += fmt::format("{},{}\n", 0.001 * k, 1e-5 * k);
+  for (int k = 0; k <= 300; ++k) table += fmt::format("{},{}\n", 1.0 + 0.001 * k, 3e-3 - 1e-5 * k);
+  EXPECT_TRUE(followed_study(followed("{file: r.csv}"), table).warnings.empty());
+}
+
+// A torque is held across the gap.
+TEST(TorqueOfAFile, GapInItsTimesIsSaid) {
+  const std::string manifest =
+      "zerocount: 1\nname: driven\nseed: 1\ntrials: 1\ncommand: {torque: {file: u.csv, through: exact}}\n";
+  const auto row = [](double t, double u) { return fmt::format("{:.3f},{:.9f}\n", t, u); };
+  const std::vector<std::string> warnings =
+      followed_study(manifest, "t,torque\n" + record_without(100, row)).warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_TRUE(says(warnings.front(), "u.csv:102:1: command.torque.file: no rows for 0.051 s",
+                   "the value before it is held"));
+}
+
 TEST(ReferenceOfAFile, IsAMovingReferenceWhoseHoldMayBeSwept) {
   const std::string moving =
       "controller: {feedforward: {velocity: 0.1}}\nsweep: {grid: {command.hold: [0.4, 0.2]}}\n";

@@ -105,6 +105,27 @@ std::string turning(double per_count, const std::string& head) {
   return text;
 }
 
+// A record under two names would narrow the intervals as a second test does.
+TEST_F(IdentifyRefusals, ReadingsCountOnce) {
+  folder_.write("log.csv", turning(1.0, "ms,Nm,pos"));
+  folder_.write("other.csv", turning(0.5, "ms,Nm,pos"));
+  const std::vector<std::string> columns{"--sliding", "--column", "time=ms[ms]", "--column",
+                                         "torque=Nm[N m]"};
+  const auto said = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), "identify");
+    words.insert(words.end(), columns.begin(), columns.end());
+    return program(words).err;
+  };
+  const std::string angle = "angle=pos[mrad]";
+  EXPECT_TRUE(says(said({"log.csv", "log.csv", "--column", angle}),
+                   "log.csv and log.csv have the same readings, which would count twice", "--allow-equal"));
+  std::filesystem::create_symlink("log.csv", folder_.path() / "link.csv");
+  EXPECT_TRUE(says(said({"log.csv", "other.csv", "link.csv", "--column", angle}),
+                   "log.csv and link.csv have the same readings"));
+  EXPECT_FALSE(says(said({"log.csv", "other.csv", "--column", angle}), "the same readings"));
+  EXPECT_FALSE(says(said({"log.csv", "log.csv", "--allow-equal", "--column", angle}), "the same readings"));
+}
+
 // Without its unit an angle is never taken for rad where counts are meant.
 TEST_F(IdentifyRefusals, WholeNumbersWithoutUnitAreCountsOrAnError) {
   folder_.write("log.csv", turning(1.0, "ms,Nm,pos"));

@@ -21,17 +21,20 @@ command: {targets: [{integers: [3, 9]}], hold: 0.1}
     const ProgramResult run = program({"run", "study.yaml", "-o", "study.h5", "-q", "--force"});
     ASSERT_EQ(run.code, 0) << run.err;
   }
-  /// A log with so many moves, of which the first so many are late.
+  /// A log with so many moves, of which the first so many are late. The times of each log are others.
   void write_log(const std::string& name, int moves, int late) {
     std::ofstream file(folder_.path() / name);
     file << "move,band_settling_time[1] [ms]\n";
+    const double time = 12.5 + 0.001 * ++logs_;
     for (int i = 0; i < moves; ++i)
-      file << i << "," << (i < late ? (i % 2 == 0 ? "31" : "") : "12.5") << "\n";
+      file << i << "," << (i < late ? (i % 2 == 0 ? "31" : "") : fmt::format("{:.3f}", time)) << "\n";
   }
   Json accepted(std::vector<std::string> logs, int code) {
     logs.insert(logs.begin(), {"accept", "study.h5"});
     return json_of(logs, code);
   }
+
+  int logs_{0};  ///< written
 };
 
 TEST_F(Accept, JudgesTheMachinesByTheGoalAndThePrediction) {
@@ -153,6 +156,44 @@ TEST_F(Accept, RefusesWhatItCannotJudge) {
   EXPECT_TRUE(says(message({"good.csv"}), "its manifest has no goal"));
 }
 
+// One machine under several names would show what so many machines show.
+TEST_F(Accept, RefusesLogsOfOneMachine) {
+  std::string log = "band_settling_time[1]\n";
+  std::string in_ms = "\xEF\xBB\xBFserial;band_settling_time[1] [ms]\r\n";
+  for (int i = 0; i < 40; ++i) {
+    log += fmt::format("{:.6f}\n", 0.01 + 1e-4 * (7 * i % 40));
+    in_ms += fmt::format("7;{:.3f}\r\n", 10.0 + 0.1 * (7 * i % 40));
+  }
+  folder_.write("a.csv", log);
+  folder_.write("copy.csv", log);
+  folder_.write("in_ms.csv", in_ms);
+  folder_.write("longer.csv", log + "0.0137\n");
+  write_log("b.csv", 40, 0);
+  std::filesystem::create_symlink("a.csv", folder_.path() / "link.csv");
+  std::filesystem::create_hard_link(folder_.path() / "a.csv", folder_.path() / "hard.csv");
+  for (const std::string copy : {"copy.csv", "in_ms.csv", "hard.csv"})
+    EXPECT_TRUE(says(refusal({"accept", "study.h5", "a.csv", "b.csv", copy}),
+                     "a.csv, " + copy + ": all 40 moves have the same values in the same order",
+                     "--allow-equal"))
+        << copy;
+  EXPECT_TRUE(says(refusal({"accept", "study.h5", "longer.csv", "b.csv", "a.csv"}),
+                   "longer.csv, a.csv: the first 40 moves have the same values"));
+  EXPECT_TRUE(says(refusal({"accept", "study.h5", "a.csv", "link.csv", "--allow-equal"}), "is given twice"));
+  EXPECT_EQ(accepted({"a.csv", "copy.csv", "--these", "--allow-equal"}, 0)["goals"][0]["moves"], 80);
+  folder_.write("few.csv", "band_settling_time[1]\n0.01\n0.01\n");
+  folder_.write("as-few.csv", "band_settling_time[1]\n0.01\n0.01\n");
+  EXPECT_TRUE(says(refusal({"accept", "study.h5", "few.csv", "as-few.csv"}),
+                   "--allow-equal where so few different values are equal by chance"));
+}
+
+TEST_F(Accept, NamesTheColumnThatLooksLikeTheMissingOne) {
+  folder_.write("case.csv", "move,Band_Settling_Time[1] [ms],overshoot\n0,12,0\n");
+  EXPECT_EQ(
+      refusal({"accept", "study.h5", "case.csv"}),
+      "case.csv: has no column band_settling_time[1] (its column 'Band_Settling_Time[1] [ms]' looks like "
+      "it), which the goal asks for\n");
+}
+
 TEST_F(Accept, AsksForTheConditionAndTheAge) {
   run_study(
       "rigs: 40\ngoal: {band: 1, within: 0.03, moves: 0.9}\nages: {at: [0, 100000]}\n"
@@ -260,6 +301,11 @@ goal: {band: 1, within: 0.09, moves: 0.5}
     std::ranges::sort(measured);
     EXPECT_DOUBLE_EQ(value["predicted"].get<double>(), 0.5 * (measured[39] + measured[40]));
   }
+  EXPECT_FALSE(says(program({"accept", "study.h5", "tables/outcomes.csv"}).out, "not judged"));
+  write_log("times.csv", 20, 0);
+  EXPECT_TRUE(accepted({"times.csv", "--these"}, 0)["standard"].empty());
+  EXPECT_TRUE(says(program({"accept", "study.h5", "times.csv"}).out,
+                   "the values of ISO 230-2 are not judged, because times.csv has no column final_error"));
 }
 
 }  // namespace

@@ -91,6 +91,72 @@ TEST_F(Monitor, NamesTheMeasuresThatItCallsUnchanged) {
   EXPECT_TRUE(says(said, "a proportion cannot change so much: jerk_count")) << said;
 }
 
+// Whatever the moves lack is named with its reason: nothing is passed over.
+TEST_F(Monitor, NamesTheMeasuresThatItDoesNotJudge) {
+  const auto log = [](const std::string& head) {
+    std::string text = head + "\n";
+    for (int i = 0; i < 300; ++i)
+      text += fmt::format("{},{}\n", 0.041 + 0.001 * ((7 * i + i / 10) % 10), 10 + (3 * i + i / 7) % 5);
+    return text;
+  };
+  folder_.write("before.csv", log("settling_time,overshoot"));
+  folder_.write("renamed.csv", log("settling_time,Over_Shoot"));
+  folder_.write("missing.csv", log("settling_time,day"));
+  folder_.write("other.csv", log("Settling_Time,jerk_count"));
+  const std::vector<std::string> renamed{"monitor", "before.csv", "renamed.csv"};
+  const std::string said = program(renamed).out;
+  EXPECT_TRUE(
+      says(said, "would have been seen with 90 % in settling_time; not judged: overshoot",
+           "not judged, because renamed.csv has no such column: overshoot (its column 'Over_Shoot' looks "
+           "like it)"))
+      << said;
+  const Json answer = json_of(renamed, 0);
+  EXPECT_EQ(answer["not_judged"],
+            Json::parse(R"([{"measure": "overshoot", "why": "missing", "near": "Over_Shoot"}])"));
+  EXPECT_EQ(answer["unused"], Json({"Over_Shoot"}));
+  const Json missing = json_of({"monitor", "before.csv", "missing.csv"}, 0);
+  EXPECT_EQ(missing["not_judged"],
+            Json::parse(R"([{"measure": "overshoot", "why": "missing", "near": null}])"));
+  EXPECT_TRUE(says(refusal({"monitor", "before.csv", "other.csv"}), "no measure to compare",
+                   "the column 'Settling_Time' of other.csv looks like settling_time"));
+  EXPECT_TRUE(json_of({"monitor", "before.csv", "before.csv"}, 0)["not_judged"].empty());
+  EXPECT_TRUE(says(program({"monitor", "renamed.csv", "renamed.csv"}).out,
+                   "columns that are not compared: Over_Shoot (looks like overshoot)"));
+}
+
+TEST_F(Monitor, SaysThatTheMovesAreThoseOfTheBaseline) {
+  write_log("before.csv", 100);
+  write_log("moves.csv", 150);
+  EXPECT_EQ(json_of({"monitor", "before.csv", "moves.csv"})["repeated"], 100);
+  EXPECT_TRUE(says(program({"monitor", "before.csv", "moves.csv"}).out,
+                   "the first 100 of these moves have the same values as those of the baseline"));
+  write_log("moves.csv", 150, 1.01);
+  EXPECT_EQ(json_of({"monitor", "before.csv", "moves.csv"})["repeated"], 0);
+}
+
+// Compressed files, workbooks and texts in UTF-16 are named, whichever operand they are, and while followed.
+TEST_F(Monitor, SaysWhatALogIsThatIsNotText) {
+  write_log("moves.csv", 20);
+  const std::string wide("\xFF\xFEs\0e\0t\0\n\0", 10);
+  folder_.write("moves.csv.gz", std::string("\x1F\x8B\x08\0\n\x01", 6));
+  folder_.write("moves.xlsx", "PK\x03\x04\x14");
+  folder_.write("wide.csv", wide);
+  for (const auto& [name, what] :
+       {std::pair{"moves.csv.gz", "compressed by gzip, which 'gunzip' unpacks"},
+        {"moves.xlsx", "workbook"},
+        {"wide.csv", "text in UTF-16, which 'iconv -f UTF-16 -t UTF-8' converts"}}) {
+    const std::string wanted = fmt::format("{}: this is ", name);
+    EXPECT_TRUE(says(refusal({"monitor", name, "moves.csv"}), wanted, what));
+    EXPECT_TRUE(says(refusal({"monitor", "moves.csv", name}), wanted, what));
+    EXPECT_TRUE(says(refusal({"monitor", "moves.csv", name, "--follow", "--idle", "20"}), wanted, what));
+    EXPECT_TRUE(says(refusal({"identify", name}), wanted, what));
+    EXPECT_TRUE(says(refusal({"check", name}), wanted, what));
+    EXPECT_TRUE(says(refusal({"summary", name}, 4), "it is not in the HDF5 format, but", what));
+  }
+  folder_.write("marked.csv", "\xEF\xBB\xBFsettling_time [ms]\n41\n43\n");
+  EXPECT_EQ(json_of({"monitor", "moves.csv", "marked.csv"}, 3)["moves"], 2);
+}
+
 TEST_F(Monitor, AsksForThePointAndTheCondition) {
   run_study(
       "sweep: {grid: {controller.ki: [2.0e-5, 4.0e-5]}}\nconditions: {empty: {}, loaded: {plant.inertia: "

@@ -130,9 +130,10 @@ double failing_confidence_of(const GateRules& rules, const StudyPair& pair) {
 
 void judge_points(StudyComparison& result, const GateRules& rules, const StudyPair& pair) {
   const bool nothing = judges_nothing(pair.current.file) || judges_nothing(pair.baseline.file);
+  const double failing = failing_confidence_of(rules, pair);
   for (const MatchedPoint& point : pair.points) {
-    PointComparison& compared = result.points.emplace_back(
-        compare_point(result, rules, pair, point, failing_confidence_of(rules, pair)));
+    PointComparison& compared =
+        result.points.emplace_back(compare_point(result, rules, pair, point, failing));
     if (nothing) std::erase_if(compared.judgements, [](const Judgement& one) { return one.is_measure(); });
   }
   result.tests = decide(judgements_of(result.points), rules);
@@ -187,6 +188,7 @@ Forecast forecast_of(const StudyComparison& comparison, const GateRules& rules, 
   options.failing_confidence = failing_confidence_of(rules, pair);
   const auto trials = static_cast<double>(std::max(samples.trials_of(0), samples.trials_of(1)));
   options.max_factor = std::max(options.max_factor, min_tried_trials / trials);
+  limit_work(options, samples.measures().size() + samples.requirements().size());
   return forecast_decision(samples, options);
 }
 

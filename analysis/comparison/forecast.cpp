@@ -17,7 +17,6 @@ using two_samples::ContinuationDraw;
 using two_samples::FileSums;
 using two_samples::FileWeights;
 
-constexpr double factor_step = 1.4;    ///< between the numbers of trials that are tried
 constexpr double slab_variance = 9.0;  ///< of effects that are not zero, in units of the standard error
 constexpr int expectation_steps = 40;
 constexpr double jeffreys_shape = 0.5;  ///< weight of a kind of unit that was not seen, in units
@@ -245,7 +244,8 @@ Forecast search(const Simulator& simulator, const std::vector<Truth>& truths,
   const double there = simulator.trials();
   Chances before{0.0, std::vector<double>(forecast.judgements.size(), 0.0), {}};
   double trials_before = there * options.min_factor;
-  for (double factor = options.min_factor;; factor = std::min(factor * factor_step, options.max_factor)) {
+  for (double factor = options.min_factor;;
+       factor = std::min(factor * options.factor_step, options.max_factor)) {
     const double trials = there * factor;
     const Chances now = chances_with(simulator, trials, truths, options);
     const auto take = [&](std::optional<double>& found, double low, double high) {
@@ -285,6 +285,15 @@ std::vector<double> zero_difference_probabilities(const std::vector<double>& z) 
     weight = (sum + 1.0) / (measures + 2.0);
   }
   return zero;
+}
+
+void limit_work(ForecastOptions& options, std::size_t judgements) {
+  constexpr double max_simulated = 1e6;  // judgements, in all simulations of one number of trials
+  const int affordable =
+      static_cast<int>(max_simulated / static_cast<double>(std::max<std::size_t>(judgements, 1)));
+  if (affordable >= options.simulations) return;
+  options.simulations = std::max(affordable, options.simulations / 8);
+  options.factor_step *= options.factor_step;
 }
 
 ForecastSamples::ForecastSamples(std::array<std::int64_t, 2> units, bool one_sample)

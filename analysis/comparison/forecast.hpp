@@ -62,9 +62,14 @@ struct ForecastOptions {
       statistics::summary_confidence};       ///< with which a requirement must be contradicted
   double probability{decision_probability};  ///< with which the number of trials decides
   int simulations{400};                      ///< of each number of trials
+  double factor_step{1.4};   ///< Ratio of the numbers of trials that are tried one after the other.
   double min_factor{1.0};    ///< the fewest trials that are tried, as a multiple of those that there are
   double max_factor{100.0};  ///< the most trials that are tried, as such a multiple
 };
+
+/// Limits the simulations of a comparison with many judgements, so that their work grows no faster than the
+/// comparison: at least an eighth of the usual ones, and of numbers of trials twice as far apart.
+void limit_work(ForecastOptions& options, std::size_t judgements);
 
 /// The forecast of one judgement.
 struct JudgementForecast {

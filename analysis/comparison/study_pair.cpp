@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <map>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -38,7 +39,8 @@ void require_same_names(const StudyPair& pair, const std::vector<std::string>& b
   std::string problem;
   const auto add_lonely = [&](const ComparedStudy& study, std::vector<std::string> names,
                               const std::vector<std::string>& others) {
-    std::erase_if(names, [&](const std::string& name) { return std::ranges::count(others, name) > 0; });
+    const std::set<std::string_view> known(others.begin(), others.end());
+    std::erase_if(names, [&](const std::string& name) { return known.contains(name); });
     if (!names.empty())
       problem += fmt::format("; only {} has {}", study.file.path().string(), some_of(names));
   };
@@ -115,7 +117,7 @@ void match_conditions(StudyPair& pair) {
   if (names.empty()) return;
   for (ComparedStudy* study : {&pair.baseline, &pair.current}) {
     for (const std::string& name : names)
-      study->under.push_back(study->file.under_condition(study::condition_named(study->file.study(), name)));
+      study->under.push_back(study::condition_named(study->file.study(), name));
   }
   pair.conditions = std::ssize(names);
   for (const MatchedPoint& point : std::exchange(pair.points, {})) {
@@ -238,7 +240,7 @@ void take_trials(StudyPair& pair, const GateRules& rules) {
     const std::int64_t worlds = whole_value(*study, "worlds");
     study->rigs = pair.other_worlds && worlds > 0 ? worlds : whole_value(*study, "rigs");
     study->also.rigs = study->rigs;
-    const AllTrialsFile& under = study->trials_of(pair.points.front());
+    const AllTrialsFile under = study->trials_of(pair.points.front());
     study->trials = std::min(under.header().trials, std::max(trial_limit(rules, under), study->rigs));
   }
 }
@@ -271,7 +273,7 @@ InputRelation relation_over_points(const StudyPair& pair, std::pair<std::size_t,
   const std::int64_t trials = std::min(pair.baseline.trials, pair.current.trials);
   const auto values = [&](const ComparedStudy& study, const MatchedPoint& point, std::int64_t at,
                           std::size_t column) {
-    const AllTrialsFile& file = study.trials_of(point);
+    const AllTrialsFile file = study.trials_of(point);
     return file.input(column, {at * file.header().trials, trials});
   };
   InputRelation worst = InputRelation::equal;

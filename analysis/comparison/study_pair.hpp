@@ -26,14 +26,14 @@ struct MatchedPoint {
 struct ComparedStudy {
   const reading::AllTrialsFile& file;
   manifest_text::ManifestValues values{};
-  std::vector<reading::AllTrialsFile> under{};  ///< [condition, in the order of the baseline]; empty without
-  std::int64_t rigs{0};    ///< or worlds that take their place; 0: each trial is independent
-  std::int64_t trials{0};  ///< of each point (under each condition) that are compared, its first
-  AlsoRead also{};         ///< what is read beside the gate measures: what goals and requirements need
+  std::vector<std::int64_t> under{};  ///< Indices of the conditions, in the order of the baseline.
+  std::int64_t rigs{0};               ///< or worlds that take their place; 0: each trial is independent
+  std::int64_t trials{0};             ///< of each point (under each condition) that are compared, its first
+  AlsoRead also{};  ///< what is read beside the gate measures: what goals and requirements need
 
   /// The trials of the point under its condition.
-  const reading::AllTrialsFile& trials_of(const MatchedPoint& point) const {
-    return under.empty() ? file : under[point.condition_at];
+  reading::AllTrialsFile trials_of(const MatchedPoint& point) const {
+    return under.empty() ? file : file.under_condition(under[point.condition_at]);
   }
 };
 

@@ -113,13 +113,61 @@ std::string figure_html(const Figure& figure) {
       data_table(figure.data.front()));
 }
 
-std::string section_html(const PageSection& section) {
+/// The figures of a page within its limits. A reader looks at some dozen, and a browser draws some twenty a
+/// second.
+class FiguresInPage {
+ public:
+  /// Takes the figure with its element in the page. @returns whether there is room for it
+  bool take(const Figure& figure, const std::string& element) {
+    constexpr std::size_t max_figures = 48;
+    constexpr std::size_t max_bytes = std::size_t{5} << 19;
+    ordered_json json = figure_json(figure);
+    const std::size_t bytes = element.size() + json.dump().size();
+    if (json_.size() >= max_figures || (!json_.empty() && bytes_ + bytes > max_bytes)) return false;
+    bytes_ += bytes;
+    json_.push_back(std::move(json));
+    return true;
+  }
+
+  /// The data of the figures that were taken.
+  ordered_json& json() { return json_; }
+
+ private:
+  ordered_json json_ = ordered_json::array();
+  std::size_t bytes_{0};
+};
+
+/// The command that draws a figure that is not in the page.
+std::string where_others_are(const std::string& kind) {
+  if (kind == "report")
+    return "'zerocount plot FILE' lists all names, and with --figure NAME it draws one of them";
+  if (kind == "history") return "--study, --point and --measure choose others";
+  return "a page about fewer points, conditions or records has them";
+}
+
+std::string left_out_html(const PageSection& section, std::size_t left_out, const std::string& kind) {
+  if (left_out == 0) return "";
+  return fmt::format(
+      "<p class=\"left-out\">{} of {} figures are left out, so that a browser can show the page: {}.</p>\n",
+      left_out, section.figures.size(), document::markup(where_others_are(kind)));
+}
+
+std::string section_html(const PageSection& section, const std::string& kind, FiguresInPage& figures) {
   std::string text = fmt::format("<section id=\"{}\">", document::markup(section.name));
   if (!section.title.empty()) text += fmt::format("<h2>{}</h2>\n", document::markup(section.title));
   text += section.html + "\n";
   if (!section.figures.empty()) text += "<div class=\"figures\">\n";
-  for (const Figure& figure : section.figures) text += figure_html(figure);
+  std::size_t left_out = 0;
+  for (const Figure& figure : section.figures) {
+    const std::string element = figure_html(figure);
+    if (figures.take(figure, element)) {
+      text += element;
+    } else {
+      ++left_out;
+    }
+  }
   if (!section.figures.empty()) text += "</div>\n";
+  text += left_out_html(section, left_out, kind);
   return text + section.html_after + "</section>\n";
 }
 
@@ -168,11 +216,9 @@ bool is_page_of(const std::filesystem::path& path, const std::string& source) {
 
 std::string html_page(const ReportPage& page) {
   std::string sections;
-  ordered_json figures = ordered_json::array();
-  for (const PageSection& section : page.sections) {
-    sections += section_html(section);
-    for (const Figure& figure : section.figures) figures.push_back(figure_json(figure));
-  }
+  FiguresInPage in_page;
+  for (const PageSection& section : page.sections) sections += section_html(section, page.kind, in_page);
+  ordered_json& figures = in_page.json();
   const Scripts scripts = figures.empty() ? Scripts{} : scripts_of_figures();
   return filled(embedded_file("page.html"),
                 {{"kind", document::markup(page.kind)},

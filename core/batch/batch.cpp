@@ -7,6 +7,26 @@
 #include "core/trial/trial.hpp"
 
 namespace zerocount::batch {
+namespace {
+
+/// Runs all trials of the batch. @throws trial::Interrupted if a stop is requested
+void run_lanes(RunningBatch& run) {
+  for (int lane = 0; lane < run.used_lanes; ++lane) start_next_trial(run, lane);
+  while (!run.lanes.active.empty()) {
+    if (run.observers->stop.stop_requested()) throw trial::Interrupted{};
+    ++run.rounds;
+    close_gaps(run);
+    change_torques(run);
+    take_samples(run, end_moves(run));
+    move_sticking(run);
+    move_sliding(run);
+    move_standing(run);
+    move_bristles(run);
+    move_free(run);
+  }
+}
+
+}  // namespace
 
 RunningBatch::RunningBatch(const BatchSettings& settings)
     : kernels(kernels_of(settings.instructions)),
@@ -41,18 +61,13 @@ void BatchEngine::run(const TrialSource& source, std::span<trial::TrialOutcome> 
   // Equal trials in equal lanes then need no new memory in the next run.
   std::iota(run.trial_index, run.trial_index + run.used_lanes, std::size_t{0});
 
-  for (int lane = 0; lane < run.used_lanes; ++lane) start_next_trial(run, lane);
-  while (!run.lanes.active.empty()) {
-    if (observers.stop.stop_requested()) throw trial::Interrupted{};
-    ++run.rounds;
-    close_gaps(run);
-    change_torques(run);
-    take_samples(run, end_moves(run));
-    move_sticking(run);
-    move_sliding(run);
-    move_standing(run);
-    move_bristles(run);
-    move_free(run);
+  for (trial::TrialOutcome& outcome : outcomes) outcome.moves.clear();
+
+  try {
+    run_lanes(run);
+  } catch (const trial::Interrupted&) {
+    for_each_lane(run.lanes.active, [&](int lane) { run.trial_of(lane).outcome->moves.clear(); });
+    throw;
   }
 }
 

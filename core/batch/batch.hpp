@@ -77,7 +77,8 @@ class BatchEngine {
   BatchEngine& operator=(BatchEngine&&) = delete;
 
   /// @param source called once for each trial, in order. @param outcomes [trial], overwritten.
-  /// @throws trial::Interrupted if a stop is requested before the last trial ends.
+  /// @throws trial::Interrupted if a stop is requested before the last trial ends. Then the outcomes of the
+  /// trials that have ended are complete, and the others have no moves.
   void run(const TrialSource& source, std::span<trial::TrialOutcome> outcomes,
            const BatchObservers& observers = {});
   /// @param trials not changed while this runs.

@@ -13,8 +13,7 @@ AllTrialsFile::AllTrialsFile(const std::filesystem::path& path, Require require,
   layout::require_every_trial(path, header());
 }
 
-AllTrialsFile::AllTrialsFile(const AllTrialsFile& whole, std::int64_t condition)
-    : ResultsFile(whole.path(), Require::unfinished) {  // the whole is checked already
+AllTrialsFile::AllTrialsFile(const AllTrialsFile& whole, std::int64_t condition) : ResultsFile(whole) {
   const study::Study& study = whole.study();
   if (study.conditions.empty()) return;
   condition_ = {study::turns_of(study), condition, study.trials};

@@ -156,29 +156,33 @@ ResultsFile::ResultsFile(const std::filesystem::path& path, Require require,
                          const layout::MeasureTable* table, const study::Study* study)
     : path_(path) {
   const bool checked = require == Require::unfinished;
+  const auto opened = std::make_shared<Opened>();
+  opened_ = opened;
   if (is_shard(path)) {
-    shard_.emplace(path, checked ? layout::Checksum::not_yet : layout::Checksum::required);
+    opened->shard.emplace(path, checked ? layout::Checksum::not_yet : layout::Checksum::required);
   } else {
-    file_.emplace(checked ? hdf5::File::open_to_read(path) : layout::open_results(path));
+    opened->file.emplace(checked ? hdf5::File::open_to_read(path) : layout::open_results(path));
   }
-  header_ = shard_ ? shard_->header() : layout::read_header(*file_);
-  require_extent(header_, path, require);
-  if (shard_ && study != nullptr) study_ = {std::shared_ptr<void>(), study};  // not owned
-  if (layout::has_trials(header_.retention)) {
+  const std::optional<ShardFile>& shard = opened->shard;
+  header_ = std::make_shared<const layout::FileHeader>(shard ? shard->header() : layout::read_header(file()));
+  require_extent(header(), path, require);
+  if (shard && study != nullptr) study_ = {std::shared_ptr<void>(), study};  // not owned
+  if (layout::has_trials(header().retention)) {
     const layout::MeasureTable& measures = table != nullptr ? *table : layout::measure_table();
-    trials_.emplace(shard_ ? trials_in(*shard_, this->study()) : trials_in(*file_, measures), header_, table);
+    opened->trials.emplace(shard ? trials_in(*shard, this->study()) : trials_in(file(), measures), header(),
+                           table);
   }
   const auto open = [&](const layout::Table& one) {
-    return shard_ ? shard_->open(one, 1) : layout::TableReader::open(*file_, one);
+    return shard ? shard->open(one, 1) : layout::TableReader::open(file(), one);
   };
-  if (layout::has_sums(header_.retention)) sums_.emplace(open, points());
+  if (layout::has_sums(header().retention)) opened->sums.emplace(open, points());
 }
 
 const study::Study& ResultsFile::study() const {
   if (!study_) {
-    study::Study study = layout::recorded_study(header_, path_);
+    study::Study study = layout::recorded_study(header(), path_);
     // Earlier builds did not measure the load beside a goal of the motor.
-    if (trials_ && !trials_->features().load_error)
+    if (trials() && !trials()->features().load_error)
       for (study::Goal& goal : study.goals) goal.beside_load = goal.beside_load && goal.of_other_mass;
     study_ = std::make_shared<const study::Study>(std::move(study));
   }
@@ -186,23 +190,25 @@ const study::Study& ResultsFile::study() const {
 }
 
 void ResultsFile::show_study(study::Study study) {
-  header_.trials = study.trials;
-  header_.rows = {0, study::trial_count(study)};
+  layout::FileHeader shown = header();
+  shown.trials = study.trials;
+  shown.rows = {0, study::trial_count(study)};
+  header_ = std::make_shared<const layout::FileHeader>(std::move(shown));
   study_ = std::make_shared<const study::Study>(std::move(study));
   shows_part_ = true;
 }
 
 std::vector<std::string> ResultsFile::point_labels() const {
   if (!contains("point")) return {};
-  const hdf5::Dataset labels = file_->open_group("point").open_dataset("label");
-  require_points(labels, header_.points);
+  const hdf5::Dataset labels = file().open_group("point").open_dataset("label");
+  require_points(labels, header().points);
   return labels.read_texts();
 }
 
 std::vector<study::SweepAxis> ResultsFile::axes() const {
   std::vector<study::SweepAxis> axes;
-  if (!file_) return axes;
-  for (const auto& [name, dataset] : point_columns(*file_, header_.points, "axis")) {
+  if (!opened_->file) return axes;
+  for (const auto& [name, dataset] : point_columns(file(), header().points, "axis")) {
     study::SweepAxis axis{
         name, dataset.text("units"), dataset.text("long_name"), study::SweepAxis::Kind::number, {}, {}};
     if (dataset.element() == hdf5::Element::text) {
@@ -219,11 +225,11 @@ std::vector<study::SweepAxis> ResultsFile::axes() const {
 
 std::vector<layout::PointColumn> ResultsFile::statistics() const {
   std::vector<layout::PointColumn> statistics;
-  if (shows_part_ || !file_) return statistics;
-  for (const auto& [name, dataset] : point_columns(*file_, header_.points, "statistic")) {
+  if (shows_part_ || !opened_->file) return statistics;
+  for (const auto& [name, dataset] : point_columns(file(), header().points, "statistic")) {
     const layout::PointColumn column{name, dataset.text("units"), dataset.text("long_name"), {}};
     if (dataset.extent().size() == 2) {
-      append_limits(*file_, column, dataset, statistics);
+      append_limits(file(), column, dataset, statistics);
     } else {
       statistics.push_back(column);
       statistics.back().values = read_doubles(dataset);
@@ -233,13 +239,13 @@ std::vector<layout::PointColumn> ResultsFile::statistics() const {
 }
 
 std::vector<layout::StatisticTable> ResultsFile::statistic_tables() const {
-  return file_ ? layout::read_statistic_tables(*file_) : std::vector<layout::StatisticTable>();
+  return opened_->file ? layout::read_statistic_tables(file()) : std::vector<layout::StatisticTable>();
 }
 
 std::vector<StoredProfile> ResultsFile::profiles() const {
   std::vector<StoredProfile> profiles;
   if (!has_profiles()) return profiles;
-  const hdf5::Group group = file_->open_group("profile");
+  const hdf5::Group group = file().open_group("profile");
   for (const std::string& name : group.children()) {
     const hdf5::Group folder = group.open_group(name);
     const std::string unit = folder.open_dataset("value").text("units");
@@ -247,7 +253,7 @@ std::vector<StoredProfile> ResultsFile::profiles() const {
     profile.theta_unit = folder.open_dataset("theta").text("units");
     const bool of_rigs = folder.contains("rig");
     const layout::TableIo io = layout::TableIo::open(
-        *file_, of_rigs ? layout::rotor_table(name, unit) : layout::profile_table(name, unit));
+        file(), of_rigs ? layout::rotor_table(name, unit) : layout::profile_table(name, unit));
     if (of_rigs) profile.rigs = io.rows();
     profile.value = layout::read_column<double>(io, 0);
     profiles.push_back(std::move(profile));
@@ -259,9 +265,9 @@ std::optional<StoredGroups> ResultsFile::groups(std::string_view name) const {
   if (!contains(std::string(name))) return std::nullopt;
   const layout::Grouping& grouping = layout::grouping_named(name);
   StoredGroups stored;
-  stored.columns = read_input_columns(file_->open_group(std::string(name)));
+  stored.columns = read_input_columns(file().open_group(std::string(name)));
   const layout::TableIo io =
-      layout::TableIo::open(*file_, layout::group_table(grouping, stored.columns, stored.unit));
+      layout::TableIo::open(file(), layout::group_table(grouping, stored.columns, stored.unit));
   stored.count = io.rows();
   for (std::size_t column = 0; column < stored.columns.size(); ++column)
     stored.inputs.push_back(layout::read_column<double>(io, column));
@@ -270,7 +276,7 @@ std::optional<StoredGroups> ResultsFile::groups(std::string_view name) const {
     stored.values = read_doubles(io.row_scale());
     stored.unit = io.row_scale().text("units");
   }
-  read_counts(*file_, header_, grouping, stored);
+  read_counts(file(), header(), grouping, stored);
   return stored;
 }
 
@@ -290,8 +296,8 @@ layout::RowRange ResultsFile::rows_of(std::int64_t point) const {
 }
 
 layout::PointSums ResultsFile::sums(std::int64_t index) const {
-  if (!sums_) throw layout::ForeignFile(path_, "it keeps every trial; expected a file of statistics");
-  if (file_ && file_->text("sums_form") != layout::sums_form()) {
+  if (!opened_->sums) throw layout::ForeignFile(path_, "it keeps every trial; expected a file of statistics");
+  if (opened_->file && file().text("sums_form") != layout::sums_form()) {
     throw Failure(
         ExitCode::bad_data,
         fmt::format("{}: its sums are not in the form of this program; zerocount {}, which wrote them, "
@@ -299,8 +305,8 @@ layout::PointSums ResultsFile::sums(std::int64_t index) const {
                     path_.string(), header().provenance.zerocount_version));
   }
   const auto point = static_cast<std::size_t>(index);
-  return {numbers_of<std::int64_t>(sums_->whole, sums_->whole_begin, point),
-          numbers_of<double>(sums_->real, sums_->real_begin, point)};
+  return {numbers_of<std::int64_t>(opened_->sums->whole, opened_->sums->whole_begin, point),
+          numbers_of<double>(opened_->sums->real, opened_->sums->real_begin, point)};
 }
 
 }  // namespace zerocount::reading

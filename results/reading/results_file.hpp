@@ -53,7 +53,7 @@ struct StoredGroups {
 
 /// A results file, part or shard, open to be read: the description of the study, the tables by design point
 /// and rig, and what it keeps of its trials. Every function may find that the file is damaged, and throws
-/// Failure (bad_data) then. One thread at a time.
+/// Failure (bad_data) then. Copies share the open file. One thread at a time uses them all.
 class ResultsFile {
  public:
   /// Checks checksum trailer, format, version, completion mark, completeness as required, and the numbers of
@@ -67,13 +67,13 @@ class ResultsFile {
                        const layout::MeasureTable* table = nullptr, const study::Study* study = nullptr);
 
   const std::filesystem::path& path() const { return path_; }
-  const layout::FileHeader& header() const { return header_; }
+  const layout::FileHeader& header() const { return *header_; }
   /// The study whose trials the file holds, without the user's controller (see layout::recorded_study). Its
   /// manifest is parsed by the first call.
   const study::Study& study() const;
   /// For groups that this class does not know. Not of a shard.
-  const hdf5::Group& root() const { return file_.value(); }
-  layout::RowRange rows() const { return header_.rows; }
+  const hdf5::Group& root() const { return opened_->file.value(); }
+  layout::RowRange rows() const { return header().rows; }
 
   /// Empty in a shard, like axes, statistics and their tables. Statistics are also empty of a file that is
   /// shown as the study of one condition (AllTrialsFile::under_condition).
@@ -89,7 +89,7 @@ class ResultsFile {
   std::optional<StoredGroups> groups(std::string_view name) const;
 
   /// Nothing with `keep: statistics`.
-  const std::optional<TrialTables>& trials() const { return trials_; }
+  const std::optional<TrialTables>& trials() const { return opened_->trials; }
 
   /// The point of the first trial. The others follow it.
   std::int64_t first_point() const { return rows().first / header().trials; }
@@ -113,16 +113,22 @@ class ResultsFile {
     std::vector<std::int64_t> whole_begin, real_begin;  ///< [point] its first number; one more for the end
   };
 
-  bool contains(const std::string& name) const { return file_ && file_->contains(name); }
+  /// What is open of the file.
+  struct Opened {
+    std::optional<ShardFile> shard;  ///< if it is one
+    std::optional<hdf5::File> file;  ///< otherwise
+    std::optional<TrialTables> trials;
+    std::optional<StoredSums> sums;
+  };
+
+  const hdf5::File& file() const { return opened_->file.value(); }
+  bool contains(const std::string& name) const { return opened_->file && file().contains(name); }
 
   std::filesystem::path path_;
-  std::optional<ShardFile> shard_;  ///< if it is one
-  std::optional<hdf5::File> file_;  ///< otherwise
-  layout::FileHeader header_;
+  std::shared_ptr<const Opened> opened_;
+  std::shared_ptr<const layout::FileHeader> header_;
   mutable std::shared_ptr<const study::Study> study_;
   bool shows_part_{false};  ///< study_ is not the whole study of the file
-  std::optional<TrialTables> trials_;
-  std::optional<StoredSums> sums_;
 };
 
 }  // namespace zerocount::reading

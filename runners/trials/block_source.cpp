@@ -80,9 +80,13 @@ struct BlockLimits {
   double samples;
   std::int64_t max_trials;
   std::int64_t min_trials;  ///< unless the samples are more
+  double first_samples;     ///< of the first blocks, before the time of a trial is known
 };
-constexpr BlockLimits reference_block{1e5, 256, 16};
-constexpr BlockLimits batch_block{1e7, 1024, 128};
+constexpr BlockLimits reference_block{1e5, 256, 16, 1.0};
+constexpr BlockLimits batch_block{1e7, 1024, 128, 1e6};
+
+/// Time of a block, s, by the time that the trials of an earlier one took.
+constexpr double max_block_seconds = 1.0;
 
 const BlockLimits& limits_of(const study::Study& study) {
   return study.engine == study::Engine::batch ? batch_block : reference_block;
@@ -91,6 +95,19 @@ const BlockLimits& limits_of(const study::Study& study) {
 /// Rows of a block of which each thread gets two, if there are so few left.
 std::int64_t rows_for_each(const BlockLimits& limits, std::int64_t rows, int threads) {
   return std::max(rows / (std::int64_t{2} * threads), limits.min_trials);
+}
+
+/// Number of trials that have so many samples, at least one.
+std::int64_t trials_with(double samples, const study::Study& study) {
+  return std::max(static_cast<std::int64_t>(samples / std::max(samples_per_trial(study), 1.0)),
+                  std::int64_t{1});
+}
+
+/// Number of trials of a block whose time is not known. Trials that the lanes cannot run may be slow.
+std::int64_t max_first_rows(const study::Study& study) {
+  const bool in_lanes = study.engine == study::Engine::batch && lanes_run_first_trials(study);
+  const BlockLimits& limits = in_lanes ? batch_block : reference_block;
+  return std::min(trials_with(limits.first_samples, study), limits.min_trials);
 }
 
 /// A block ends with the trial whose trace takes the traces of its retained trials beyond this size.
@@ -105,9 +122,8 @@ double bytes_of_trace(const study::Study& study) {
 
 std::int64_t max_block_rows(const study::Study& study, std::int64_t rows, int threads) {
   const BlockLimits limits = limits_of(study);
-  const double size = limits.samples / std::max(samples_per_trial(study), 1.0);
-  return std::clamp(static_cast<std::int64_t>(size), std::int64_t{1},
-                    std::min(limits.max_trials, rows_for_each(limits, rows, threads)));
+  return std::min(
+      {trials_with(limits.samples, study), limits.max_trials, rows_for_each(limits, rows, threads)});
 }
 
 double max_block_traces(const study::Study& study) {
@@ -119,6 +135,7 @@ BlockSource::BlockSource(const study::Study& study, std::span<const layout::RowR
       turns_(ranges, study.trials),
       clock_(turns_.points(), threads),
       max_rows_(max_block_rows(study, layout::total_rows(ranges), threads)),
+      max_first_rows_(max_first_rows(study)),
       threads_(threads),
       remaining_(layout::total_rows(ranges)),
       trace_bytes_(bytes_of_trace(study)) {}
@@ -131,8 +148,8 @@ std::optional<Block> BlockSource::next() {
     clock_.begin_turn();
   }
   const std::int64_t of_chunk = layout::chunk_elements - next_row() % layout::chunk_elements;
-  const std::int64_t max_rows =
-      std::min({max_rows_, rows_for_each(limits_of(study_), remaining_, threads_), of_chunk});
+  const std::int64_t max_rows = std::min(
+      {max_rows_, max_quick_rows(), rows_for_each(limits_of(study_), remaining_, threads_), of_chunk});
   const layout::RowRange rows = with_few_traces(turns_.upcoming(max_rows));
   turns_.take(rows.count);
   remaining_ -= rows.count;
@@ -144,6 +161,13 @@ std::optional<Block> BlockSource::next() {
 double BlockSource::end_of_turn() const {
   if (turns_.is_at_new_point()) return 0.5;
   return next_row() % layout::chunk_elements == 0 ? 1.0 : 1.5;
+}
+
+/// Number of trials that take at most a second, as far as that is known.
+std::int64_t BlockSource::max_quick_rows() const {
+  const double seconds = trial_seconds_;
+  if (seconds == 0.0) return max_first_rows_;
+  return static_cast<std::int64_t>(std::clamp(max_block_seconds / seconds, 1.0, 1e6));
 }
 
 layout::RowRange BlockSource::with_few_traces(layout::RowRange rows) const {

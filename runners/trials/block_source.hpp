@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -111,7 +112,8 @@ struct Block {
 
 /// Divides the rows of all turns into blocks. A block ends with a chunk of the results file, and has fewer
 /// trials where many of them are retained with their traces. The last blocks become smaller, so that the
-/// threads end together.
+/// threads end together. Slow trials make small blocks: the first ones are small, and the later ones have at
+/// most as many trials as took a second. The data of the trials do not depend on their blocks.
 class BlockSource {
  public:
   /// @param study stays as long as this @param ranges as for Turns
@@ -120,15 +122,24 @@ class BlockSource {
   /// The next block; none behind the last one.
   std::optional<Block> next();
 
+  /// Tells how long the trials of a block took. Any thread may call it. Slow trials are forgotten step by
+  /// step, because slow and fast points may alternate.
+  void note(std::int64_t trials, double seconds) {
+    trial_seconds_ = std::max(seconds / static_cast<double>(trials), 0.5 * trial_seconds_);
+  }
+
  private:
   std::int64_t next_row() const { return turns_.upcoming(1).first; }
   double end_of_turn() const;
   layout::RowRange with_few_traces(layout::RowRange rows) const;
+  std::int64_t max_quick_rows() const;
 
   const study::Study& study_;
   Turns turns_;
   TurnClock clock_;
-  std::int64_t max_rows_;  ///< of a block
+  std::int64_t max_rows_;                   ///< of a block
+  std::int64_t max_first_rows_;             ///< of a block, until the time of a trial is known
+  std::atomic<double> trial_seconds_{0.0};  ///< of the block that ended last; 0: none has ended
   int threads_;
   std::int64_t remaining_;  ///< rows
   double trace_bytes_;      ///< of one retained trial

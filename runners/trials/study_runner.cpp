@@ -1,6 +1,7 @@
 #include "runners/trials/study_runner.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -18,6 +19,7 @@
 
 #include "analysis/measures/point_columns.hpp"
 #include "analysis/parallel/processors.hpp"
+#include "core/batch/batch.hpp"
 #include "core/trial/trial.hpp"
 #include "results/layout/table_io.hpp"
 #include "runners/trials/block_source.hpp"
@@ -26,6 +28,15 @@
 
 namespace zerocount::trials {
 namespace {
+
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - begun_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point begun_{Clock::now()};
+};
 
 /// The stages through which trials become shards. Made and used in the arena of its threads.
 class ShardPipeline {
@@ -59,7 +70,8 @@ class ShardPipeline {
         max_blocks,
         tbb::make_filter<void, std::optional<Block>>(Mode::serial_in_order, next_block) &
             tbb::make_filter<std::optional<Block>, std::shared_ptr<KeptBlock>>(
-                Mode::parallel, [&](const std::optional<Block>& block) { return run_block(*block, stop); }) &
+                Mode::parallel,
+                [&](const std::optional<Block>& block) { return run_block(source, *block, stop); }) &
             tbb::make_filter<std::shared_ptr<KeptBlock>, void>(
                 Mode::serial_in_order, [&](const std::shared_ptr<KeptBlock>& block) { collect(block); }));
     collector_.flush();
@@ -70,16 +82,17 @@ class ShardPipeline {
   }
 
  private:
-  /// Any thread. @returns null if it was interrupted: the trials of the block are run again
-  std::shared_ptr<KeptBlock> run_block(const Block& block, const std::stop_token& stop) {
+  /// Runs on any thread. @returns the block without the trials that have to be run again after an
+  /// interruption; null if it has no other
+  std::shared_ptr<KeptBlock> run_block(BlockSource& source, const Block& block, const std::stop_token& stop) {
     const timeline::TimeSpan span(settings_.timeline, "compute", timeline::Work::parallel, block.rows.count);
-    try {
-      auto kept = std::make_shared<KeptBlock>(reduce(study_, runners_.local().run_block(block.rows, stop)));
-      kept->begins_turn = block.begins_turn;
-      return kept;
-    } catch (const trial::Interrupted&) {
-      return nullptr;
-    }
+    const Stopwatch stopwatch;
+    TrialBlock ended = runners_.local().run_block(block.rows, stop);
+    if (ended.results.empty()) return nullptr;
+    source.note(std::ssize(ended.results), stopwatch.seconds());
+    auto kept = std::make_shared<KeptBlock>(reduce(study_, std::move(ended)));
+    kept->begins_turn = block.begins_turn;
+    return kept;
   }
 
   /// One thread at a time, in the order of the turns.
@@ -149,6 +162,19 @@ double memory_of_statistics(const study::Study& study) {
              static_cast<double>(std::min(study::point_count(study), layout::chunk_elements));
 }
 
+/// The first trials of up to 64 points, under conditions that take turns.
+std::vector<trial::TrialParameters> first_trials(const study::Study& study) {
+  const std::int64_t conditions = study::condition_count(study);
+  const std::int64_t count = std::min<std::int64_t>(study::point_count(study) * conditions, 64);
+  std::vector<trial::TrialParameters> trials;
+  for (std::int64_t i = 0; i < count; ++i) {
+    const std::int64_t point = i * study::point_count(study) / count;
+    const std::int64_t index = study::turns_of(study).trial_of(0, i % conditions);
+    trials.push_back(study::study_trial(study, point, index).parameters);
+  }
+  return trials;
+}
+
 }  // namespace
 
 int threads_to_use(int asked) {
@@ -157,16 +183,15 @@ int threads_to_use(int asked) {
 
 double samples_per_trial(const study::Study& study) {
   double total = 0.0;
-  const std::int64_t asked =
-      std::min<std::int64_t>(study::point_count(study) * study::condition_count(study), 64);
-  for (std::int64_t i = 0; i < asked; ++i) {
-    const trial::TrialParameters parameters =
-        study::study_trial(study, i * study::point_count(study) / asked,
-                           study::turns_of(study).trial_of(0, i % study::condition_count(study)))
-            .parameters;
-    total += static_cast<double>(trial::samples_of_trial(parameters));
-  }
-  return total / static_cast<double>(asked);
+  const std::vector<trial::TrialParameters> trials = first_trials(study);
+  for (const trial::TrialParameters& trial : trials)
+    total += static_cast<double>(trial::samples_of_trial(trial));
+  return total / static_cast<double>(trials.size());
+}
+
+bool lanes_run_first_trials(const study::Study& study) {
+  const std::vector<trial::TrialParameters> trials = first_trials(study);
+  return std::all_of(trials.begin(), trials.end(), batch::runs_in_lanes);
 }
 
 double peak_memory(const study::Study& study, double bytes_of_trial, double record_bytes, int threads) {

@@ -24,6 +24,9 @@ shards::TrialResult run_study_trial(const study::Study& study, std::int64_t row,
 /// Number of samples of a trial: the mean over the first trials of up to 64 points.
 double samples_per_trial(const study::Study& study);
 
+/// Whether the lanes of the batch engine run the first trials of up to 64 points.
+bool lanes_run_first_trials(const study::Study& study);
+
 /// Number of threads where `asked` were asked for; 0: parallel::processors().
 int threads_to_use(int asked);
 

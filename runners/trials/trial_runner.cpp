@@ -35,6 +35,36 @@ std::vector<std::int64_t> numbers_of(layout::RowRange rows) {
   return numbers;
 }
 
+std::vector<shards::TrialResult> results_of(std::span<const std::int64_t> rows) {
+  std::vector<shards::TrialResult> results(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) results[i].row = rows[i];
+  return results;
+}
+
+bool has_ended(const shards::TrialResult& result) {
+  return !result.outcome.moves.empty();
+}
+
+/// The predictions of consecutive trials.
+class BlockPredictions {
+ public:
+  explicit BlockPredictions(std::int64_t trials_of_point, std::int64_t first_row)
+      : trials_(trials_of_point), first_point_(first_row / trials_of_point) {}
+
+  void add(std::int64_t row, const study::StudyTrial& trial) {
+    const auto point = static_cast<std::size_t>(row / trials_ - first_point_);
+    points_.resize(std::max(points_.size(), point + 1));
+    points_[point].add(theory::predict(trial.parameters));
+  }
+
+  std::vector<theory::PointPrediction>& points() { return points_; }
+
+ private:
+  std::int64_t trials_;
+  std::int64_t first_point_;
+  std::vector<theory::PointPrediction> points_;
+};
+
 }  // namespace
 
 bool is_retained(const study::Study& study, std::int64_t index) {
@@ -84,30 +114,41 @@ std::vector<shards::TrialResult> TrialRunner::run(layout::RowRange rows, const s
 
 std::vector<shards::TrialResult> TrialRunner::run(std::span<const std::int64_t> rows,
                                                   const std::stop_token& stop) {
-  return run_rows(rows, stop, {});
+  std::vector<shards::TrialResult> results = results_of(rows);
+  run_results(results, stop, {});
+  return results;
 }
 
 TrialBlock TrialRunner::run_block(layout::RowRange rows, const std::stop_token& stop) {
-  TrialBlock block;
-  const std::int64_t first_point = rows.first / study_->trials;
-  block.results = run_rows(numbers_of(rows), stop, [&](std::int64_t row, const study::StudyTrial& trial) {
-    const auto point = static_cast<std::size_t>(row / study_->trials - first_point);
-    block.predictions.resize(std::max(block.predictions.size(), point + 1));
-    block.predictions[point].add(theory::predict(trial.parameters));
-  });
-  return block;
+  std::vector<shards::TrialResult> results = results_of(numbers_of(rows));
+  BlockPredictions predictions(study_->trials, rows.first);
+  try {
+    run_results(results, stop,
+                [&](std::int64_t row, const study::StudyTrial& trial) { predictions.add(row, trial); });
+    return {std::move(results), std::move(predictions.points())};
+  } catch (const trial::Interrupted&) {
+    results.erase(std::find_if_not(results.begin(), results.end(), has_ended), results.end());
+    std::vector<theory::PointPrediction> of_ended = predictions_of(results);
+    return {std::move(results), std::move(of_ended)};
+  }
 }
 
-std::vector<shards::TrialResult> TrialRunner::run_rows(std::span<const std::int64_t> rows,
-                                                       const std::stop_token& stop, const Drawn& drawn) {
-  std::vector<shards::TrialResult> results(rows.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) results[i].row = rows[i];
-  if (engine_) {
-    run_in_lanes(stop, drawn, results);
-  } else {
-    for (shards::TrialResult& one : results) run_alone(one, drawn, stop);
-  }
-  return results;
+std::vector<theory::PointPrediction> TrialRunner::predictions_of(
+    std::span<const shards::TrialResult> results) {
+  if (results.empty()) return {};
+  BlockPredictions predictions(study_->trials, results.front().row);
+  study::StudyTrial trial;
+  for (const shards::TrialResult& result : results)
+    draw(
+        result.row, [&](std::int64_t row, const study::StudyTrial& drawn) { predictions.add(row, drawn); },
+        trial);
+  return std::move(predictions.points());
+}
+
+void TrialRunner::run_results(std::vector<shards::TrialResult>& results, const std::stop_token& stop,
+                              const Drawn& drawn) {
+  if (engine_) return run_in_lanes(stop, drawn, results);
+  for (shards::TrialResult& one : results) run_alone(one, drawn, stop);
 }
 
 void TrialRunner::run_alone(shards::TrialResult& result, const Drawn& drawn, const std::stop_token& stop) {
@@ -137,8 +178,16 @@ void TrialRunner::run_in_lanes(const std::stop_token& stop, const Drawn& drawn,
   batch::BatchObservers observers;
   observers.stop = stop;
   observers.jerk = [&](std::size_t trial, const trial::Jerk& jerk) { places[trial]->jerks.push_back(jerk); };
-  engine_->run(draw_next, outcomes, observers);
-  for (std::size_t i = 0; i < places.size(); ++i) places[i]->outcome = std::move(outcomes[i]);
+  const auto take_outcomes = [&] {
+    for (std::size_t i = 0; i < places.size(); ++i) places[i]->outcome = std::move(outcomes[i]);
+  };
+  try {
+    engine_->run(draw_next, outcomes, observers);
+  } catch (const trial::Interrupted&) {
+    take_outcomes();
+    throw;
+  }
+  take_outcomes();
 }
 
 }  // namespace zerocount::trials

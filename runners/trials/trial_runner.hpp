@@ -37,9 +37,10 @@ class TrialRunner {
  public:
   explicit TrialRunner(const study::Study& study);
 
-  /// @throws trial::Interrupted if a stop is requested before the last trial ends
+  /// The trials of the rows. If a stop is requested, it returns those before the first one that has not
+  /// ended, which may be none.
   TrialBlock run_block(layout::RowRange rows, const std::stop_token& stop = {});
-  /// The results alone.
+  /// The results alone. @throws trial::Interrupted if a stop is requested before the last trial ends
   std::vector<shards::TrialResult> run(layout::RowRange rows, const std::stop_token& stop = {});
   /// Those of any rows, in their order.
   std::vector<shards::TrialResult> run(std::span<const std::int64_t> rows, const std::stop_token& stop = {});
@@ -49,8 +50,11 @@ class TrialRunner {
   /// Makes `trial` that of the row, and calls drawn(row, trial).
   void draw(std::int64_t row, const Drawn& drawn, study::StudyTrial& trial);
   void run_alone(shards::TrialResult& result, const Drawn& drawn, const std::stop_token& stop);
-  std::vector<shards::TrialResult> run_rows(std::span<const std::int64_t> rows, const std::stop_token& stop,
-                                            const Drawn& drawn);
+  /// Runs the trials of `results`, which have their rows alone.
+  /// @throws trial::Interrupted if a stop is requested; then the trials that have not ended have no moves
+  void run_results(std::vector<shards::TrialResult>& results, const std::stop_token& stop,
+                   const Drawn& drawn);
+  std::vector<theory::PointPrediction> predictions_of(std::span<const shards::TrialResult> results);
   void run_in_lanes(const std::stop_token& stop, const Drawn& drawn,
                     std::vector<shards::TrialResult>& results);
 

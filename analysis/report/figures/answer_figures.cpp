@@ -329,6 +329,12 @@ std::vector<Figure> history_figures(const history::History& history, std::size_t
   std::vector<Figure> figures;
   figures.reserve(ordered.size());
   for (const Series* const series : ordered) figures.push_back(history_figure(*series, figures.size() + 1));
+  if (history.series.size() > max_figures && !figures.empty()) {
+    figures.front().caption += fmt::format(
+        "Figures stand here for {} of {} series, those that changed first. 'zerocount history plot' draws "
+        "others with --study, --point and --measure. ",
+        max_figures, history.series.size());
+  }
   return figures;
 }
 
@@ -344,12 +350,7 @@ document::AnswerDescription<history::History> history_answer(std::size_t max_fig
 PageSection history_section(const history::History& history, std::size_t max_figures) {
   if (history.series.empty())
     return {"history", "Over time", "<p>The history has fewer than two runs of this study.</p>\n", {}};
-  PageSection section = answer_section("history", "Over time", history_answer(max_figures).of(history));
-  if (history.series.size() > max_figures) {
-    section.html += fmt::format("<p>The figures are of {} of {} series, those that changed first.</p>\n",
-                                max_figures, history.series.size());
-  }
-  return section;
+  return answer_section("history", "Over time", history_answer(max_figures).of(history));
 }
 
 }  // namespace zerocount::report

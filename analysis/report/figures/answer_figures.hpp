@@ -30,10 +30,9 @@ document::AnswerDescription<comparison::StudyComparison> comparison_answer();
 /// sensitivity::sensitivity_answer() with a figure of the Sobol' indices of each output.
 document::AnswerDescription<sensitivity::StudySensitivity> sensitivity_answer();
 
-/// history::history_answer() with a figure of each series, at most
-/// `max_figures`, those that changed first.
-document::AnswerDescription<history::History> history_answer(
-    std::size_t max_figures = std::numeric_limits<std::size_t>::max());
+/// history::history_answer() with a figure of each series, at most `max_figures`, those that changed first.
+/// The caption of the first figure says how many others there are.
+document::AnswerDescription<history::History> history_answer(std::size_t max_figures = 48);
 
 /// The torque of a designed experiment, and the readings that the median machine would give.
 document::Figure experiment_figure(const experiment_design::ExperimentDesign& design);

@@ -243,5 +243,17 @@ TEST(Forecast, EffectsThatAreSmallTogetherAreProbablyNil) {
   EXPECT_GT(mixed[3], 0.5);
 }
 
+// The work of a comparison of many points grows no faster than the number of its judgements.
+TEST(Forecast, ManyJudgementsHaveFewerSimulations) {
+  const comparison::ForecastOptions usual;
+  comparison::ForecastOptions few, many;
+  comparison::limit_work(few, 2000);
+  EXPECT_EQ(few.simulations, usual.simulations);
+  EXPECT_EQ(few.factor_step, usual.factor_step);
+  comparison::limit_work(many, 50'000);
+  EXPECT_EQ(many.simulations, usual.simulations / 8);
+  EXPECT_GT(many.factor_step, usual.factor_step);
+}
+
 }  // namespace
 }  // namespace zerocount::testing

@@ -3,6 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/comparison/comparison.hpp"
+#include "analysis/history/series.hpp"
+#include "analysis/report/figures/answer_figures.hpp"
 #include "analysis/report/figures/report_figures.hpp"
 #include "analysis/summary/move_behaviour.hpp"
 #include "analysis/summary/stored_statistics.hpp"
@@ -492,6 +494,63 @@ TEST(ReportPage, DoesNotGrowWithTheTrials) {
   const std::string page = html_page(study_report(reading::AllTrialsFile(folder / "many.h5")).page);
   EXPECT_LT(page.size(), 2000000U);
   EXPECT_TRUE(says(page, "Shown are 50 of the"));
+}
+
+// A reader looks at some dozen figures, and a browser must be able to open the page.
+
+/// A page with so many figures of so many rows of data.
+ReportPage page_with(int figures, int rows) {
+  ReportPage page;
+  page.title = "many figures";
+  page.sections.push_back({"all", "All", "", {}});
+  FigureData data{"rows", {{"value", "value", "1"}, {"other", "other", "1"}}};
+  for (int row = 0; row < rows; ++row)
+    data.rows.push_back(nlohmann::ordered_json::array({row + 0.125, 1e-3 * row}));
+  for (int i = 0; i < figures; ++i) {
+    const std::string name = fmt::format("figure-{}", i);
+    page.sections.front().figures.push_back(
+        {.name = name, .title = name, .caption = "", .specification = "history", .data = {data}});
+  }
+  return page;
+}
+
+TEST(ReportPage, LeavesOutFiguresBeyondSomeDozenAndSaysWhereTheyAre) {
+  const ReportPage page = page_with(500, 3);
+  const std::string html = html_page(page);
+  EXPECT_EQ(times_in(html, "<figure "), 48U);
+  EXPECT_TRUE(says(html, "452 of 500 figures are left out", "zerocount plot FILE"));
+  EXPECT_EQ(find_figure(page, "figure-499").name, "figure-499");
+  EXPECT_EQ(times_in(html_page(page_with(48, 3)), "figures are left out"), 0U);
+}
+
+TEST(ReportPage, HasAtMostFiveMegabytesHoweverLargeItsFiguresAre) {
+  const std::string html = html_page(page_with(40, 10'000));
+  EXPECT_LT(html.size(), 5'000'000U);
+  EXPECT_GT(times_in(html, "<figure "), 1U);
+  EXPECT_TRUE(says(html, "of 40 figures are left out"));
+}
+
+/// A history of so many series of one run.
+history::History history_of_series(int series) {
+  history::History history;
+  const auto run = std::make_shared<const history::RunIdentity>();
+  for (int i = 0; i < series; ++i) {
+    history::Series& one = history.series.emplace_back();
+    one.study = "axis";
+    one.point = std::to_string(i);
+    one.measure = "success_rate";
+    one.runs.push_back({run, {}});
+  }
+  return history;
+}
+
+TEST(HistoryFigures, AreThoseOfSomeDozenSeriesHoweverManyThereAre) {
+  const std::vector<Figure> few = document::figures(history_answer().of(history_of_series(40)));
+  EXPECT_EQ(few.size(), 40U);
+  EXPECT_EQ(times_in(few.front().caption, "Figures stand here"), 0U);
+  const std::vector<Figure> many = document::figures(history_answer().of(history_of_series(4453)));
+  EXPECT_EQ(many.size(), 48U);
+  EXPECT_TRUE(says(many.front().caption, "Figures stand here for 48 of 4453 series", "--point"));
 }
 
 }  // namespace

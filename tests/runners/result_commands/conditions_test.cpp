@@ -1,6 +1,7 @@
 // Conditions in the verbs on results: what a verb says of a study under a condition is what it says of the
 // study whose manifest has the overrides of the condition in its sections.
 
+#include "results/reading/all_trials_file.hpp"
 #include "tests/runners/program.hpp"
 
 namespace zerocount::testing {
@@ -326,6 +327,29 @@ TEST_F(ConditionsOfResults, MakeAWorldBadThatIsBadUnderOne) {
   EXPECT_EQ(bad_of("both"), any);
   EXPECT_GT(any.size(), bad_of("empty").size());
   EXPECT_EQ(said({"learn", "worlds-both.h5"}).at("bad"), any.size());
+}
+
+// Memory and time of a study with a thousand conditions are not those of a thousand open files.
+TEST(UnderACondition, TrialsAreReadFromTheFileThatIsOpen) {
+  const TemporaryFolder folder;
+  folder.write("two.yaml",
+               "zerocount: 1\nname: two\nseed: 7\ntrials: 40\ncommand: {targets: [3], hold: 0.05}\n"
+               "initial: {encoder_phase: {uniform: [0, 1]}}\n"
+               "conditions: {soft: {}, stiff: {controller.ki: 8.0e-5}}\n");
+  zerocount_program({"run", "two.yaml", "-o", "two.h5", "--quiet"}, folder.path());
+  const reading::AllTrialsFile file(folder / "two.h5");
+  std::vector<double> errors = file.measure("final_error", file.rows());
+  std::filesystem::remove(folder / "two.h5");
+  std::vector<double> under_both;
+  for (const std::int64_t condition : {0, 1}) {
+    const reading::AllTrialsFile one = file.under_condition(condition);
+    ASSERT_EQ(one.header().trials, 20);
+    const std::vector<double> some = one.measure("final_error", one.rows());
+    under_both.insert(under_both.end(), some.begin(), some.end());
+  }
+  std::ranges::sort(under_both);
+  std::ranges::sort(errors);
+  EXPECT_EQ(under_both, errors);
 }
 
 }  // namespace

@@ -1,6 +1,10 @@
 // Rows that a runner runs together have the results that each has alone.
 #include "runners/trials/trial_runner.hpp"
 
+#include <chrono>
+#include <stop_token>
+#include <thread>
+
 #include <oneapi/tbb/task_arena.h>
 
 #include "analysis/parallel/parallel.hpp"
@@ -52,6 +56,43 @@ TEST(TrialRunner, GivesRowsOfAnyPlacesTheResultsThatEachHasAlone) {
   }
 }
 
+// A stop keeps what has ended.
+
+/// Runs the rows as a block, stopped after so many milliseconds.
+trials::TrialBlock block_stopped_after(int milliseconds, const study::Study& study, layout::RowRange rows) {
+  std::stop_source source;
+  const std::jthread clock([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+    source.request_stop();
+  });
+  return trials::TrialRunner(study).run_block(rows, source.get_token());
+}
+
+TEST(TrialRunner, AStoppedBlockHasTheTrialsBeforeTheFirstThatHasNotEnded) {
+  for (const study::Engine engine : {study::Engine::batch, study::Engine::reference}) {
+    study::Study study = two_gains(engine);
+    study.trials = 100'000;
+    const layout::RowRange rows{study.trials - 20, 50'020};
+    trials::TrialBlock stopped;
+    for (int milliseconds = 1; stopped.results.empty(); milliseconds *= 2)
+      stopped = block_stopped_after(milliseconds, study, rows);
+    const std::int64_t ended = std::ssize(stopped.results);
+    ASSERT_LT(ended, rows.count);
+    const trials::TrialBlock whole = trials::TrialRunner(study).run_block({rows.first, ended});
+    for (std::size_t i = 0; i < stopped.results.size(); ++i) {
+      const shards::TrialResult& result = stopped.results[i];
+      EXPECT_EQ(result.row, whole.results[i].row);
+      EXPECT_EQ(result.inputs, whole.results[i].inputs);
+      EXPECT_EQ(result.jerks.size(), whole.results[i].jerks.size());
+      ASSERT_EQ(result.outcome.moves.size(), 1U);
+      EXPECT_EQ(result.outcome.moves[0].final_error, whole.results[i].outcome.moves[0].final_error);
+    }
+    ASSERT_EQ(stopped.predictions.size(), whole.predictions.size());
+    for (std::size_t i = 0; i < whole.predictions.size(); ++i)
+      EXPECT_EQ(stopped.predictions[i].trials, whole.predictions[i].trials);
+  }
+}
+
 // Trials that are counted are divided evenly among the threads.
 
 // The last blocks of the threads end together where each thread has as many.
@@ -80,6 +121,8 @@ using layout::RowRange;
 std::vector<RowRange> blocks_of(const study::Study& study, const std::vector<RowRange>& ranges, int threads) {
   std::vector<RowRange> blocks;
   trials::BlockSource source(study, ranges, threads);
+  constexpr double trial_seconds = 1e-6;
+  source.note(1, trial_seconds);
   while (const std::optional<trials::Block> block = source.next()) blocks.push_back(block->rows);
   return blocks;
 }
@@ -123,6 +166,35 @@ TEST(BlockSource, MakesTheLastBlocksSmall) {
     EXPECT_EQ(remaining, 0);
     EXPECT_LT(blocks.size(), 16 + 6 * threads);  // and not all of them
   }
+}
+
+// A kill loses at most the blocks in work.
+TEST(BlockSource, SlowTrialsMakeSmallBlocks) {
+  study::Study study = batch_study(50'000);
+  const std::vector<RowRange> all{layout::all_rows(study)};
+  trials::BlockSource lanes(study, all, 1);
+  EXPECT_LE(lanes.next()->rows.count, 128);
+  for (const double seconds : {0.01, 0.3, 40.0}) {
+    lanes.note(1, seconds);
+    EXPECT_EQ(lanes.next()->rows.count, std::max(static_cast<int>(1.0 / seconds), 1));
+  }
+  study.engine = study::Engine::reference;
+  EXPECT_EQ(trials::BlockSource(study, all, 1).next()->rows.count, 1);
+}
+
+// Trials that lanes cannot run are as slow in the batch engine.
+TEST(BlockSource, TheFirstBlocksAreSmallWhereTheLanesLackAFeatureOfSomePoint) {
+  const study::Study study = manifest::parse_study(R"(zerocount: 1
+name: gaps
+seed: 7
+trials: 5000
+sweep: {grid: {plant.load.gap: [0, 1.0e-4]}}
+plant: {load: {inertia: 1.0e-3, stiffness: 1.0e+3, damping: 0.1}}
+command: {targets: [1], hold: 0.05}
+)",
+                                                   "axis.yaml", {});
+  const std::vector<RowRange> all{layout::all_rows(study)};
+  EXPECT_EQ(trials::BlockSource(study, all, 1).next()->rows.count, 1);
 }
 
 TEST(BlockSource, DividesAShortRunAmongTheThreads) {

@@ -131,7 +131,8 @@ std::vector<bool> met_moves(const study::Goal& goal, const monitor::MoveLog& log
 std::vector<measures::CellCounts> simulated_counts(const reading::AllTrialsFile& file, std::int64_t point) {
   const study::Study& study = file.study();
   const std::vector<measures::CountedGoal> goals = measures::counted_goals(study);
-  std::vector<measures::CellCounts> counts(goals.size(), measures::CellCounts({study.rigs, study.worlds, 0}));
+  std::vector<measures::CellCounts> counts(goals.size(),
+                                           measures::CellCounts({study.machines, study.worlds, 0}));
   const layout::RowRange rows = file.rows_of(point);
   measures::visit_trials(file, rows, [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
     for (std::size_t goal = 0; goal < goals.size(); ++goal)
@@ -149,12 +150,12 @@ goal::BoundedProportion bounded_rate(std::int64_t met, std::int64_t moves, doubl
 Agreement agreement_with(const MetMoves& met_of_machines, const measures::MoveCounts& simulated,
                          std::uint64_t seed) {
   std::int64_t common = std::numeric_limits<std::int64_t>::max();
-  for (const statistics::RigMoves& rig : simulated.rigs) common = std::min(common, rig.moves);
+  for (const statistics::MachineMoves& machine : simulated.machines) common = std::min(common, machine.moves);
   for (const std::vector<bool>& met : met_of_machines) common = std::min(common, std::ssize(met));
   std::vector<std::int64_t> first_met;
   for (const std::vector<bool>& met : met_of_machines)
     first_met.push_back(std::count(met.begin(), met.begin() + common, true));
-  return agreement_of(first_met, common, simulated.rigs, seed);
+  return agreement_of(first_met, common, simulated.machines, seed);
 }
 
 /// The prediction of a claim, and whether the machines agree with it: with worlds that of the one that they
@@ -187,10 +188,10 @@ goal::Status status_of_these(const study::Goal& goal, const measures::MoveCounts
     return bounds(measured.met, measured.moves, parts).high < goal.moves ? goal::Status::missed
                                                                          : goal::Status::undecided;
   }
-  const std::size_t machines = measured.rigs.size();
+  const std::size_t machines = measured.machines.size();
   std::int64_t meeting = 0;
   std::int64_t not_missing = 0;
-  for (const statistics::RigMoves& one : measured.rigs) {
+  for (const statistics::MachineMoves& one : measured.machines) {
     meeting += bounds(one.met, one.moves, machines).low >= goal.moves;
     not_missing += bounds(one.met, one.moves, machines * parts).high >= goal.moves;
   }
@@ -201,13 +202,13 @@ goal::Status status_of_these(const study::Goal& goal, const measures::MoveCounts
 
 /// The moves of the machines, each a cluster. @param met_of_machines [machine, move]
 measures::CellCounts measured_counts(const MetMoves& met_of_machines) {
-  measures::CellCounts measured({.rigs = std::ssize(met_of_machines)});
+  measures::CellCounts measured({.machines = std::ssize(met_of_machines)});
   for (std::size_t i = 0; i < met_of_machines.size(); ++i) {
     const std::vector<bool>& met = met_of_machines[i];
-    measured.add_rig(i, 0,
-                     {.trials = std::ssize(met),
-                      .moves = std::ssize(met),
-                      .met = std::count(met.begin(), met.end(), true)});
+    measured.add_machine(i, 0,
+                         {.trials = std::ssize(met),
+                          .moves = std::ssize(met),
+                          .met = std::count(met.begin(), met.end(), true)});
   }
   return measured;
 }
@@ -228,7 +229,7 @@ void judge(Acceptance& acceptance, std::span<const study::Goal> goals,
                        : status_of_these(goals[i], counts, goals.size());
   }
   if (acceptance.judged == Judged::all_machines && verdict.status == goal::Status::undecided)
-    acceptance.needed_machines = goal::needs_of(goals, measured, 1).rigs;
+    acceptance.needed_machines = goal::needs_of(goals, measured, 1).machines;
 }
 
 using Sequence = std::span<const study::SequenceMove>;
@@ -285,7 +286,7 @@ double sample_quantile(const std::vector<double>& sorted, double p) {
 constexpr int draws = 9999;
 
 /// How many of `wanted` random moves of the machine meet the requirement, without replacement.
-std::int64_t thinned(const statistics::RigMoves& machine, std::int64_t wanted,
+std::int64_t thinned(const statistics::MachineMoves& machine, std::int64_t wanted,
                      random::NumberSource& numbers) {
   std::int64_t left = machine.moves;
   std::int64_t met = machine.met;
@@ -309,7 +310,7 @@ double chance_of_a_choice(std::size_t measured, std::size_t simulated) {
 /// Moves that meet the requirement of as many of the machines as are measured, chosen at random from those
 /// from `first` on: the measured ones come before the simulated ones.
 std::int64_t drawn(std::span<const std::int64_t> met, std::int64_t moves,
-                   std::span<const statistics::RigMoves> simulated, std::size_t first,
+                   std::span<const statistics::MachineMoves> simulated, std::size_t first,
                    std::vector<std::size_t>& order, random::NumberSource& numbers) {
   const std::size_t measured = met.size();
   order.resize(measured + simulated.size() - first);
@@ -323,15 +324,16 @@ std::int64_t drawn(std::span<const std::int64_t> met, std::int64_t moves,
   return sum;
 }
 
-bool have_as_many_moves(std::span<const statistics::RigMoves> machines) {
-  return std::ranges::all_of(machines,
-                             [&](const statistics::RigMoves& one) { return one.moves == machines[0].moves; });
+bool have_as_many_moves(std::span<const statistics::MachineMoves> machines) {
+  return std::ranges::all_of(
+      machines, [&](const statistics::MachineMoves& one) { return one.moves == machines[0].moves; });
 }
 
-double rank_test_of(std::int64_t met, std::int64_t moves, std::span<const statistics::RigMoves> simulated) {
+double rank_test_of(std::int64_t met, std::int64_t moves,
+                    std::span<const statistics::MachineMoves> simulated) {
   std::vector<std::int64_t> successes;
-  for (const statistics::RigMoves& machine : simulated) successes.push_back(machine.met);
-  return statistics::rig_rank_test({met, moves}, successes, simulated[0].moves).p;
+  for (const statistics::MachineMoves& machine : simulated) successes.push_back(machine.met);
+  return statistics::machine_rank_test({met, moves}, successes, simulated[0].moves).p;
 }
 
 /// What the first log lacks that does not tell the values of the axis: "a.csv has no column final_error".
@@ -403,10 +405,10 @@ Acceptance accept(const reading::AllTrialsFile& file, std::int64_t point,
                   std::span<const monitor::MoveLog> logs, Judged judged) {
   const study::Study& study = file.study();
   const std::string path = file.path().string();
-  if (study.rigs == 0)
+  if (study.machines == 0)
     throw Failure(ExitCode::bad_input,
                   fmt::format("{}: no trials share a machine, so that it does not tell machines from moves; "
-                              "expected rigs: 50, or more",
+                              "expected machines: 50, or more",
                               path));
   Acceptance acceptance{.study = path, .point = file.point_labels()[static_cast<std::size_t>(point)]};
   acceptance.judged = judged;
@@ -430,7 +432,7 @@ Acceptance accept(const reading::AllTrialsFile& file, std::int64_t point,
     Claim& claim = acceptance.claims.emplace_back(Claim{.goal = study.goals[i]});
     claim.significance /= static_cast<double>(study.goals.size());
     compare_with_prediction(claim, simulated[i], met, study.seed);
-    acceptance.simulated = study.rigs;
+    acceptance.simulated = study.machines;
   }
   judge(acceptance, study.goals, measured);
   acceptance.worlds = study.worlds;
@@ -442,7 +444,7 @@ Acceptance accept(const reading::AllTrialsFile& file, std::int64_t point,
 }
 
 Agreement agreement_of(std::span<const std::int64_t> met, std::int64_t moves,
-                       std::span<const statistics::RigMoves> simulated, std::uint64_t seed) {
+                       std::span<const statistics::MachineMoves> simulated, std::uint64_t seed) {
   random::NumberSource numbers(designs::random_key(seed, "acceptance"));
   Agreement agreement{.moves = moves, .met = std::accumulate(met.begin(), met.end(), std::int64_t{0})};
   std::vector<std::size_t> order;

@@ -10,7 +10,7 @@
 #include "analysis/document/answer.hpp"
 #include "analysis/goal/goal_verdict.hpp"
 #include "analysis/monitor/move_log.hpp"
-#include "analysis/statistics/clusters/rig_proportion.hpp"
+#include "analysis/statistics/clusters/machine_proportion.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "results/reading/all_trials_file.hpp"
 
@@ -99,8 +99,8 @@ Status status_of(const Acceptance& acceptance);
 ExitCode exit_code_of(Status status);
 
 /// Judges the machines whose logs these are by the goals of the study, and compares them with its machines at
-/// the point, its rigs. Machines as predicted are found below the prediction of any goal with a probability
-/// of 5 % at most.
+/// the point, its machines. Machines as predicted are found below the prediction of any goal with a
+/// probability of 5 % at most.
 /// @param file of one condition, with goals
 ///
 /// For these machines alone, a goal is about the moves of all of them, or about `machines` of them: each is
@@ -109,8 +109,8 @@ ExitCode exit_code_of(Status status);
 /// A goal `on` some moves is judged by the rows that the column `move` of a log says are of these. Machines
 /// that live in one of the worlds of a study differ from it where they differ from each of them: the largest
 /// p-value counts.
-/// @throws Failure: bad_input for a study without rigs, for a log without a measure that a goal asks for, or
-/// with it in a unit of another dimension than the study has, and for one that does not number its moves
+/// @throws Failure: bad_input for a study without machines, for a log without a measure that a goal asks for,
+/// or with it in a unit of another dimension than the study has, and for one that does not number its moves
 /// where a goal asks for some; bad_data for a log without moves
 Acceptance accept(const reading::AllTrialsFile& file, std::int64_t point,
                   std::span<const monitor::MoveLog> logs, Judged judged = Judged::all_machines);
@@ -124,10 +124,10 @@ document::AnswerDescription<Acceptance> acceptance_answer();
 ///   p₋ = (1 + #{T ≤ k})/(B + 1),  p₊ = (1 + #{T ≥ k})/(B + 1),  p = min(1, 2·min(p₋, p₊)),  B = 9999:
 ///
 /// a permutation test. The n of a simulated machine are a random choice of its moves. For one machine it is
-/// rig_rank_test(), which needs no random choices, where all simulated machines have as many moves.
+/// machine_rank_test(), which needs no random choices, where all simulated machines have as many moves.
 /// @param met [measured machine] in its first n moves @param simulated with n or more moves each
 /// @param seed of the random choices
 Agreement agreement_of(std::span<const std::int64_t> met, std::int64_t moves,
-                       std::span<const statistics::RigMoves> simulated, std::uint64_t seed);
+                       std::span<const statistics::MachineMoves> simulated, std::uint64_t seed);
 
 }  // namespace zerocount::acceptance

@@ -169,7 +169,9 @@ void add_point(ForecastSamples& samples, const StudyComparison& comparison, cons
 /// is judged on all units of the current one.
 std::array<std::int64_t, 2> units_of_samples(const StudyComparison& comparison, const GateRules& rules,
                                              const StudyPair& pair) {
-  const auto units = [](const ComparedStudy& study) { return study.rigs > 0 ? study.rigs : study.trials; };
+  const auto units = [](const ComparedStudy& study) {
+    return study.machines > 0 ? study.machines : study.trials;
+  };
   const std::int64_t before = units(pair.baseline);
   const std::int64_t after = units(pair.current);
   if (comparison.layer == ComparisonLayer::two_samples) return {before, after};
@@ -308,7 +310,7 @@ void note_units(StudyComparison& result, const StudyPair& pair) {
     result.notes.push_back(
         "the trials of a world are not independent, and the worlds differ: tests and bounds are over worlds, "
         "and what decides is more worlds");
-  } else if (pair.baseline.rigs > 0 || pair.current.rigs > 0) {
+  } else if (pair.baseline.machines > 0 || pair.current.machines > 0) {
     result.notes.push_back(
         "the trials of a machine are not independent: tests and bounds are over machines, and what decides "
         "is more trials on more machines, in the same proportion");

@@ -106,7 +106,7 @@ std::string advice_text(Comparison comparison) {
                      fmt::join(open, ", "));
 }
 
-/// "better: success_rate, settling_time; worse: none; ..." of the point that is compared with another, under
+/// "better: success_rate, arrival_time; worse: none; ..." of the point that is compared with another, under
 /// each condition.
 std::string answer_text(Comparison comparison) {
   std::string text = fmt::format("{} against {}", text::printable(comparison.points.front().design_point),

@@ -28,8 +28,8 @@ class ForecastSamples {
     two_samples::BlockedSums sums;
   };
 
-  /// @param units number of independent units (trials or rigs) of the largest sample of the baseline and of
-  /// the file
+  /// @param units number of independent units (trials or machines) of the largest sample of the baseline and
+  /// of the file
   /// @param one_sample the samples of the file stand for the baseline too
   ForecastSamples(std::array<std::int64_t, 2> units, bool one_sample);
 

@@ -15,6 +15,7 @@
 #include "core/failure/failure.hpp"
 #include "core/numerics/interval.hpp"
 #include "core/text/text.hpp"
+#include "core/trial/move_measures.hpp"
 #include "experiments/parameters/unknown_key.hpp"
 #include "experiments/study/point_label.hpp"
 #include "experiments/yaml/problems.hpp"
@@ -165,21 +166,13 @@ std::vector<std::string> names_of(const List& all) {
 struct Key {
   std::string name;
   std::function<void(const yaml::Field&)> read;
-  bool is_earlier{false};  ///< what files called it once: not offered
 };
-
-std::vector<std::string> names_offered(const std::vector<Key>& keys) {
-  std::vector<std::string> names;
-  for (const Key& key : keys)
-    if (!key.is_earlier) names.push_back(key.name);
-  return names;
-}
 
 void read_keys(const yaml::Field& map, const std::vector<Key>& keys, yaml::Problems& problems) {
   for (const yaml::YamlEntry& entry : map.node->entries) {
     const auto key = find_named(keys, entry.key);
     if (key == keys.end())
-      parameters::add_unknown_key(map, entry, names_offered(keys), problems);
+      parameters::add_unknown_key(map, entry, names_of(keys), problems);
     else
       key->read(yaml::entry_of(map, entry));
   }
@@ -217,12 +210,7 @@ std::optional<GateMargin> read_margin(const yaml::Field& field, yaml::Problems& 
             {{"absolute", size_of(margin.absolute)},
              {"relative", size_of(margin.relative)},
              {"fail_on",
-              [&](const yaml::Field& value) { margin.changed_fails = read_changed_fails(value, problems); }},
-             {"both_ways",
-              [&](const yaml::Field& value) {
-                margin.changed_fails = yaml::read_bool(value, problems).value_or(false);
-              },
-              true}},
+              [&](const yaml::Field& value) { margin.changed_fails = read_changed_fails(value, problems); }}},
             problems);
   if (!sized)
     problems.add(field.node->place, field.path, "the margin has no size", "absolute or relative, or both");
@@ -232,8 +220,10 @@ std::optional<GateMargin> read_margin(const yaml::Field& field, yaml::Problems& 
 void read_margin_of(const yaml::Field& map, const yaml::YamlEntry& entry,
                     std::map<std::string, GateMargin>& margins, yaml::Problems& problems) {
   const std::optional<GateMeasure> measure = find_gate_measure(entry.key);
-  if (!measure) return parameters::add_unknown_key(map, entry, names_of(all_gate_measures()), problems);
   const yaml::Field field = yaml::entry_of(map, entry);
+  if (const std::string_view meanings = trial::meanings_of_settling_time(entry.key); !meanings.empty())
+    return problems.add(entry.place, field.path, "settling_time may mean two measures", meanings);
+  if (!measure) return parameters::add_unknown_key(map, entry, names_of(all_gate_measures()), problems);
   const std::optional<GateMargin> margin = read_margin(field, problems);
   if (!margin) return;
   if (measure->proportion() && (margin->absolute >= 1.0 || margin->relative >= 1.0))
@@ -277,6 +267,9 @@ std::optional<Requirement> read_requirement(const yaml::Field& field, yaml::Prob
   }
   requirement.at_least = parts->sign == text::Sign::at_least;
   const auto limit = text::parse_number<double>(parts->limit);
+  if (const std::string_view meanings = trial::meanings_of_settling_time(parts->name); !meanings.empty())
+    return refuse(fmt::format("{} may mean two measures", yaml::in_quotes(parts->name)),
+                  std::string(meanings));
   if (!quantity) {
     return refuse(fmt::format("{} cannot be required", yaml::in_quotes(parts->name)),
                   fmt::format("one of {}", fmt::join(names_of(requirable_quantities()), ", ")));
@@ -342,7 +335,10 @@ void read_measures(const yaml::Field& field, std::vector<std::string>& measures,
     const yaml::Field item = yaml::item_of(field, i);
     const std::optional<std::string> name = yaml::read_text(item, problems);
     if (!name) continue;
-    if (!find_gate_measure(*name)) {
+    const std::string_view meanings = trial::meanings_of_settling_time(*name);
+    if (!meanings.empty()) {
+      problems.add(item.node->place, item.path, "settling_time may mean two measures", meanings);
+    } else if (!find_gate_measure(*name)) {
       problems.add(item.node->place, item.path,
                    fmt::format("unknown measure {}, nearest known: {}", yaml::in_quotes(*name),
                                yaml::nearest_name(*name, known)),
@@ -526,7 +522,7 @@ GateRules parse_gate_rules(const std::string& text, std::string_view source,
   yaml::Problems problems;
   GateRules rules;
   const std::vector<Key> keys = keys_of(rules, labels, problems);
-  const std::string expected = fmt::format("a map with some of {}", fmt::join(names_offered(keys), ", "));
+  const std::string expected = fmt::format("a map with some of {}", fmt::join(names_of(keys), ", "));
   if (text.size() > yaml::max_manifest_size) {
     problems.add({source, 1, 1}, "margins", "the file is too large",
                  fmt::format("at most {} bytes", yaml::max_manifest_size));

@@ -29,7 +29,7 @@ enum class GateStatistic {
   trials,    ///< proportion of trials with a quality
   mean,      ///< mean over the trials
   moves,     ///< proportion of moves that meet the goal
-  machines,  ///< proportion of rigs that meet the goal in Goal::moves of their moves
+  machines,  ///< proportion of machines that meet the goal in Goal::moves of their moves
   quantile   ///< quantile over all moves of a time that may not be reached
 };
 
@@ -66,7 +66,7 @@ std::vector<GateMeasure> all_gate_measures();
 /// The measure of this name among all_gate_measures(), those of the goal with its name or without.
 std::optional<GateMeasure> find_gate_measure(std::string_view name);
 
-/// Names of quantiles behind that of a measure, as in "settling_time.p95", and their probabilities.
+/// Names of quantiles behind that of a measure, as in "arrival_time.p95", and their probabilities.
 inline constexpr std::array<std::pair<std::string_view, double>, 3> quantile_names{
     {{"median", 0.5}, {"p95", 0.95}, {"p99", 0.99}}};
 

@@ -65,7 +65,7 @@ struct TestedMeasure : two_samples::Change {
 
 /// A measure at a design point in the two files, or an absolute requirement on a quantity of the current one.
 struct Judgement : TestedMeasure {
-  std::string measure{};       ///< of gate_measures(); of a requirement its quantity, "settling_time.p95"
+  std::string measure{};       ///< of gate_measures(); of a requirement its quantity, "arrival_time.p95"
   std::string unit{};          ///< of every value here
   std::string requirement{};   ///< as it was given, "success_rate ≥ 0.995"; empty of a measure
   bool at_least{true};         ///< of a requirement, whose limit is `margin`: ≥; otherwise ≤

@@ -23,9 +23,9 @@ double worsened(const GateMeasure& measure, double value) {
   return measure.proportion() ? 1.0 - value : -value;
 }
 
-/// Whether trials share rigs, or worlds that take their place.
-bool over_rigs(const BothTrials& trials) {
-  return trials.baseline.rigs > 0 || trials.current.rigs > 0;
+/// Whether trials share machines, or worlds that take their place.
+bool over_machines(const BothTrials& trials) {
+  return trials.baseline.machines > 0 || trials.current.machines > 0;
 }
 
 /// The values of both [trial], of pairs over the moves that have one in both; NaN where no move has.
@@ -56,24 +56,24 @@ Sample values_of_pairs(const BothTrials& trials, const GateMeasure& measure) {
 }
 
 /// Machines are judged by the moves that were seen of each, so both files must show as many: the trials on
-/// each rig that both have.
-std::int64_t common_trials_of_rig(const BothTrials& trials, std::size_t goal) {
-  const auto of_rig = [goal](const PointTrials& all) {
-    return all.trials / std::max<std::int64_t>(all.judged[goal].rigs, 1);
+/// each machine that both have.
+std::int64_t common_trials_of_machine(const BothTrials& trials, std::size_t goal) {
+  const auto of_machine = [goal](const PointTrials& all) {
+    return all.trials / std::max<std::int64_t>(all.judged[goal].machines, 1);
   };
-  return std::min(of_rig(trials.baseline), of_rig(trials.current));
+  return std::min(of_machine(trials.baseline), of_machine(trials.current));
 }
 
-/// 1 for each rig that meets the goal in Goal::moves of its moves in its first `trials_of_rig`, else 0,
-/// [rig].
-std::vector<double> rigs_in_goal(const PointTrials& trials, const GoalTrials& goal,
-                                 std::int64_t trials_of_rig) {
-  const auto rigs = static_cast<std::size_t>(goal.rigs);
-  std::vector<double> met(rigs, 0.0);
-  for (std::size_t trial = 0; trial < rigs * static_cast<std::size_t>(trials_of_rig); ++trial)
-    met[trial % rigs] += goal.moves_in_goal[trial];
-  const auto moves = static_cast<double>(trials_of_rig * goal.asked_moves(trials.moves));
-  for (double& of_rig : met) of_rig = of_rig >= goal.goal.moves * moves ? 1.0 : 0.0;
+/// 1 for each machine that meets the goal in Goal::moves of its moves in its first `trials_of_machine`, else
+/// 0, [machine].
+std::vector<double> machines_in_goal(const PointTrials& trials, const GoalTrials& goal,
+                                     std::int64_t trials_of_machine) {
+  const auto machines = static_cast<std::size_t>(goal.machines);
+  std::vector<double> met(machines, 0.0);
+  for (std::size_t trial = 0; trial < machines * static_cast<std::size_t>(trials_of_machine); ++trial)
+    met[trial % machines] += goal.moves_in_goal[trial];
+  const auto moves = static_cast<double>(trials_of_machine * goal.asked_moves(trials.moves));
+  for (double& of_machine : met) of_machine = of_machine >= goal.goal.moves * moves ? 1.0 : 0.0;
   return met;
 }
 
@@ -84,11 +84,12 @@ std::vector<double> moves_in_goal(const PointTrials& trials, const GoalTrials& g
   return met;
 }
 
-/// The clusters in which the values of a file are: the number of rigs or worlds, 0 where each is independent.
+/// The clusters in which the values of a file are: the number of machines or worlds, 0 where each is
+/// independent.
 std::int64_t clusters_of(const PointTrials& trials, const GateMeasure& measure) {
-  const bool of_rigs =
-      measure.statistic == GateStatistic::machines && trials.rigs == trials.judged[measure.goal].rigs;
-  return of_rigs ? 0 : trials.rigs;
+  const bool of_machines =
+      measure.statistic == GateStatistic::machines && trials.machines == trials.judged[measure.goal].machines;
+  return of_machines ? 0 : trials.machines;
 }
 
 /// Whether the values of a proportion are independent, and each 0 or 1.
@@ -98,7 +99,7 @@ bool are_whole(const PointTrials& trials, const GateMeasure& measure) {
           trials.judged[measure.goal].asked_moves(trials.moves) == 1);
 }
 
-/// The value of each trial; of machines, of each rig.
+/// The value of each trial; of machines, of each machine.
 Sample values_of_both(const BothTrials& trials, const GateMeasure& measure) {
   if (!measure.proportion() && trials.paired) return values_of_pairs(trials, measure);
   const auto values = [&](const PointTrials& all) {
@@ -106,7 +107,8 @@ Sample values_of_both(const BothTrials& trials, const GateMeasure& measure) {
       case GateStatistic::moves:
         return moves_in_goal(all, all.judged[measure.goal]);
       case GateStatistic::machines:
-        return rigs_in_goal(all, all.judged[measure.goal], common_trials_of_rig(trials, measure.goal));
+        return machines_in_goal(all, all.judged[measure.goal],
+                                common_trials_of_machine(trials, measure.goal));
       case GateStatistic::trials:
       case GateStatistic::mean:
       case GateStatistic::quantile:
@@ -148,10 +150,10 @@ Sample sample_of(const BothTrials& trials, const GateMeasure& measure) {
   return sample;
 }
 
-std::string test_name(const Sample& sample, bool over_rigs) {
+std::string test_name(const Sample& sample, bool over_machines) {
   if (sample.failures) return sample.paired ? "McNemar, exact" : "Fisher, exact";
   return fmt::format("{}{}", sample.paired ? "signed rank and paired t" : "Smirnov and Welch's t",
-                     over_rigs ? ", over machines" : "");
+                     over_machines ? ", over machines" : "");
 }
 
 /// The larger of the two parts of a margin. Nothing is a proportion of a value that is unknown or infinite.
@@ -171,12 +173,12 @@ void compare_sample(Judgement& result, const GateMeasure& measure, const BothTri
   result.baseline = worsened(measure, two_samples::mean_of(before));
   result.current = worsened(measure, two_samples::mean_of(after));
   result.margin = margin_at(margin, result.baseline);
-  result.test = test_name(sample, over_rigs(trials));
+  result.test = test_name(sample, over_machines(trials));
   result.paired_proportion = sample.failures && sample.paired;
   if (!measure.proportion() && std::min(result.baseline_n, result.current_n) < min_values) {
     result.note =
-        fmt::format("fewer than {} {} have a value{}", min_values, over_rigs(trials) ? "machines" : "trials",
-                    trials.paired ? " in both files" : "");
+        fmt::format("fewer than {} {} have a value{}", min_values,
+                    over_machines(trials) ? "machines" : "trials", trials.paired ? " in both files" : "");
     return;
   }
   static_cast<two_samples::Change&>(result) = two_samples::change_of(sample, confidence, result.margin);
@@ -188,7 +190,7 @@ constexpr double judged_quantile = 0.95;
 QuantileSample times_of(const BothTrials& trials, const GateMeasure& measure) {
   const auto times = [&](const PointTrials& all) {
     return two_samples::ClusteredValues{all.of(measure), all.judged[measure.goal].asked_moves(all.moves),
-                                        all.rigs};
+                                        all.machines};
   };
   return {times(trials.baseline), times(trials.current), trials.paired, judged_quantile};
 }
@@ -197,14 +199,14 @@ void compare_quantile(Judgement& result, const GateMeasure& measure, const BothT
                       const GateMargin& margin, double confidence) {
   result.margin = margin_at(margin, statistics::unknown);
   const auto units = [](const PointTrials& all) {
-    return all.rigs > 0 ? std::min(all.rigs, all.trials) : all.trials;
+    return all.machines > 0 ? std::min(all.machines, all.trials) : all.trials;
   };
   result.baseline_n = units(trials.baseline);
   result.current_n = units(trials.current);
   result.test = fmt::format("{} % quantile of all moves of the goal, by the moves later than that of both{}",
-                            100.0 * judged_quantile, over_rigs(trials) ? ", over machines" : "");
+                            100.0 * judged_quantile, over_machines(trials) ? ", over machines" : "");
   if (std::min(result.baseline_n, result.current_n) < min_values) {
-    result.note = fmt::format("fewer than {} {}", min_values, over_rigs(trials) ? "machines" : "trials");
+    result.note = fmt::format("fewer than {} {}", min_values, over_machines(trials) ? "machines" : "trials");
     return;
   }
   const QuantileSample times = times_of(trials, measure);
@@ -224,9 +226,9 @@ statistics::ConfidenceInterval proportion_bounds(const two_samples::Sums& sums, 
   const std::int64_t hits = std::llround(sums[1]);
   const std::int64_t events = std::llround(sums[2]);
   if (clustered) {
-    const statistics::ClusterSums by_rig{std::llround(sums[0]), hits, events, sums[3], sums[4], sums[5]};
-    return {statistics::clustered_at_least(by_rig, low_confidence),
-            statistics::clustered_at_most(by_rig, high_confidence)};
+    const statistics::ClusterSums by_machine{std::llround(sums[0]), hits, events, sums[3], sums[4], sums[5]};
+    return {statistics::clustered_at_least(by_machine, low_confidence),
+            statistics::clustered_at_most(by_machine, high_confidence)};
   }
   return {statistics::clopper_pearson(hits, events, 2.0 * low_confidence - 1.0).low,
           statistics::clopper_pearson(hits, events, 2.0 * high_confidence - 1.0).high};
@@ -270,7 +272,7 @@ void judge_goal(Judgement& result, const GoalTrials& required, std::size_t claim
   const goal::Verdict verdict = goal::judge_goal(asked, required.counts, 1, claims);
   const bool machines = asked.machines.has_value();
   const goal::BoundedProportion& judged = machines ? verdict.machines : verdict.moves;
-  result.current_n = machines ? std::ssize(counts.rigs) : counts.moves;
+  result.current_n = machines ? std::ssize(counts.machines) : counts.moves;
   result.margin = machines ? *asked.machines : asked.moves;
   result.current = judged.value;
   result.bounds = {judged.low, judged.high};
@@ -290,20 +292,20 @@ void add_units(RequirementSample& sample, std::span<const double> hits, double e
   }
 }
 
-/// The moves of each rig or trial that meet the goal; if the goal asks for machines, whether the rig meets
-/// it. Where worlds take the place of rigs, by world.
+/// The moves of each machine or trial that meet the goal; if the goal asks for machines, whether the machine
+/// meets it. Where worlds take the place of machines, by world.
 RequirementSample goal_sample(const PointTrials& trials, const GoalTrials& counted) {
   const study::Goal& goal = counted.goal;
   RequirementSample sample{RequirementKind::goal, true, goal.machines.value_or(goal.moves), true};
   const auto asked = static_cast<double>(counted.asked_moves(trials.moves));
-  add_units(sample, counted.moves_in_goal, asked, counted.rigs);
-  for (std::size_t rig = 0; goal.machines && rig < sample.hits.size(); ++rig) {
-    sample.hits[rig] = sample.hits[rig] >= goal.moves * sample.events[rig] ? 1.0 : 0.0;
-    sample.events[rig] = 1.0;
+  add_units(sample, counted.moves_in_goal, asked, counted.machines);
+  for (std::size_t machine = 0; goal.machines && machine < sample.hits.size(); ++machine) {
+    sample.hits[machine] = sample.hits[machine] >= goal.moves * sample.events[machine] ? 1.0 : 0.0;
+    sample.events[machine] = 1.0;
   }
   const std::vector<double> hits = sample.hits;
   const std::vector<double> events = sample.events;
-  const auto groups = static_cast<std::size_t>(trials.rigs);
+  const auto groups = static_cast<std::size_t>(trials.machines);
   if (groups == 0 || groups >= hits.size()) return sample;
   sample.hits.assign(groups, 0.0);
   sample.events.assign(groups, 0.0);
@@ -328,7 +330,7 @@ std::vector<double> met_by_trial(const Requirement& requirement, const PointTria
 std::vector<GateMeasure> judged_measures(const GateRules& rules, const PointTrials& trials) {
   std::vector<JudgedGoal> goals;
   for (const GoalTrials& one : trials.judged)
-    goals.push_back({one.goal.name, one.goal.machines.has_value() && one.rigs > 0});
+    goals.push_back({one.goal.name, one.goal.machines.has_value() && one.machines > 0});
   return judged_measures(rules, *trials.table, goals);
 }
 
@@ -346,10 +348,10 @@ std::vector<Judgement> compare_measures(const GateRules& rules, const std::strin
       compare_sample(result, measure, trials, margin, rules.confidence);
     }
     if (measure.statistic == GateStatistic::machines) {
-      const std::int64_t of_rig = common_trials_of_rig(trials, measure.goal);
-      if (of_rig * trials.baseline.judged[measure.goal].rigs < trials.baseline.trials ||
-          of_rig * trials.current.judged[measure.goal].rigs < trials.current.trials)
-        result.note = fmt::format("by the first {} trials on each", of_rig);
+      const std::int64_t of_machine = common_trials_of_machine(trials, measure.goal);
+      if (of_machine * trials.baseline.judged[measure.goal].machines < trials.baseline.trials ||
+          of_machine * trials.current.judged[measure.goal].machines < trials.current.trials)
+        result.note = fmt::format("by the first {} trials on each", of_machine);
     }
     result.changed_fails = rules.changed_fails || margin.changed_fails;
   }
@@ -374,9 +376,10 @@ std::vector<Sample> measure_samples(const GateRules& rules, std::span<const Judg
 RequirementSample requirement_sample(const Requirement& requirement, const PointTrials& trials) {
   const RequirableQuantity& quantity = requirement.quantity;
   if (quantity.kind == RequirementKind::goal) return goal_sample(trials, trials.required[requirement.goal]);
-  RequirementSample sample{quantity.kind, requirement.at_least, requirement.limit, trials.rigs > 0};
+  RequirementSample sample{quantity.kind, requirement.at_least, requirement.limit, trials.machines > 0};
   if (quantity.kind == RequirementKind::mean) {
-    sample.hits = two_samples::known(means_of_units(values_of_trials(trials, quantity.measure), trials.rigs));
+    sample.hits =
+        two_samples::known(means_of_units(values_of_trials(trials, quantity.measure), trials.machines));
     sample.events.assign(sample.hits.size(), 1.0);
     return sample;
   }
@@ -384,7 +387,7 @@ RequirementSample requirement_sample(const Requirement& requirement, const Point
     sample.at_least = true;
     sample.limit = quantity.probability;
   }
-  add_units(sample, met_by_trial(requirement, trials), 1.0, trials.rigs);
+  add_units(sample, met_by_trial(requirement, trials), 1.0, trials.machines);
   return sample;
 }
 

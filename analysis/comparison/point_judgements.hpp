@@ -9,7 +9,7 @@
 #include "analysis/two_samples/continued_sample.hpp"
 
 /// The judgements on the trials of one design point: the values of the independent units, which are trials,
-/// or rigs or worlds where trials share these, and the tests of these values.
+/// or machines or worlds where trials share these, and the tests of these values.
 namespace zerocount::comparison {
 
 /// Minimum number of values in each file for the comparison of a mean. If fewer trials arrive, the proportion
@@ -52,7 +52,7 @@ struct RequirementSample {
   RequirementKind kind{RequirementKind::proportion};
   bool at_least{true};
   double limit{0.0};      ///< of the mean, or of the proportion of trials
-  bool clustered{false};  ///< the units are rigs
+  bool clustered{false};  ///< the units are machines
   /// [unit] trials that meet the requirement by themselves; or the value of a mean
   std::vector<double> hits{};
   std::vector<double> events{};  ///< [unit] trials; 1 of a mean

@@ -107,8 +107,8 @@ std::vector<double> values_of_trials(const PointTrials& trials, const GateMeasur
   return means;
 }
 
-std::vector<double> means_of_units(std::span<const double> values, std::int64_t rigs) {
-  const auto clusters = rigs > 0 ? static_cast<std::size_t>(rigs) : values.size();
+std::vector<double> means_of_units(std::span<const double> values, std::int64_t machines) {
+  const auto clusters = machines > 0 ? static_cast<std::size_t>(machines) : values.size();
   std::vector<double> means;
   for (std::size_t cluster = 0; cluster < clusters; ++cluster) {
     double sum = 0.0;

@@ -20,8 +20,8 @@ namespace zerocount::comparison {
 struct GoalTrials {
   study::Goal goal{};
   measures::CountedGoal counted{};
-  std::int64_t rigs{0};                 ///< number of rigs, also of a study with worlds; 0: none
-  measures::CellCounts counts{};        ///< of the shape that tells rigs and worlds apart
+  std::int64_t machines{0};             ///< number of machines, also of a study with worlds; 0: none
+  measures::CellCounts counts{};        ///< of the shape that tells machines and worlds apart
   std::vector<double> moves_in_goal{};  ///< [trial]
 
   /// Number of moves of a trial that it is about. @param moves of a trial
@@ -36,7 +36,8 @@ struct AlsoRead {
   std::vector<GoalTrials> required{};  ///< by the goals that a requirement asks for
   std::vector<GoalTrials> judged{};    ///< by the goals whose measures are judged
   std::size_t claims{1};  ///< on a design point: goals times conditions, all of which must be met
-  std::int64_t rigs{0};   ///< number of rigs, or of worlds: trial i on rig i mod rigs; 0: no trials share one
+  std::int64_t machines{
+      0};  ///< number of machines, or of worlds: trial i on machine i mod machines; 0: no trials share one
 };
 
 /// The compared values of the trials of one design point.
@@ -69,17 +70,17 @@ PointTrials read_point_trials(const reading::AllTrialsFile& file, std::int64_t p
 /// The first `trials` of them. `undecided` stays that of all.
 PointTrials first_trials(const PointTrials& all, std::int64_t trials);
 
-/// For each trial the mean over its moves with a value; NaN where none has. For settling_time this is the
+/// For each trial the mean over its moves with a value; NaN where none has. For arrival_time this is the
 /// mean settling time of the moves, not the settling time of the trial (worst_of_moves()).
 std::vector<double> values_of_trials(const PointTrials& trials, const GateMeasure& measure);
 
-/// Mean over the trials of each rig, ignoring NaN; NaN for a rig without a value. Without rigs the values
-/// themselves.
+/// Mean over the trials of each machine, ignoring NaN; NaN for a machine without a value. Without machines
+/// the values themselves.
 /// @param values [trial]
-std::vector<double> means_of_units(std::span<const double> values, std::int64_t rigs);
+std::vector<double> means_of_units(std::span<const double> values, std::int64_t machines);
 
 /// The worst value of the moves of each trial, [trial]; infinitely bad if a move has no value. For
-/// settling_time this is the settling time of the trial.
+/// arrival_time this is the settling time of the trial.
 std::vector<double> worst_of_moves(const PointTrials& trials, const GateMeasure& measure);
 
 }  // namespace zerocount::comparison

@@ -176,8 +176,9 @@ std::vector<GoalTrials> counted_in(const ComparedStudy& study, const std::vector
                                 "tolerance or limits; expected a study that measures them, or measures "
                                 "without the goal",
                                 study.file.path().string(), goal::goal_sentence(goal)));
-    const std::int64_t rigs = whole_value(study, "rigs");
-    all.push_back({goal, *counted, rigs, measures::CellCounts({rigs, whole_value(study, "worlds"), 0})});
+    const std::int64_t machines = whole_value(study, "machines");
+    all.push_back(
+        {goal, *counted, machines, measures::CellCounts({machines, whole_value(study, "worlds"), 0})});
   }
   return all;
 }
@@ -229,7 +230,7 @@ void take_goals(StudyPair& pair, const GateRules& rules) {
 }
 
 /// Finds how many trials of each point are compared, and which of them are independent. Where two studies
-/// have different worlds, the trials of a world are not; else those of a rig.
+/// have different worlds, the trials of a world are not; else those of a machine.
 void take_trials(StudyPair& pair, const GateRules& rules) {
   const std::string before = value_or(pair.baseline.values, "worlds", "0");
   const std::string after = value_or(pair.current.values, "worlds", "0");
@@ -238,10 +239,10 @@ void take_trials(StudyPair& pair, const GateRules& rules) {
   pair.other_worlds = before != after || (after != "0" && !same_seed);
   for (ComparedStudy* study : {&pair.baseline, &pair.current}) {
     const std::int64_t worlds = whole_value(*study, "worlds");
-    study->rigs = pair.other_worlds && worlds > 0 ? worlds : whole_value(*study, "rigs");
-    study->also.rigs = study->rigs;
+    study->machines = pair.other_worlds && worlds > 0 ? worlds : whole_value(*study, "machines");
+    study->also.machines = study->machines;
     const AllTrialsFile under = study->trials_of(pair.points.front());
-    study->trials = std::min(under.header().trials, std::max(trial_limit(rules, under), study->rigs));
+    study->trials = std::min(under.header().trials, std::max(trial_limit(rules, under), study->machines));
   }
 }
 
@@ -351,7 +352,7 @@ DrawComparison compare_draws(const StudyPair& pair) {
   if (baseline.header().seed != current.header().seed) return {false, "the seeds differ"};
   for (const auto& [key, absent] :
        {std::pair{"design", "monte_carlo"}, std::pair{"independent_points", "false"},
-        std::pair{"worlds", "0"}, std::pair{"rigs", "0"}}) {
+        std::pair{"worlds", "0"}, std::pair{"machines", "0"}}) {
     if (differ(key, absent)) return {false, fmt::format("the manifests differ in {}", key)};
   }
   DrawComparison result{true, "trial i drew the same random numbers in both"};

@@ -27,7 +27,7 @@ struct ComparedStudy {
   const reading::AllTrialsFile& file;
   manifest_text::ManifestValues values{};
   std::vector<std::int64_t> under{};  ///< Indices of the conditions, in the order of the baseline.
-  std::int64_t rigs{0};               ///< or worlds that take their place; 0: each trial is independent
+  std::int64_t machines{0};           ///< or worlds that take their place; 0: each trial is independent
   std::int64_t trials{0};             ///< of each point (under each condition) that are compared, its first
   AlsoRead also{};  ///< what is read beside the gate measures: what goals and requirements need
 
@@ -44,7 +44,7 @@ struct StudyPair {
   std::vector<MatchedPoint> points{};
   std::int64_t conditions{1};        ///< under each of which a design point is compared
   bool in_worlds{false};             ///< a study has worlds
-  bool other_worlds{false};          ///< and not the same ones: these take the place of rigs
+  bool other_worlds{false};          ///< and not the same ones: these take the place of machines
   std::vector<study::Goal> goals{};  ///< by which the points are judged
   bool goals_of_baseline{false};     ///< they are those of the baseline's manifest
 };

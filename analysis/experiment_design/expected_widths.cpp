@@ -44,7 +44,7 @@ Machine median_machine(const study::Study& study, std::int64_t point) {
 }
 
 std::vector<Machine> drawn_machines(const study::Study& study, std::int64_t point, std::int64_t count) {
-  count = std::min(count, study.rigs > 0 ? study.rigs : study.trials);
+  count = std::min(count, study.machines > 0 ? study.machines : study.trials);
   std::vector<Machine> machines;
   for (std::int64_t index = 0; index < count; ++index)
     machines.push_back(machine_of(study, study::study_trial(study, point, index)));

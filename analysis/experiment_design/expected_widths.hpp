@@ -25,8 +25,8 @@ struct Machine {
 /// The machine with the median of each quantity that the manifest draws.
 Machine median_machine(const study::Study& study, std::int64_t point);
 
-/// The first `count` machines of the study at the point: its rigs, or the trials of a study without rigs. All
-/// of them if there are fewer.
+/// The first `count` machines of the study at the point: its machines, or the trials of a study without
+/// machines. All of them if there are fewer.
 std::vector<Machine> drawn_machines(const study::Study& study, std::int64_t point, std::int64_t count);
 
 /// The record of a machine under a protocol.

@@ -8,7 +8,7 @@
 
 #include "analysis/goal/goal_verdict.hpp"
 #include "analysis/statistics/clusters/clustered_proportion.hpp"
-#include "analysis/statistics/clusters/rig_proportion.hpp"
+#include "analysis/statistics/clusters/machine_proportion.hpp"
 #include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "core/numerics/roots.hpp"
@@ -19,13 +19,13 @@ namespace {
 using numerics::first_where;
 
 constexpr std::int64_t max_trials = 1'000'000'000;
-constexpr std::int64_t max_rigs = 100'000;
+constexpr std::int64_t max_machines = 100'000;
 
 std::int64_t scaled(std::int64_t number, double factor) {
   return std::llround(static_cast<double>(number) * factor);
 }
 
-/// The counts of a study without rigs that is `factor` times as large, with the same proportions.
+/// The counts of a study without machines that is `factor` times as large, with the same proportions.
 measures::MoveCounts larger_study(const measures::MoveCounts& counts, double factor) {
   measures::MoveCounts larger;
   larger.moves = scaled(counts.moves, factor);
@@ -40,17 +40,17 @@ measures::MoveCounts larger_study(const measures::MoveCounts& counts, double fac
   return larger;
 }
 
-/// The counts of a study on so many rigs with the proportions of the observed ones: rig i stands for the
-/// quantile (i + ½)/rigs of the rigs in order of their moves that meet the goal.
-measures::MoveCounts rigs_like(std::vector<statistics::RigMoves> sorted, std::int64_t rigs) {
+/// The counts of a study on so many machines with the proportions of the observed ones: machine i stands for
+/// the quantile (i + ½)/machines of the machines in order of their moves that meet the goal.
+measures::MoveCounts machines_like(std::vector<statistics::MachineMoves> sorted, std::int64_t machines) {
   measures::MoveCounts counts;
-  for (std::int64_t i = 0; i < rigs; ++i) {
-    const double place = (static_cast<double>(i) + 0.5) / static_cast<double>(rigs);
+  for (std::int64_t i = 0; i < machines; ++i) {
+    const double place = (static_cast<double>(i) + 0.5) / static_cast<double>(machines);
     const auto index = static_cast<std::size_t>(place * static_cast<double>(sorted.size()));
-    const statistics::RigMoves& rig = sorted[std::min(index, sorted.size() - 1)];
-    counts.rigs.push_back(rig);
-    counts.moves += rig.moves;
-    counts.met += rig.met;
+    const statistics::MachineMoves& machine = sorted[std::min(index, sorted.size() - 1)];
+    counts.machines.push_back(machine);
+    counts.moves += machine.moves;
+    counts.met += machine.met;
   }
   return counts;
 }
@@ -63,12 +63,12 @@ std::int64_t smallest(std::int64_t low, std::int64_t high, const Decides& decide
   return found <= high ? found : 0;
 }
 
-constexpr std::int64_t max_more_trials = 1024;  ///< times the trials of a rig that are observed
+constexpr std::int64_t max_more_trials = 1024;  ///< times the trials of a machine that are observed
 
 /// Size of one world of a planned study, or of a study without worlds.
 struct PlannedSize {
-  std::int64_t units{0};             ///< rigs, or trials without rigs
-  std::int64_t more_on_each_rig{1};  ///< trials of a rig, as a multiple of those observed
+  std::int64_t units{0};                 ///< machines, or trials without machines
+  std::int64_t more_on_each_machine{1};  ///< trials of a machine, as a multiple of those observed
 };
 
 /// Probabilities of the verdicts that a planned study will have.
@@ -84,10 +84,10 @@ struct Chances {
 ///
 /// Events are moves, as many as the clusters observed are worth. Without a miss, or without a hit, nothing
 /// tells how clusters differ, and each move is one; the bounds of the planned study count its clusters: with
-/// e1 of a rig of m moves, a rig of c·m moves is worth 1/(1/e1 − 1/m + 1/(c·m)). For a goal on machines the
-/// planned rigs are like those observed, each of which meets the goal in its moves as often as observed: the
-/// bounds of rig_proportion.hpp leave a range of proportions open that no study decides, so that what is
-/// likely cannot be decided with any probability.
+/// e1 of a machine of m moves, a machine of c·m moves is worth 1/(1/e1 − 1/m + 1/(c·m)). For a goal on
+/// machines the planned machines are like those observed, each of which meets the goal in its moves as often
+/// as observed: the bounds of machine_proportion.hpp leave a range of proportions open that no study decides,
+/// so that what is likely cannot be decided with any probability.
 class ObservedWorld {
  public:
   /// @param counts of one world, with moves @param points, parts as of judge_goal()
@@ -100,7 +100,7 @@ class ObservedWorld {
         confidence_high_(statistics::confidence_of_each(goal.confidence, points * parts)),
         sums_(measures::clusters_of(counts_)) {
     if (goal_.machines) {
-      for (const statistics::RigMoves& rig : counts_.rigs) ++machines_[rig.met];
+      for (const statistics::MachineMoves& machine : counts_.machines) ++machines_[machine.met];
       return;
     }
     worth_ = sums_.hits > 0 && sums_.hits < sums_.events ? statistics::effective_events(sums_)
@@ -131,7 +131,7 @@ class ObservedWorld {
     const double worth = std::min(moves, worth_ / clusters);
     const double between = 1.0 / worth - 1.0 / moves;
     const double events = static_cast<double>(planned.units) /
-                          (between + 1.0 / (moves * static_cast<double>(planned.more_on_each_rig)));
+                          (between + 1.0 / (moves * static_cast<double>(planned.more_on_each_machine)));
     if (sums_.clusters == sums_.events) return events;
     // The bounds use Student's distribution, because the differences between clusters are estimated.
     const double t =
@@ -146,7 +146,7 @@ class ObservedWorld {
     const auto verdict = [&](std::int64_t hits) {
       const auto k = static_cast<double>(hits);
       const measures::MoveCounts counts{
-          .moves = n, .met = hits, .of_trials = {n, hits, n, k, k, static_cast<double>(n)}, .rigs = {}};
+          .moves = n, .met = hits, .of_trials = {n, hits, n, k, k, static_cast<double>(n)}, .machines = {}};
       return judge_goal(goal_, counts, points_, parts_);
     };
     const auto clusters = static_cast<double>(planned.units);
@@ -166,40 +166,41 @@ class ObservedWorld {
     return {chance_of_at_least(n, met), 1.0 - chance_of_at_least(n, not_missed)};
   }
 
-  /// So many of the rigs observed would show `met` or more moves that meet the goal.
-  double rigs_passing(std::int64_t met, std::int64_t more) {
+  /// So many of the machines observed would show `met` or more moves that meet the goal.
+  double machines_passing(std::int64_t met, std::int64_t more) {
     const auto [at, is_new] = passing_.try_emplace({met, more}, 0.0);
     if (!is_new) return at->second;
-    const std::int64_t moves = counts_.rigs.front().moves;
-    for (const auto& [observed, rigs] : machines_) {
+    const std::int64_t moves = counts_.machines.front().moves;
+    for (const auto& [observed, machines] : machines_) {
       const double chance = met <= 0 ? 1.0
                                      : statistics::binomial_upper_tail(
                                            moves * more, statistics::rate(observed, moves), met - 1);
-      at->second += static_cast<double>(rigs) * chance;
+      at->second += static_cast<double>(machines) * chance;
     }
     return at->second;
   }
 
   /// The chance of the mark that shows best what is wanted: that of any of them is not smaller.
   Chances of_machines(const PlannedSize& planned) {
-    const statistics::RigMoves& rig = counts_.rigs.front();
-    const statistics::RigStudy study{planned.units, rig.trials * planned.more_on_each_rig,
-                                     rig.moves * planned.more_on_each_rig};
-    const auto observed = static_cast<double>(counts_.rigs.size());
-    const auto chance = [&](const statistics::RigBound::Enough& enough, double passing) {
-      if (enough.rigs > study.rigs) return 0.0;
-      return statistics::binomial_upper_tail(study.rigs, std::clamp(passing / observed, 0.0, 1.0),
-                                             enough.rigs - 1);
+    const statistics::MachineMoves& machine = counts_.machines.front();
+    const statistics::MachineStudy study{planned.units, machine.trials * planned.more_on_each_machine,
+                                         machine.moves * planned.more_on_each_machine};
+    const auto observed = static_cast<double>(counts_.machines.size());
+    const auto chance = [&](const statistics::MachineBound::Enough& enough, double passing) {
+      if (enough.machines > study.machines) return 0.0;
+      return statistics::binomial_upper_tail(study.machines, std::clamp(passing / observed, 0.0, 1.0),
+                                             enough.machines - 1);
     };
     Chances chances;
-    const statistics::RigClaim met{goal_.moves, *goal_.machines, confidence_low_};
-    for (const auto& enough : statistics::RigBound(study, met).enough())
-      chances.met = std::max(chances.met, chance(enough, rigs_passing(enough.met, planned.more_on_each_rig)));
-    const statistics::RigClaim missed =
+    const statistics::MachineClaim met{goal_.moves, *goal_.machines, confidence_low_};
+    for (const auto& enough : statistics::MachineBound(study, met).enough())
+      chances.met =
+          std::max(chances.met, chance(enough, machines_passing(enough.met, planned.more_on_each_machine)));
+    const statistics::MachineClaim missed =
         statistics::of_missing({goal_.moves, *goal_.machines, confidence_high_});
-    for (const auto& enough : statistics::RigBound(study, missed).enough()) {
+    for (const auto& enough : statistics::MachineBound(study, missed).enough()) {
       const std::int64_t at_most = study.moves - enough.met;
-      const double missing = observed - rigs_passing(at_most + 1, planned.more_on_each_rig);
+      const double missing = observed - machines_passing(at_most + 1, planned.more_on_each_machine);
       chances.missed = std::max(chances.missed, chance(enough, missing));
     }
     return chances;
@@ -215,7 +216,7 @@ class ObservedWorld {
   std::array<double, 100> likely_{};  ///< equally probable values of π
   std::map<std::int64_t, std::int64_t>
       machines_{};  ///< number of those with so many moves that meet the goal
-  std::map<std::pair<std::int64_t, std::int64_t>, double> passing_{};  ///< rigs_passing()
+  std::map<std::pair<std::int64_t, std::int64_t>, double> passing_{};  ///< machines_passing()
 };
 
 /// One claim: a goal, under one condition, in all worlds. Worlds in which the same was observed have the same
@@ -225,12 +226,12 @@ class ObservedClaim {
   /// @param claims of the study, of which this is one
   ObservedClaim(const study::Goal& goal, const std::vector<measures::MoveCounts>& worlds, std::size_t points,
                 std::size_t claims) {
-    std::map<std::array<double, 3>, std::size_t> known;  // of worlds without rigs
+    std::map<std::array<double, 3>, std::size_t> known;  // of worlds without machines
     for (const measures::MoveCounts& world : worlds) {
       const std::array<double, 3> key{static_cast<double>(world.met), static_cast<double>(world.moves),
                                       world.of_trials.hits_squared};
       const auto [at, is_new] = known.try_emplace(key, different_.size());
-      if (!is_new && world.rigs.empty()) {
+      if (!is_new && world.machines.empty()) {
         ++different_[at->second].second;
       } else {
         different_.emplace_back(ObservedWorld(goal, world, points, claims * worlds.size()), 1);
@@ -266,7 +267,7 @@ class ObservedStudy {
         has_moves_ = has_moves_ && std::ranges::all_of(worlds, [](const auto& of) { return of.moves > 0; });
         if (!has_moves_) return;
         worlds_ = std::ssize(worlds);
-        if (!worlds.front().rigs.empty()) trials_of_rig_ = worlds.front().rigs.front().trials;
+        if (!worlds.front().machines.empty()) trials_of_machine_ = worlds.front().machines.front().trials;
         claims_.emplace_back(goals[i], worlds, points, goals.size() * static_cast<std::size_t>(conditions_));
       }
     }
@@ -275,7 +276,9 @@ class ObservedStudy {
   bool has_moves() const { return has_moves_; }
   std::int64_t worlds() const { return worlds_; }
   std::int64_t conditions() const { return conditions_; }
-  std::int64_t trials_of_rig() const { return trials_of_rig_; }  ///< under one condition; 0 without rigs
+  std::int64_t trials_of_machine() const {
+    return trials_of_machine_;
+  }  ///< under one condition; 0 without machines
 
   /// Probability that a study whose worlds have this size is decided, at least, whatever the claims have in
   /// common: it is if no claim is undecided, or if one is missed.
@@ -292,20 +295,20 @@ class ObservedStudy {
 
  private:
   std::vector<ObservedClaim> claims_{};
-  std::int64_t worlds_{1}, conditions_{1}, trials_of_rig_{0};
+  std::int64_t worlds_{1}, conditions_{1}, trials_of_machine_{0};
   bool has_moves_{true};
 };
 
-/// The smallest number of machines, or without rigs of trials, that meets the goal if no move misses it; 0 if
-/// there is none. @param trials on each; 0: no trials share a rig
+/// The smallest number of machines, or without machines of trials, that meets the goal if no move misses it;
+/// 0 if there is none. @param trials on each; 0: no trials share a machine
 std::int64_t smallest_without_miss(const AskedGoal& asked, std::int64_t trials, std::size_t points) {
   const auto met = [&](const measures::MoveCounts& counts) {
     return judge_goal(asked.goal, counts, points).status == Status::met;
   };
   const std::int64_t moves = asked.moves;
   if (trials > 0) {
-    const std::vector<statistics::RigMoves> rig{{trials, trials * moves, trials * moves}};
-    return smallest(2, max_rigs, [&](std::int64_t n) { return met(rigs_like(rig, n)); });
+    const std::vector<statistics::MachineMoves> machine{{trials, trials * moves, trials * moves}};
+    return smallest(2, max_machines, [&](std::int64_t n) { return met(machines_like(machine, n)); });
   }
   const statistics::ClusterSums of_one = {.clusters = 1,
                                           .hits = moves,
@@ -332,20 +335,21 @@ std::vector<Needs> deciding_studies(std::span<const study::Goal> goals,
     });
   };
   std::vector<Needs> studies;
-  if (observed.trials_of_rig() == 0) {
+  if (observed.trials_of_machine() == 0) {
     const std::int64_t trials = worlds * observed.conditions() * smallest_with(max_trials / worlds, 1);
     if (trials > 0) studies.push_back({0, trials});
     return studies;
   }
-  // More trials on each rig are needed where those observed cannot tell rigs that meet the goal from others.
+  // More trials on each machine are needed where those observed cannot tell machines that meet the goal from
+  // others.
   const bool has_machines =
       std::ranges::any_of(goals, [](const study::Goal& goal) { return goal.machines.has_value(); });
   for (std::int64_t more = 1; more <= max_more_trials; more *= 2) {
-    const std::int64_t each = more * observed.trials_of_rig() * observed.conditions();
-    const std::int64_t most = studies.empty() ? max_rigs : studies.back().rigs / worlds - 1;
-    const std::int64_t rigs = smallest_with(std::min(most, max_trials / each / worlds), more);
-    if (rigs > 0) studies.push_back({rigs * worlds, rigs * each * worlds});
-    if (!studies.empty() && (!has_machines || rigs == 0)) break;
+    const std::int64_t each = more * observed.trials_of_machine() * observed.conditions();
+    const std::int64_t most = studies.empty() ? max_machines : studies.back().machines / worlds - 1;
+    const std::int64_t machines = smallest_with(std::min(most, max_trials / each / worlds), more);
+    if (machines > 0) studies.push_back({machines * worlds, machines * each * worlds});
+    if (!studies.empty() && (!has_machines || machines == 0)) break;
   }
   return studies;
 }
@@ -365,8 +369,8 @@ std::vector<Needs> smallest_studies(std::span<const AskedGoal> goals, const Stud
   const std::int64_t worlds = std::max<std::int64_t>(shape.worlds, 1);
   std::vector<Needs> studies;
   const std::vector<std::int64_t> on_each =
-      shape.on_rigs ? std::vector<std::int64_t>{1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000}
-                    : std::vector<std::int64_t>{0};
+      shape.on_machines ? std::vector<std::int64_t>{1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000}
+                        : std::vector<std::int64_t>{0};
   for (const std::int64_t trials : on_each) {
     std::int64_t units = 0;
     bool can_be_met = true;
@@ -377,9 +381,9 @@ std::vector<Needs> smallest_studies(std::span<const AskedGoal> goals, const Stud
     }
     if (!can_be_met) continue;
     units *= worlds;
-    if (!shape.on_rigs) {
+    if (!shape.on_machines) {
       studies.push_back({0, units * shape.conditions});
-    } else if (studies.empty() || units < studies.back().rigs) {
+    } else if (studies.empty() || units < studies.back().machines) {
       studies.push_back({units, units * trials * shape.conditions});
     }
   }

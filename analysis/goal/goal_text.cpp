@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "analysis/statistics/clusters/rig_proportion.hpp"
+#include "analysis/statistics/clusters/machine_proportion.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/statistics/sample_size.hpp"
 #include "analysis/text/text.hpp"
@@ -91,9 +91,9 @@ std::string indented(const std::string& line) {
   return line.empty() ? line : "  " + line;
 }
 
-/// Rigs, and the trials and moves of one of them. @param counts of trials on rigs
-statistics::RigStudy shape_of(const measures::MoveCounts& counts) {
-  return {std::ssize(counts.rigs), counts.rigs.front().trials, counts.rigs.front().moves};
+/// Machines, and the trials and moves of one of them. @param counts of trials on machines
+statistics::MachineStudy shape_of(const measures::MoveCounts& counts) {
+  return {std::ssize(counts.machines), counts.machines.front().trials, counts.machines.front().moves};
 }
 
 /// The readings of a study with worlds: the worst world, and the worlds by their verdicts.
@@ -112,15 +112,15 @@ std::string readings_of_worlds(const study::Goal& goal, const measures::MoveCoun
   text +=
       fmt::format("  moves that meet it: {} in world {}, the worst; in the worst of all {}\n",
                   text::percent_near(verdict.worlds[worst].moves.value), worst, with_bounds(verdict.moves));
-  return counts.rigs.empty() ? text : text + indented(one_machine_text(goal, shape_of(counts), verdict));
+  return counts.machines.empty() ? text : text + indented(one_machine_text(goal, shape_of(counts), verdict));
 }
 
-/// The rigs that meet all claims together, a line; empty where only one claim is on machines.
+/// The machines that meet all claims together, a line; empty where only one claim is on machines.
 std::string together_text(const Question& question, const measures::PointSummary& point) {
-  const auto all = rigs_meeting_all(question, point);
+  const auto all = machines_meeting_all(question, point);
   if (!all) return {};
   return fmt::format("  machines that meet all claims on machines together: {} of {}, as observed\n",
-                     all->rigs, all->of);
+                     all->machines, all->of);
 }
 
 }  // namespace
@@ -218,22 +218,22 @@ std::string readings_text(const study::Goal& goal, const measures::MoveCounts& c
   std::string text = fmt::format("  of all moves of all machines, {} meet it: {} of {}, {}\n",
                                  text::percentage(counts.met, counts.moves), counts.met, counts.moves,
                                  with_bounds(verdict.moves));
-  if (counts.rigs.empty()) return text;
-  const std::int64_t rigs = std::ssize(counts.rigs);
-  const std::int64_t moves = counts.rigs.front().moves;
+  if (counts.machines.empty()) return text;
+  const std::int64_t machines = std::ssize(counts.machines);
+  const std::int64_t moves = counts.machines.front().moves;
   text += fmt::format("  machines without a miss in their {}: {} of {}", text::counted(moves, "move"),
-                      verdict.rigs_without_miss, rigs);
+                      verdict.machines_without_miss, machines);
   if (!goal.machines) return text + '\n';
   text += fmt::format("; {} of all machines\n", with_bounds(verdict.without_miss));
   text += fmt::format(
       "  machines that meet it in at least {} of their moves: {} of {} by their {}; {} of all "
       "machines\n",
-      text::percent(goal.moves), verdict.rigs_meeting, rigs, text::counted(moves, "move"),
+      text::percent(goal.moves), verdict.machines_meeting, machines, text::counted(moves, "move"),
       with_bounds(verdict.machines));
   return text + indented(one_machine_text(goal, shape_of(counts), verdict));
 }
 
-std::string one_machine_text(const study::Goal& goal, const statistics::RigStudy& study,
+std::string one_machine_text(const study::Goal& goal, const statistics::MachineStudy& study,
                              const ClaimVerdict& verdict) {
   if (!goal.machines || verdict.status != Status::undecided) return {};
   const double at_limit = statistics::chance_to_show(study, goal.moves, study.moves);
@@ -252,26 +252,26 @@ std::string one_machine_text(const study::Goal& goal, const statistics::RigStudy
   };
   const double alike = numerics::bisect({goal.moves, 0.0}, can_be_alike, numerics::within(1e-9)).holds;
   const double shown = std::ceil(1e4 * alike) * 1e-4;
-  if (verdict.rigs_without_miss > 0 && at_limit >= verdict.without_miss.low && shown < goal.moves)
-    text += fmt::format("; all {} machines that had none may be at {}", verdict.rigs_without_miss,
+  if (verdict.machines_without_miss > 0 && at_limit >= verdict.without_miss.low && shown < goal.moves)
+    text += fmt::format("; all {} machines that had none may be at {}", verdict.machines_without_miss,
                         text::percent(shown));
   return text + '\n';
 }
 
-std::string needs_sentence(const study::Goal& goal, const Needs& needs, bool on_rigs) {
+std::string needs_sentence(const study::Goal& goal, const Needs& needs, bool on_machines) {
   const std::string chance = text::percent(probability_of_needs);
   if (needs.trials == 0) {
     return fmt::format(
         "The proportion is so close to the goal that no study of up to 10⁹ trials{} decides it with a "
         "probability of {}",
-        on_rigs ? " on 10⁵ machines" : "", chance);
+        on_machines ? " on 10⁵ machines" : "", chance);
   }
-  if (needs.rigs == 0)
+  if (needs.machines == 0)
     return fmt::format("About {} decide it with a probability of {}, by what these leave likely",
                        text::counted(needs.trials, "trial"), chance);
-  const std::int64_t each = needs.trials / needs.rigs;
+  const std::int64_t each = needs.trials / needs.machines;
   return fmt::format("About {} with {} each decide it with a probability of {}, {}",
-                     text::counted(needs.rigs, "machine"), text::counted(each, "trial"), chance,
+                     text::counted(needs.machines, "machine"), text::counted(each, "trial"), chance,
                      goal.machines ? "if machines are as these" : "by what these leave likely");
 }
 
@@ -284,7 +284,7 @@ std::vector<std::string> status_words() {
 
 document::Description<Needs> needs_description() {
   return document::Description<Needs>()
-      .value(document::in_data("rigs", "machines; 0 without machines"), &Needs::rigs)
+      .value(document::in_data("machine_count", "number of machines; 0 without machines"), &Needs::machines)
       .value(document::in_data("trials", "trials of a design point"), &Needs::trials);
 }
 

@@ -7,7 +7,7 @@
 #include "analysis/document/description.hpp"
 #include "analysis/goal/goal_verdict.hpp"
 #include "analysis/goal/question.hpp"
-#include "analysis/statistics/clusters/rig_proportion.hpp"
+#include "analysis/statistics/clusters/machine_proportion.hpp"
 
 namespace zerocount::goal {
 
@@ -27,8 +27,8 @@ std::string claim_sentence(const Question& question);
 /// "the goal: |error| ≤ 1 count …", "success: all moves of a trial end at zero counts".
 std::string question_sentence(const Question& question);
 
-/// The readings of the proportions, a line each: of all moves of all machines; with rigs, of machines that
-/// meet the goal in Goal::moves of their moves, and of rigs without a miss.
+/// The readings of the proportions, a line each: of all moves of all machines; with machines, of machines
+/// that meet the goal in Goal::moves of their moves, and of machines without a miss.
 std::string readings_text(const study::Goal& goal, const measures::MoveCounts& counts,
                           const ClaimVerdict& verdict);
 
@@ -49,12 +49,12 @@ std::string ending_text(const Question& question, std::span<const trial::MoveOut
 /// "40 moves in 10 trials cannot show 99 % of one machine: 299 trials without a miss are needed; …": what the
 /// moves of one machine lack, a line. Empty where a machine without a miss is shown to meet the goal, where
 /// the verdict is decided, and where the goal is not about machines. @param study of the moves that are asked
-std::string one_machine_text(const study::Goal& goal, const statistics::RigStudy& study,
+std::string one_machine_text(const study::Goal& goal, const statistics::MachineStudy& study,
                              const ClaimVerdict& verdict);
 
-/// "About 300 rigs with 100 trials each decide it with a probability of 90 %, …", or that no study does.
-/// @param on_rigs whether trials share rigs
-std::string needs_sentence(const study::Goal& goal, const Needs& needs, bool on_rigs);
+/// "About 300 machines with 100 trials each decide it with a probability of 90 %, …", or that no study does.
+/// @param on_machines whether trials share machines
+std::string needs_sentence(const study::Goal& goal, const Needs& needs, bool on_machines);
 
 /// "met", "missed", "undecided": the words of text_of().
 std::vector<std::string> status_words();
@@ -64,7 +64,7 @@ inline document::Bounded bounded(const BoundedProportion& proportion) {
   return {proportion.value, proportion.low, proportion.high};
 }
 
-/// Rigs and trials; for data only, because needs_sentence() says them.
+/// Machines and trials; for data only, because needs_sentence() says them.
 document::Description<Needs> needs_description();
 /// The moves of the load that meet a goal of the motor (ClaimVerdict::of_load).
 document::Description<BoundedProportion> load_description();

@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "analysis/statistics/clusters/clustered_proportion.hpp"
-#include "analysis/statistics/clusters/rig_proportion.hpp"
+#include "analysis/statistics/clusters/machine_proportion.hpp"
 
 namespace zerocount::goal {
 namespace {
@@ -34,23 +34,24 @@ WorldVerdict judge_world(const study::Goal& goal, const measures::MoveCounts& co
   verdict.moves = {statistics::rate(counts.met, counts.moves),
                    statistics::clustered_at_least(clusters, confidence.low),
                    statistics::clustered_at_most(clusters, confidence.high)};
-  verdict.rigs_without_miss =
-      std::count_if(counts.rigs.begin(), counts.rigs.end(),
-                    [](const statistics::RigMoves& rig) { return rig.met == rig.moves; });
+  verdict.machines_without_miss =
+      std::count_if(counts.machines.begin(), counts.machines.end(),
+                    [](const statistics::MachineMoves& machine) { return machine.met == machine.moves; });
   if (!goal.machines) {
     verdict.status = status_of(verdict.moves, goal.moves);
     return verdict;
   }
-  const auto rigs = [&](double one) {
-    return statistics::rig_proportion(counts.rigs, {goal.moves, *goal.machines, one});
+  const auto machines = [&](double one) {
+    return statistics::machine_proportion(counts.machines, {goal.moves, *goal.machines, one});
   };
-  const statistics::RigProportion low = rigs(confidence.low);
-  const double high = confidence.high == confidence.low ? low.high : rigs(confidence.high).high;
-  verdict.rigs_meeting = low.meeting;
-  const std::int64_t all = std::ssize(counts.rigs);
-  verdict.without_miss = {statistics::rate(verdict.rigs_without_miss, all),
-                          statistics::proportion_at_least(verdict.rigs_without_miss, all, confidence.low),
-                          statistics::proportion_at_most(verdict.rigs_without_miss, all, confidence.high)};
+  const statistics::MachineProportion low = machines(confidence.low);
+  const double high = confidence.high == confidence.low ? low.high : machines(confidence.high).high;
+  verdict.machines_meeting = low.meeting;
+  const std::int64_t all = std::ssize(counts.machines);
+  verdict.without_miss = {
+      statistics::rate(verdict.machines_without_miss, all),
+      statistics::proportion_at_least(verdict.machines_without_miss, all, confidence.low),
+      statistics::proportion_at_most(verdict.machines_without_miss, all, confidence.high)};
   verdict.machines = {statistics::rate(low.meeting, all), low.low, high};
   verdict.status = status_of(verdict.machines, *goal.machines);
   return verdict;
@@ -86,8 +87,8 @@ ClaimVerdict judge_claim(const study::Goal& goal, std::span<const measures::Move
     verdict.moves = first ? one.moves : lowest(verdict.moves, one.moves);
     verdict.machines = first ? one.machines : lowest(verdict.machines, one.machines);
     verdict.without_miss = first ? one.without_miss : lowest(verdict.without_miss, one.without_miss);
-    verdict.rigs_meeting += one.rigs_meeting;
-    verdict.rigs_without_miss += one.rigs_without_miss;
+    verdict.machines_meeting += one.machines_meeting;
+    verdict.machines_without_miss += one.machines_without_miss;
     verdict.worlds.push_back(one);
   }
   const double wanted = goal.machines.value_or(goal.moves);
@@ -180,11 +181,6 @@ const ClaimVerdict& worst_where(const Verdict& verdict,
 
 const ClaimVerdict& worst_of_goal(const Verdict& verdict, std::size_t goal) {
   return worst_where(verdict, [goal](const ClaimVerdict& claim) { return claim.goal == goal; });
-}
-
-const ClaimVerdict& worst_under(const Verdict& verdict, std::size_t condition) {
-  return worst_where(verdict,
-                     [condition](const ClaimVerdict& claim) { return claim.condition == condition; });
 }
 
 std::vector<std::size_t> worst_worlds_first(const study::Goal& goal, const ClaimVerdict& verdict) {

@@ -40,12 +40,13 @@ BoundedProportion lowest(const BoundedProportion& a, const BoundedProportion& b)
 /// The moves, or machines, of one world that meet the goal.
 struct WorldVerdict {
   Status status{Status::undecided};
-  BoundedProportion moves;     ///< of all moves of all axes that meet the goal (clustered_proportion.hpp)
-  BoundedProportion machines;  ///< of axes that meet it in Goal::moves of their moves (rig_proportion.hpp);
-                               ///< NaN, 0 and 1 where the goal does not ask for machines
-  BoundedProportion without_miss;     ///< of all axes, in as many moves; where the goal asks for machines
-  std::int64_t rigs_meeting{0};       ///< rigs that meet it in Goal::moves of their moves, as observed
-  std::int64_t rigs_without_miss{0};  ///< rigs all of whose moves meet the goal
+  BoundedProportion moves;  ///< of all moves of all axes that meet the goal (clustered_proportion.hpp)
+  BoundedProportion
+      machines;  ///< of axes that meet it in Goal::moves of their moves (machine_proportion.hpp);
+                 ///< NaN, 0 and 1 where the goal does not ask for machines
+  BoundedProportion without_miss;    ///< of all axes, in as many moves; where the goal asks for machines
+  std::int64_t machines_meeting{0};  ///< machines that meet it in Goal::moves of their moves, as observed
+  std::int64_t machines_without_miss{0};  ///< machines all of whose moves meet the goal
 };
 
 /// The verdict on a claim, one goal under one condition, for all axes that the manifest describes; by
@@ -86,10 +87,8 @@ inline Verdict judge_goal(const study::Goal& goal, const measures::CellCounts& c
 ClaimVerdict judge_goal(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points,
                         std::size_t parts = 1);
 
-/// The worst of the claims on one goal; of those under one condition; of those in some other group. The
-/// verdict has such a claim.
+/// The worst of the claims on one goal, or of the claims in another group. The verdict has such a claim.
 const ClaimVerdict& worst_of_goal(const Verdict& verdict, std::size_t goal);
-const ClaimVerdict& worst_under(const Verdict& verdict, std::size_t condition);
 const ClaimVerdict& worst_where(const Verdict& verdict,
                                 const std::function<bool(const ClaimVerdict&)>& is_asked);
 
@@ -109,8 +108,8 @@ std::vector<std::size_t> worlds_that(Status status, const ClaimVerdict& verdict)
 
 /// Study size that decides the goal with a stated probability.
 struct Needs {
-  std::int64_t rigs{0};    ///< 0 without rigs
-  std::int64_t trials{0};  ///< per design point; 0 if no study of up to 10⁹ trials is large enough
+  std::int64_t machines{0};  ///< 0 without machines
+  std::int64_t trials{0};    ///< per design point; 0 if no study of up to 10⁹ trials is large enough
 };
 
 /// Probability with which a study of the size of needs_of() is decided, unless another is asked for.
@@ -121,9 +120,9 @@ inline constexpr double probability_of_needs = 0.9;
 ///
 ///   P(decided) ≥ max(1 − Σ P(a claim is undecided), max P(a claim is missed)).
 ///
-/// Without rigs one study, the smallest; with rigs the fewest rigs, at most 10⁵, with trials on each as
-/// observed, and for goals on machines with twice, four times … as many, as long as these save rigs. Empty if
-/// none is large enough. @param counts [goal] @param points, as of judge_goal()
+/// Without machines one study, the smallest; with machines the fewest machines, at most 10⁵, with trials on
+/// each as observed, and for goals on machines with twice, four times … as many, as long as these save
+/// machines. Empty if none is large enough. @param counts [goal] @param points, as of judge_goal()
 std::vector<Needs> deciding_studies(std::span<const study::Goal> goals,
                                     std::span<const measures::CellCounts> counts, std::size_t points,
                                     double probability = probability_of_needs);
@@ -145,23 +144,23 @@ struct AskedGoal {
   std::int64_t moves{1};
 };
 
-/// The rigs and worlds that the trials of a study share.
+/// The machines and worlds that the trials of a study share.
 struct StudyShape {
-  bool on_rigs{false};
+  bool on_machines{false};
   std::int64_t worlds{0};      ///< in each of which the goals must be met; 0: none
   std::int64_t conditions{1};  ///< under each of which they must be met
 };
 
-/// The smallest studies that can meet the goals, if no move misses them: with rigs the fewest rigs for
-/// several numbers of trials on each, without them one study. Empty if none of up to 10⁹ trials, or 10⁵ rigs,
-/// can. @param points that the best is chosen from
+/// The smallest studies that can meet the goals, if no move misses them: with machines the fewest machines
+/// for several numbers of trials on each, without them one study. Empty if none of up to 10⁹ trials, or 10⁵
+/// machines, can. @param points that the best is chosen from
 std::vector<Needs> smallest_studies(std::span<const AskedGoal> goals, const StudyShape& shape,
                                     std::size_t points);
 /// The same of one goal under one condition. @param moves of a trial
-inline std::vector<Needs> smallest_studies(const study::Goal& goal, bool on_rigs, std::int64_t moves,
+inline std::vector<Needs> smallest_studies(const study::Goal& goal, bool on_machines, std::int64_t moves,
                                            std::size_t points, std::int64_t worlds = 0) {
   const AskedGoal asked{goal, moves};
-  return smallest_studies({&asked, 1}, {on_rigs, worlds}, points);
+  return smallest_studies({&asked, 1}, {on_machines, worlds}, points);
 }
 
 }  // namespace zerocount::goal

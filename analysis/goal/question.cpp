@@ -15,8 +15,8 @@
 #include <fmt/format.h>
 
 #include "analysis/statistics/clusters/clustered_proportion.hpp"
-#include "analysis/statistics/clusters/rig_proportion.hpp"
-#include "analysis/statistics/clusters/rig_statistics.hpp"
+#include "analysis/statistics/clusters/machine_proportion.hpp"
+#include "analysis/statistics/clusters/machine_statistics.hpp"
 #include "analysis/statistics/mean_bounds.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "core/failure/failure.hpp"
@@ -41,8 +41,8 @@ const QuestionWords& words_of_goal() {
       .failure = "miss",
       .failing = "trials that miss the goal",
       .trial_rate = "rate of trials in goal",
-      .rig_head = "machines w/o miss",
-      .rig_meaning =
+      .machine_head = "machines w/o miss",
+      .machine_meaning =
           "proportion of machines all of whose moves meet the goal (the worst of "
           "several, under the worst condition)",
       .falls_short = "fall short of the goal by their observed rates"};
@@ -50,33 +50,34 @@ const QuestionWords& words_of_goal() {
 }
 
 QuestionWords words_of_success(std::string_view of_mass) {
-  return {
-      .subject = "success",
-      .title = "Success",
-      .events = "trials",
-      .meeting = fmt::format("trials that end at zero counts{}", of_mass),
-      .meet = fmt::format("end at zero counts{}", of_mass),
-      .head = "zero-count",
-      .rate = "success rate",
-      .hits = "successes",
-      .settles = "arrives",
-      .failed = "failed",
-      .succeeded = "succeeded",
-      .failure = "failure",
-      .failing = "failed trials",
-      .trial_rate = "success rate",
-      .rig_head = "machines w/o failure",
-      .rig_meaning = fmt::format("proportion of machines all of whose trials ended at zero error{}", of_mass),
-      .falls_short = "are shown to succeed less often than the median world"};
+  return {.subject = "success",
+          .title = "Success",
+          .events = "trials",
+          .meeting = fmt::format("trials that end at zero counts{}", of_mass),
+          .meet = fmt::format("end at zero counts{}", of_mass),
+          .head = "zero-count",
+          .rate = "success rate",
+          .hits = "successes",
+          .settles = "arrives",
+          .failed = "failed",
+          .succeeded = "succeeded",
+          .failure = "failure",
+          .failing = "failed trials",
+          .trial_rate = "success rate",
+          .machine_head = "machines w/o failure",
+          .machine_meaning =
+              fmt::format("proportion of machines all of whose trials ended at zero error{}", of_mass),
+          .falls_short = "are shown to succeed less often than the median world"};
 }
 
 /// The trials that succeed, each as one move.
 measures::MoveCounts successes_of(const measures::PointSummary& point) {
   measures::MoveCounts counts{
-      .moves = point.judged, .met = point.outcomes.zero_count, .of_trials = {}, .rigs = {}};
-  for (const std::int64_t successes : point.rigs.successes_of_rigs)
-    counts.rigs.push_back({point.rigs.trials_of_rig, point.rigs.trials_of_rig, successes});
-  if (!counts.rigs.empty()) return counts;
+      .moves = point.judged, .met = point.outcomes.zero_count, .of_trials = {}, .machines = {}};
+  for (const std::int64_t successes : point.machines.successes_of_machines)
+    counts.machines.push_back(
+        {point.machines.trials_of_machine, point.machines.trials_of_machine, successes});
+  if (!counts.machines.empty()) return counts;
   const auto successes = static_cast<double>(counts.met);
   counts.of_trials = {.clusters = counts.moves,
                       .hits = counts.met,
@@ -118,10 +119,6 @@ std::string name_of_settling(const study::Goal& goal, std::string_view statistic
 std::string under_text(const Question& question, std::size_t condition) {
   if (question.conditions.empty()) return "";
   return (question.ages.at.empty() ? " under condition " : " at ") + question.conditions[condition];
-}
-
-std::size_t age_of(const Question& question, std::size_t condition) {
-  return condition / (question.conditions.size() / question.ages.at.size());
 }
 
 Question question_of(const study::Study& study) {
@@ -172,7 +169,7 @@ const QuestionWords& words_of(const Question& question) {
              : of_success.emplace(question.of_mass, words_of_success(question.of_mass)).first->second;
 }
 
-std::string success_verb(const Question& question) {
+std::string success_words(const Question& question) {
   return question.of_mass.empty() ? "succeed" : fmt::format("end at zero counts{}", question.of_mass);
 }
 
@@ -286,7 +283,7 @@ const measures::MeasureStatistics& settling_of(const Question& question,
 }
 
 std::string settling_measure(const Question& question) {
-  return question.claim() ? name_of_settling(*question.claim(), "") : "settling_time";
+  return question.claim() ? name_of_settling(*question.claim(), "") : "arrival_time";
 }
 
 statistics::Quantile measures::MeasureStatistics::*settling_quantile(const Question& question) {
@@ -294,7 +291,7 @@ statistics::Quantile measures::MeasureStatistics::*settling_quantile(const Quest
 }
 
 std::string settling_statistic(const Question& question) {
-  return question.claim() ? name_of_settling(*question.claim(), "_p95") : "settling_time_median";
+  return question.claim() ? name_of_settling(*question.claim(), "_p95") : "arrival_time_median";
 }
 
 std::vector<double> merits_of(const Question& question, const measures::PointSummary& point) {
@@ -335,20 +332,22 @@ QuestionRate rate_of(const Question& question, const measures::PointSummary& poi
   return {verdict.moves.value, {verdict.moves.low, verdict.moves.high}, shown.met, shown.moves};
 }
 
-RigsWithoutFailure rigs_without_failure(const Question& question, const measures::PointSummary& point) {
+MachinesWithoutFailure machines_without_failure(const Question& question,
+                                                const measures::PointSummary& point) {
   if (!question.claim())
-    return {std::llround(point.rigs.without_failure * static_cast<double>(point.rigs.n)), point.rigs.n};
-  std::vector<bool> without(point.goals.front().sum().rigs.size(), true);
+    return {std::llround(point.machines.without_failure * static_cast<double>(point.machines.n)),
+            point.machines.n};
+  std::vector<bool> without(point.goals.front().sum().machines.size(), true);
   for (const JudgedPart& part : question.parts) {
     const measures::MoveCounts counts = point.goals[part.number].sum();
-    for (std::size_t rig = 0; rig < without.size(); ++rig)
-      without[rig] = without[rig] && counts.rigs[rig].met == counts.rigs[rig].moves;
+    for (std::size_t machine = 0; machine < without.size(); ++machine)
+      without[machine] = without[machine] && counts.machines[machine].met == counts.machines[machine].moves;
   }
   return {std::ranges::count(without, true), std::ssize(without)};
 }
 
-std::optional<RigsWithoutFailure> rigs_meeting_all(const Question& question,
-                                                   const measures::PointSummary& point) {
+std::optional<MachinesWithoutFailure> machines_meeting_all(const Question& question,
+                                                           const measures::PointSummary& point) {
   std::vector<std::pair<double, measures::MoveCounts>> claims;  // proportion of moves, of these
   for (const JudgedPart& part : question.parts) {
     if (!part.claim || !part.claim->machines) continue;
@@ -357,10 +356,10 @@ std::optional<RigsWithoutFailure> rigs_meeting_all(const Question& question,
       claims.emplace_back(part.claim->moves, counts.sum({.condition = condition}));
   }
   if (claims.size() < 2) return std::nullopt;
-  RigsWithoutFailure meeting{0, std::ssize(claims.front().second.rigs)};
-  for (std::size_t rig = 0; rig < claims.front().second.rigs.size(); ++rig) {
-    meeting.rigs += std::ranges::all_of(claims, [&](const auto& claim) {
-      const statistics::RigMoves& moves = claim.second.rigs[rig];
+  MachinesWithoutFailure meeting{0, std::ssize(claims.front().second.machines)};
+  for (std::size_t machine = 0; machine < claims.front().second.machines.size(); ++machine) {
+    meeting.machines += std::ranges::all_of(claims, [&](const auto& claim) {
+      const statistics::MachineMoves& moves = claim.second.machines[machine];
       return statistics::rate(moves.met, moves.moves) >= claim.first;
     });
   }
@@ -391,10 +390,10 @@ statistics::SuccessClaim claim_of_chosen(const measures::PointSummary& point, st
   statistics::SuccessClaim claim =
       stopped ? statistics::success_claim_at_any_time(successes, point.claim.trials, confidence)
               : statistics::success_claim(successes, point.claim.trials, confidence);
-  if (point.rigs.n > 0) {
-    const statistics::SuccessClaim over_rigs =
-        statistics::success_claim_on_rigs(point.rigs.successes, confidence);
-    claim = stopped ? statistics::weaker_claim(over_rigs, claim) : over_rigs;
+  if (point.machines.n > 0) {
+    const statistics::SuccessClaim over_machines =
+        statistics::success_claim_on_machines(point.machines.successes, confidence);
+    claim = stopped ? statistics::weaker_claim(over_machines, claim) : over_machines;
   }
   claim.confidence = point.claim.confidence;
   return claim;
@@ -404,12 +403,12 @@ statistics::ConfidenceInterval bounds_of_chosen(const measures::PointSummary& po
                                                 bool stopped, double confidence) {
   const double each = statistics::confidence_of_each(confidence, points);
   const statistics::ConfidenceInterval fixed =
-      point.rigs.n > 0 ? statistics::clustered_proportion(point.rigs.successes, each).korn_graubard
-                       : statistics::clopper_pearson(point.outcomes.zero_count, point.judged, each);
+      point.machines.n > 0 ? statistics::clustered_proportion(point.machines.successes, each).korn_graubard
+                           : statistics::clopper_pearson(point.outcomes.zero_count, point.judged, each);
   if (!stopped) return fixed;
   const statistics::ConfidenceInterval sequential =
       statistics::confidence_sequence_bounds(point.outcomes.zero_count, point.judged, each);
-  if (point.rigs.n == 0) return sequential;
+  if (point.machines.n == 0) return sequential;
   return {std::min(sequential.low, fixed.low), std::max(sequential.high, fixed.high)};
 }
 
@@ -419,10 +418,10 @@ namespace {
 struct ClaimAtAge {
   study::Goal goal;  ///< on machines: the bounds of a goal on moves are those of such a claim
   measures::CellCounts counts;
-  std::vector<statistics::RigMoves> rigs;  ///< of the counts
+  std::vector<statistics::MachineMoves> machines;  ///< of the counts
 
-  bool is_met_by(std::size_t rig) const {
-    return statistics::rate(rigs[rig].met, rigs[rig].moves) >= goal.moves;
+  bool is_met_by(std::size_t machine) const {
+    return statistics::rate(machines[machine].met, machines[machine].moves) >= goal.moves;
   }
 };
 using ClaimsAtAge = std::vector<std::vector<ClaimAtAge>>;  ///< [goal][condition]
@@ -438,39 +437,39 @@ ClaimsAtAge claims_at_age(const Question& question, const std::vector<measures::
     std::vector<ClaimAtAge>& of_goal = claims.emplace_back();
     for (std::size_t c = 0; c < of_age; ++c) {
       measures::CellCounts one = counts[part.number].under(age * of_age + c);
-      std::vector<statistics::RigMoves> rigs = one.sum().rigs;
-      of_goal.push_back({goal, std::move(one), std::move(rigs)});
+      std::vector<statistics::MachineMoves> machines = one.sum().machines;
+      of_goal.push_back({goal, std::move(one), std::move(machines)});
     }
   }
   return claims;
 }
 
-bool meets_all(const ClaimsAtAge& claims, std::size_t rig) {
+bool meets_all(const ClaimsAtAge& claims, std::size_t machine) {
   return std::ranges::all_of(std::views::join(claims),
-                             [rig](const ClaimAtAge& claim) { return claim.is_met_by(rig); });
+                             [machine](const ClaimAtAge& claim) { return claim.is_met_by(machine); });
 }
 
-std::size_t rig_count(const ClaimsAtAge& claims) {
-  return claims.front().front().rigs.size();
+std::size_t machine_count(const ClaimsAtAge& claims) {
+  return claims.front().front().machines.size();
 }
 
-/// The least of what is found of the rigs of each world; without worlds it is of all rigs.
+/// The least of what is found of the machines of each world; without worlds it is of all machines.
 template <class Value, class Of>
-double least_of_worlds(std::size_t rigs, std::int64_t worlds, const Value& value, const Of& of) {
+double least_of_worlds(std::size_t machines, std::int64_t worlds, const Value& value, const Of& of) {
   const auto groups = static_cast<std::size_t>(std::max<std::int64_t>(worlds, 1));
   double least = 1.0;
   for (std::size_t world = 0; world < groups; ++world) {
     std::vector<std::invoke_result_t<Value, std::size_t>> values;
-    for (std::size_t rig = world; rig < rigs; rig += groups) values.push_back(value(rig));
+    for (std::size_t machine = world; machine < machines; machine += groups) values.push_back(value(machine));
     least = std::min(least, of(values));
   }
   return least;
 }
 
-/// The proportion of the rigs that meet all claims.
+/// The proportion of the machines that meet all claims.
 double proportion_meeting(const ClaimsAtAge& claims, std::int64_t worlds) {
   return least_of_worlds(
-      rig_count(claims), worlds, [&](std::size_t rig) { return meets_all(claims, rig); },
+      machine_count(claims), worlds, [&](std::size_t machine) { return meets_all(claims, machine); },
       [](const std::vector<bool>& meeting) {
         return statistics::rate(std::ranges::count(meeting, true), std::ssize(meeting));
       });
@@ -483,12 +482,12 @@ double most_of(const ClaimAtAge& claim, std::size_t claims) {
   return judge_goal(goal, claim.counts, 1).machines.high;
 }
 
-/// The moves of a rig in which it meets one goal, under the condition where these are the fewest; as if the
-/// moves that it made under some conditions only met the goal, and were left out.
-statistics::RigMoves least_moves(const std::vector<ClaimAtAge>& conditions, std::size_t rig) {
-  statistics::RigMoves least = conditions.front().rigs[rig];
+/// The moves of a machine in which it meets one goal, under the condition where these are the fewest; as if
+/// the moves that it made under some conditions only met the goal, and were left out.
+statistics::MachineMoves least_moves(const std::vector<ClaimAtAge>& conditions, std::size_t machine) {
+  statistics::MachineMoves least = conditions.front().machines[machine];
   for (const ClaimAtAge& claim : conditions) {
-    const statistics::RigMoves& one = claim.rigs[rig];
+    const statistics::MachineMoves& one = claim.machines[machine];
     const std::int64_t missed = std::max(least.moves - least.met, one.moves - one.met);
     least.trials = std::min(least.trials, one.trials);
     least.moves = std::min(least.moves, one.moves);
@@ -500,14 +499,15 @@ statistics::RigMoves least_moves(const std::vector<ClaimAtAge>& conditions, std:
 /// The lower bound of the machines that meet one of so many goals under every condition.
 double least_of(const std::vector<ClaimAtAge>& conditions, std::int64_t worlds, std::size_t goals) {
   const study::Goal& goal = conditions.front().goal;
-  const statistics::RigClaim claim{.proportion = goal.moves,
-                                   .wanted = *goal.machines,
-                                   .confidence = statistics::confidence_of_each(goal.confidence, goals),
-                                   .of_least = conditions.size() > 1};
+  const statistics::MachineClaim claim{.proportion = goal.moves,
+                                       .wanted = *goal.machines,
+                                       .confidence = statistics::confidence_of_each(goal.confidence, goals),
+                                       .of_least = conditions.size() > 1};
   return least_of_worlds(
-      conditions.front().rigs.size(), worlds, [&](std::size_t rig) { return least_moves(conditions, rig); },
-      [&](const std::vector<statistics::RigMoves>& rigs) {
-        return statistics::rig_proportion(rigs, claim).low;
+      conditions.front().machines.size(), worlds,
+      [&](std::size_t machine) { return least_moves(conditions, machine); },
+      [&](const std::vector<statistics::MachineMoves>& machines) {
+        return statistics::machine_proportion(machines, claim).low;
       });
 }
 
@@ -530,14 +530,15 @@ std::vector<BoundedProportion> machines_at_ages(const Question& question,
   return machines;
 }
 
-std::vector<double> lives_of_rigs(const Question& question, const std::vector<measures::CellCounts>& counts) {
+std::vector<double> lives_of_machines(const Question& question,
+                                      const std::vector<measures::CellCounts>& counts) {
   std::vector<double> lives;
   for (std::size_t age = 0; age < question.ages.at.size(); ++age) {
     const ClaimsAtAge claims = claims_at_age(question, counts, age);
-    lives.resize(rig_count(claims), statistics::unknown);
-    for (std::size_t rig = 0; rig < lives.size(); ++rig) {
-      const bool lived = age == 0 || lives[rig] == question.ages.at[age - 1];
-      if (lived && meets_all(claims, rig)) lives[rig] = question.ages.at[age];
+    lives.resize(machine_count(claims), statistics::unknown);
+    for (std::size_t machine = 0; machine < lives.size(); ++machine) {
+      const bool lived = age == 0 || lives[machine] == question.ages.at[age - 1];
+      if (lived && meets_all(claims, machine)) lives[machine] = question.ages.at[age];
     }
   }
   return lives;

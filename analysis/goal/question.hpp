@@ -18,7 +18,7 @@
 #include "experiments/study/study.hpp"
 
 /// The question of a study: the goal of its manifest, or success where it has none. All that judges trials,
-/// rigs, worlds and design points takes from here what they are judged by, and what it is called.
+/// machines, worlds and design points takes from here what they are judged by, and what it is called.
 namespace zerocount::goal {
 
 /// One thing that is asked of moves.
@@ -49,8 +49,6 @@ struct Question {
 Question question_of(const study::Study& study);
 /// " under condition loaded", " at loaded, 100000 cycles"; empty without conditions.
 std::string under_text(const Question& question, std::size_t condition);
-/// The number of the age at which that condition is.
-std::size_t age_of(const Question& question, std::size_t condition);
 
 /// Whether the study has several goals.
 inline bool has_several(const Question& question) {
@@ -77,27 +75,27 @@ inline Question success(const Question& question) {
 /// How answers speak of the question. With a claim they count moves, else trials: success is of a whole
 /// trial. On an axis with two masses, zero counts name the one whose encoder they are of.
 struct QuestionWords {
-  std::string_view subject;      ///< "goal", "success"
-  std::string_view title;        ///< of figures: "Moves in the goal", "Success"
-  std::string_view events;       ///< what is counted: "moves", "trials"
-  std::string meeting;           ///< "moves that meet the goal", "trials that end at zero counts"
-  std::string meet;              ///< Predicate of moves: "meet the goal", "end at zero counts".
-  std::string_view head;         ///< of a column of their rate: "moves in goal", "zero-count"
-  std::string_view rate;         ///< "rate of moves in goal", "success rate"
-  std::string_view hits;         ///< "moves in goal", "successes"
-  std::string_view settles;      ///< of a move: "settles in the goal's band", "arrives"
-  std::string_view failed;       ///< of a trial: "missed the goal", "failed"
-  std::string_view succeeded;    ///< of a point: "met it", "succeeded"
-  std::string_view failure;      ///< "miss", "failure"
-  std::string_view failing;      ///< trials: "trials that miss the goal", "failed trials"
-  std::string_view trial_rate;   ///< "rate of trials in goal", "success rate"
-  std::string_view rig_head;     ///< of a column of rigs: "rigs w/o miss", "rigs w/o failure"
-  std::string rig_meaning;       ///< "proportion of rigs all of whose moves meet the goal" …
-  std::string_view falls_short;  ///< of worlds: "fall short of the goal by their observed rates" …
+  std::string_view subject;       ///< "goal", "success"
+  std::string_view title;         ///< of figures: "Moves in the goal", "Success"
+  std::string_view events;        ///< what is counted: "moves", "trials"
+  std::string meeting;            ///< "moves that meet the goal", "trials that end at zero counts"
+  std::string meet;               ///< Predicate of moves: "meet the goal", "end at zero counts".
+  std::string_view head;          ///< of a column of their rate: "moves in goal", "zero-count"
+  std::string_view rate;          ///< "rate of moves in goal", "success rate"
+  std::string_view hits;          ///< "moves in goal", "successes"
+  std::string_view settles;       ///< of a move: "settles in the goal's band", "arrives"
+  std::string_view failed;        ///< of a trial: "missed the goal", "failed"
+  std::string_view succeeded;     ///< of a point: "met it", "succeeded"
+  std::string_view failure;       ///< "miss", "failure"
+  std::string_view failing;       ///< trials: "trials that miss the goal", "failed trials"
+  std::string_view trial_rate;    ///< "rate of trials in goal", "success rate"
+  std::string_view machine_head;  ///< of a column of machines: "machines w/o miss", "machines w/o failure"
+  std::string machine_meaning;    ///< "proportion of machines all of whose moves meet the goal" …
+  std::string_view falls_short;   ///< of worlds: "fall short of the goal by their observed rates" …
 };
 const QuestionWords& words_of(const Question& question);
-/// Verb of trials that succeed: "succeed", with two masses "end at zero counts of the motor".
-std::string success_verb(const Question& question);
+/// Words for trials that succeed: "succeed", with two masses "end at zero counts of the motor".
+std::string success_words(const Question& question);
 
 /// Whether a trial with these moves meets the question: all of them do.
 bool meets(const Question& question, std::span<const trial::MoveOutcome> moves);
@@ -143,12 +141,12 @@ const measures::MeasureStatistics& settling_of(const Question& question, const m
 
 /// The name of the settling time that a goal is about, or of a statistic of it.
 std::string name_of_settling(const study::Goal& goal, std::string_view statistic = "");
-/// The name of that measure of the first goal: "band_settling_time[2]", "settling_time".
+/// The name of that measure of the first goal: "band_settling_time[2]", "arrival_time".
 std::string settling_measure(const Question& question);
 
 /// Its quantile by which points are compared: the 95 % quantile, of the arrival the median.
 statistics::Quantile measures::MeasureStatistics::*settling_quantile(const Question& question);
-/// The name of this quantile in files: "band_settling_time_p95[2]", "settling_time_median".
+/// The name of this quantile in files: "band_settling_time_p95[2]", "arrival_time_median".
 std::string settling_statistic(const Question& question);
 
 /// What a design point is compared by, the most important number first; larger is better. With a claim: goals
@@ -167,12 +165,13 @@ struct QuestionRate {
 QuestionRate rate_of(const Question& question, const measures::PointSummary& point, std::size_t points = 1,
                      double confidence = statistics::summary_confidence);
 
-/// Rigs of a point all of whose moves meet the question.
-struct RigsWithoutFailure {
-  std::int64_t rigs{0};  ///< those
-  std::int64_t of{0};    ///< all rigs; 0 without rigs
+/// Machines of a point all of whose moves meet the question.
+struct MachinesWithoutFailure {
+  std::int64_t machines{0};  ///< those
+  std::int64_t of{0};        ///< all machines; 0 without machines
 };
-RigsWithoutFailure rigs_without_failure(const Question& question, const measures::PointSummary& point);
+MachinesWithoutFailure machines_without_failure(const Question& question,
+                                                const measures::PointSummary& point);
 
 /// The rate of a world by which a claim is judged: of machines, or of moves.
 const BoundedProportion& judged_rate(const Question& question, const WorldVerdict& world);
@@ -185,10 +184,10 @@ inline bool is_of_machines(const Question& question) {
   return question.claim() && question.claim()->machines;
 }
 
-/// Rigs of a point that meet every goal on machines in its proportion of moves under every condition, and all
-/// that were judged; nothing where only one claim is on machines.
-std::optional<RigsWithoutFailure> rigs_meeting_all(const Question& question,
-                                                   const measures::PointSummary& point);
+/// Machines of a point that meet every goal on machines in its proportion of moves under every condition, and
+/// all that were judged; nothing where only one claim is on machines.
+std::optional<MachinesWithoutFailure> machines_meeting_all(const Question& question,
+                                                           const measures::PointSummary& point);
 
 /// Whether rates are those of the worst world.
 inline bool is_of_worst_world(const Question& question) {
@@ -203,8 +202,8 @@ double confidence_of(const Question& question, double others);
 statistics::SuccessClaim claim_of_chosen(const measures::PointSummary& point, std::size_t points,
                                          bool stopped);
 
-/// Two-sided bounds of the success rate of a point that was chosen from `points`: Clopper–Pearson, with rigs
-/// Korn–Graubard, with `stop` the confidence sequence, or the outer of the two.
+/// Two-sided bounds of the success rate of a point that was chosen from `points`: Clopper–Pearson, with
+/// machines Korn–Graubard, with `stop` the confidence sequence, or the outer of the two.
 statistics::ConfidenceInterval bounds_of_chosen(const measures::PointSummary& point, std::size_t points,
                                                 bool stopped, double confidence);
 
@@ -214,21 +213,23 @@ statistics::ConfidenceInterval bounds_of_chosen(const measures::PointSummary& po
 ///
 /// A machine that misses a goal under some condition shows c or more good moves under all of them no more
 /// often than under that one. So the fewest good moves of a machine under any condition bound the machines
-/// that meet the goal under all, as its good moves bound those that meet it under one (statistics::RigClaim),
-/// however the moves under the conditions depend on each other. Of G goals the lower bound is 1 − Σ(1 − low
-/// of each), each at the confidence 1 − (1 − γ)/G. The upper bound is the least of the K goals and
-/// conditions, each at 1 − (1 − γ)/K (Bonferroni). With worlds they are those of the worst of them.
+/// that meet the goal under all, as its good moves bound those that meet it under one
+/// (statistics::MachineClaim), however the moves under the conditions depend on each other. Of G goals the
+/// lower bound is 1 − Σ(1 − low of each), each at the confidence 1 − (1 − γ)/G. The upper bound is the least
+/// of the K goals and conditions, each at 1 − (1 − γ)/K (Bonferroni). With worlds they are those of the worst
+/// of them.
 /// @param counts [goal of the study] (PointSummary::goals)
 std::vector<BoundedProportion> machines_at_ages(const Question& question,
                                                 const std::vector<measures::CellCounts>& counts);
 
-/// [rig] the last age up to and including which it meets the question; NaN if it does not at the first.
-std::vector<double> lives_of_rigs(const Question& question, const std::vector<measures::CellCounts>& counts);
+/// [machine] the last age up to and including which it meets the question; NaN if it does not at the first.
+std::vector<double> lives_of_machines(const Question& question,
+                                      const std::vector<measures::CellCounts>& counts);
 
-/// Rigs that meet the question at every age up to one.
+/// Machines that meet the question at every age up to one.
 struct Survival {
-  std::int64_t rigs{0};      ///< those
-  BoundedProportion living;  ///< of the rigs, with one-sided Clopper–Pearson bounds
+  std::int64_t machines{0};  ///< those
+  BoundedProportion living;  ///< of the machines, with one-sided Clopper–Pearson bounds
 };
 /// [age] the survival curve of these lives. @param confidence of each bound
 std::vector<Survival> survival_of(const std::vector<double>& lives, const std::vector<double>& ages,

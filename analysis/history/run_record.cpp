@@ -35,17 +35,18 @@ double number_of(const Json& value) {
   return value.is_number() ? value.get<double>() : statistics::unknown;
 }
 
-/// Gives `take` the parsed JSON of a verb's answer, and its text.
-/// @param format that makes the verb print it
-void read_answer(const std::filesystem::path& path, std::string_view verb, std::string_view format,
+/// Gives `take` the parsed JSON of a command's answer, and its text.
+/// @param format that makes the command print it
+void read_answer(const std::filesystem::path& path, std::string_view command, std::string_view format,
                  const std::function<void(const Json&, const std::string&)>& take) {
   constexpr std::size_t max_size = std::size_t{256} << 20U;  // bytes
-  const std::string text = yaml::read_text(path, max_size, fmt::format("the JSON of 'zerocount {}'", verb));
+  const std::string text =
+      yaml::read_text(path, max_size, fmt::format("the JSON of 'zerocount {}'", command));
   try {
     take(Json::parse(text), text);
   } catch (const Json::exception&) {
     throw Failure(ExitCode::bad_data, fmt::format("{}: is not the JSON that 'zerocount {} {}, or is damaged",
-                                                  yaml::name_of_text(path), verb, format));
+                                                  yaml::name_of_text(path), command, format));
   }
 }
 
@@ -170,7 +171,7 @@ bool drawn_per_study(const manifest_text::ManifestValues& values, const study::S
              values.begin(), values.end(),
              [](const auto& entry) { return entry.first.ends_with(".per") && entry.second == "study"; }) ||
          std::any_of(study.profiles.begin(), study.profiles.end(),
-                     [](const study::RealisedProfile& profile) { return !profile.of_rig; });
+                     [](const study::RealisedProfile& profile) { return !profile.of_machine; });
 }
 
 RunValue value_of(const comparison::GateMeasure& measure, const measures::PointSummary& point,
@@ -215,7 +216,8 @@ std::vector<RunValue> goal_values(const goal::Question& question, const measures
       proportion_value(label, name("goal_rate"), verdict.moves, rate_of(question, point).events)};
   if (goal::is_of_machines(question)) {
     const std::int64_t worlds = std::max<std::int64_t>(question.worlds, 1);
-    values.push_back(proportion_value(label, name("goal_machines"), verdict.machines, point.rigs.n / worlds));
+    values.push_back(
+        proportion_value(label, name("goal_machines"), verdict.machines, point.machines.n / worlds));
   }
   const statistics::Quantile& p95 = settling_of(question, point).p95;
   RunValue time{label, name("goal_settling_time"), "s"};

@@ -53,7 +53,7 @@ struct PointRepeatability {
   /// where there is one direction only. Nothing of a single cycle, which has no repeatability.
   std::optional<std::int64_t> zero_repeatability{};
   double zero_rate{statistics::unknown};                 ///< zero_repeatability / trials; NaN for n = 1
-  statistics::ConfidenceInterval zero_bounds{0.0, 1.0};  ///< of zero_rate; with rigs Korn–Graubard
+  statistics::ConfidenceInterval zero_bounds{0.0, 1.0};  ///< of zero_rate; with machines Korn–Graubard
   std::vector<statistics::Moments> positions;            ///< [target], counts
   std::vector<SourceRepeatability> sources;              ///< [source]
   bool has_load{false};                                  ///< There is a second mass in some trial.

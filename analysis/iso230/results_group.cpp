@@ -56,7 +56,7 @@ const DeviationSources& stored_sources(const hdf5::Group& root, const study::Stu
 void find_masses(const study::Study& study, std::int64_t number, PointRepeatability& point) {
   bool differ = false;
   for (std::int64_t condition = 0; condition < study::condition_count(study); ++condition) {
-    const std::int64_t trial = condition * std::max<std::int64_t>(study.rigs, 1);  // TrialTurns
+    const std::int64_t trial = condition * std::max<std::int64_t>(study.machines, 1);  // TrialTurns
     const motion::PlantParameters plant = study::commanded_trial(study, number, trial).parameters.plant;
     if (!motion::has_load(plant)) continue;
     differ = differ || (point.has_load && point.closing != plant.load.encoder);
@@ -244,10 +244,11 @@ PointRepeatability point_statistics(const TrialsOfPoint& axis, const TrialsOfPoi
     const std::int64_t zero = std::ranges::count(is_zero, 1.0);
     point.zero_repeatability = zero;
     point.zero_rate = statistics::rate(zero, study.trials);
-    point.zero_bounds = study.rigs == 0 ? statistics::clopper_pearson(zero, study.trials, confidence)
-                                        : statistics::clustered_proportion(
-                                              statistics::sums_by_rig(is_zero, study.rigs), confidence)
-                                              .korn_graubard;
+    point.zero_bounds = study.machines == 0
+                            ? statistics::clopper_pearson(zero, study.trials, confidence)
+                            : statistics::clustered_proportion(
+                                  statistics::sums_by_machine(is_zero, study.machines), confidence)
+                                  .korn_graubard;
   }
   for (const std::vector<double>& positions : targets.column(0)) {
     statistics::Moments& moments = point.positions.emplace_back();

@@ -112,8 +112,8 @@ JerkIntervals interval_statistics(const statistics::ClusteredSample& sample, dou
 /// Collects the moves of a point.
 class JerkCollector {
  public:
-  JerkCollector(double confidence, std::int64_t rigs)
-      : confidence_(confidence), rates_(rigs > 0), trend_(confidence), intervals_(rigs) {}
+  JerkCollector(double confidence, std::int64_t machines)
+      : confidence_(confidence), rates_(machines > 0), trend_(confidence), intervals_(machines) {}
 
   void add(const ObservedMove& move) {
     if (move.cluster != cluster_) close_cluster();
@@ -235,7 +235,8 @@ void for_each_move(const reading::AllTrialsFile& file, const study::Study& study
       if (own_timing && i % moves == 0) parameters = study::study_trial(study, point, row - begin).parameters;
       ObservedMove observed = observe(parameters, static_cast<std::size_t>(i % moves), move, own);
       observed.trial = row;
-      observed.cluster = study.rigs > 0 ? study::group_of(study, study::Grouping::rig, row - begin) : row;
+      observed.cluster =
+          study.machines > 0 ? study::group_of(study, study::Grouping::machine, row - begin) : row;
       if (observed.arrived && !observed.lost && !in_order(observed)) {
         fail(file, row, "jerks that are not in order, or outside the time of their move");
       }
@@ -335,7 +336,7 @@ JerkStatistics jerk_statistics(const reading::AllTrialsFile& file, const study::
                                std::int64_t point, double confidence) {
   require_jerks(file, study);
   statistics::require_confidence(confidence);
-  JerkCollector collector(confidence, study.rigs);
+  JerkCollector collector(confidence, study.machines);
   for_each_move(file, study, point, [&](const ObservedMove& move) { collector.add(move); });
   JerkStatistics result = collector.statistics();
   result.trials = file.header().trials;

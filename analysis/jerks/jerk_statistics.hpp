@@ -33,7 +33,7 @@ struct SampledJerk {
 /// A move after its arrival. Samples are counted from the first of the arrival dwell.
 struct ObservedMove {
   std::int64_t trial{0};    ///< global row
-  std::int64_t cluster{0};  ///< the independent unit: the trial, or with rigs the trial's rig
+  std::int64_t cluster{0};  ///< the independent unit: the trial, or with machines the trial's machine
   bool arrived{false};
   bool lost{false};         ///< the state became non-finite at an unknown time; the fields below are unset
   double sample_time{0.0};  ///< s
@@ -120,7 +120,7 @@ JerkStatistics jerk_statistics(const reading::AllTrialsFile& file, const study::
 class JerkRates {
  public:
   /// @param clusters_return whether the moves of one cluster may be interleaved with those of others: true
-  /// for rigs, false for trials
+  /// for machines, false for trials
   explicit JerkRates(bool clusters_return = false) : clusters_return_(clusters_return) {}
   /// @param move a move that arrived and was not lost. Moves must be added in order of their trials.
   void add(const ObservedMove& move);
@@ -156,9 +156,9 @@ class JerkRates {
   double latest_{0.0};                                        ///< s
 };
 
-// Output of the verb `jerks`.
+// Output of the command `jerks`.
 
-/// The data of one point that the verb `jerks` reports.
+/// The data of one point that the command `jerks` reports.
 struct PointJerks : measures::PointUnderCondition {
   JerkStatistics statistics{};
   CreepComparison creep;  ///< from trials simulated again

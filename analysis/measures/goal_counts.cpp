@@ -89,10 +89,10 @@ std::int64_t count_moves(CellCounts& counts, const CountedGoal& goal, std::int64
 }
 
 GoalSettling::GoalSettling(const CountedGoal& goal, const Shape& shape)
-    : rigs_(shape.rigs), within_(goal.within) {
+    : machines_(shape.machines), within_(goal.within) {
   if (goal.on.empty() && shape.conditions == 0 && !within_.after_profile) return;
   times_.assign(static_cast<std::size_t>(std::max<std::int64_t>(shape.conditions, 1)),
-                statistics::TrialClusters(shape.rigs));
+                statistics::TrialClusters(shape.machines));
   if (!within_.after_profile) return;
   shares_ = times_;
   allowed_.assign(times_.size(), 0.0);
@@ -101,7 +101,7 @@ GoalSettling::GoalSettling(const CountedGoal& goal, const Shape& shape)
 void GoalSettling::add(std::int64_t trial, const CountedGoal& goal,
                        std::span<const trial::MoveOutcome> moves) {
   if (times_.empty()) return;
-  const study::TrialTurns turns{std::max<std::int64_t>(rigs_, 1), std::ssize(times_)};
+  const study::TrialTurns turns{std::max<std::int64_t>(machines_, 1), std::ssize(times_)};
   const auto condition = static_cast<std::size_t>(turns.condition_of(trial));
   const auto add_to = [&](statistics::TrialClusters& clusters, auto value) {
     values_.clear();
@@ -168,7 +168,7 @@ bool is_above(const MoveEvent& event) {
   throw Failure(
       ExitCode::bad_input,
       fmt::format("option '--event': '{}' {}; expected a measure of a move, one of > >= < <=, and a "
-                  "number, such as 'settling_time > 0.5'",
+                  "number, such as 'arrival_time > 0.5'",
                   text, what));
 }
 
@@ -201,6 +201,8 @@ layout::Measure measure_named(const study::Study& study, std::string_view text, 
     names.push_back(measure.field.column.name);
     if (names.back() == name) return measure;
   }
+  if (const std::string_view meanings = trial::meanings_of_settling_time(name); !meanings.empty())
+    fail(text, fmt::format("may mean two measures, {}", meanings));
   const std::string nearest(yaml::nearest_name(name, names));
   fail(text, fmt::format("names no measure of a move of this study: '{}'{}", name,
                          nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest)));

@@ -128,7 +128,7 @@ class GoalSettling {
   bool is_valid(std::int64_t moves) const;
 
  private:
-  std::int64_t rigs_;
+  std::int64_t machines_;
   study::TimeLimit within_;
   std::vector<double> values_{};                     ///< of the current trial
   std::vector<statistics::TrialClusters> times_{};   ///< [condition]
@@ -138,9 +138,9 @@ class GoalSettling {
 
 /// An event of a move: it misses what is asked of it, or a measure of it is beyond a limit.
 struct MoveEvent {
-  std::string text;  ///< "settling_time > 0.5"; empty: it misses the goal, or does not succeed
-  std::vector<CountedGoal> goals{};    ///< used if text is empty
-  layout::Measure measure{};           ///< used otherwise
+  std::string text;                  ///< "arrival_time > 0.5"; empty: it misses the goal, or does not succeed
+  std::vector<CountedGoal> goals{};  ///< used if text is empty
+  layout::Measure measure{};         ///< used otherwise
   text::Sign sign{text::Sign::above};  ///< how values that are the event lie to the limit; never equal
   double limit{0.0};                   ///< in the measure's unit
 };
@@ -148,7 +148,7 @@ struct MoveEvent {
 /// The event that a move misses the goal of the study or, without a goal, that it does not succeed.
 MoveEvent missed_question(const study::Study& study);
 
-/// The event of a text such as "settling_time > 0.5" or "band_settling_time[1] >= 0.05".
+/// The event of a text such as "arrival_time > 0.5" or "band_settling_time[1] >= 0.05".
 /// @throws Failure (bad_input) unless it is MEASURE, one of > >= < <= (or ≥, ≤), and a number
 MoveEvent parse_event(const study::Study& study, std::string_view text);
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "analysis/measures/point_accumulator.hpp"
+#include "analysis/measures/stream_name.hpp"
 #include "analysis/measures/trial_value.hpp"
 #include "analysis/statistics/clusters/clustered_proportion.hpp"
 #include "analysis/statistics/mean_bounds.hpp"
@@ -51,8 +52,8 @@ MeasureAccumulator::MeasureAccumulator(const layout::Measure& measure,
       in_clusters_(needs_every_value(measure, reported)),
       has_mean_bounds_(reports(reported, layout::Statistic::bootstrap_low)),
       counts_moves_(reports(reported, layout::Statistic::moves_rate)),
-      clusters_(kind.shape.rigs),
-      of_moves_({kind.shape.rigs, 0, 0}) {}
+      clusters_(kind.shape.machines),
+      of_moves_({kind.shape.machines, 0, 0}) {}
 
 void MeasureAccumulator::add(const MovesOfTrials& some) {
   if (reported_->texts.empty()) return;
@@ -72,7 +73,7 @@ void MeasureAccumulator::add_qualities(const MovesOfTrials& some) {
   const std::int64_t wanted = wanted_moves(*measure_, of_trial);
   values_.resize(some.moves.size());
   layout::qualities_of(*measure_, some.moves, values_);
-  std::int64_t having = 0;  // without rigs
+  std::int64_t having = 0;  // without machines
   auto quality = values_.cbegin();
   for (std::int64_t trial = some.first_trial; quality != values_.cend(); ++trial) {
     std::int64_t moves = 0;
@@ -81,14 +82,14 @@ void MeasureAccumulator::add_qualities(const MovesOfTrials& some) {
       of_move += has;
       moves += has;
     }
-    if (kind_.shape.rigs > 0) {
-      judged_.add(trial % kind_.shape.rigs, 1);
-      hits_.add(trial % kind_.shape.rigs, moves >= wanted);
+    if (kind_.shape.machines > 0) {
+      judged_.add(trial % kind_.shape.machines, 1);
+      hits_.add(trial % kind_.shape.machines, moves >= wanted);
     }
     having += moves >= wanted;
     if (counts_moves_) of_moves_.add(trial, of_trial, moves);
   }
-  if (kind_.shape.rigs > 0) return;
+  if (kind_.shape.machines > 0) return;
   judged_.add(0, some.trials());
   hits_.add(0, having);
 }
@@ -123,7 +124,7 @@ void MeasureAccumulator::add_totals(std::int64_t trial, std::size_t of_trial) {
   std::vector<double> known;
   for (std::span<const double> values(values_); !values.empty(); values = values.subspan(of_trial)) {
     statistics::find_known(values.first(of_trial), known);
-    totals_.add(kind_.shape.rigs > 0 ? trial % kind_.shape.rigs : trial, known);
+    totals_.add(kind_.shape.machines > 0 ? trial % kind_.shape.machines : trial, known);
     ++trial;
   }
 }
@@ -151,10 +152,10 @@ bool MeasureAccumulator::is_valid(std::int64_t trials, std::int64_t moves) const
 bool MeasureAccumulator::has_valid_qualities(std::int64_t moves) const {
   if (!layout::is_quality(*measure_) || trials_ == 0)
     return by_move_.empty() && judged_.sums().empty() && hits_.sums().empty();
-  const std::int64_t rigs = std::max<std::int64_t>(kind_.shape.rigs, 1);
-  if (std::ssize(by_move_) != moves || judged_.end() > rigs || hits_.end() > rigs) return false;
-  for (std::int64_t rig = 0; rig < rigs; ++rig)
-    if (hits_[rig] < 0 || hits_[rig] > judged_[rig]) return false;
+  const std::int64_t machines = std::max<std::int64_t>(kind_.shape.machines, 1);
+  if (std::ssize(by_move_) != moves || judged_.end() > machines || hits_.end() > machines) return false;
+  for (std::int64_t machine = 0; machine < machines; ++machine)
+    if (hits_[machine] < 0 || hits_[machine] > judged_[machine]) return false;
   return is_sum_of(judged_.sums(), trials_) && statistics::are_counts(by_move_, trials_) &&
          (!counts_moves_ || of_moves_.is_valid(trials_, moves));
 }
@@ -174,7 +175,7 @@ RateWithBounds MeasureAccumulator::rate_of_moves(double confidence) const {
 }
 
 statistics::ConfidenceInterval MeasureAccumulator::bootstrap_bounds(const StatisticsOptions& options) const {
-  const std::string name = fmt::format("bootstrap/{}.mean", measure_->field.column.name);
+  const std::string name = fmt::format("bootstrap/{}.mean", stream_name(measure_->field.column.name));
   const random::RandomStream stream{designs::random_key(options.bootstrap->seed, name),
                                     options.bootstrap->stream};
   return measure_->reduction == layout::MoveReduction::sum
@@ -184,13 +185,14 @@ statistics::ConfidenceInterval MeasureAccumulator::bootstrap_bounds(const Statis
 
 RateWithBounds MeasureAccumulator::rate(double confidence) const {
   if (trials_ == 0 || kind_.open_loop) return {};
-  if (kind_.shape.rigs == 0) {
+  if (kind_.shape.machines == 0) {
     return {zerocount::statistics::rate(hits_[0], trials_),
             statistics::clopper_pearson(hits_[0], trials_, confidence),
             statistics::wilson(hits_[0], trials_, confidence)};
   }
   statistics::ClusterSums sums;
-  for (std::int64_t rig = 0; rig < judged_.end(); ++rig) sums.add(hits_[rig], judged_[rig]);
+  for (std::int64_t machine = 0; machine < judged_.end(); ++machine)
+    sums.add(hits_[machine], judged_[machine]);
   const statistics::ClusteredProportion proportion = statistics::clustered_proportion(sums, confidence);
   return {proportion.value, proportion.korn_graubard, proportion.wilson};
 }

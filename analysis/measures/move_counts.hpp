@@ -9,7 +9,7 @@
 
 #include "analysis/statistics/clusters/by_cluster.hpp"
 #include "analysis/statistics/clusters/clustered_proportion.hpp"
-#include "analysis/statistics/clusters/rig_proportion.hpp"
+#include "analysis/statistics/clusters/machine_proportion.hpp"
 #include "experiments/study/study.hpp"
 
 namespace zerocount::measures {
@@ -18,26 +18,26 @@ namespace zerocount::measures {
 struct MoveCounts {
   std::int64_t moves{0};
   std::int64_t met{0};
-  statistics::ClusterSums of_trials{};       ///< moves; each trial is a cluster. Empty with rigs
-  std::vector<statistics::RigMoves> rigs{};  ///< [rig]; empty without rigs
+  statistics::ClusterSums of_trials{};               ///< moves; each trial is a cluster. Empty with machines
+  std::vector<statistics::MachineMoves> machines{};  ///< [machine]; empty without machines
 
   bool operator==(const MoveCounts&) const = default;
 };
 
-/// The moves in clusters: rigs, or trials where none share a rig.
+/// The moves in clusters: machines, or trials where none share a machine.
 statistics::ClusterSums clusters_of(const MoveCounts& counts);
 
 /// Sizes of the dimensions by which the trials of a design point are told apart; 0: not by this one.
 struct Shape {
-  std::int64_t rigs{0};        ///< draw j is on rig j mod rigs
-  std::int64_t worlds{0};      ///< draw j is in world j mod worlds, and rig r in world r mod worlds
+  std::int64_t machines{0};    ///< draw j is on machine j mod machines
+  std::int64_t worlds{0};      ///< draw j is in world j mod worlds, and machine r in world r mod worlds
   std::int64_t conditions{0};  ///< with ages each condition at each age; see study::TrialTurns
 
   bool operator==(const Shape&) const = default;
 };
 
 inline Shape shape_of(const study::Study& study) {
-  return {study.rigs, study.worlds, std::ssize(study.conditions)};
+  return {study.machines, study.worlds, std::ssize(study.conditions)};
 }
 
 /// Cells of a design point: those under one condition, of one world, or all.
@@ -46,17 +46,18 @@ struct Cells {
   std::optional<std::size_t> world{};
 };
 
-/// The moves of a design point, counted in cells: each world under each condition, or with rigs each rig
-/// under each condition. All other counts are sums of cells.
+/// The moves of a design point, counted in cells: each world under each condition, or with machines each
+/// machine under each condition. All other counts are sums of cells.
 class CellCounts {
  public:
   explicit CellCounts(const Shape& shape = {}) : shape_(shape) {}
 
   /// Adds moves of a trial.
   void add(std::int64_t trial, std::int64_t moves, std::int64_t met);
-  /// Adds moves of a rig under one condition. @param condition 0 without conditions
-  void add_rig(std::size_t rig, std::size_t condition, const statistics::RigMoves& moves);
-  /// Adds the moves of trials of one world under one condition, without rigs. @param world 0 without worlds
+  /// Adds moves of a machine under one condition. @param condition 0 without conditions
+  void add_machine(std::size_t machine, std::size_t condition, const statistics::MachineMoves& moves);
+  /// Adds the moves of trials of one world under one condition, without machines. @param world 0 without
+  /// worlds
   void add_trials(std::size_t world, std::size_t condition, const statistics::ClusterSums& moves);
   /// Adds other moves, of the same shape.
   CellCounts& operator+=(const CellCounts& other);
@@ -103,7 +104,7 @@ class CellCounts {
   /// The sums of one condition, or of all, as a file has them.
   struct Part {
     MoveCounts counts;
-    std::vector<statistics::ClusterSums> of_worlds;  ///< empty without worlds, with rigs
+    std::vector<statistics::ClusterSums> of_worlds;  ///< empty without worlds, with machines
   };
 
   std::size_t worlds() const { return static_cast<std::size_t>(std::max<std::int64_t>(shape_.worlds, 1)); }
@@ -118,7 +119,7 @@ class CellCounts {
   template <class Archive>
   void write(Archive& archive, Condition condition) const {
     const MoveCounts counts = sum({condition, std::nullopt});
-    archive(counts.moves, counts.met, counts.of_trials, counts.rigs);
+    archive(counts.moves, counts.met, counts.of_trials, counts.machines);
     if (shape_.worlds > 0) archive(sums_of_worlds(condition));
   }
 
@@ -127,7 +128,7 @@ class CellCounts {
   Part read(Archive& archive, Condition condition) {
     Part part;
     MoveCounts& counts = part.counts;
-    archive(counts.moves, counts.met, counts.of_trials, counts.rigs);
+    archive(counts.moves, counts.met, counts.of_trials, counts.machines);
     if (shape_.worlds > 0) archive(part.of_worlds);
     archive.require(can_be(part));
     if (condition || shape_.conditions == 0) take(condition.value_or(0), part);
@@ -135,8 +136,8 @@ class CellCounts {
   }
 
   Shape shape_;
-  statistics::ByCluster<statistics::ClusterSums> trials_{};  ///< [condition, world]; empty with rigs
-  statistics::ByCluster<statistics::RigMoves> rigs_{};       ///< [condition, rig]
+  statistics::ByCluster<statistics::ClusterSums> trials_{};     ///< [condition, world]; empty with machines
+  statistics::ByCluster<statistics::MachineMoves> machines_{};  ///< [condition, machine]
 };
 
 }  // namespace zerocount::measures

@@ -108,7 +108,7 @@ PointAccumulator::PointAccumulator(const MoveKind& kind, const layout::MeasureTa
       goals_(kind.goals.size(), CellCounts(kind.shape)),
       for_the_load_(kind.for_the_load.size(), CellCounts(kind.shape)),
       groups_{CellCounts(kind.shape), CellCounts(kind.shape)},
-      trial_settling_times_(kind.shape.rigs) {
+      trial_settling_times_(kind.shape.machines) {
   for (const CountedGoal& goal : kind.goals) goal_settling_.emplace_back(goal, kind.shape);
   for (const layout::Measure& measure : table) measures_.emplace_back(measure, measure.point, kind);
 }
@@ -163,7 +163,7 @@ void PointAccumulator::add_moves(std::span<const trial::MoveOutcome> moves) {
   counted_.moves += std::ssize(moves);
   ++(counted_.outcomes.*counter_of(trial::worst_outcome(moves)));
   if (kind_.open_loop) return;
-  if (kind_.shape.rigs > 0) add_to_rig(moves);
+  if (kind_.shape.machines > 0) add_to_machine(moves);
   for (std::size_t i = 0; i < goals_.size(); ++i) {
     count_moves(goals_[i], kind_.goals[i], first_trial_ + counted_.trials, moves);
     goal_settling_[i].add(first_trial_ + counted_.trials, kind_.goals[i], moves);
@@ -200,12 +200,12 @@ void PointAccumulator::add_level_accumulators() {
   for (const layout::Measure& measure : *table_) measures.emplace_back(measure, measure.level, kind_);
 }
 
-void PointAccumulator::add_to_rig(std::span<const trial::MoveOutcome> moves) {
+void PointAccumulator::add_to_machine(std::span<const trial::MoveOutcome> moves) {
   const auto zero = std::count_if(moves.begin(), moves.end(),
                                   [](const trial::MoveOutcome& m) { return trial::is_success(m.outcome); });
-  const statistics::RigTrials trial{
+  const statistics::MachineTrials trial{
       .trials = 1, .successes = trial::succeeded(moves), .moves = std::ssize(moves), .zero_moves = zero};
-  rigs_.add((first_trial_ + counted_.trials) % kind_.shape.rigs, trial);
+  machines_.add((first_trial_ + counted_.trials) % kind_.shape.machines, trial);
 }
 
 /// The settling time of a trial is that of its slowest move. It is censored if a move did not arrive, or was
@@ -262,7 +262,7 @@ PointAccumulator& PointAccumulator::operator+=(const PointAccumulator& next) {
       add_each(levels_[level], next.levels_[level]);
     add_each(lost_in_levels_, next.lost_in_levels_);
   }
-  rigs_ += next.rigs_;
+  machines_ += next.machines_;
   add_each(goals_, next.goals_);
   add_each(for_the_load_, next.for_the_load_);
   add_each(goal_settling_, next.goal_settling_);
@@ -281,7 +281,7 @@ PointAccumulator& PointAccumulator::operator+=(const PointAccumulator& next) {
 
 template <class Self, class Archive>
 void PointAccumulator::transfer(Self& self, Archive& archive) {
-  archive(self.counted_, self.rigs_);
+  archive(self.counted_, self.machines_);
   for (auto& counts : self.goals_) archive(counts);
   for (auto& counts : self.for_the_load_) archive(counts);
   for (auto& settling : self.goal_settling_) archive(settling);
@@ -305,7 +305,7 @@ bool PointAccumulator::is_valid(std::int64_t moves) const {
     return std::all_of(measures.begin(), measures.end(),
                        [&](const auto& one) { return one.is_valid(trials, moves_of_trial); });
   };
-  if (!has_valid_counts(moves) || !has_valid_jerks() || !has_valid_rigs() || !has_valid_groups())
+  if (!has_valid_counts(moves) || !has_valid_jerks() || !has_valid_machines() || !has_valid_groups())
     return false;
   for (std::size_t i = 0; i < goals_.size(); ++i) {
     if (!goals_[i].is_valid(counted_.trials, asked_moves(kind_.goals[i], moves)) ||
@@ -343,15 +343,16 @@ bool PointAccumulator::has_valid_jerks() const {
          interval_trend_.rising >= 0 && interval_trend_.falling >= 0 && interval_trend_.equal >= 0;
 }
 
-bool PointAccumulator::has_valid_rigs() const {
-  if (kind_.shape.rigs == 0 || kind_.open_loop) return rigs_.sums().empty();
-  if (rigs_.end() > kind_.shape.rigs) return false;
-  statistics::RigTrials sum;
-  for (const statistics::RigTrials& rig : rigs_.sums()) {
-    if (rig.successes < 0 || rig.successes > rig.trials || rig.trials > counted_.trials - sum.trials ||
-        rig.zero_moves < 0 || rig.zero_moves > rig.moves || rig.moves > counted_.moves - sum.moves)
+bool PointAccumulator::has_valid_machines() const {
+  if (kind_.shape.machines == 0 || kind_.open_loop) return machines_.sums().empty();
+  if (machines_.end() > kind_.shape.machines) return false;
+  statistics::MachineTrials sum;
+  for (const statistics::MachineTrials& machine : machines_.sums()) {
+    if (machine.successes < 0 || machine.successes > machine.trials ||
+        machine.trials > counted_.trials - sum.trials || machine.zero_moves < 0 ||
+        machine.zero_moves > machine.moves || machine.moves > counted_.moves - sum.moves)
       return false;
-    sum += rig;
+    sum += machine;
   }
   return sum.trials == counted_.trials && sum.successes == counted_.outcomes.zero_count &&
          sum.moves == counted_.moves;
@@ -398,14 +399,14 @@ statistics::SuccessClaim PointAccumulator::claim(const PointSummary& point,
   const auto at_any_time = [&] {
     return statistics::success_claim_at_any_time(successes, point.judged, options.confidence);
   };
-  if (kind_.shape.rigs == 0 || point.judged == 0) {
+  if (kind_.shape.machines == 0 || point.judged == 0) {
     return options.stopped_by_outcomes
                ? at_any_time()
                : statistics::success_claim(successes, point.judged, options.confidence);
   }
-  const statistics::SuccessClaim on_rigs =
-      statistics::success_claim_on_rigs(point.rigs.successes, options.confidence);
-  return options.stopped_by_outcomes ? statistics::weaker_claim(on_rigs, at_any_time()) : on_rigs;
+  const statistics::SuccessClaim on_machines =
+      statistics::success_claim_on_machines(point.machines.successes, options.confidence);
+  return options.stopped_by_outcomes ? statistics::weaker_claim(on_machines, at_any_time()) : on_machines;
 }
 
 PointSummary PointAccumulator::statistics(const StatisticsOptions& options) const {
@@ -415,8 +416,8 @@ PointSummary PointAccumulator::statistics(const StatisticsOptions& options) cons
   result.judged = kind_.open_loop ? 0 : result.trials;
   result.measures = statistics_of(measures_, options);
   result.levels = level_statistics(options);
-  if (kind_.shape.rigs > 0 && result.judged > 0)
-    result.rigs = statistics::rig_statistics(rigs_.from_zero(), options.confidence);
+  if (kind_.shape.machines > 0 && result.judged > 0)
+    result.machines = statistics::machine_statistics(machines_.from_zero(), options.confidence);
   result.claim = claim(result, options);
   result.goals = goals_;
   result.for_the_load = for_the_load_;
@@ -424,7 +425,7 @@ PointSummary PointAccumulator::statistics(const StatisticsOptions& options) cons
     result.goal_settling.push_back(settling.statistics(options.confidence));
   if (kind_.counts_trials() && result.judged > 0) result.trials_of_groups = groups_;
   if (options.stopped_by_outcomes)
-    result.rigs.tolerance = {};  // it takes a number of trials that was fixed beforehand
+    result.machines.tolerance = {};  // it takes a number of trials that was fixed beforehand
   result.settles_within = tolerance_limits(trial_settling_times_.sample(), options);
   result.jerk_interval = {jerk_intervals_.size, statistics::mean(jerk_intervals_),
                           statistics::quantile(jerk_intervals_, 0.5).value};

@@ -61,8 +61,8 @@ struct StatisticsOptions {
   bool stopped_by_outcomes{false};
 };
 
-/// Collects one measure of the trials of a design point and computes its statistics. The trials of one rig
-/// and the moves of one trial are clusters: the bounds account for their correlation.
+/// Collects one measure of the trials of a design point and computes its statistics. The trials of one
+/// machine and the moves of one trial are clusters: the bounds account for their correlation.
 ///
 /// Sums, and values with quantiles, are kept as histograms: the memory grows with the number of distinct
 /// values, not with the number of trials.
@@ -109,18 +109,18 @@ class MeasureAccumulator {
   statistics::TrialClusters clusters_;
   statistics::ClusterTotals totals_;
   std::vector<std::int64_t> by_move_;  ///< [move] trials whose move has the quality; empty without trials
-  statistics::ByCluster<> judged_;     ///< trials; without rigs all are of rig 0
+  statistics::ByCluster<> judged_;     ///< trials; without machines all are of machine 0
   statistics::ByCluster<> hits_;       ///< those with the quality, likewise
   CellCounts of_moves_;                ///< with the quality, where they are counted
   std::vector<double> values_;         ///< of the trials that are being added
 };
 
-/// Collects the trials of one design point and computes its statistics. The trials of one rig and the moves
-/// of one trial are clusters: the bounds account for their correlation.
+/// Collects the trials of one design point and computes its statistics. The trials of one machine and the
+/// moves of one trial are clusters: the bounds account for their correlation.
 ///
 /// The memory grows with the number of distinct settling times, jerk counts, jerk intervals and final errors
-/// (with rigs: of each rig), not with the number of trials. For one sample rate it is limited by the samples
-/// of a move and the maximum error in counts.
+/// (with machines: of each machine), not with the number of trials. For one sample rate it is limited by the
+/// samples of a move and the maximum error in counts.
 class PointAccumulator {
  public:
   /// @param table the measures; must outlive this object. @param first_trial index of the first trial that
@@ -164,13 +164,13 @@ class PointAccumulator {
   bool is_valid(std::int64_t moves) const;
   bool has_valid_counts(std::int64_t moves) const;
   bool has_valid_jerks() const;
-  bool has_valid_rigs() const;
+  bool has_valid_machines() const;
   bool has_valid_groups() const;
   void add_level_accumulators();
   void add_moves(std::span<const trial::MoveOutcome> moves);
   void add_level(std::size_t level, std::span<const trial::MoveOutcome> move);
   void add_to_groups(std::span<const trial::MoveOutcome> moves);
-  void add_to_rig(std::span<const trial::MoveOutcome> moves);
+  void add_to_machine(std::span<const trial::MoveOutcome> moves);
   void add_trial_settling_times(const MovesOfTrials& some);
   void add_jerks(const trial::MoveOutcome& move, std::span<const trial::Jerk> jerks);
   std::vector<LevelStatistics> level_statistics(const StatisticsOptions& options) const;
@@ -184,7 +184,7 @@ class PointAccumulator {
   std::vector<MeasureAccumulator> measures_;             ///< [row of the table]
   std::vector<std::vector<MeasureAccumulator>> levels_;  ///< [move][row of the table]
   std::vector<std::int64_t> lost_in_levels_;             ///< [move] trials whose motion was lost
-  statistics::ByCluster<statistics::RigTrials> rigs_;
+  statistics::ByCluster<statistics::MachineTrials> machines_;
   std::vector<CellCounts> goals_;                   ///< [goal]
   std::vector<CellCounts> for_the_load_;            ///< [goal] of MoveKind::for_the_load
   std::vector<GoalSettling> goal_settling_;         ///< [goal]

@@ -156,24 +156,25 @@ std::vector<StatisticField> jerk_statistic_fields() {
   };
 }
 
-std::vector<StatisticField> rig_fields() {
+std::vector<StatisticField> machine_fields() {
   return {
-      {"rigs", "n", "1", "machines that the trials ran on", true,
-       [](S s) { return text::to_double(s.rigs.n); }},
-      {"rigs", "success_sd", "1",
+      {"machines", "n", "1", "machines that the trials ran on", true,
+       [](S s) { return text::to_double(s.machines.n); }},
+      {"machines", "success_sd", "1",
        "standard deviation between machines of the probability of success (beta-binomial, moment estimate)",
-       false, [](S s) { return s.rigs.success_sd; }},
-      {"rigs", "without_failure", "1",
+       false, [](S s) { return s.machines.success_sd; }},
+      {"machines", "without_failure", "1",
        "machines all of whose trials succeeded, as a proportion of the machines", false,
-       [](S s) { return s.rigs.without_failure; }},
-      {"rigs", "without_failure_low", "1", "lower 95 % Clopper-Pearson bound of rigs_without_failure", false,
-       [](S s) { return s.rigs.without_failure_bounds.low; }},
-      {"rigs", "without_failure_high", "1", "upper 95 % Clopper-Pearson bound of rigs_without_failure", false,
-       [](S s) { return s.rigs.without_failure_bounds.high; }},
-      {"rigs", "worst_5_percent", "1",
+       [](S s) { return s.machines.without_failure; }},
+      {"machines", "without_failure_low", "1", "lower 95 % Clopper-Pearson bound of machines_without_failure",
+       false, [](S s) { return s.machines.without_failure_bounds.low; }},
+      {"machines", "without_failure_high", "1",
+       "upper 95 % Clopper-Pearson bound of machines_without_failure", false,
+       [](S s) { return s.machines.without_failure_bounds.high; }},
+      {"machines", "worst_5_percent", "1",
        "mean success rate of the worst 5 % of the machines (of R machines the R/20 with the lowest, rounded "
        "up)",
-       false, [](S s) { return s.rigs.worst_5_percent; }},
+       false, [](S s) { return s.machines.worst_5_percent; }},
   };
 }
 
@@ -233,7 +234,7 @@ std::vector<StatisticField> statistic_fields(const study::StudyFeatures& feature
     add(*measure, is_any_other);
     if (measure->field.column.name == "jerk_count") append(fields, jerk_statistic_fields());
   }
-  if (features.rigs) append(fields, rig_fields());
+  if (features.machines) append(fields, machine_fields());
   for (const layout::Measure& measure : measures) {
     if (measure.only_with != nullptr && layout::is_in_file(measure, features))
       add(measure, [](layout::Statistic statistic) { return !is_bootstrap(statistic); });

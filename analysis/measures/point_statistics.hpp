@@ -8,7 +8,7 @@
 #include "analysis/measures/goal_counts.hpp"
 #include "analysis/measures/measure_statistics.hpp"
 #include "analysis/measures/undecided_moves.hpp"
-#include "analysis/statistics/clusters/rig_statistics.hpp"
+#include "analysis/statistics/clusters/machine_statistics.hpp"
 #include "analysis/statistics/clusters/tolerance.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/statistics/unknown.hpp"
@@ -108,9 +108,9 @@ struct GroupTrials {
 struct PointSummary : StatisticsOfMeasures, PointCounts {
   double hold{statistics::unknown};  ///< of a move, s, in a summary; NaN where trials differ
 
-  std::int64_t judged{0};          ///< trials with targets: all, or none in an open-loop study
-  statistics::SuccessClaim claim;  ///< from zero_count of judged trials; none for an open-loop study
-  statistics::RigStatistics rigs;  ///< differences between rigs, of a study with rigs
+  std::int64_t judged{0};                  ///< trials with targets: all, or none in an open-loop study
+  statistics::SuccessClaim claim;          ///< from zero_count of judged trials; none for an open-loop study
+  statistics::MachineStatistics machines;  ///< differences between machines, of a study with machines
   /// Upper tolerance limits of the settling time of a trial (that of its slowest move), with the contents of
   /// tolerance_contents; a trial with a move that never arrives is above every limit.
   std::array<statistics::ToleranceLimit, std::size(statistics::tolerance_contents)> settles_within{};

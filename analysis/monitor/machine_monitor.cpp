@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "analysis/measures/stream_name.hpp"
 #include "analysis/monitor/change_test.hpp"
 #include "analysis/parallel/parallel.hpp"
 #include "analysis/text/text.hpp"
@@ -210,7 +211,7 @@ std::string near_text(const Moves& side, const std::string& measure) {
   return near ? fmt::format("; its column '{}' looks like it", text::printable(*near)) : "";
 }
 
-/// "settling_time, overshoot and 30 more"
+/// "arrival_time, overshoot and 30 more"
 std::string names_of(const Moves& side) {
   constexpr std::size_t max_shown = 8;
   std::vector<std::string> names;
@@ -295,7 +296,7 @@ std::optional<std::int64_t> values_to_see(const DelayQuestion& question) {
   for (std::size_t i = 0; i < question.baseline.size(); ++i) changed.emplace_back(question, i);
   const random::RandomKey values = designs::random_key(
       question.seed,
-      fmt::format("monitor.{}.{}{}", question.measure.name,
+      fmt::format("monitor.{}.{}{}", measures::stream_name(question.measure.name),
                   question.direction == Direction::higher ? "higher" : "lower", word_of(question.form)));
   std::vector<std::int64_t> delays;
   int misses = 0;
@@ -303,7 +304,8 @@ std::optional<std::int64_t> values_to_see(const DelayQuestion& question) {
     random::NumberSource numbers(values, i);
     ChangeTest test(
         resample(question.baseline, classes.size(), numbers),
-        designs::random_key(question.seed, fmt::format("monitor.{}.{}", question.measure.name, i)));
+        designs::random_key(question.seed,
+                            fmt::format("monitor.{}.{}", measures::stream_name(question.measure.name), i)));
     while (test.martingale().values() < question.max_values && test.martingale().capital() < question.alarm) {
       const std::size_t next = question.baseline.size() == 1 ? 0 : value_from(classes, numbers);
       test.update(changed[next](numbers), next);
@@ -421,7 +423,8 @@ std::vector<double> MachineMonitor::add(const MoveLog::Column& before, const Mov
     state.baseline_median = typical_value(measure, std::move(oriented));
   state.to_see = change_to_see(measure, by_class, settings_.change);
   for (std::vector<double>& alike : by_class) std::ranges::sort(alike);
-  const random::RandomKey ties = designs::random_key(settings_.seed, fmt::format("monitor.{}", measure.name));
+  const random::RandomKey ties =
+      designs::random_key(settings_.seed, fmt::format("monitor.{}", measures::stream_name(measure.name)));
   ChangeTest test(by_class, ties);
   watched_.push_back({.test = std::move(test), .baseline = std::move(by_class)});
   states_.push_back(std::move(state));
@@ -435,7 +438,8 @@ void MachineMonitor::test_dependence(const std::vector<std::vector<double>>& val
         serial_correlation(classes_.size() == 1 ? values[i] : ranks_within(values[i], baseline_classes_));
     state.dependence = dependence_of(
         values[i], baseline_classes_,
-        designs::random_key(settings_.seed, fmt::format("monitor.order.{}", state.measure.name)));
+        designs::random_key(settings_.seed,
+                            fmt::format("monitor.order.{}", measures::stream_name(state.measure.name))));
   });
 }
 

@@ -94,7 +94,7 @@ std::vector<NotJudged> not_judged(Of r) {
   return all;
 }
 
-/// "jerk_count, settling_time (its column 'Settling_Time' looks like it)", for the measures with this reason.
+/// "jerk_count, arrival_time (its column 'Settling_Time' looks like it)", for the measures with this reason.
 std::string names_not_judged(Of r, WhyUnwatched why) {
   std::vector<std::string> names;
   for (const UnwatchedMeasure& one : r.monitor.unwatched())

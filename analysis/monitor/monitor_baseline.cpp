@@ -92,7 +92,7 @@ Baseline baseline_of(const MoveLog& log) {
 Baseline baseline_of(const reading::AllTrialsFile& file, const ModelMoves& moves) {
   const study::Study& study = file.study();
   const auto of_trial = static_cast<std::size_t>(file.moves());
-  Baseline baseline{{.name = file.path().string()}, true, moves.rig ? 1 : study.rigs};
+  Baseline baseline{{.name = file.path().string()}, true, moves.machine ? 1 : study.machines};
   if (baseline.machines == 0) baseline.machines = file.header().trials;
   std::vector<const layout::RecordField<trial::MoveOutcome>*> fields;
   for (const auto& field : file.measures()) {
@@ -115,7 +115,8 @@ Baseline baseline_of(const reading::AllTrialsFile& file, const ModelMoves& moves
     const std::vector<trial::MoveOutcome> outcomes = file.outcomes({rows.first + first, count});
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
       const std::int64_t trial = first + static_cast<std::int64_t>(i / of_trial);
-      if (moves.rig && study::group_of(study, study::Grouping::rig, trial) != *moves.rig) continue;
+      if (moves.machine && study::group_of(study, study::Grouping::machine, trial) != *moves.machine)
+        continue;
       ++baseline.moves;
       const std::size_t move = i % of_trial;
       if (!fixed && move == 0)

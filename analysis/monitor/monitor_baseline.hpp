@@ -20,7 +20,7 @@ namespace zerocount::monitor {
 /// Moves that later ones are compared with.
 struct Baseline : Moves {
   bool is_model{false};      ///< simulated, not of the machine
-  std::int64_t machines{0};  ///< of a model: rigs, or trials that share none
+  std::int64_t machines{0};  ///< of a model: machines, or trials that share none
 };
 
 /// The labels of the moves of a trial, which begins at 0.
@@ -29,7 +29,7 @@ std::vector<MoveLabel> labels_of(const trial::TrialParameters& parameters);
 /// Which moves of a results file.
 struct ModelMoves {
   std::int64_t point{0};
-  std::optional<std::int64_t> rig{};  ///< none: those of all
+  std::optional<std::int64_t> machine{};  ///< none: those of all
 };
 
 /// The moves of a log. @throws Failure (bad_data) if there is none

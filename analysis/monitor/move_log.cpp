@@ -19,6 +19,7 @@
 #include "core/failure/failure.hpp"
 #include "core/text/text.hpp"
 #include "core/text/unit.hpp"
+#include "core/trial/move_measures.hpp"
 #include "experiments/parameters/study_units.hpp"
 #include "experiments/yaml/problems.hpp"
 
@@ -95,7 +96,7 @@ bool is_within(std::string_view part, std::string_view whole) {
   return part.size() >= shortest && whole.find(part) != std::string_view::npos;
 }
 
-/// "; 'Settling_Time' looks like settling_time" of the first column that is a misspelt measure; or empty.
+/// "; 'Settling_Time' looks like arrival_time" of the first column that is a misspelt measure; or empty.
 std::string misspelling_in(std::span<const std::string> heads) {
   for (const std::string& head : heads)
     if (const std::optional<std::string> measure = misspelt_measure(head))
@@ -298,11 +299,10 @@ void MoveLog::read_last(std::string_view line) {
 
 void MoveLog::require_header() const {
   if (!has_header())
-    throw Failure(
-        ExitCode::bad_input,
-        fmt::format("{}: is empty; expected a header with names of measures, such as settling_time, "
-                    "and a row for each move",
-                    name));
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: is empty; expected a header with names of measures, such as arrival_time, "
+                              "and a row for each move",
+                              name));
 }
 
 void MoveLog::read_line(std::string_view line) {
@@ -344,6 +344,10 @@ void MoveLog::read_header(std::string_view line) {
   for (const std::string_view cell : tables::cells_of(line, separator_)) {
     const ColumnHead head = column_head(cell);
     const std::optional<MonitoredMeasure> measure = measure_named(head.name);
+    if (const std::string_view meanings = trial::meanings_of_settling_time(head.name); !meanings.empty())
+      throw Failure(ExitCode::bad_input,
+                    fmt::format("{}:{}: the column '{}' may mean two measures; expected {}", name, line_,
+                                text::printable(cell), meanings));
     if (!group_.empty() && (head.name == group_ || cell == group_)) {
       if (label_cells_.group) refuse_twice(group_);
       label_cells_.group = heads_.size();
@@ -372,7 +376,7 @@ void MoveLog::read_header(std::string_view line) {
     throw Failure(
         ExitCode::bad_input,
         fmt::format("{}:{}: no column is named like a measure of moves ({}); expected names such as "
-                    "settling_time, band_settling_time[1], overshoot, outcome{}",
+                    "arrival_time, band_settling_time[1], overshoot, outcome{}",
                     name, line_, text::printable(fmt::format("{}", fmt::join(heads_, ", ")).substr(0, 200)),
                     misspelling_in(heads_)));
 }

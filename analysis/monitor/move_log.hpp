@@ -67,7 +67,7 @@ ColumnHead column_head(std::string_view text);
 std::optional<std::string> resembling_column(std::string_view measure, std::span<const std::string> heads);
 
 /// The measure that the column's name stands for in another letter case, or with other marks between its
-/// words: settling_time of "Settling-Time [ms]", and band_settling_time[1] of "BandSettlingTime 1".
+/// words: arrival_time of "Settling-Time [ms]", and band_settling_time[1] of "BandSettlingTime 1".
 std::optional<std::string> misspelt_measure(std::string_view head);
 
 /// Factor from the unit of a column to SI, as far as the program knows units; 1 without one.

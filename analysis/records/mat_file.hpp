@@ -16,8 +16,9 @@ namespace zerocount::records {
 bool is_mat_file(const std::filesystem::path& path);
 
 /// The arrays of real numbers of a MAT file of version 5, with the paths and the lengths that they have in
-/// one of version 7.3: "/rig/current" is the field `current` of the structure `rig`, and the last dimension
-/// comes first. Other variables (text, cells, complex and sparse numbers, arrays of structures) are left out.
+/// one of version 7.3: "/machine/current" is the field `current` of the structure `machine`, and the last
+/// dimension comes first. Other variables (text, cells, complex and sparse numbers, arrays of structures) are
+/// left out.
 class MatFile {
  public:
   /// @throws Failure: bad_data if the file is damaged; machine_failed if it cannot be read.

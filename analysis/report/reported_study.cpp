@@ -93,9 +93,9 @@ goal::QuestionRate shown_rate(const ReportedStudy& reported, std::int64_t point)
 
 std::string shown_bounds(const ReportedStudy& reported) {
   if (!question_of(reported).claim())
-    return reported.study.stop   ? "95 % bounds that hold at whatever trial one stops"
-           : reported.study.rigs ? "95 % Korn-Graubard bounds"
-                                 : "95 % Clopper-Pearson bounds";
+    return reported.study.stop       ? "95 % bounds that hold at whatever trial one stops"
+           : reported.study.machines ? "95 % Korn-Graubard bounds"
+                                     : "95 % Clopper-Pearson bounds";
   return fmt::format("one-sided {} bounds", text::percent(question_of(reported).claim()->confidence));
 }
 

@@ -58,7 +58,7 @@ std::string flawless_text(const ReportedStudy& reported, const statistics::Succe
       "No failure in {} trials does not prove 100 % repeatability: with 95 % confidence the probability of a "
       "failure is at most {}. To show that it is below 0.1 % takes {} {} without a failure.",
       claim.trials, text::percent_at_most(claim.failure_at_most),
-      statistics::trials_for_claim(0.999, claim.confidence, 0), claim.rigs > 0 ? "machines" : "trials");
+      statistics::trials_for_claim(0.999, claim.confidence, 0), claim.machines > 0 ? "machines" : "trials");
 }
 
 std::string capitalised(std::string line) {
@@ -87,16 +87,16 @@ void add_sentences(std::vector<std::string>& lines, const std::string& text) {
 void add_goal(std::vector<std::string>& lines, const ReportedStudy& reported,
               const summary::JudgedPoint& judged) {
   const goal::Question& question = reported.summary.question;
-  if (const auto all = rigs_meeting_all(question, point_of(reported, judged.chosen.point)))
-    lines.push_back(
-        fmt::format("{} of {} machines meet all goals under all conditions together.", all->rigs, all->of));
+  if (const auto all = machines_meeting_all(question, point_of(reported, judged.chosen.point)))
+    lines.push_back(fmt::format("{} of {} machines meet all goals under all conditions together.",
+                                all->machines, all->of));
   if (const auto worlds = summary::worlds_of_point(reported.summary, judged.chosen.point))
     add_sentences(lines, summary::bad_worlds_sentence(
                              *worlds, summary::world_inputs_of(reported.summary, judged.chosen.point),
                              reported.summary.question));
   if (judged.needs)
     lines.push_back(goal::needs_sentence(*question.parts[judged.verdict.goal].claim, *judged.needs,
-                                         reported.summary.features.rigs) +
+                                         reported.summary.features.machines) +
                     ".");
 }
 

@@ -25,18 +25,19 @@ struct UsedTrials {
   std::vector<std::size_t> row_starts;   ///< of the rows of a saltelli design
   std::vector<std::size_t> independent;  ///< all, or those of A and B of a saltelli design
   std::int64_t left_out{0};              ///< without a value, or in a row with one such
-  std::int64_t of_rigs{0};               ///< not looked at, because they share a rig with one that was
+  std::int64_t of_machines{0};           ///< not looked at, because they share a machine with one that was
 };
 
 /// @param values [trial], NaN where there is none
 UsedTrials used_trials(const PointInputs& point, const std::vector<double>& values) {
   UsedTrials used;
   if (point.design != study::Design::saltelli) {
-    const std::size_t looked_at = point.rigs > 0 ? static_cast<std::size_t>(point.rigs) : values.size();
+    const std::size_t looked_at =
+        point.machines > 0 ? static_cast<std::size_t>(point.machines) : values.size();
     for (std::size_t i = 0; i < looked_at; ++i) {
       if (std::isfinite(values[i])) used.independent.push_back(i);
     }
-    used.of_rigs = point.rigs > 0 ? static_cast<std::int64_t>(values.size() - looked_at) : 0;
+    used.of_machines = point.machines > 0 ? static_cast<std::int64_t>(values.size() - looked_at) : 0;
     used.left_out = static_cast<std::int64_t>(looked_at - used.independent.size());
     return used;
   }
@@ -210,7 +211,7 @@ void add_notes(const PointInputs& point, const SensitivityOutput& output, const 
     result.notes.push_back(
         fmt::format("{} of {} trials are left out{}: some trials have no value, because their "
                     "motion was lost, was stopped, or is not in the file",
-                    used.left_out, all - static_cast<std::size_t>(used.of_rigs),
+                    used.left_out, all - static_cast<std::size_t>(used.of_machines),
                     point.design == study::Design::saltelli ? ", in whole rows" : ""));
   }
   if (point.correlated) {
@@ -222,10 +223,10 @@ void add_notes(const PointInputs& point, const SensitivityOutput& output, const 
     result.notes.emplace_back(
         "within worlds: what differs between worlds adds to the variance that nothing here explains");
   }
-  if (used.of_rigs > 0) {
+  if (used.of_machines > 0) {
     result.notes.push_back(fmt::format(
         "of each of the {} machines the first trial is used: the others are not independent of it",
-        point.rigs));
+        point.machines));
   }
   if (trials.late > 0) {
     result.notes.push_back(fmt::format("{} of {} trials have a move that {}; it counts with its duration",
@@ -284,7 +285,7 @@ OutputSensitivity output_sensitivity(const PointInputs& inputs, const Sensitivit
   const bool from_saltelli = inputs.design == study::Design::saltelli;
   const UsedTrials used = used_trials(inputs, trials.values);
   const std::vector<double> y = picked(trials.values, used.independent);
-  result.trials = static_cast<std::int64_t>(trials.values.size()) - used.left_out - used.of_rigs;
+  result.trials = static_cast<std::int64_t>(trials.values.size()) - used.left_out - used.of_machines;
   describe_sample(y, result);
   add_notes(inputs, output, trials, used, result);
   if (!y.empty() && !is_constant(y)) {

@@ -17,6 +17,7 @@
 #include "analysis/statistics/unknown.hpp"
 #include "analysis/text/text.hpp"
 #include "core/failure/failure.hpp"
+#include "core/trial/move_measures.hpp"
 #include "experiments/designs/designs.hpp"
 #include "experiments/study/condition_study.hpp"
 #include "experiments/study/group_inputs.hpp"
@@ -122,7 +123,7 @@ void check_confidence(double confidence) {
 /// rows are what was paid for.
 std::int64_t trials_read(const study::Study& study, const SensitivityQuestion& question) {
   if (study.design == study::Design::saltelli) return study.trials;
-  return std::min(study.trials, std::max(question.max_trials, study.rigs));
+  return std::min(study.trials, std::max(question.max_trials, study.machines));
 }
 
 PointInputs point_inputs(const reading::AllTrialsFile& file, std::int64_t point, bool under_condition,
@@ -132,7 +133,7 @@ PointInputs point_inputs(const reading::AllTrialsFile& file, std::int64_t point,
                      .factors = study.factors,
                      .inputs = {},
                      .correlated = study::has_dependent_parameters(study),
-                     .rigs = study.rigs,
+                     .machines = study.machines,
                      .subject = study.worlds > 0 ? Subject::trials_in_worlds : Subject::trials};
   const std::vector<study::WorldValues> of_worlds = study::world_values(study, point);
   const auto is_of_world = [&](const std::string& name) {
@@ -239,7 +240,7 @@ PointSensitivity sensitivity_at(const reading::AllTrialsFile& file,
   for (const SensitivityOutput& output : asked.outputs) {
     const TrialOutputs values = trial_outputs(file, study, point, trials, output);
     OutputSensitivity result = output_sensitivity(inputs, output, values, confidence, asked.bootstrap);
-    if (trials < study.trials && study.rigs == 0)
+    if (trials < study.trials && study.machines == 0)
       result.notes.push_back(fmt::format("the first {} of {} trials are used", trials, study.trials));
     add(std::move(result));
     if (study.worlds > 0) add(between_worlds(study, worlds, output, values, confidence, asked.bootstrap));
@@ -268,6 +269,9 @@ SensitivityOutput find_sensitivity_output(std::string_view name, const layout::M
     if (output.name == name) return std::move(output);
     names.push_back(std::move(output.name));
   }
+  if (const std::string_view meanings = trial::meanings_of_settling_time(name); !meanings.empty())
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("the output '{}' may mean two measures; expected {}", name, meanings));
   throw Failure(ExitCode::bad_input, fmt::format("there is no output '{}' of a trial; expected one of {}",
                                                  name, fmt::join(names, ", ")));
 }

@@ -101,7 +101,7 @@ struct SensitivityOutput {
 };
 
 /// All of them, in the order of the help. The first two are asked about unless told otherwise: `goal` and
-/// `goal_settling_time` of a study with a goal, `success` and `settling_time` without one. Each of the goals
+/// `goal_settling_time` of a study with a goal, `success` and `arrival_time` without one. Each of the goals
 /// with names has its own: `goal[large]`, `goal_settling_time[large]`.
 std::vector<SensitivityOutput> sensitivity_outputs(
     const layout::MeasureTable& measures = layout::measure_table(), const goal::Question& question = {});
@@ -165,13 +165,15 @@ struct PointInputs {
   std::vector<std::string> factors;  ///< of the design saltelli, in its order; otherwise empty
   std::vector<InputValues> inputs;   ///< all input columns
   bool correlated{false};            ///< some inputs are drawn together
-  std::int64_t rigs{0};  ///< that the trials run on, the first ones each on another; 0: no trials share a rig
+  std::int64_t machines{
+      0};  ///< that the trials run on, the first ones each on another; 0: no trials share a machine
   Subject subject{Subject::trials};
 };
 
 /// Sensitivity of one output. Of a saltelli design the indices come from whole rows, all else from the trials
-/// of A and B, which are independent. Of a study with rigs they come from the first trial of every rig,
-/// because the others are not independent of it. Trials without a value are left out, with their rows.
+/// of A and B, which are independent. Of a study with machines they come from the first trial of every
+/// machine, because the others are not independent of it. Trials without a value are left out, with their
+/// rows.
 /// @param bootstrap where the rows are drawn anew from.
 OutputSensitivity output_sensitivity(const PointInputs& inputs, const SensitivityOutput& output,
                                      const TrialOutputs& trials, double confidence,

@@ -6,7 +6,7 @@
 #include <boost/math/special_functions/beta.hpp>
 #include <fmt/format.h>
 
-#include "analysis/statistics/clusters/rig_statistics.hpp"
+#include "analysis/statistics/clusters/machine_statistics.hpp"
 #include "analysis/statistics/mean_bounds.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/text/text.hpp"
@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::int64_t max_planned_trials = 1'000'000'000'000;
 constexpr std::int64_t max_failures = 1'000'000'000;
-constexpr std::int64_t max_rigs = 1'000'000'000;
+constexpr std::int64_t max_machines = 1'000'000'000;
 
 void require_halfwidth(double halfwidth) {
   if (halfwidth > 0.0 && halfwidth < 0.5) return;
@@ -46,25 +46,27 @@ double halfwidth_of(double n, double rate, double confidence) {
   return 0.5 * (upper_bound_on_p(successes, n, tail) - lower_bound_on_p(successes, n, tail));
 }
 
-/// Expected sums over rigs whose success probabilities have the standard deviation `rig_sd`.
-ClusterSums expected_sums(double rate, double rig_sd, double rigs, double trials) {
-  const double of_trials = rate * (1.0 - rate) - rig_sd * rig_sd;
-  const double variance = trials * trials * rig_sd * rig_sd + trials * of_trials;  // of a rig's successes
-  const double n = rigs * trials;
+/// Expected sums over machines whose success probabilities have the standard deviation `machine_sd`.
+ClusterSums expected_sums(double rate, double machine_sd, double machines, double trials) {
+  const double of_trials = rate * (1.0 - rate) - machine_sd * machine_sd;
+  const double variance =
+      trials * trials * machine_sd * machine_sd + trials * of_trials;  // of a machine's successes
+  const double n = machines * trials;
   ClusterSums sums;
-  sums.clusters = std::llround(rigs);
+  sums.clusters = std::llround(machines);
   sums.events = std::llround(n);
   sums.hits = std::llround(n * rate);
   const double p = static_cast<double>(sums.hits) / static_cast<double>(sums.events);
-  sums.events_squared = rigs * trials * trials;
+  sums.events_squared = machines * trials * trials;
   sums.hits_by_events = static_cast<double>(sums.hits) * trials;
-  sums.hits_squared = (rigs - 1.0) * variance + rigs * trials * trials * p * p;
+  sums.hits_squared = (machines - 1.0) * variance + machines * trials * trials * p * p;
   return sums;
 }
 
-double halfwidth_of(double rate, double rig_sd, std::int64_t rigs, std::int64_t trials, double confidence) {
+double halfwidth_of(double rate, double machine_sd, std::int64_t machines, std::int64_t trials,
+                    double confidence) {
   const ClusterSums sums =
-      expected_sums(rate, rig_sd, static_cast<double>(rigs), static_cast<double>(trials));
+      expected_sums(rate, machine_sd, static_cast<double>(machines), static_cast<double>(trials));
   return clustered_proportion(sums, confidence).korn_graubard.half_width();
 }
 
@@ -115,21 +117,21 @@ std::int64_t trials_for_halfwidth(double halfwidth, double confidence, double ra
   });
 }
 
-std::int64_t rigs_for_halfwidth(double halfwidth, double confidence, double rate, double rig_sd,
-                                std::int64_t trials_per_rig) {
+std::int64_t machines_for_halfwidth(double halfwidth, double confidence, double rate, double machine_sd,
+                                    std::int64_t trials_per_machine) {
   require_confidence(confidence);
   require_open_unit("success rate", rate);
   require_halfwidth(halfwidth);
-  if (!(rig_sd >= 0.0 && rig_sd * rig_sd <= rate * (1.0 - rate))) {
+  if (!(machine_sd >= 0.0 && machine_sd * machine_sd <= rate * (1.0 - rate))) {
     throw Failure(
         ExitCode::bad_input,
         fmt::format("a standard deviation of {} between machines; with a success rate of {} it is from 0 "
                     "to {:.4g}",
-                    rig_sd, rate, std::sqrt(rate * (1.0 - rate))));
+                    machine_sd, rate, std::sqrt(rate * (1.0 - rate))));
   }
-  const std::string refusal = fmt::format("the half-width would need more than {} machines", max_rigs);
-  return least(2, max_rigs, refusal, [&](std::int64_t rigs) {
-    return halfwidth_of(rate, rig_sd, rigs, trials_per_rig, confidence) <= halfwidth;
+  const std::string refusal = fmt::format("the half-width would need more than {} machines", max_machines);
+  return least(2, max_machines, refusal, [&](std::int64_t machines) {
+    return halfwidth_of(rate, machine_sd, machines, trials_per_machine, confidence) <= halfwidth;
   });
 }
 
@@ -141,22 +143,23 @@ SequentialCost sequential_cost(double halfwidth, double confidence, double rate,
                            max_planned_trials)};
 }
 
-RigPlan plan_tolerance(double content, double success, double confidence, std::int64_t rigs) {
+MachinePlan plan_tolerance(double content, double success, double confidence, std::int64_t machines) {
   require_confidence(confidence);
   require_open_unit("proportion of machines", content);
   require_open_unit("success rate", success);
-  const std::int64_t fewest = min_rigs_for_tolerance(content, confidence);
-  if (rigs == 0) rigs = fewest + (fewest + 1) / 2;
-  if (rigs < fewest) {
+  const std::int64_t fewest = min_machines_for_tolerance(content, confidence);
+  if (machines == 0) machines = fewest + (fewest + 1) / 2;
+  if (machines < fewest) {
     throw Failure(ExitCode::bad_input,
                   fmt::format("{} machines cannot show something of {} of all machines with {} confidence; "
                               "expected {} or more",
-                              rigs, text::percent(content), text::percent(confidence), fewest));
+                              machines, text::percent(content), text::percent(confidence), fewest));
   }
-  const double allowance = tolerance_allowance(rigs, content, confidence);
+  const double allowance = tolerance_allowance(machines, content, confidence);
   // Without a failure in m trials the bound is allowance^(1/m).
-  return {rigs, std::max<std::int64_t>(
-                    1, static_cast<std::int64_t>(std::ceil(std::log(allowance) / std::log(success) - 1e-9)))};
+  return {machines,
+          std::max<std::int64_t>(
+              1, static_cast<std::int64_t>(std::ceil(std::log(allowance) / std::log(success) - 1e-9)))};
 }
 
 }  // namespace zerocount::statistics

@@ -155,7 +155,7 @@ std::vector<CellOfPoint> ages_of_point(const StudySummary& summary, std::int64_t
   const auto& counts = point.statistics.goals;
   const std::vector<goal::BoundedProportion> machines = goal::machines_at_ages(question, counts);
   const std::vector<goal::Survival> survival =
-      goal::survival_of(goal::lives_of_rigs(question, counts), at, question.claim()->confidence);
+      goal::survival_of(goal::lives_of_machines(question, counts), at, question.claim()->confidence);
   for (std::size_t age = 0; age < at.size(); ++age) {
     cells[age].machines = machines[age];
     cells[age].living = survival[age].living;

@@ -30,7 +30,7 @@ struct CellOfPoint {
                                      ///< trials that succeed, under the worst condition
   goal::BoundedProportion judged{};  ///< of machines, moves or trials, as judged_head() says
   std::optional<goal::BoundedProportion> machines{};  ///< that meet the goal; none if it is not on machines
-  std::optional<goal::BoundedProportion> living{};    ///< rigs that meet it at every age up to this one
+  std::optional<goal::BoundedProportion> living{};    ///< machines that meet it at every age up to this one
   std::optional<double>
       settling_time_p95{};  ///< s, of the same goal and condition; none: not within the hold
   double within{0.0};       ///< s from the start, that the goal allows; the longest of its moves

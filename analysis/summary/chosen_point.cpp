@@ -50,11 +50,11 @@ const measures::PointSummary& point_of(const StudySummary& summary, std::int64_t
   return summary.points[static_cast<std::size_t>(point)];
 }
 
-/// [rig] what the rig adds to the rate that points are compared by; empty without rigs.
-std::vector<double> rates_of_rigs(const goal::Question& question, const measures::MoveCounts& counts) {
+/// [machine] what the machine adds to the rate that points are compared by; empty without machines.
+std::vector<double> rates_of_machines(const goal::Question& question, const measures::MoveCounts& counts) {
   std::vector<double> rates;
-  for (const statistics::RigMoves& rig : counts.rigs) {
-    const double met = statistics::rate(rig.met, rig.moves);
+  for (const statistics::MachineMoves& machine : counts.machines) {
+    const double met = statistics::rate(machine.met, machine.moves);
     rates.push_back(!is_of_machines(question) ? met : met >= question.claim()->moves ? 1.0 : 0.0);
   }
   return rates;
@@ -64,10 +64,10 @@ std::vector<double> rates_of_rigs(const goal::Question& question, const measures
 bool differ(std::span<const double> better, std::span<const double> worse) {
   statistics::Moments differences;
   for (std::size_t i = 0; i < better.size(); ++i) differences.add(better[i] - worse[i]);
-  const auto rigs = static_cast<double>(better.size());
+  const auto machines = static_cast<double>(better.size());
   if (better.size() < 2) return false;
-  return differences.mean > statistics::student_t_quantile(rigs - 1.0, statistics::summary_confidence) *
-                                differences.sd() / std::sqrt(rigs);
+  return differences.mean > statistics::student_t_quantile(machines - 1.0, statistics::summary_confidence) *
+                                differences.sd() / std::sqrt(machines);
 }
 
 /// A rate of independent events, with one more event of each kind.
@@ -102,8 +102,8 @@ bool is_shown_worse(const goal::Question& question, const measures::PointSummary
   if (is_of_worst_world(question)) return has_worse_world(question, best_point, other_point);
   const measures::MoveCounts best = goal::counts_of(question, best_point);
   const measures::MoveCounts other = goal::counts_of(question, other_point);
-  const std::vector<double> of_best = rates_of_rigs(question, best);
-  const std::vector<double> of_other = rates_of_rigs(question, other);
+  const std::vector<double> of_best = rates_of_machines(question, best);
+  const std::vector<double> of_other = rates_of_machines(question, other);
   if (!of_best.empty() && of_best.size() == of_other.size()) return differ(of_best, of_other);
   const AdjustedRate a(measures::clusters_of(best)), b(measures::clusters_of(other));
   return a.value - b.value >
@@ -192,7 +192,7 @@ std::string claim_of_chosen_point(const StudySummary& summary, const ChosenPoint
   return name + averaged_over(summary) +
          statistics::claim_sentence(goal::claim_of_chosen(point, static_cast<std::size_t>(chosen.chosen_from),
                                                           summary.question.stopped),
-                                    goal::success_verb(summary.question));
+                                    goal::success_words(summary.question));
 }
 
 std::string competition_text(const StudySummary& summary, const ChosenPoint& chosen) {
@@ -311,18 +311,6 @@ std::size_t points_of(const ChosenPoint& chosen) {
 
 }  // namespace
 
-std::string_view verdict_words(goal::Status status) {
-  switch (status) {
-    case goal::Status::met:
-      return "the goal is met";
-    case goal::Status::missed:
-      return "the goal is missed";
-    case goal::Status::undecided:
-      break;
-  }
-  return "it is undecided whether the goal is met";
-}
-
 JudgedPoint judge_point(const StudySummary& summary, const ChosenPoint& chosen) {
   JudgedPoint judged{chosen, {}, {}};
   const std::size_t points = points_of(chosen);
@@ -366,7 +354,7 @@ std::string judgement_details(const StudySummary& summary, const JudgedPoint& ju
         "  {}\n", bad_worlds_sentence(*worlds, world_inputs_of(summary, chosen.point), summary.question));
   if (judged.needs)
     text += fmt::format("  {}\n", goal::needs_sentence(worst_goal(summary, judged.verdict), *judged.needs,
-                                                       summary.features.rigs));
+                                                       summary.features.machines));
   return text + competition_text(summary, chosen);
 }
 

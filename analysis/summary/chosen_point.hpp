@@ -45,9 +45,9 @@ struct ChosenPoint {
 /// Chooses the best point, or takes `point`.
 ///
 /// Another point is shown to be worse if the one-sided 95 % bound of the difference of their rates is above
-/// zero: the rate of success, or of the goal. With rigs it is Student's bound for the differences of the
-/// rates of each rig, which are the same machines at both points. Without rigs, rates are compared as if
-/// their trials were independent, with one success and one failure added to each (Agresti and Caffo, Amer.
+/// zero: the rate of success, or of the goal. With machines it is Student's bound for the differences of the
+/// rates of each machine, which are the same machines at both points. Without machines, rates are compared as
+/// if their trials were independent, with one success and one failure added to each (Agresti and Caffo, Amer.
 /// Statist. 54 (2000) 280); trials of the same random numbers differ less. With worlds and a goal, a point
 /// is shown to be worse if the upper bound of its worst world is below the lower bound of the other's.
 ChosenPoint choose_point(const StudySummary& summary, std::optional<std::int64_t> point = {});
@@ -88,9 +88,6 @@ struct JudgedPoint {
 
 /// @param summary of a study with a goal
 JudgedPoint judge_point(const StudySummary& summary, const ChosenPoint& chosen);
-
-/// "the goal is met", "the goal is missed", "it is undecided whether the goal is met".
-std::string_view verdict_words(goal::Status status);
 
 /// "best of 8 points: 3 (kp=400): the goal is met".
 std::string judgement_headline(const StudySummary& summary, const JudgedPoint& judged);

@@ -26,10 +26,10 @@ AskedTrials asked_trials(const goal::Question& question, const measures::PointSu
 }
 
 statistics::ObservedTest test_of(const statistics::Successes& observed, const measures::MoveCounts& trials) {
-  if (trials.rigs.empty()) return statistics::fisher_test(observed, {trials.met, trials.moves});
+  if (trials.machines.empty()) return statistics::fisher_test(observed, {trials.met, trials.moves});
   std::vector<std::int64_t> successes;
-  for (const statistics::RigMoves& rig : trials.rigs) successes.push_back(rig.met);
-  return statistics::rig_rank_test(observed, successes, trials.rigs.front().trials);
+  for (const statistics::MachineMoves& machine : trials.machines) successes.push_back(machine.met);
+  return statistics::machine_rank_test(observed, successes, trials.machines.front().trials);
 }
 
 /// The test in the world that is most like the real machine. It lives in one world, which nobody knows: it
@@ -63,9 +63,9 @@ ObservedComparison compare_observed(const goal::Question& question, const measur
   }
   const AskedTrials trials = asked_trials(question, point);
   comparison.simulated = {trials.all.met, trials.all.moves};
-  if (point.rigs.n > 0 && counts.of > point.rigs.trials_of_rig) {
+  if (point.machines.n > 0 && counts.of > point.machines.trials_of_machine) {
     comparison.reason = fmt::format("it takes {} trials or more on each simulated machine, here are {}",
-                                    counts.of, point.rigs.trials_of_rig);
+                                    counts.of, point.machines.trials_of_machine);
     return comparison;
   }
   const statistics::Successes observed{counts.successes, counts.of};
@@ -95,7 +95,7 @@ std::string statement_on(const measures::PointSummary& point, const ObservedComp
   }
   if (comparison.test->lowest_p > 1.0 - confidence) {
     return fmt::format("consistent (p = {}), as any result would be: the trials{} are too few", p,
-                       point.rigs.n > 0 ? " or the machines" : "");
+                       point.machines.n > 0 ? " or the machines" : "");
   }
   return fmt::format("consistent (p = {})", p);
 }

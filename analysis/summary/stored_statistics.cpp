@@ -49,28 +49,29 @@ void add_groups(layout::GroupCounts& stored, const measures::PointSummary& point
   if (!point.goals.empty()) stored.goal_met.push_back(numbers(&GroupTrials::meeting, &MoveCounts::met));
 }
 
-/// Adds the trials of a point on each rig.
-void add_rigs(layout::GroupCounts& stored, const measures::PointSummary& point, const study::Study& study) {
-  const auto rigs = static_cast<std::size_t>(study.rigs);
-  stored.trials.emplace_back(rigs, study.open_loop ? 0 : study.trials / study.rigs);
-  stored.success.push_back(point.rigs.successes_of_rigs);
-  stored.success.back().resize(rigs);  // empty in an open loop
+/// Adds the trials of a point on each machine.
+void add_machines(layout::GroupCounts& stored, const measures::PointSummary& point,
+                  const study::Study& study) {
+  const auto machines = static_cast<std::size_t>(study.machines);
+  stored.trials.emplace_back(machines, study.open_loop ? 0 : study.trials / study.machines);
+  stored.success.push_back(point.machines.successes_of_machines);
+  stored.success.back().resize(machines);  // empty in an open loop
 }
 
-/// Adds the machines of a point that meet the goal at each age, and the life of each rig. @param study with a
-/// claim
-void add_machines(layout::GroupCounts& ages, layout::GroupCounts& rigs, const measures::PointSummary& point,
-                  const study::Study& study) {
+/// Adds the machines of a point that meet the goal at each age, and the life of each machine. @param study
+/// with a claim
+void add_machines(layout::GroupCounts& ages, layout::GroupCounts& machines,
+                  const measures::PointSummary& point, const study::Study& study) {
   if (ages.statistics.empty()) {
     ages.statistics = {
         {"machines", "1", "proportion of machines that meet the goal at the age under every condition", {}},
         {"machines_low", "1", "lower bound of the proportion of machines, one-sided", {}},
         {"machines_high", "1", "upper bound of the proportion of machines, one-sided", {}}};
-    rigs.statistics = {{"life",
-                        study.ages.unit,
-                        "last age up to and including which the machine meets the goal under every "
-                        "condition, NaN if it does not at the first",
-                        {}}};
+    machines.statistics = {{"life",
+                            study.ages.unit,
+                            "last age up to and including which the machine meets the goal under every "
+                            "condition, NaN if it does not at the first",
+                            {}}};
   }
   const bool judged = point.judged > 0;
   const goal::Question question = goal::question_of(study);
@@ -81,18 +82,18 @@ void add_machines(layout::GroupCounts& ages, layout::GroupCounts& rigs, const me
     ages.statistics[1].values.push_back(at_age.low);
     ages.statistics[2].values.push_back(at_age.high);
   }
-  for (const double life : judged ? goal::lives_of_rigs(question, point.goals)
-                                  : std::vector(static_cast<std::size_t>(study.rigs), unknown.value))
-    rigs.statistics[0].values.push_back(life);
+  for (const double life : judged ? goal::lives_of_machines(question, point.goals)
+                                  : std::vector(static_cast<std::size_t>(study.machines), unknown.value))
+    machines.statistics[0].values.push_back(life);
 }
 
-/// Adds the counts of a point by rig, world, condition and age.
+/// Adds the counts of a point by machine, world, condition and age.
 void add_counts(layout::StoredStatistics& stored, const measures::PointSummary& point,
                 const study::Study& study) {
   using measures::CellCounts;
   const auto by_world =
       static_cast<std::vector<measures::MoveCounts> (CellCounts::*)() const>(&CellCounts::by_world);
-  if (study.rigs > 0) add_rigs(stored.groups["rig"], point, study);
+  if (study.machines > 0) add_machines(stored.groups["machine"], point, study);
   if (study.worlds > 0) add_groups(stored.groups["world"], point, study.worlds, by_world, std::identity());
   const std::size_t names = study.condition_names.size();
   if (names > 0)
@@ -102,7 +103,7 @@ void add_counts(layout::StoredStatistics& stored, const measures::PointSummary& 
   const auto of_age = static_cast<std::size_t>(study::conditions_of_age(study));
   add_groups(stored.groups["age"], point, std::ssize(study.ages.at), &CellCounts::by_condition,
              [of_age](std::size_t turn) { return turn / of_age; });
-  if (!study.goals.empty()) add_machines(stored.groups["age"], stored.groups["rig"], point, study);
+  if (!study.goals.empty()) add_machines(stored.groups["age"], stored.groups["machine"], point, study);
 }
 
 /// Adds the statistics of the points that follow. @param first number of the first of them

@@ -15,7 +15,7 @@
 namespace zerocount::summary {
 
 /// The stored statistics of consecutive points: point_columns, prediction_columns, the levels of an open-loop
-/// study, and the counts of rigs and worlds. All bounds have 95 %.
+/// study, and the counts of machines and worlds. All bounds have 95 %.
 /// @param points, predictions [point] of all their trials.
 layout::StoredStatistics stored_statistics(std::span<const measures::PointSummary> points,
                                            const study::Study& study,

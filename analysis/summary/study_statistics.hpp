@@ -65,7 +65,7 @@ SummedPoint restored_point(const reading::ResultsFile& file, const study::Study&
 
 /// The results that StudyAccumulator is to give for each point.
 struct Wanted {
-  bool statistics{true};    ///< false for a part of a study: a rig without a trial has none
+  bool statistics{true};    ///< false for a part of a study: a machine without a trial has none
   bool sums{false};         ///< in the form in which files keep them
   bool undecided{false};    ///< PointSummary::undecided of trials; some of them are drawn again
   bool predictions{false};  ///< of trials, which are drawn again

@@ -70,7 +70,7 @@ void shorten(StudySummary& summary, std::size_t points) {
 
 /// Whether the statistics of a point need its trials from the first on, without gaps.
 bool depend_on_order(const study::Study& study) {
-  return study.rigs > 0 || study.worlds > 0 || study.design != study::Design::monte_carlo;
+  return study.machines > 0 || study.worlds > 0 || study.design != study::Design::monte_carlo;
 }
 
 /// The points of a summary, as they are completed.
@@ -118,7 +118,7 @@ class TrialsSoFar {
 
  private:
   /// Takes the trials that were not taken before. Where trials depend on one another, those that follow them:
-  /// every rig then has as many as there can be, and a design is spread as evenly.
+  /// every machine then has as many as there can be, and a design is spread as evenly.
   /// @param divisible whether some trials of a point can be taken without the others
   template <class Take>
   void add(const reading::ResultsFile& file, bool divisible, const Take& take) {

@@ -29,17 +29,17 @@ struct UnfinishedStudy {
 
 /// The summary of a study. Vectors by point have the length of `points`.
 struct StudySummary {
-  std::string name;                                    ///< of the study
-  std::vector<std::string> labels;                     ///< [point]
-  std::vector<study::SweepAxis> axes;                  ///< each with a value per point
-  std::map<std::string, std::string> observed;         ///< point label → what was observed on the real rig
-  std::string design{"monte_carlo"};                   ///< its word in the manifest
-  double confidence{statistics::summary_confidence};   ///< of all bounds
-  std::vector<measures::PointSummary> points;          ///< [point]
-  std::vector<theory::PointPrediction> predictions{};  ///< [point], or empty where not computed
-  study::StudyFeatures features{};                     ///< what the table has columns for
-  goal::Question question{};                           ///< what the study is judged by
-  std::vector<std::string> conditions{};               ///< names; empty without conditions
+  std::string name;                             ///< of the study
+  std::vector<std::string> labels;              ///< [point]
+  std::vector<study::SweepAxis> axes;           ///< each with a value per point
+  std::map<std::string, std::string> observed;  ///< point label → what was observed on the real machine
+  std::string design{"monte_carlo"};            ///< its word in the manifest
+  double confidence{statistics::summary_confidence};               ///< of all bounds
+  std::vector<measures::PointSummary> points;                      ///< [point]
+  std::vector<theory::PointPrediction> predictions{};              ///< [point], or empty where not computed
+  study::StudyFeatures features{};                                 ///< what the table has columns for
+  goal::Question question{};                                       ///< what the study is judged by
+  std::vector<std::string> conditions{};                           ///< names; empty without conditions
   std::vector<std::vector<worlds::WorldInput>> world_inputs{};     ///< [point] unknown and derived
   std::uint64_t seed{0};                                           ///< of the study
   std::optional<UnfinishedStudy> unfinished{};                     ///< where the run has not ended
@@ -63,7 +63,7 @@ std::vector<std::int64_t> complete_points(const StudySummary& summary);
 /// @throws Failure (bad_data) where labels, axes, statistics and predictions are not of the same points
 void require_consistent(const StudySummary& summary);
 
-/// The observations on the real rig at `point`; empty where there are none.
+/// The observations on the real machine at `point`; empty where there are none.
 std::string observed_at(const StudySummary& summary, std::int64_t point);
 
 /// The properties of a study as a whole.
@@ -92,9 +92,9 @@ void add_mean_bounds(StudySummary& summary, const std::filesystem::path& path,
                      std::span<const std::int64_t> points);
 
 /// The summary of a run that has not ended: of the trials in its shards and parts (shards::finished_pieces).
-/// In a study with rigs, only the trials of a point before the first that is missing count, so that rigs have
-/// equal numbers of them. Points without trials at the end are left out, and so are statements about all
-/// trials.
+/// In a study with machines, only the trials of a point before the first that is missing count, so that
+/// machines have equal numbers of them. Points without trials at the end are left out, and so are statements
+/// about all trials.
 /// @param output the results file that the run makes
 /// @throws Failure (bad_data) where there is no finished trial, a shard is damaged or of another study;
 /// (bad_input) where a shard vanishes, as shards do when the run ends.

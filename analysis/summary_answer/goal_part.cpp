@@ -24,7 +24,8 @@ std::optional<summary::WorldsReading> worlds_at(Point p) {
 
 }  // namespace
 
-document::Description<goal::ClaimVerdict> verdict_description(const goal::Question& question, bool on_rigs) {
+document::Description<goal::ClaimVerdict> verdict_description(const goal::Question& question,
+                                                              bool on_machines) {
   document::Description<goal::ClaimVerdict> description;
   const std::string where = question.worlds > 0 ? " (worst world)" : "";
   const bool has_machines = std::ranges::any_of(
@@ -92,18 +93,18 @@ document::Description<goal::ClaimVerdict> verdict_description(const goal::Questi
                         .shown = Shown::in_data,
                         .optional = true},
                        goal::load_description(), &goal::ClaimVerdict::of_load);
-  if (on_rigs)
-    description.value(document::in_data("rigs_without_miss", "machines all of whose moves meet the goal"),
-                      &goal::ClaimVerdict::rigs_without_miss);
+  if (on_machines)
+    description.value(document::in_data("machines_without_miss", "machines all of whose moves meet the goal"),
+                      &goal::ClaimVerdict::machines_without_miss);
   return description;
 }
 
-document::Description<goal::Verdict> goals_description(const goal::Question& question, bool on_rigs) {
+document::Description<goal::Verdict> goals_description(const goal::Question& question, bool on_machines) {
   document::Description<goal::Verdict> goals;
   for (const goal::JudgedPart& part : question.parts) {
     const std::size_t number = part.number;
     goals.object({.key = part.claim->name, .meaning = goal::goal_sentence(*part.claim)},
-                 verdict_description(only(question, number), on_rigs), [number](const goal::Verdict& v) {
+                 verdict_description(only(question, number), on_machines), [number](const goal::Verdict& v) {
                    goal::ClaimVerdict worst = worst_of_goal(v, number);
                    worst.goal = 0;  // of this goal alone
                    return worst;
@@ -117,12 +118,12 @@ void add_goal(PointDescription& point, const summary::StudySummary& summary) {
   const goal::Question& question = summary.question;
   point.object(
       {.key = "goal", .meaning = "whether the point meets the goal, with bounds of this point alone"},
-      verdict_description(question, summary.features.rigs), &PointReading::verdict);
+      verdict_description(question, summary.features.machines), &PointReading::verdict);
   const bool several = has_names(question);
   if (several)
     point.object(
         {.key = "goals", .meaning = "each of the goals, by name", .shown = Shown::in_data, .free_keys = true},
-        goals_description(question, summary.features.rigs), &PointReading::verdict);
+        goals_description(question, summary.features.machines), &PointReading::verdict);
   if (!several && question.conditions.empty()) return;
   point.value(
       document::in_data(
@@ -131,9 +132,9 @@ void add_goal(PointDescription& point, const summary::StudySummary& summary) {
           "claim is on machines",
           "1"),
       [question](const PointReading& p) -> std::optional<double> {
-        const auto all = goal::rigs_meeting_all(question, p.statistics());
+        const auto all = goal::machines_meeting_all(question, p.statistics());
         if (!all) return std::nullopt;
-        return statistics::rate(all->rigs, all->of);
+        return statistics::rate(all->machines, all->of);
       });
 }
 

@@ -27,7 +27,7 @@ struct PointReading {
   bool marked{false};                      ///< it is the chosen one of several
   std::optional<goal::Verdict> verdict{};  ///< with a goal, of a point with trials
   std::optional<worlds::PointWorlds> worlds{};
-  std::optional<summary::ObservedComparison> observed{};  ///< where counts were observed on the real rig
+  std::optional<summary::ObservedComparison> observed{};  ///< where counts were observed on the real machine
 
   std::size_t index() const { return static_cast<std::size_t>(point); }
   const std::string& label() const { return summary.labels[index()]; }
@@ -47,7 +47,7 @@ struct Confirmation {
   std::int64_t point{0};
   std::uint64_t seed{0};
   std::int64_t trials{0};
-  std::int64_t rigs{0};                       ///< 0: no trials share one that they were drawn for
+  std::int64_t machines{0};                   ///< 0: no trials share one that they were drawn for
   std::int64_t successes{0};                  ///< trials all of whose moves ended at zero error
   std::vector<measures::CellCounts> goals{};  ///< [goal]
 };
@@ -136,12 +136,13 @@ std::function<std::string(const PointReading&)> short_label(const summary::Study
 PointDescription labelled_points(const summary::StudySummary& summary);
 
 void add_goal(PointDescription& point, const summary::StudySummary& summary);
-document::Description<goal::ClaimVerdict> verdict_description(const goal::Question& question, bool on_rigs);
+document::Description<goal::ClaimVerdict> verdict_description(const goal::Question& question,
+                                                              bool on_machines);
 
 /// Moves that are off target: their numbers, and the hold that would decide them.
 void add_undecided(PointDescription& point, const summary::StudySummary& summary);
 
-/// Whether the counts on the real rig are consistent with the simulated trials.
+/// Whether the counts on the real machine are consistent with the simulated trials.
 void add_observed(PointDescription& point, const summary::StudySummary& summary);
 
 /// The rates of the worlds, and what the bad ones have in common; the point under each condition, at each
@@ -155,10 +156,11 @@ void add_claims(SummaryDescription& answer, const summary::StudySummary& summary
 /// The bounds of the success rate that hold although the study looked after every block and decided itself
 /// how many trials it took (`stop`).
 ///
-/// With rigs they are bounds of the mean over the rigs of the study, whose trials the rule is about: every
-/// rig has run equally many at each look, and the product of the likelihood ratios of trials with different
-/// probabilities pᵢ is no larger on average than that of trials which all have their mean (the geometric mean
-/// is not above the arithmetic). How far other rigs differ, more trials on these do not tell.
+/// With machines they are bounds of the mean over the machines of the study, whose trials the rule is about:
+/// every machine has run equally many at each look, and the product of the likelihood ratios of trials with
+/// different probabilities pᵢ is no larger on average than that of trials which all have their mean (the
+/// geometric mean is not above the arithmetic). How far other machines differ, more trials on these do not
+/// tell.
 void add_stopping(PointDescription& point, const summary::StudySummary& summary);
 
 /// What the trials of a point show of all axes that the manifest describes, as tolerance statements.

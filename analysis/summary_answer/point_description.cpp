@@ -148,7 +148,7 @@ void add_prediction(PointDescription& point, const summary::StudySummary& summar
                object, prediction_at);
 }
 
-std::optional<std::string> observed_on_rig(Point p) {
+std::optional<std::string> observed_on_machine(Point p) {
   const std::string seen = summary::observed_at(p.summary, p.point);
   return seen.empty() ? std::nullopt : std::optional(seen);
 }
@@ -228,7 +228,7 @@ PointDescription point_description(const summary::StudySummary& summary) {
   add_levels(point, summary);
   if (!summary.features.open_loop) add_question_columns(point, summary);
   add_prediction(point, summary);
-  point.value({"observed", "observed", "what was observed on the real machine"}, observed_on_rig);
+  point.value({"observed", "observed", "what was observed on the real machine"}, observed_on_machine);
   add_undecided(point, summary);
   add_observed(point, summary);
   add_repeatability(point, summary);
@@ -294,9 +294,10 @@ bool is_shown(const StudySummary& summary, const NotStable& reason) {
   });
 }
 
-/// With one trial per rig, rigs without a failure are the trials without one.
-bool has_several_trials_of_rigs(const StudySummary& summary) {
-  return any_point(summary, [](Statistics point) { return point.rigs.n > 0 && point.trials > point.rigs.n; });
+/// With one trial per machine, machines without a failure are the trials without one.
+bool has_several_trials_of_machines(const StudySummary& summary) {
+  return any_point(summary,
+                   [](Statistics point) { return point.machines.n > 0 && point.trials > point.machines.n; });
 }
 
 /// A column of text that is made of the statistics of a point. @param table its title; empty: that of the
@@ -314,7 +315,7 @@ void add_success(PointDescription& point, const StudySummary& summary) {
        .meaning = fmt::format(
            "zero-count: proportion of trials whose moves all ended at zero error{}; bounds "
            "of it after {}, in %",
-           summary.question.of_mass, summary.features.rigs ? "Korn and Graubard" : "Clopper and Pearson"),
+           summary.question.of_mass, summary.features.machines ? "Korn and Graubard" : "Clopper and Pearson"),
        .unit = "1",
        .notation = Notation::percent,
        .own_table = zero_count_table(summary)},
@@ -327,17 +328,17 @@ void add_success(PointDescription& point, const StudySummary& summary) {
 /// Machines without a failure by the question; with a claim those without a miss of the worst claim.
 std::string faultless_machines(Point p, const goal::Question& question) {
   if (question.claim() && p.verdict)
-    return text::percentage(p.verdict->rigs_without_miss, p.statistics().rigs.n);
-  const goal::RigsWithoutFailure rigs = goal::rigs_without_failure(question, p.statistics());
-  return text::percentage(rigs.rigs, rigs.of);
+    return text::percentage(p.verdict->machines_without_miss, p.statistics().machines.n);
+  const goal::MachinesWithoutFailure machines = goal::machines_without_failure(question, p.statistics());
+  return text::percentage(machines.machines, machines.of);
 }
 
-void add_rigs(PointDescription& point, const std::string& table, const StudySummary& summary,
-              const goal::Question& question) {
-  if (!has_several_trials_of_rigs(summary)) return;
+void add_machines(PointDescription& point, const std::string& table, const StudySummary& summary,
+                  const goal::Question& question) {
+  if (!has_several_trials_of_machines(summary)) return;
   const goal::QuestionWords& words = goal::words_of(question);
-  point.value({.heading = std::string(words.rig_head),
-               .meaning = fmt::format("{}: {}", words.rig_head, words.rig_meaning),
+  point.value({.heading = std::string(words.machine_head),
+               .meaning = fmt::format("{}: {}", words.machine_head, words.machine_meaning),
                .numeric = true,
                .own_table = table},
               [question](Point p) { return faultless_machines(p, question); });
@@ -360,7 +361,7 @@ void add_outcomes(PointDescription& point, const StudySummary& summary) {
     add_cells(point, table, reason.head, reason.legend,
               [trials = reason.trials](Statistics p) { return text::percentage(trials(p), p.judged); });
   }
-  add_rigs(point, table, summary, goal::success(summary.question));
+  add_machines(point, table, summary, goal::success(summary.question));
 }
 
 /// Only where points differ in it.
@@ -460,7 +461,7 @@ void add_question_columns(PointDescription& point, const StudySummary& summary) 
                   return settling_text(p, settling_of(question, p).p95.value);
                 });
     }
-    add_rigs(point, "", summary, summary.question);
+    add_machines(point, "", summary, summary.question);
   }
   add_success(point, summary);
   if (!summary.question.claim()) add_trials(point, summary);

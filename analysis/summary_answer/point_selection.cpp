@@ -22,6 +22,7 @@
 #include "analysis/text/text.hpp"
 #include "core/failure/failure.hpp"
 #include "core/text/text.hpp"
+#include "core/trial/move_measures.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "results/shards/shard.hpp"
@@ -56,7 +57,7 @@ const study::SweepAxis* find_axis(const StudySummary& summary, std::string_view 
 std::string known_names(const StudySummary& summary) {
   std::string names;
   for (const study::SweepAxis& axis : summary.axes) names += axis.name + ", ";
-  return names + "label, point, success_rate, settling_time_p95 and the other columns of --format csv";
+  return names + "label, point, success_rate, arrival_time_p95 and the other columns of --format csv";
 }
 
 /// [point] the numbers in the column of the CSV; nothing where it has no such column.
@@ -88,6 +89,9 @@ std::vector<double> values_of(const StudySummary& summary, std::string_view name
   const std::string column = column_name(name);
   if (const auto stored = known.find(column); stored != known.end()) return stored->second;
   if (const auto values = csv_values(summary, column)) return *values;
+  if (const std::string_view meanings = trial::meanings_of_settling_time(name); !meanings.empty())
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("the value '{}' may mean two measures; expected {}", name, meanings));
   throw Failure(ExitCode::bad_input,
                 fmt::format("unknown value '{}'; expected {}", name, known_names(summary)));
 }
@@ -328,7 +332,7 @@ bool outline_points(StudySummary& summary, const reading::AllTrialsFile& file, c
   outline.measures.assign(table.size(), {});
   outline.measures.shrink_to_fit();
   outline.trials = outline.judged = study.trials;
-  if (summary.question.claim()) outline.goals.emplace_back(measures::Shape{.rigs = study.rigs});
+  if (summary.question.claim()) outline.goals.emplace_back(measures::Shape{.machines = study.machines});
   summary.points.assign(summary.labels.size(), outline);
   for (std::size_t i = 0; i < summary.points.size(); ++i) {
     measures::PointSummary& point = summary.points[i];
@@ -336,15 +340,15 @@ bool outline_points(StudySummary& summary, const reading::AllTrialsFile& file, c
     (point.measures.back().*goal::settling_quantile(summary.question)).value = (*times)[i];
   }
   if (summary.question.claim()) count_goal(summary, file, study);
-  if (study.rigs == 0) return true;
-  const std::optional<reading::StoredGroups> rigs = file.groups("rig");
-  if (!rigs || rigs->success.empty()) return false;
+  if (study.machines == 0) return true;
+  const std::optional<reading::StoredGroups> machines = file.groups("machine");
+  if (!machines || machines->success.empty()) return false;
   for (std::size_t i = 0; i < summary.points.size(); ++i) {
-    statistics::RigStatistics& of_point = summary.points[i].rigs;
-    const auto begin = rigs->success.begin() + static_cast<std::ptrdiff_t>(i) * study.rigs;
-    of_point.n = study.rigs;
-    of_point.trials_of_rig = study.trials / study.rigs;
-    of_point.successes_of_rigs.assign(begin, begin + study.rigs);
+    statistics::MachineStatistics& of_point = summary.points[i].machines;
+    const auto begin = machines->success.begin() + static_cast<std::ptrdiff_t>(i) * study.machines;
+    of_point.n = study.machines;
+    of_point.trials_of_machine = study.trials / study.machines;
+    of_point.successes_of_machines.assign(begin, begin + study.machines);
   }
   return true;
 }

@@ -25,14 +25,14 @@ struct PointSelection {
 std::vector<std::string> columns_needed(const summary::StudySummary& summary,
                                         const PointSelection& selection);
 
-/// Whether it names a bound of a mean by resampling ("settling_time.mean_low").
+/// Whether it names a bound of a mean by resampling ("arrival_time.mean_low").
 bool needs_mean_bounds(const PointSelection& selection);
 
 /// @throws Failure (bad_input) where the summary has no value of a name that is needed
 void require_columns(const summary::StudySummary& summary, const PointSelection& selection);
 
 /// The points that meet all conditions, in their order; `top` is left out of account. Values have the names
-/// of the columns of the CSV, where a '.' may stand for '_' ("settling_time.p95"), and those of swept
+/// of the columns of the CSV, where a '.' may stand for '_' ("arrival_time.p95"), and those of swept
 /// parameters, which may be shortened to an end that no other has ("ki"). A number may be written as answers
 /// show it, rounded (text::values_as_written). A value that is NaN comes last, and meets no condition. Names,
 /// such as those of cases and labels, are equal (= or ==) or not (!=), and are sorted by the alphabet.

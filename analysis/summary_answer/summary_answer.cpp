@@ -28,20 +28,20 @@ const SummaryReading& same_summary(Summary s) {
   return s;
 }
 
-/// Rigs that have trials; of an unfinished run, at the point with most of them.
-std::int64_t rigs_of(const StudySummary& summary) {
-  std::int64_t rigs = 0;
-  for (const measures::PointSummary& point : summary.points) rigs = std::max(rigs, point.rigs.n);
-  return rigs;
+/// Machines that have trials; of an unfinished run, at the point with most of them.
+std::int64_t machines_of(const StudySummary& summary) {
+  std::int64_t machines = 0;
+  for (const measures::PointSummary& point : summary.points) machines = std::max(machines, point.machines.n);
+  return machines;
 }
 
-/// "paper-gains: 8 points × 2000 trials on 100 rigs".
+/// "paper-gains: 8 points × 2000 trials on 100 machines".
 std::string size_line(const StudySummary& summary) {
   std::string line =
       fmt::format("{}: {}", text::printable(summary.name), text::counted(summary.points.size(), "point"));
   if (const std::optional<std::int64_t> trials = trials_of_each(summary))
     line += " × " + text::counted(*trials, "trial");
-  if (summary.features.rigs) line += " on " + text::counted(rigs_of(summary), "machine");
+  if (summary.features.machines) line += " on " + text::counted(machines_of(summary), "machine");
   return line;
 }
 
@@ -144,19 +144,19 @@ struct ConfirmationReading {
     point.goals = confirmed.goals;
     return point;
   }
-  bool has_one_trial_per_rig() const { return confirmed.rigs == confirmed.trials; }
+  bool has_one_trial_per_machine() const { return confirmed.machines == confirmed.trials; }
   double rate() const { return statistics::rate(confirmed.successes, confirmed.trials); }
   std::string size_text() const {
     return fmt::format("{}{}{}", confirmed.trials,
-                       confirmed.rigs == 0       ? ""
-                       : has_one_trial_per_rig() ? ", each on a machine of its own"
-                                                 : fmt::format(" on {} machines", confirmed.rigs),
+                       confirmed.machines == 0       ? ""
+                       : has_one_trial_per_machine() ? ", each on a machine of its own"
+                                                     : fmt::format(" on {} machines", confirmed.machines),
                        summary.question.worlds > 0 ? ", on average over new worlds" : "");
   }
-  /// Clopper–Pearson bounds, where the trials are independent: unless they share rigs, in a study with a
+  /// Clopper–Pearson bounds, where the trials are independent: unless they share machines, in a study with a
   /// goal.
   std::optional<statistics::ConfidenceInterval> bounds() const {
-    if (confirmed.rigs > 0 && !has_one_trial_per_rig()) return std::nullopt;
+    if (confirmed.machines > 0 && !has_one_trial_per_machine()) return std::nullopt;
     if (!summary.conditions.empty()) return std::nullopt;  // a machine has a trial under each
     return statistics::clopper_pearson(confirmed.successes, confirmed.trials, summary.confidence);
   }
@@ -190,11 +190,11 @@ document::Description<ConfirmationReading> confirmation_description(const StudyS
                    statistics::ConfidenceInterval{statistics::unknown, statistics::unknown});
                return document::Bounded{c.rate(), bounds.low, bounds.high};
              })
-      .value(document::in_data("one_trial_per_rig", "whether every new trial has a machine of its own"),
-             &ConfirmationReading::has_one_trial_per_rig);
+      .value(document::in_data("one_trial_per_machine", "whether every new trial has a machine of its own"),
+             &ConfirmationReading::has_one_trial_per_machine);
   if (summary.question.claim())
     description.object({.key = "goal", .meaning = "whether the new trials meet the goal"},
-                       verdict_description(summary.question, summary.features.rigs),
+                       verdict_description(summary.question, summary.features.machines),
                        &ConfirmationReading::verdict);
   return description;
 }
@@ -231,7 +231,7 @@ StudySummary full_study() {
   full.features.load_error = full.features.motor_error = true;
   full.features.coarse_errors = full.features.encoder_errors = full.features.final_error =
       full.features.stopping = true;
-  full.features.own_controller = full.features.rigs = true;
+  full.features.own_controller = full.features.machines = true;
   full.question.parts.front().claim = study::Goal{.name = "goal", .machines = 0.99, .beside_load = true};
   full.question.parts.push_back(full.question.parts.front());
   full.features.position_error = true;
@@ -270,11 +270,11 @@ std::string design_line(const StudySummary& summary) {
            "for 'zerocount sensitivity'";
   }
   std::string line = fmt::format("design: {}", summary.design);
-  if (features.rigs && !summary.points.empty()) {
+  if (features.machines && !summary.points.empty()) {
     line += fmt::format(
         ", {} machines: bounds are of all machines that the manifest describes, and more trials on the same "
         "machines narrow them only so far",
-        rigs_of(summary));
+        machines_of(summary));
   }
   if (summary.question.worlds > 0) {
     line += fmt::format(", {} worlds: rates over all trials are averages over the worlds{}",
@@ -290,7 +290,7 @@ std::string design_line(const StudySummary& summary) {
   if (features.spread_trials) {
     line += fmt::format(
         "{} bounds are conservative: made for trials by chance, which vary more than those of this design",
-        features.rigs || summary.question.worlds > 0 || !summary.conditions.empty() ? ";" : ":");
+        features.machines || summary.question.worlds > 0 || !summary.conditions.empty() ? ";" : ":");
   }
   return line;
 }
@@ -364,7 +364,7 @@ document::AnswerType summary_type() {
   StudySummary plain, levels;
   levels.features.open_loop = true;
   StudySummary without_machines = full_study();
-  without_machines.features.rigs = false;
+  without_machines.features.machines = false;
   without_machines.features.load_error = without_machines.features.motor_error = false;
   without_machines.repeatability->sources = &iso230::deviation_sources({});
   without_machines.question.parts.front().claim->machines.reset();

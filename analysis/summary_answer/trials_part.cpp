@@ -39,7 +39,7 @@ std::string undecided_text(Point p) {
 std::string simulated_text(Point p) {
   const statistics::Successes& trials = p.observed->simulated;
   if (trials.trials == 0) return "–";
-  const std::int64_t machines = p.statistics().rigs.n;
+  const std::int64_t machines = p.statistics().machines.n;
   return fmt::format("{} of {}{}{}", text::percentage(trials.successes, trials.trials), trials.trials,
                      machines > 0 ? fmt::format(" on {} machines", machines) : "",
                      p.summary.question.worlds > 0 ? ", on average over the worlds" : "");
@@ -65,23 +65,23 @@ bool is_reached(Point p) {
 }
 
 std::string note_on_stopping(const summary::StudySummary& summary) {
-  const std::int64_t rigs = summary.points.empty() ? 0 : summary.points.front().rigs.n;
+  const std::int64_t machines = summary.points.empty() ? 0 : summary.points.front().machines.n;
   return fmt::format(
       "outcomes decided the number of trials, after every {} at each point; all other bounds are those of a "
       "number fixed beforehand{}",
       summary.stop->block,
-      rigs == 0
+      machines == 0
           ? ""
           : fmt::format("\nthese bounds are of the mean over the {} machines of the study, which more "
                         "trials narrow; those over all machines are in the table above, and more machines "
                         "narrow them",
-                        rigs));
+                        machines));
 }
 
-/// With one trial per rig, nothing is known of the moves of a rig.
-bool shows_rigs(const summary::StudySummary& summary) {
-  return summary.features.rigs && !summary.points.empty() &&
-         summary.points.front().trials > summary.points.front().rigs.n;
+/// With one trial per machine, nothing is known of the moves of a machine.
+bool shows_machines(const summary::StudySummary& summary) {
+  return summary.features.machines && !summary.points.empty() &&
+         summary.points.front().trials > summary.points.front().machines.n;
 }
 
 std::string shown_at_least(double proportion) {
@@ -92,7 +92,7 @@ std::string assurance_statement(Point p) {
   const measures::PointSummary& point = p.statistics();
   const std::string settling = statistics::settling_sentence(point.settles_within);
   return (p.summary.question.worlds > 0 ? "on average over the worlds: " : "") +
-         statistics::claim_sentence(point.claim, goal::success_verb(p.summary.question)) +
+         statistics::claim_sentence(point.claim, goal::success_words(p.summary.question)) +
          (settling.empty() ? "" : "; " + settling);
 }
 
@@ -109,9 +109,9 @@ std::string note_on_assurance(const summary::StudySummary& summary) {
       "bounds of one side each (Wilks; {}). success: {}of trials{}; arrive by: all moves of a trial; a "
       "tolerance limit is later than the quantile of the trials at hand, and – where these are too few, or "
       "too many never arrive",
-      summary.features.rigs ? "Korn and Graubard" : "Clopper and Pearson",
+      summary.features.machines ? "Korn and Graubard" : "Clopper and Pearson",
       summary.question.of_mass.empty() ? "" : fmt::format("zero counts{}, ", summary.question.of_mass),
-      shows_rigs(summary) ? "; of machines: their moves that end at zero error" : "");
+      shows_machines(summary) ? "; of machines: their moves that end at zero error" : "");
 }
 
 /// "settling_within_95", "settling_within_99_9".
@@ -121,20 +121,20 @@ std::string key_of_limit(double content) {
   return name;
 }
 
-PointDescription assurance_of_rigs(const summary::StudySummary& summary) {
+PointDescription assurance_of_machines(const summary::StudySummary& summary) {
   return PointDescription()
       .value(in_json("content", "proportion of machines", "1"),
-             [](Point p) { return p.statistics().rigs.tolerance.content; })
+             [](Point p) { return p.statistics().machines.tolerance.content; })
       .value({.key = "zero_at_least",
-              .heading = shows_rigs(summary) ? "90 % of machines ≥" : "",
+              .heading = shows_machines(summary) ? "90 % of machines ≥" : "",
               .meaning = "proportion of moves in which at least these machines hold zero at least",
               .unit = "1",
               .numeric = true,
-              .column = "rigs_zero_at_least"},
-             [](Point p) { return p.statistics().rigs.tolerance.zero_at_least; })
-      .shown_as([](Point p) { return shown_at_least(p.statistics().rigs.tolerance.zero_at_least); })
+              .column = "machines_zero_at_least"},
+             [](Point p) { return p.statistics().machines.tolerance.zero_at_least; })
+      .shown_as([](Point p) { return shown_at_least(p.statistics().machines.tolerance.zero_at_least); })
       .value(in_json("statement", "the same in words"),
-             [](Point p) { return statistics::tolerance_sentence(p.statistics().rigs.tolerance); });
+             [](Point p) { return statistics::tolerance_sentence(p.statistics().machines.tolerance); });
 }
 
 }  // namespace
@@ -167,8 +167,9 @@ void add_observed(PointDescription& point, const summary::StudySummary& summary)
       "A trial succeeds if all its moves {}. {}, each point by itself: it differs where p ≤ {}. Consistent "
       "counts do not prove the simulation right: they only do not contradict it",
       goal::doing_text(summary.question),
-      summary.features.rigs ? "rank of the real machine among the simulated ones, by as many trials of each"
-                            : "Fisher's exact test",
+      summary.features.machines
+          ? "rank of the real machine among the simulated ones, by as many trials of each"
+          : "Fisher's exact test",
       text::percent(1.0 - summary.confidence));
   PointDescription object;
   object
@@ -248,9 +249,9 @@ void add_stopping(PointDescription& point, const summary::StudySummary& summary)
       .value(in_json("halfwidth_confidence", "confidence of the bounds that the rule is about", "1"),
              [](Point p) { return p.summary.stop->confidence; })
       .value(in_json("reached", "whether the bounds are as narrow as asked for"), is_reached);
-  if (summary.features.rigs)
-    object.value(in_json("of_rigs", "machines of the study, over whose mean the bounds are"),
-                 [](Point p) { return p.statistics().rigs.n; });
+  if (summary.features.machines)
+    object.value(in_json("of_machines", "machines of the study, over whose mean the bounds are"),
+                 [](Point p) { return p.statistics().machines.n; });
   point.object({.key = "stopping",
                 .meaning = "what the rule that ended the study asked for, and what was reached",
                 .own_table = "bounds of the stopping rule",
@@ -282,7 +283,7 @@ void add_assurance(PointDescription& point, const summary::StudySummary& summary
       .value(in_json("rule_of_three",
                      "approximation of failure_at_most without a failure; null where there was one", "1"),
              [](Point p) { return statistics::rule_of_three(p.statistics().claim); })
-      .table(in_json("settling_time", "upper tolerance limits"), limit,
+      .table(in_json("arrival_time", "upper tolerance limits"), limit,
              [](Point p) { return p.statistics().settles_within; });
   for (std::size_t i = 0; i < std::size(statistics::tolerance_contents); ++i) {
     const double content = statistics::tolerance_contents[i];
@@ -296,9 +297,10 @@ void add_assurance(PointDescription& point, const summary::StudySummary& summary
                  [i](Point p) { return p.statistics().settles_within.at(i).within; });
   }
   object.value(in_json("statement", "the same in words"), assurance_statement);
-  if (summary.features.rigs)
-    object.object({.key = "rigs", .meaning = "what is shown of single machines"}, assurance_of_rigs(summary),
-                  [](Point p) { return p.statistics().rigs.tolerance.min_rigs > 0 ? &p : nullptr; });
+  if (summary.features.machines)
+    object.object({.key = "machines", .meaning = "what is shown of single machines"},
+                  assurance_of_machines(summary),
+                  [](Point p) { return p.statistics().machines.tolerance.min_machines > 0 ? &p : nullptr; });
   point.object({.key = "assurance",
                 .meaning = "what the trials show of all axes that the manifest describes",
                 .own_table = title_of_assurance(summary),

@@ -14,7 +14,7 @@ namespace zerocount::text {
 /// summaries and in the results file.
 template <class Subject>
 struct ReportField {
-  std::string group;      ///< JSON object that holds it, such as "settling_time"; empty at the top
+  std::string group;      ///< JSON object that holds it, such as "arrival_time"; empty at the top
   std::string name;       ///< within its group
   std::string unit;       ///< "1" where dimensionless
   std::string long_name;  ///< what it is, with the denominator of a proportion or mean

@@ -69,7 +69,7 @@ std::string range_text(double low, double high, std::string_view unit);
 /// Numbers with one unit: "20, 21, 20, 0 µm".
 std::string list_text(std::span<const double> values, std::string_view unit);
 
-// Texts such as "settling_time > 0.5" and "success_rate ≥ 0.995": what options and margins ask of a value.
+// Texts such as "arrival_time > 0.5" and "success_rate ≥ 0.995": what options and margins ask of a value.
 
 /// How a value lies to its limit.
 enum class Sign : std::uint8_t { below, at_most, above, at_least, equal, unequal };

@@ -20,7 +20,7 @@
 namespace zerocount::theory {
 namespace {
 
-constexpr std::int64_t max_rigs_examined = 10'000;
+constexpr std::int64_t max_machines_examined = 10'000;
 
 bool is_cascade(const trial::TrialParameters& p) {
   return p.controller.blocks.structure == loop::ControlStructure::cascade;
@@ -211,21 +211,22 @@ void know_rotor(const friction::FrictionAlongRotor& friction, KnownRotor& known)
   if (known.k1 != k1->profile) known = {k1->profile, lowest_k1(friction)};
 }
 
-/// Examines the lowest k1 of the rotors of all rigs (draw j is of rig j mod rigs). The bound of the sampled
-/// loop, which takes longer, is computed only at the lowest of them.
+/// Examines the lowest k1 of the rotors of all machines (draw j is of machine j mod machines). The bound of
+/// the sampled loop, which takes longer, is computed only at the lowest of them.
 void examine_rotors(const ExaminedPoint& at, LowestStiffness& lowest, std::vector<KnownRotor>& known) {
   const study::Study& study = at.study;
-  lowest.rigs = std::min(study.rigs, max_rigs_examined);
-  if (lowest.rigs == 0) return;
-  const auto rigs = static_cast<std::size_t>(lowest.rigs);
-  known.resize(rigs);
-  std::vector<LowEnd> ends(rigs);
-  constexpr std::size_t rigs_at_once = 8;
-  parallel::for_each_index((rigs + rigs_at_once - 1) / rigs_at_once, [&](std::size_t block) {
-    for (std::size_t rig = block * rigs_at_once; rig < std::min((block + 1) * rigs_at_once, rigs); ++rig) {
-      const trial::TrialParameters p = at.trial(static_cast<std::int64_t>(rig));
-      know_rotor(p.friction, known[rig]);
-      ends[rig] = low_end_at(study, p, known[rig].lowest);
+  lowest.machines = std::min(study.machines, max_machines_examined);
+  if (lowest.machines == 0) return;
+  const auto machines = static_cast<std::size_t>(lowest.machines);
+  known.resize(machines);
+  std::vector<LowEnd> ends(machines);
+  constexpr std::size_t machines_at_once = 8;
+  parallel::for_each_index((machines + machines_at_once - 1) / machines_at_once, [&](std::size_t block) {
+    for (std::size_t machine = block * machines_at_once;
+         machine < std::min((block + 1) * machines_at_once, machines); ++machine) {
+      const trial::TrialParameters p = at.trial(static_cast<std::int64_t>(machine));
+      know_rotor(p.friction, known[machine]);
+      ends[machine] = low_end_at(study, p, known[machine].lowest);
     }
   });
   for (const LowEnd& end : ends) add(lowest, end);

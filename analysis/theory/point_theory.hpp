@@ -52,8 +52,8 @@ struct DesignRules {
 /// Criterion (6) and the sampled loop at the lowest k1 of the study.
 struct LowestStiffness {
   study::LowEnd source;
-  std::int64_t rigs{0};  ///< rigs with profiles that were examined; 0 without rigs
-  Range k1;              ///< minimum of the profiles, or the low end of the distribution, N m/rad
+  std::int64_t machines{0};  ///< machines with profiles that were examined; 0 without machines
+  Range k1;                  ///< minimum of the profiles, or the low end of the distribution, N m/rad
   Range stable_below, sampled_below;  ///< in the unit of the gain
 };
 
@@ -105,7 +105,7 @@ struct KnownRotor {
 PointTheory examine(const study::Study& study, std::int64_t point);
 
 /// Examines them under a condition.
-/// @param rotors [rig] of the call before: a rotor that is the same again is not searched again
+/// @param rotors [machine] of the call before: a rotor that is the same again is not searched again
 PointTheory examine(const study::Study& study, std::int64_t point, std::int64_t condition,
                     std::vector<KnownRotor>& rotors);
 

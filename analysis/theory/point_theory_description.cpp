@@ -155,8 +155,8 @@ string source_text(const LowestStiffness& lowest) {
     case study::LowEnd::Kind::profile:
       break;
   }
-  if (lowest.rigs == 0) return "the lowest along the profiles";
-  return fmt::format("the lowest along the profiles of {} machines", lowest.rigs);
+  if (lowest.machines == 0) return "the lowest along the profiles";
+  return fmt::format("the lowest along the profiles of {} machines", lowest.machines);
 }
 
 Description<PointTheory> lowest_description() {

@@ -20,7 +20,7 @@
 /// probability; Conover, Practical Nonparametric Statistics (1999), section 4.3.
 namespace zerocount::two_samples {
 
-/// A statistic in both: the values of the trials, or of the rigs or worlds where trials share these.
+/// A statistic in both: the values of the trials, or of the machines or worlds where trials share these.
 struct Sample {
   bool failures{false};               ///< each value is 1 (failed) or 0: for the exact tests of counts
   bool paired{false};                 ///< unit i of both drew the same random numbers

@@ -82,11 +82,6 @@ struct LawTraits {
   BristleParameters (*bristle)(const motion::PlantParameters&, const FrictionParameters& contact);
 };
 
-/// A level of friction that opposes the velocity, with nothing elastic before it: the contact is a relay.
-constexpr bool is_relay(const LawTraits& law) {
-  return law.breakaway == Breakaway::of_hook && !law.has_presliding_motion;
-}
-
 /// Whether the law has this parameter of the contact.
 constexpr bool uses(const LawTraits& law, ContactField field) {
   return std::find(law.contact_parameters.begin(), law.contact_parameters.end(), field) !=

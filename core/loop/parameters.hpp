@@ -31,7 +31,7 @@ struct OtherEncoder {
 };
 
 /// The encoders: Δx = length/counts. On a rotary axis `fine` and `coarse` are the counts of a revolution,
-/// 2π rad; on a linear axis one count has the length of the resolution. Defaults: the paper's rig.
+/// 2π rad; on a linear axis one count has the length of the resolution. Defaults: the paper's machine.
 struct EncoderParameters {
   double fine{1620000.0};  ///< counts in `fine_length` of the encoder that closes the loop, a whole number
   double coarse{86400.0};  ///< counts in `coarse_length` of the encoder read beside it, a whole number
@@ -42,7 +42,7 @@ struct EncoderParameters {
   OtherEncoder other{};
 };
 
-/// The digital-to-analogue converter. Defaults: the paper's rig.
+/// The digital-to-analogue converter. Defaults: the paper's machine.
 struct DacParameters {
   int bits{12};               ///< word length, codes −2^(bits−1) … 2^(bits−1) − 1
   double resolution{2.4e-4};  ///< Δu, torque of one code, N m

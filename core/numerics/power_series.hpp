@@ -11,8 +11,8 @@
 
 namespace zerocount::numerics {
 
-/// Order of the Taylor expansions of the motion. With twelve, a sample of the paper's rig (0.62 rad of its
-/// fastest oscillation) needs one or two steps at 1e-10 count.
+/// Order of the Taylor expansions of the motion. With twelve, a sample of the paper's machine (0.62 rad of
+/// its fastest oscillation) needs one or two steps at 1e-10 count.
 inline constexpr std::size_t series_order = 12;
 
 /// Taylor coefficients of a function of time: Σ_k c[k]·tᵏ.

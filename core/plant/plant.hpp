@@ -14,8 +14,8 @@ namespace zerocount::plant {
 
 /// With more steps than this in one torque step, of any length, the motion counts as lost.
 inline constexpr int max_steps = 200000;
-/// The limit within a sample of a trial. A ringing trial of the paper's rig needs about three steps; one with
-/// ten thousand in each sample would run for hours.
+/// The limit within a sample of a trial. A ringing trial of the paper's machine needs about three steps; one
+/// with ten thousand in each sample would run for hours.
 inline constexpr int max_steps_of_sample = 10000;
 
 /// A rotor with a friction law under a motor's torque.

@@ -18,9 +18,9 @@ using RandomKey = std::array<std::uint32_t, 2>;
 
 /// Purpose of a random number: the third counter word.
 enum class Draw : std::uint32_t {
-  trial = 0,        ///< the value of a trial (or rig); the place inside its stratum with the Latin hypercube
-  sobol_shift = 1,  ///< digital shift of a Sobol dimension, index 0
-  profile_cosine = 2,  ///< cosine coefficient of a profile; the index is the harmonic + 2³²·rig
+  trial = 0,  ///< the value of a trial (or machine); the place inside its stratum with the Latin hypercube
+  sobol_shift = 1,     ///< digital shift of a Sobol dimension, index 0
+  profile_cosine = 2,  ///< cosine coefficient of a profile; the index is the harmonic + 2³²·machine
   profile_sine = 3,    ///< sine coefficient of a profile; index as for the cosine
   latin_round =
       16  ///< + r: round r of the Latin hypercube's permutation; the index is the half that is hashed

@@ -109,7 +109,7 @@ double dac_resolution_bound(double k1, const loop::EncoderParameters& encoder,
 /// √(stiffness/J)/2π, Hz. With k1 + k2 it is the highest natural frequency of the pre-sliding motion.
 double natural_frequency(double stiffness, const motion::PlantParameters& plant);
 
-/// Lowest advisable sample rate (Hz): ten times the highest natural frequency, as on the paper's rig (its
+/// Lowest advisable sample rate (Hz): ten times the highest natural frequency, as on the paper's machine (its
 /// section 4).
 double advised_sample_rate(const motion::PlantParameters& plant, const friction::FrictionParameters& contact);
 

@@ -10,7 +10,7 @@ std::span<const NamedMeasure> named_measures() {
                                            {"broke_away"},
                                            {"saturated"},
                                            {"arrival"},
-                                           {"settling_time"},
+                                           {"arrival_time"},
                                            {"final_settling_time"},
                                            {"zero_fraction"},
                                            {"oscillation_amplitude"},
@@ -42,6 +42,16 @@ std::span<const NamedMeasure> named_measures() {
                                            {"step_motion", true},
                                            {"step_made", true}};
   return measures;
+}
+
+std::string_view meanings_of_settling_time(std::string_view name) {
+  constexpr std::string_view bare = "settling_time";
+  if (!name.starts_with(bare)) return {};
+  const std::string_view rest = name.substr(bare.size());
+  if (!rest.empty() && rest.front() != '.' && rest.front() != '_') return {};
+  return "arrival_time (the error is 0 for the first time, for the dwell) or final_settling_time (the error "
+         "is 0 "
+         "for good)";
 }
 
 std::span<const std::string_view> named_band_measures() {

@@ -23,6 +23,11 @@ struct NamedMeasure {
 /// All measures that are numbers or qualities, but for those of error bands and tolerances.
 std::span<const NamedMeasure> named_measures();
 
+/// The measures that the bare name `settling_time` may mean, for the message that refuses it. Empty for every
+/// other name. A quantile or bound may follow the name, as in `settling_time.p95` or
+/// `settling_time_mean_low`.
+std::string_view meanings_of_settling_time(std::string_view name);
+
 /// The names of the measures of an error band, before the band: "band_exits" of "band_exits[1]".
 std::span<const std::string_view> named_band_measures();
 /// The measure of a tolerance of the position error, before the tolerance.

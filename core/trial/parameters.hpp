@@ -55,7 +55,7 @@ struct RandomHistory {
   double torque{0.0};  ///< largest magnitude of a level, N m
 };
 
-/// State of rig and controller at t = 0.
+/// State of machine and controller at t = 0.
 struct InitialConditions {
   /// Position of the mass that closes the loop within a count of the fine encoder, in [0, 1).
   double encoder_phase{0.5};

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/trial/rig.hpp"
+#include "core/trial/machine.hpp"
 
 namespace zerocount::trial {
 

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "core/trial/divergence.hpp"
+#include "core/trial/machine.hpp"
 #include "core/trial/move_measures.hpp"
 #include "core/trial/open_loop.hpp"
-#include "core/trial/rig.hpp"
 #include "core/trial/sampled_loop.hpp"
 #include "core/trial/trial.hpp"
 #include "core/trial/watched_trial.hpp"
@@ -31,39 +31,39 @@ inline bool slid_in_move(friction::Breakaway breakaway, bool at_start, bool at_i
 /// @param target of the move, counts. A reference that moves for ever is measured as if it stood there, with
 /// the same errors.
 template <class AnyPlant, class Decide>
-MoveOutcome run_move(Rig<AnyPlant>& rig, const MoveTiming& timing, const VerdictParameters& verdict,
+MoveOutcome run_move(Machine<AnyPlant>& machine, const MoveTiming& timing, const VerdictParameters& verdict,
                      std::int64_t move, std::int64_t first, std::int64_t target,
                      const TrialObservers& observers, Decide decide) {
   MoveMeasures measures(timing, move);
-  AnyPlant& plant = rig.plant();
+  AnyPlant& plant = machine.plant();
   plant.forget_deepest();
   const std::int64_t breakaways_before = plant.breakaways();
-  const std::int64_t disagreements_before = rig.measurement().disagreements();
+  const std::int64_t disagreements_before = machine.measurement().disagreements();
   const bool sliding_before = plant.sliding();
   bool sliding_at_instants = false;
   std::int64_t first_error = 0;
-  for (std::int64_t i = 0; i < timing.samples && rig.readable(); ++i) {
+  for (std::int64_t i = 0; i < timing.samples && machine.readable(); ++i) {
     if (observers.stop.stop_requested()) throw Interrupted{};
-    SampleRecord record = rig.read(first + i);
+    SampleRecord record = machine.read(first + i);
     decide(i, record);
     sliding_at_instants = sliding_at_instants || record.mode == HookMode::slide;
     if (observers.sample) observers.sample(record);
-    const bool jerk_ended =
-        measures.add({target, target - record.error, record.torque, rig.clipped(), record.theta, record.xp});
+    const bool jerk_ended = measures.add(
+        {target, target - record.error, record.torque, machine.clipped(), record.theta, record.xp});
     if (jerk_ended && observers.jerk) observers.jerk(measures.last_jerk());
     if (i == 0) first_error = record.error;
     if (timing.judged && diverged(verdict, first_error, record.error)) {
       measures.stop();
       break;
     }
-    rig.hold();
+    machine.hold();
   }
   const bool slid = slid_in_move(plant.breakaway(), sliding_before, sliding_at_instants,
                                  plant.breakaways() > breakaways_before);
-  const bool jerk_cut = measures.finish(slid, plant.deepest(), rig.readable());
+  const bool jerk_cut = measures.finish(slid, plant.deepest(), machine.readable());
   if (jerk_cut && observers.jerk) observers.jerk(measures.last_jerk());
   MoveOutcome outcome = measures.outcome();
-  outcome.encoder_disagreement = rig.measurement().disagreements() - disagreements_before;
+  outcome.encoder_disagreement = machine.measurement().disagreements() - disagreements_before;
   return outcome;
 }
 
@@ -72,8 +72,8 @@ MoveOutcome run_move(Rig<AnyPlant>& rig, const MoveTiming& timing, const Verdict
 template <class AnyPlant>
 TrialOutcome follow_targets(const TrialParameters& p, const TrialObservers& observers,
                             const LoopWatch& watch = {}) {
-  Rig<AnyPlant> rig(p);
-  SampledLoop loop(p, rig.measurement());
+  Machine<AnyPlant> machine(p);
+  SampledLoop loop(p, machine.measurement());
   TrialOutcome outcome;
   std::int64_t first = 0;
   bool stopped = false;
@@ -84,20 +84,20 @@ TrialOutcome follow_targets(const TrialParameters& p, const TrialObservers& obse
     loop.start_move(m);
     const auto decide = [&](std::int64_t i, SampleRecord& record) {
       const SampledLoop::Decision decision =
-          loop.decide(record.k, i, rig.last_reading(), rig.last_measured(), rig.last_other());
+          loop.decide(record.k, i, machine.last_reading(), machine.last_measured(), machine.last_other());
       record.reference = decision.reference;
       record.target = last_target = decision.target;
       record.error = record.target - record.count;
       record.phase = loop.phase();
-      rig.drive(decision.output, record);
-      if (loop.failed()) rig.fail();
-      if (watch && !watch({record, decision.wanted, rig.plant().steps()})) throw Interrupted{};
+      machine.drive(decision.output, record);
+      if (loop.failed()) machine.fail();
+      if (watch && !watch({record, decision.wanted, machine.plant().steps()})) throw Interrupted{};
     };
     MoveOutcome move =
-        run_move(rig, timing, p.verdict, static_cast<std::int64_t>(m), first, target, observers, decide);
+        run_move(machine, timing, p.verdict, static_cast<std::int64_t>(m), first, target, observers, decide);
     if (move.outcome != Outcome::nonfinite) {
-      move.true_error = true_error(last_target, rig.last_measured(), rig.measurement().fine_resolution(),
-                                   p.initial.encoder_phase);
+      move.true_error = true_error(last_target, machine.last_measured(),
+                                   machine.measurement().fine_resolution(), p.initial.encoder_phase);
     }
     loop.finish(move);
     outcome.moves.push_back(move);
@@ -112,7 +112,7 @@ TrialOutcome follow_targets(const TrialParameters& p, const TrialObservers& obse
 /// Open loop: the torque goes from level to level, or is that of a record.
 template <class AnyPlant>
 TrialOutcome apply_torques(const TrialParameters& p, const TrialObservers& observers) {
-  Rig<AnyPlant> rig(p);
+  Machine<AnyPlant> machine(p);
   OpenLoop loop(p);
   TrialOutcome outcome;
   std::int64_t first = 0;
@@ -123,13 +123,13 @@ TrialOutcome apply_torques(const TrialParameters& p, const TrialObservers& obser
       record.error = -record.count;
       const OpenLoop::Decision decision = loop.decide(i);
       if (decision.exact) {
-        rig.drive_exactly(decision.output.torque, record);
+        machine.drive_exactly(decision.output.torque, record);
       } else {
-        rig.drive(decision.output, record);
+        machine.drive(decision.output, record);
       }
     };
     MoveOutcome move =
-        run_move(rig, timing, p.verdict, static_cast<std::int64_t>(m), first, 0, observers, decide);
+        run_move(machine, timing, p.verdict, static_cast<std::int64_t>(m), first, 0, observers, decide);
     move.travel_time = loop.travel_time();
     outcome.moves.push_back(move);
     first += timing.samples;

@@ -15,14 +15,9 @@ import code_pages
 import notebook_page
 import program_pages
 
-sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "tests/project"))
-import studies  # noqa: E402
-
 SKIPPED = {"node_modules", "build", "out", ".git", ".github", "site"}
 HERE = pathlib.Path(__file__).parent
 LINK = re.compile(r"(!?\[(?:[^\[\]]|\[[^\]]*\])*\])\(([^)\s]+)\)")
-INCLUDE = re.compile(r"<!-- include (\S+) (\w+) -->\n")
-STUDIES = "<!-- studies -->"
 FENCED = re.compile(r"(^```.*?^```$)", re.MULTILINE | re.DOTALL)
 
 
@@ -56,16 +51,6 @@ class Links:
         return match[0] if place.suffix else f"{text}({path})"
 
 
-def with_lists(text, root, page):
-    """The page with what scripts write: tables of a file between its marks, and the list of studies."""
-    def marked(match):
-        written = (page.parent / match[1]).read_text(encoding="utf-8")
-        return re.search(rf"<!-- {match[2]}: .*?-->\n(.*?)<!-- end of {match[2]} -->", written, re.DOTALL)[1]
-
-    text = INCLUDE.sub(marked, text)
-    return text.replace(STUDIES, studies.table(root)) if STUDIES in text else text
-
-
 def staged(text, links):
     parts = FENCED.split(text)
     return "".join(part if part.startswith("```") else LINK.sub(links, part) for part in parts)
@@ -78,7 +63,7 @@ def main(root, folder, program):
         place = folder / page.relative_to(root).with_suffix(".md")
         place.parent.mkdir(parents=True, exist_ok=True)
         notebook = page.suffix == ".ipynb"
-        text = notebook_page.page(page, place.parent) if notebook else with_lists(page.read_text(encoding="utf-8"), root, page)
+        text = notebook_page.page(page, place.parent) if notebook else page.read_text(encoding="utf-8")
         place.write_text(staged(text, Links(root, folder, page)), encoding="utf-8")
     for page in HERE.glob("*.md"):
         shutil.copyfile(page, folder / page.name)

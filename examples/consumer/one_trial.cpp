@@ -4,7 +4,7 @@
 #include "core/trial/trial.hpp"
 
 int main() {
-  zerocount::trial::TrialParameters axis;  // the defaults are the paper's rig
+  zerocount::trial::TrialParameters axis;  // the defaults are the paper's machine
   axis.command.targets = {5};              // counts
   axis.command.hold = 1.0;                 // s
 

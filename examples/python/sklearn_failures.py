@@ -21,7 +21,7 @@ def main(path):
     y = trials["goal_met"]
     tree = DecisionTreeClassifier(max_leaf_nodes=4, min_samples_leaf=10, class_weight="balanced", random_state=1)
     # The trials of a machine stay together: otherwise the tree would be tested on machines that it knows.
-    folds = StratifiedGroupKFold(5).split(x, y, groups=trials["rig"])
+    folds = StratifiedGroupKFold(5).split(x, y, groups=trials["machine"])
     scores = cross_val_score(tree, x, y, cv=folds, scoring="balanced_accuracy")
     print(f"balanced accuracy on other machines: {scores.mean():.2f}")
     print(export_text(tree.fit(x, y), feature_names=INPUTS, decimals=1))

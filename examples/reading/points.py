@@ -6,5 +6,5 @@ with open("tables/points.csv", newline="", encoding="utf-8") as file:
     for row in csv.DictReader(file):
         values = [float(row[name]) for name in (
             "success_rate", "success_rate_low", "success_rate_high",
-            "settling_time_median [s]", "settling_time_p95 [s]", "jerk_count_mean")]
+            "arrival_time_median [s]", "arrival_time_p95 [s]", "jerk_count_mean")]
         print(row["label"], int(float(row["trials"])), *values, sep="\t")

@@ -5,7 +5,7 @@ low      = h5read(file, '/point/success_rate_low');
 high     = h5read(file, '/point/success_rate_high');
 point    = h5read(file, '/trial/point');
 worst    = max(h5read(file, '/outcome/outcome'), [], 1)';       % of each trial; 0 is zero_count
-settling = h5read(file, '/outcome/settling_time')';             % s, [trial, move]; NaN where a move never arrived
+settling = h5read(file, '/outcome/arrival_time')';             % s, [trial, move]; NaN where a move never arrived
 jerks    = sum(double(h5read(file, '/outcome/jerk_count')), 1)';
 
 for p = 0:numel(labels) - 1

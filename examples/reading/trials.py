@@ -8,7 +8,7 @@ with h5py.File("study.h5") as file:
     lows, highs = file["point/success_rate_low"][:], file["point/success_rate_high"][:]
     point = file["trial/point"][:]                      # of each trial
     worst = file["outcome/outcome"][:].max(axis=1)      # [trial, move] to [trial]: 0 is zero_count
-    settling = file["outcome/settling_time"][:]         # s, [trial, move]; NaN where a move never arrived
+    settling = file["outcome/arrival_time"][:]         # s, [trial, move]; NaN where a move never arrived
     jerks = file["outcome/jerk_count"][:].sum(axis=1)
 
 for p, label in enumerate(labels):

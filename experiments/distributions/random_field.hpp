@@ -45,7 +45,7 @@ std::vector<double> field_amplitudes(const ProfileDescription& description);
 /// differs from the given mean of the field. The lognormal marginal has the given mean and cv: s² = ln(1 +
 /// cv²), μ = ln(mean) − s²/2.
 /// @param amplitudes field_amplitudes of the description.
-/// @param rotor the number of the rig; 0 if there is one rotor
+/// @param rotor the number of the machine; 0 if there is one rotor
 friction::Profile realise_profile(const ProfileDescription& description, std::span<const double> amplitudes,
                                   const random::RandomKey& key, std::uint32_t rotor = 0);
 

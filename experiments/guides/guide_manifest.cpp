@@ -139,7 +139,7 @@ std::string guide_manifest(const Guide& guide, const GuideAxis& axis) {
       "description: {}, {}\n"
       "axis: {}\n"
       "seed: 1\n"
-      "rigs: 50\n"
+      "machines: 50\n"
       "trials: 200\n"
       "plant:\n"
       "  inertia: {}   # {}\n"

@@ -34,7 +34,7 @@ Numbers assumed_of_contacts() {
       {creep_part, "1", 0.01, 0.1, assumed, "creep is small beside the travel before sliding"},
       {"friction.stribeck_velocity", "m/s", 5e-4, 5e-3, assumed,
        "about 1e-3 m/s, which Canudas de Wit et al., IEEE Trans. Automatic Control 40 (1995) 419, simulate"},
-      {damping_ratio, "1", 0.05, 0.15, assumed, "0.14 on the paper's rig: c / (2 sqrt((k1 + k2) J))"}};
+      {damping_ratio, "1", 0.05, 0.15, assumed, "0.14 on the paper's machine: c / (2 sqrt((k1 + k2) J))"}};
 }
 
 Numbers contact_numbers(Numbers numbers) {

@@ -32,13 +32,13 @@ std::string_view expected_instead(const Reading& reading) {
   return !reading.groups.ages ? "the key ages: {at: [0, 1.0e+5, 1.0e+6], unit: cycles}" : "the value alone";
 }
 
-/// The rate, drawn for each rig unless it says otherwise.
+/// The rate, drawn for each machine unless it says otherwise.
 study::Value read_rate(const yaml::Field& field, std::size_t slot, Reading& reading) {
   study::Value rate = read_value(field, slot, reading);
   if (rate.kind != study::Value::Kind::distribution) return rate;
-  if (!reading.groups.rigs) return rate;  // which is reported
+  if (!reading.groups.machines) return rate;  // which is reported
   if (rate.level == study::DrawLevel::trial || rate.level == study::DrawLevel::contact)
-    reading.problems.add(field, "a rate of aging belongs to a machine", "per: rig, world or study");
+    reading.problems.add(field, "a rate of aging belongs to a machine", "per: machine, world or study");
   return rate;
 }
 

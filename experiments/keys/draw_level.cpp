@@ -10,8 +10,9 @@ struct Misfit {
 };
 
 constexpr Misfit profile_of_rotor{"a profile belongs to a rotor, which trials share",
-                                  "study or rig (for a rotor per trial: as many rigs as trials)"};
-constexpr Misfit no_worlds{"the study has no worlds", "the key worlds, or study, rig, trial or contact here"};
+                                  "study or machine (for a rotor per trial: as many machines as trials)"};
+constexpr Misfit no_worlds{"the study has no worlds",
+                           "the key worlds, or study, machine, trial or contact here"};
 
 // The reason if the parameter cannot be drawn this often.
 std::optional<Misfit> misfit_of(study::DrawLevel level, const parameters::Parameter& parameter, Drawn drawn,
@@ -25,19 +26,19 @@ std::optional<Misfit> misfit_of(study::DrawLevel level, const parameters::Parame
     case study::DrawLevel::world:
       if (drawn == Drawn::profile) return profile_of_rotor;
       return groups.worlds ? std::nullopt : std::optional(no_worlds);
-    case study::DrawLevel::rig:
-      if (groups.rigs) return std::nullopt;
-      return Misfit{"the study has no machines", "the key rigs, or study, trial or contact here"};
+    case study::DrawLevel::machine:
+      if (groups.machines) return std::nullopt;
+      return Misfit{"the study has no machines", "the key machines, or study, trial or contact here"};
     case study::DrawLevel::trial:
       if (drawn == Drawn::value) return std::nullopt;
       return profile_of_rotor;
     case study::DrawLevel::contact:
       if (drawn == Drawn::profile) {
         return Misfit{"a profile belongs to a rotor; a contact takes the value at its position",
-                      "study or rig"};
+                      "study or machine"};
       }
       if (parameter.profiled != nullptr || parameters::is_measured(parameter.name)) return std::nullopt;
-      return Misfit{"only friction can be drawn at each contact", "study, rig or trial"};
+      return Misfit{"only friction can be drawn at each contact", "study, machine or trial"};
   }
   return std::nullopt;
 }
@@ -49,16 +50,20 @@ study::DrawLevel usual_level(const parameters::Parameter& parameter, Drawn drawn
     case Drawn::interval:
       return study::DrawLevel::world;
     case Drawn::profile:
-      return groups.rigs && parameter.of_machine ? study::DrawLevel::rig : study::DrawLevel::study;
+      return groups.machines && parameter.of_machine ? study::DrawLevel::machine : study::DrawLevel::study;
     case Drawn::value:
       break;
   }
-  return groups.rigs && parameter.of_machine ? study::DrawLevel::rig : study::DrawLevel::trial;
+  return groups.machines && parameter.of_machine ? study::DrawLevel::machine : study::DrawLevel::trial;
 }
 
 std::optional<study::DrawLevel> read_draw_level(const yaml::Field& field,
                                                 const parameters::Parameter& parameter, Drawn drawn,
                                                 const TrialGroups& groups, yaml::Problems& problems) {
+  if (field.node->kind == yaml::YamlNode::Kind::scalar && field.node->text == "rig") {
+    problems.add(field, "it is called machine since 0.2", "machine");
+    return std::nullopt;
+  }
   const auto label = yaml::read_label(field, draw_level_labels, problems);
   if (!label) return std::nullopt;
   const auto level = static_cast<study::DrawLevel>(*label);

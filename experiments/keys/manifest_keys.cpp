@@ -49,8 +49,8 @@ constexpr numerics::Interval open_unit{.low = 0.0, .high = 1.0};
 
 // Numbers of worlds: a goal is judged in each, with a part of the error probability.
 constexpr std::int64_t max_worlds = 10'000;
-// The rig is a 32-bit counter word of a rotor's random numbers.
-constexpr std::int64_t max_rigs = std::int64_t{1} << 32;
+// The machine is a 32-bit counter word of a rotor's random numbers.
+constexpr std::int64_t max_machines = std::int64_t{1} << 32;
 constexpr std::int64_t max_observed_trials = 1'000'000;
 constexpr std::array<std::string_view, 2> masses{"motor", "load"};
 // Range of a relative spread.
@@ -104,7 +104,7 @@ void store(Value& value, const Shape& shape, const yaml::Field* field) {
 }
 
 // What the member has where nothing is stored: none if it is no value that a manifest can state, as for
-// `rigs`.
+// `machines`.
 template <class Value>
 Shape::Standard standard_of(const Value& value, const Shape& shape) {
   if constexpr (std::is_same_v<Value, std::optional<double>>) {
@@ -263,7 +263,7 @@ Shape observed_shape(Shape key) {
 
 std::span<const Shape> general_keys() {
   constexpr const char* ages = "ages: {at: [0, 1.0e+5, 1.0e+6], unit: cycles}";
-  constexpr const char* samples = "the name of a file, or {file: posterior.csv, per: rig}";
+  constexpr const char* samples = "the name of a file, or {file: posterior.csv, per: machine}";
   const auto record = [](Shape key, const char* expected, const char* pair) {
     return of(Form::one_of, std::move(key), expected,
               {of(Form::line),
@@ -292,13 +292,15 @@ std::span<const Shape> general_keys() {
              &study::Study::seed),
       whole({"trials", "trials at each design point", "the number of trials at each design point"}, 1,
             max_study_trials, &study::Study::trials),
-      whole({"rigs",
-             "number of machines; trial i runs on machine i mod rigs, and `trials` must be a multiple of it "
+      whole({"machines",
+             "number of machines; trial i runs on machine i mod machines, and `trials` must be a multiple of "
+             "it "
              "(default: no trials share a machine)"},
-            2, max_rigs, &study::Study::rigs),
+            2, max_machines, &study::Study::machines),
       whole({"worlds",
              "number of worlds, which differ in what all machines share and nobody knows (`per: world`); "
-             "machine r lives in world r mod worlds, without `rigs` trial i in world i mod worlds (default: "
+             "machine r lives in world r mod worlds, without `machines` trial i in world i mod worlds "
+             "(default: "
              "none)"},
             2, max_worlds, &study::Study::worlds),
       of(Form::entries,
@@ -352,7 +354,7 @@ std::span<const Shape> general_keys() {
           "what the axis must achieve: {band: 1, within: 0.05, moves: 0.99, machines: 0.99, confidence: "
           "0.95}: the error is within 1 count for good after 0.05 s in at least 99 % of the moves of at "
           "least 99 % of the machines, claimed with 95 % confidence; without `machines` (which needs "
-          "`rigs`) in at least 99 % of all moves; default band 0, confidence 0.95; `tolerance` (rad) in "
+          "`machines`) in at least 99 % of all moves; default band 0, confidence 0.95; `tolerance` (rad) in "
           "place of band: the position error itself stays within it; `after_profile` (s) in place of within: "
           "from the end of each move's profile; on: [0, 1]: the moves that it is about "
           "(default all); limits: {overshoot: 200, peak_torque: 45}: largest values of measures of a move; "
@@ -401,7 +403,7 @@ std::span<const Shape> general_keys() {
          {"samples",
           "joint draws of several parameters, such as those of zerocount identify --posterior: path of a "
           "CSV "
-          "table from the folder of the manifest, or {file: FILE, per: rig}; its header has the dotted "
+          "table from the folder of the manifest, or {file: FILE, per: machine}; its header has the dotted "
           "paths "
           "of the parameters, and each world, machine or trial takes one row"},
          samples,

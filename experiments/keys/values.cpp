@@ -182,12 +182,12 @@ bool check_rotor(const ProfileRequest& request, const study::Rotors& rotors, std
     return true;  // a fast sufficient test
   const friction::ValueRange values = friction::range_over_revolution(*profile);
   if (numerics::contains(parameter.range, numerics::closed(values.low, values.high))) return true;
-  const std::string of_rig =
-      request.level == study::DrawLevel::rig ? fmt::format(" of machine {}", rotor) : "";
+  const std::string of_machine =
+      request.level == study::DrawLevel::machine ? fmt::format(" of machine {}", rotor) : "";
   reading.problems.add(
       request.place, request.path,
       fmt::format("its values {}{}, {:.6g} to {:.6g} with this seed, exceed the allowed range {}",
-                  parameters::text_on(units.axis, "along the $track"), of_rig, values.low, values.high,
+                  parameters::text_on(units.axis, "along the $track"), of_machine, values.low, values.high,
                   numerics::notation(parameter.range)),
       allowed_values(parameter, units));
   return false;

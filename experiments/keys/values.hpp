@@ -20,15 +20,15 @@ namespace zerocount::keys {
 constexpr std::string_view per_key = "per";
 
 /// Its values, in the order of the enumeration DrawLevel.
-inline constexpr std::array<std::string_view, 5> draw_level_labels{"study", "world", "rig", "trial",
+inline constexpr std::array<std::string_view, 5> draw_level_labels{"study", "world", "machine", "trial",
                                                                    "contact"};
 
 /// Those that a profile may have.
-inline constexpr std::array<std::string_view, 2> draw_level_labels_of_profiles{"study", "rig"};
+inline constexpr std::array<std::string_view, 2> draw_level_labels_of_profiles{"study", "machine"};
 
 /// The groups of trials that a study has.
 struct TrialGroups {
-  bool rigs{false};
+  bool machines{false};
   bool worlds{false};
   bool ages{false};
 };
@@ -40,9 +40,9 @@ enum class Drawn {
   interval  ///< a value without a distribution
 };
 
-/// Default of `per`. With rigs, parameters of the machine are drawn for every rig and others for every trial.
-/// Without rigs, values are drawn for every trial and profiles once for the study. Intervals are drawn for
-/// every world.
+/// Default of `per`. With machines, parameters of the machine are drawn for every machine and others for
+/// every trial. Without machines, values are drawn for every trial and profiles once for the study. Intervals
+/// are drawn for every world.
 study::DrawLevel usual_level(const parameters::Parameter& parameter, Drawn drawn, const TrialGroups& groups);
 
 /// The value of the key `per` in `field`. Reports an unknown value or one that the parameter does not allow,
@@ -73,7 +73,7 @@ std::string cure_of_normal(const distributions::Distribution& distribution,
 struct ProfileRequest {
   std::size_t slot{0};  ///< in the plan
   distributions::ProfileForm form;
-  study::DrawLevel level{study::DrawLevel::study};  ///< study or rig
+  study::DrawLevel level{study::DrawLevel::study};  ///< study or machine
   yaml::Place place;                                ///< in the manifest, for messages
   std::string path;
 };
@@ -84,7 +84,7 @@ struct Reading {
   study::StudyPlan& plan;  ///< gets the distributions
   study::Study& study;
   bool recorded{false};       ///< it has results: a target that the encoder does not see is a warning
-  TrialGroups groups{};       ///< the study has the keys `rigs`, `worlds`
+  TrialGroups groups{};       ///< the study has the keys `machines`, `worlds`
   bool plugin_failed{false};  ///< the user's controller could not be loaded
   std::vector<ProfileRequest> profiles{};  ///< [index of a value of kind profile]
   std::vector<std::string> warnings{};     ///< allowed but possibly unintended

@@ -12,8 +12,8 @@
 namespace zerocount::manifest {
 namespace {
 
-/// A key is given: "stop"; it has one of these values: "design: sobol saltelli"; it is not given: "!rigs". An
-/// empty list counts as none. "goal*" is each goal.
+/// A key is given: "stop"; it has one of these values: "design: sobol saltelli"; it is not given:
+/// "!machines". An empty list counts as none. "goal*" is each goal.
 struct Exclusion {
   std::string_view key;  ///< at whose place both are reported
   std::string_view other;
@@ -27,8 +27,8 @@ constexpr Exclusion exclusions[]{
     {"goal*.after_profile", "goal*.within", "the goal has the time from the start of a move too",
      "one of them"},
     {"goal*.after_profile", "command.reference", "a recorded reference has no profile", "within"},
-    {"goal*.machines", "!rigs", "without machines no trials share a machine",
-     "`rigs`, the number of machines, or the key left out"},
+    {"goal*.machines", "!machines", "without machines no trials share a machine",
+     "`machines`, the number of machines, or the key left out"},
     {"goal*", "stop", "its bounds need a number of trials that does not depend on the outcomes",
      "no `stop`, or no goal"},
     {"goal*", "design: saltelli", "its bounds need trials that share no numbers",
@@ -50,7 +50,7 @@ constexpr Exclusion exclusions[]{
     {"design: saltelli", "ages",
      "this design changes one factor at a time, but the trials of all ages share factors",
      "monte_carlo, latin_hypercube or sobol with ages"},
-    {"design: saltelli", "rigs",
+    {"design: saltelli", "machines",
      "this design changes one factor at a time, but the trials of a machine share factors",
      "monte_carlo, latin_hypercube or sobol with machines"},
     {"design: saltelli", "worlds",
@@ -58,7 +58,8 @@ constexpr Exclusion exclusions[]{
      "monte_carlo, latin_hypercube or sobol with worlds"},
     {"correlation", "design: saltelli", "the design saltelli needs independent parameters", "another design"},
     {"samples", "design: saltelli", "the design saltelli needs independent parameters", "another design"},
-    {"ages", "!rigs", "only machines have ages: the study has none", "the key rigs, such as rigs: 100"},
+    {"ages", "!machines", "only machines have ages: the study has none",
+     "the key machines, such as machines: 100"},
     {"keep: failures statistics", "retain.trials", "retain needs every trial", "keep: trials"},
     {"keep: failures statistics", "stop", "stop needs every trial", "keep: trials"},
     {"keep: failures statistics", "command.sequence", "command.sequence needs every trial", "keep: trials"},

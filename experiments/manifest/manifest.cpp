@@ -53,7 +53,7 @@ void read_values(Manifest& m) {
     if (!is_of_section && (key.set || !yaml::find_field(m.root, key.name)))
       shapes::read_keys(m.root, {&key, 1}, m.problems(), &m.reading);
   }
-  m.reading.groups = {.rigs = yaml::find_field(m.root, "rigs").has_value(),
+  m.reading.groups = {.machines = yaml::find_field(m.root, "machines").has_value(),
                       .worlds = yaml::find_field(m.root, "worlds").has_value(),
                       .ages = yaml::find_field(m.root, "ages").has_value()};
 }
@@ -152,14 +152,14 @@ void check_rows(Manifest& m) {
       fmt::format("a multiple of {}, such as {}", row, nearest_multiples(m.study().trials, row)));
 }
 
-// "7 rigs", "7 rigs under each of 3 conditions at each of 2 ages".
+// "7 machines", "7 machines under each of 3 conditions at each of 2 ages".
 std::string turns_text(const study::Study& study) {
   const auto counted = [](std::int64_t count, std::string_view noun) {
     return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
   };
   const std::int64_t conditions = std::ssize(study.condition_names);
-  if (study.rigs == 0) return counted(conditions, "condition");
-  std::string text = fmt::format("{} machines", study.rigs);
+  if (study.machines == 0) return counted(conditions, "condition");
+  std::string text = fmt::format("{} machines", study.machines);
   if (conditions > 0) text += " under each of " + counted(conditions, "condition");
   if (!study.ages.at.empty()) text += " at each of " + counted(std::ssize(study.ages.at), "age");
   return text;
@@ -167,14 +167,14 @@ std::string turns_text(const study::Study& study) {
 
 void require_equal_turns(Manifest& m, const yaml::Field& field, std::int64_t trials) {
   const study::TrialTurns turns = study::turns_of(m.study());
-  const std::int64_t round = turns.rigs * turns.conditions;
+  const std::int64_t round = turns.machines * turns.conditions;
   if (trials % round == 0) return;
   m.problems().add(field,
                    fmt::format("{} trials cannot be divided equally among {}", trials, turns_text(m.study())),
                    fmt::format("a multiple of {}, such as {}", round, nearest_multiples(trials, round)));
 }
 
-// Every rig must have the same number of trials under each condition, also after each block of sequential
+// Every machine must have the same number of trials under each condition, also after each block of sequential
 // stopping.
 void check_turns(Manifest& m) {
   const auto trials = yaml::find_field(m.root, "trials");
@@ -186,15 +186,15 @@ void check_turns(Manifest& m) {
   }
 }
 
-// Every world must have the same number of rigs, or of trials.
+// Every world must have the same number of machines, or of trials.
 void check_worlds(Manifest& m) {
   if (m.study().worlds == 0) return;
   const yaml::Field field = yaml::find_field(m.root, "worlds").value();
-  const std::int64_t units = m.study().rigs > 0 ? m.study().rigs : study::draw_count(m.study());
-  const std::string_view name = m.study().rigs > 0             ? "machines"
+  const std::int64_t units = m.study().machines > 0 ? m.study().machines : study::draw_count(m.study());
+  const std::string_view name = m.study().machines > 0         ? "machines"
                                 : m.study().conditions.empty() ? "trials"
                                                                : "trials under each condition";
-  if (m.study().rigs > 0 && units % m.study().worlds != 0) {
+  if (m.study().machines > 0 && units % m.study().worlds != 0) {
     m.problems().add(
         field, fmt::format("{} machines cannot be divided equally among {} worlds", units, m.study().worlds),
         fmt::format("a divisor of the number of machines, or {} machines",

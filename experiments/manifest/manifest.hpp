@@ -24,7 +24,8 @@ study::Study read_manifest(const yaml::YamlNode& root, bool recorded, const sect
 
 /// Realises the requested profiles as plan.profiles, in the order of the requests. All profiles of one
 /// parameter use the same random numbers, even with different mean, spread and correlation length.
-/// @param study must have its seed, design and rigs @param known profiles to be shared where they are equal
+/// @param study must have its seed, design and machines @param known profiles to be shared where they are
+/// equal
 void realise_profiles(const std::vector<keys::ProfileRequest>& requests, const study::Study& study,
                       const std::vector<std::shared_ptr<const study::Rotors>>& known, study::StudyPlan& plan);
 
@@ -73,7 +74,7 @@ void let_follow_from_measured(const keys::PlanPlaces& places, keys::Reading& rea
 void check_what_follows(const keys::PlanPlaces& places, keys::Reading& reading);
 
 /// Reports draws of measured values that are those of no machine (study/measured_machines.hpp): of each
-/// trial, rig or world of the assembled study, and of all values between the ends of `tune`'s ranges.
+/// trial, machine or world of the assembled study, and of all values between the ends of `tune`'s ranges.
 void check_measured_machines(const study::Study& study, const keys::PlanPlaces& places,
                              keys::Reading& reading);
 

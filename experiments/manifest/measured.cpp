@@ -161,7 +161,7 @@ class MeasuredDraws {
 };
 
 std::string_view name_of(study::DrawLevel level) {
-  if (level == study::DrawLevel::rig) return "machine";
+  if (level == study::DrawLevel::machine) return "machine";
   return keys::draw_level_labels[static_cast<std::size_t>(level)];
 }
 

@@ -249,8 +249,8 @@ void list_profiles(const std::vector<keys::ProfileRequest>& requests, const Assi
       const std::shared_ptr<const study::Rotors> rotors = plan.profiles[index];
       study::RealisedProfile profile{std::string(parameter.name) + suffix,
                                      parameters::unit_of(parameter, plan.units), rotors->rotor(0)};
-      if (requests[index].level == study::DrawLevel::rig) {
-        profile.of_rig = [rotors](std::int64_t rig) { return rotors->rotor(rig); };
+      if (requests[index].level == study::DrawLevel::machine) {
+        profile.of_machine = [rotors](std::int64_t machine) { return rotors->rotor(machine); };
       }
       study.profiles.push_back(std::move(profile));
     }
@@ -264,7 +264,7 @@ study::DrawnMean mean_of(const keys::ProfileRequest& request, const parameters::
   if (study.design == study::Design::sobol) {
     const std::size_t dimension = parameters::sobol_dimension_of_mean(parameter.sobol_dimension);
     mean.randomness.directions = designs::sobol_directions({&dimension, 1}).front();
-    if (request.level == study::DrawLevel::rig) mean.worlds = static_cast<std::uint64_t>(study.worlds);
+    if (request.level == study::DrawLevel::machine) mean.worlds = static_cast<std::uint64_t>(study.worlds);
     mean.places = study::sobol_place_key(study.seed, study::Grouping::world);
   }
   return mean;
@@ -280,7 +280,7 @@ void realise_profiles(const std::vector<keys::ProfileRequest>& requests, const s
     std::optional<study::DrawnMean> mean;
     if (request.form.mean) mean = mean_of(request, parameter, study);
     const std::int64_t count =
-        request.level == study::DrawLevel::rig ? std::max<std::int64_t>(study.rigs, 1) : 1;
+        request.level == study::DrawLevel::machine ? std::max<std::int64_t>(study.machines, 1) : 1;
     auto rotors = std::make_shared<const study::Rotors>(request.form.description, std::move(mean), study.seed,
                                                         parameter.name, count);
     const auto same = std::ranges::find_if(known, [&](const auto& one) { return one->is_same(*rotors); });

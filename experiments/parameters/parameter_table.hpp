@@ -146,7 +146,7 @@ std::string unit_of(const Parameter& parameter, const StudyUnits& units);
 /// Its meaning, in the terms of the study's kind of axis and units.
 std::string meaning_of(const Parameter& parameter, const StudyUnits& units);
 
-/// Whether the default is valid in these units. A default of a rotary rig, such as one in N m/rad, is not
+/// Whether the default is valid in these units. A default of a rotary machine, such as one in N m/rad, is not
 /// valid for a linear axis.
 bool default_holds(const Parameter& parameter, const StudyUnits& units);
 

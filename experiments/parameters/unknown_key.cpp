@@ -64,6 +64,9 @@ std::string_view named_otherwise(std::string_view key, std::string_view path) {
   return found == synonyms.end() ? std::string_view{} : found->second;
 }
 
+// Keys that had another name before version 0.2, by their path.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 1> renamed_keys{{{"rigs", "machines"}}};
+
 // A typing error in this map is more likely than a key of another map.
 std::string_view nearest_key(std::string_view key, std::string_view path,
                              std::span<const std::string> known) {
@@ -89,6 +92,13 @@ void add_unknown_key(const yaml::Field& map, const yaml::YamlEntry& entry, std::
     problems.add(entry.place, path, "found a dotted path instead of a key",
                  fmt::format("nested maps, as in {}: {{{}: ...}}", entry.key.substr(0, entry.key.find('.')),
                              entry.key.substr(entry.key.find('.') + 1)));
+    return;
+  }
+  const auto renamed =
+      std::ranges::find(renamed_keys, path, &std::pair<std::string_view, std::string_view>::first);
+  if (renamed != renamed_keys.end()) {
+    problems.add(entry.place, path, fmt::format("it is called {} since 0.2", renamed->second),
+                 fmt::format("{}: …", renamed->second));
     return;
   }
   const std::string_view nearest = nearest_key(entry.key, path, known);

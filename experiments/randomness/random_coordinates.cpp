@@ -20,7 +20,7 @@ using Kind = RandomCoordinate::Kind;
 
 bool is_drawn_for_trials(study::DrawLevel level) {
   switch (level) {
-    case study::DrawLevel::rig:
+    case study::DrawLevel::machine:
     case study::DrawLevel::trial:
     case study::DrawLevel::contact:
       return true;
@@ -49,7 +49,7 @@ void add_coordinates(const study::Study& study, std::uint32_t slot, const study:
             {name, Kind::values, {slot}, 0, study::differs_between_machines(study, value.level, name)});
       break;
     case study::Value::Kind::profile:
-      if (value.level != study::DrawLevel::rig) break;
+      if (value.level != study::DrawLevel::machine) break;
       if (study.plan->profiles[value.index]->drawn_mean())
         coordinates.push_back({name + ".mean", Kind::profile_mean, {slot}, 0, true});
       coordinates.push_back({name, Kind::profile_at_start, {slot}, 0, true});

@@ -24,12 +24,13 @@ struct RandomCoordinate {
   std::vector<std::uint32_t> slots;
   std::int64_t rows{
       0};  ///< of joint samples, in an order that means nothing; row ⌊rows·Φ(z)⌋ is drawn; otherwise 0
-  bool of_machine{false};  ///< the same in all trials of a rig; without rigs see differs_between_machines()
+  bool of_machine{
+      false};  ///< the same in all trials of a machine; without machines see differs_between_machines()
 };
 
-/// The random coordinates of the trials of a design point: all that is drawn for each rig, trial or contact
-/// (of a contact, the first of a trial). Independent of each other. What is drawn for the study or for a
-/// world is not among them, nor are the random numbers used while a trial runs.
+/// The random coordinates of the trials of a design point: all that is drawn for each machine, trial or
+/// contact (of a contact, the first of a trial). Independent of each other. What is drawn for the study or
+/// for a world is not among them, nor are the random numbers used while a trial runs.
 std::vector<RandomCoordinate> random_coordinates(const study::Study& study, std::int64_t point);
 
 /// Φ(z), a uniform number in the open interval (0, 1) whatever z.

@@ -35,8 +35,8 @@ using SamplesReader = std::function<std::string(const std::string& path, std::st
 struct Companions {
   PluginLoader plugin{};
   SamplesReader samples{};
-  /// Profiles of a similar study. Equal ones are shared, because to realise those of thousands of rigs takes
-  /// longer than to read a manifest.
+  /// Profiles of a similar study. Equal ones are shared, because to realise those of thousands of machines
+  /// takes longer than to read a manifest.
   std::vector<std::shared_ptr<const study::Rotors>> rotors{};
 };
 

@@ -41,7 +41,7 @@ std::string fault_of(const study::Value& value) {
   }
   switch (value.level) {
     case study::DrawLevel::world:
-    case study::DrawLevel::rig:
+    case study::DrawLevel::machine:
     case study::DrawLevel::trial:
       return "";
     case study::DrawLevel::study:

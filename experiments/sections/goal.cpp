@@ -114,7 +114,9 @@ void take_limits(const yaml::Field& of_goal, keys::Reading& reading, study::Goal
     } else if (std::ranges::find(known, entry.key) == known.end()) {
       const std::string_view nearest = yaml::nearest_name(entry.key, known);
       std::string names = "a measure of a move, such as overshoot or peak_torque";
-      if (entry.key.starts_with(trial::tolerance_measure)) {
+      if (const std::string_view meanings = trial::meanings_of_settling_time(entry.key); !meanings.empty()) {
+        names = meanings;
+      } else if (entry.key.starts_with(trial::tolerance_measure)) {
         names = fmt::format("{}[t] of a tolerance t above 0, in rad or m", trial::tolerance_measure);
       } else if (!nearest.empty()) {
         names = fmt::format("'{}'?", nearest);

@@ -64,9 +64,9 @@ struct SamplesTable {
   std::vector<yaml::Place> columns;  ///< [column] place of its name
 };
 
-/// Reads the key `samples` of `root`, "FILE" or {file: FILE, per: rig or trial}, and its table: a header with
-/// dotted paths, then one joint draw a row. Each column becomes the value {choice: [...]} of its parameter in
-/// `root`, so that it is checked as if the manifest gave it. `table` must outlive the tree.
+/// Reads the key `samples` of `root`, "FILE" or {file: FILE, per: machine or trial}, and its table: a header
+/// with dotted paths, then one joint draw a row. Each column becomes the value {choice: [...]} of its
+/// parameter in `root`, so that it is checked as if the manifest gave it. `table` must outlive the tree.
 void insert_samples(yaml::YamlPointer& root, const SamplesReader& read, std::optional<SamplesTable>& table,
                     yaml::Problems& problems);
 

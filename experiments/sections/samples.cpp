@@ -101,7 +101,7 @@ bool check_draw_levels(const SamplesTable& table, const std::vector<std::uint32_
   reading.problems.add(table.field,
                        fmt::format("a row is drawn as a whole, but the defaults of `per` differ: {}, and {}",
                                    text_of(slots.front()), text_of(*other)),
-                       "{file: ..., per: rig}, or per: world or trial");
+                       "{file: ..., per: machine}, or per: world or trial");
   return false;
 }
 

@@ -82,7 +82,7 @@ void check_overrides(const yaml::Field& root, const SweptAxis& conditions,
                      const std::vector<yaml::Place>& sampled, keys::Reading& reading);
 
 /// Reads `goal`, or `goals`, of the manifest. Adds their bands and tolerances to those of the plan. The
-/// study's rigs and all parameters must be read already.
+/// study's machines and all parameters must be read already.
 void read_goals(const yaml::Field& root, keys::Reading& reading);
 
 /// Lets the trials of a sequence measure the position of a load that does not close the loop. The study's
@@ -110,7 +110,7 @@ std::vector<std::string> label_points(const std::vector<SweptAxis>& axes);
 /// The axes of the results file: the name of the case, and one axis for every swept slot.
 std::vector<study::SweepAxis> describe_axes(const std::vector<SweptAxis>& axes, const study::StudyPlan& plan);
 
-/// Reads `observed`, a map from cases or point labels to observations on a real rig: study.observed and
+/// Reads `observed`, a map from cases or point labels to observations on a real machine: study.observed and
 /// study.observed_counts. An observation is a text, or counts: {successes: 9, of: 10, text: what else}. That
 /// of a case applies to all its points, except those with one of their own.
 /// @param axes of the sweep, complete

@@ -86,14 +86,17 @@ bool trials_stay_when_extended(Design design) {
 }
 
 random::RandomKey sobol_place_key(std::uint64_t seed, Grouping grouping) {
-  // The slash keeps it apart from names of parameters.
-  return designs::random_key(seed, fmt::format("{}s/places", traits_of(grouping).name));
+  // The slash keeps it apart from names of parameters. Machines were called rigs when the name was chosen;
+  // another name would be other random numbers.
+  const std::string groups =
+      grouping == Grouping::machine ? "rigs" : fmt::format("{}s", traits_of(grouping).name);
+  return designs::random_key(seed, groups + "/places");
 }
 
-std::uint64_t sobol_place(const random::RandomKey& key, std::uint64_t index, std::uint64_t rigs) {
-  const std::uint64_t round = index / rigs;
+std::uint64_t sobol_place(const random::RandomKey& key, std::uint64_t index, std::uint64_t machines) {
+  const std::uint64_t round = index / machines;
   const random::RandomStream order{.key = key, .stream = static_cast<std::uint32_t>(round)};
-  return round * rigs + designs::latin_stratum(index % rigs, rigs, order);
+  return round * machines + designs::latin_stratum(index % machines, machines, order);
 }
 
 std::uint64_t place_in_groups(Design design, const random::RandomKey& key, std::uint64_t unit,

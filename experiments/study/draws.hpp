@@ -18,7 +18,7 @@ using SquareMatrix = std::vector<std::vector<double>>;  ///< [row][column]
 /// distribution of each value stays its own (Nelsen, An Introduction to Copulas, 2nd ed., 2006, section 2.3).
 struct GaussianCopula {
   std::vector<std::uint32_t> slots;   ///< in the order of columns
-  DrawLevel level{DrawLevel::trial};  ///< how often all of them are drawn: world, rig or trial
+  DrawLevel level{DrawLevel::trial};  ///< how often all of them are drawn: world, machine or trial
   SquareMatrix factor;                ///< L, lower triangular, R = L·Lᵀ
 };
 
@@ -46,17 +46,18 @@ struct SlotRandomness {
 double design_uniform(Design design, const SlotRandomness& randomness, std::uint32_t stream,
                       std::uint64_t index, std::uint64_t count);
 
-/// Key of the order in which trials take the Sobol points of their rigs, and rigs (trials where there are no
-/// rigs) those of their worlds.
+/// Key of the order in which trials take the Sobol points of their machines, and machines (trials where there
+/// are no machines) those of their worlds.
 random::RandomKey sobol_place_key(std::uint64_t seed, Grouping grouping);
 
-/// Index of the Sobol point of trial `index` in a study with `rigs` rigs. The trials k·rigs … (k + 1)·rigs −
-/// 1 use the points with the same indices, in a random order for every k. Without this permutation a rig
-/// would get every rigs-th point, and for rigs = 2^m all of these lie in one of 2^m equal intervals.
-std::uint64_t sobol_place(const random::RandomKey& key, std::uint64_t index, std::uint64_t rigs);
+/// Index of the Sobol point of trial `index` in a study with `machines` machines. The trials k·machines … (k
+/// + 1)·machines − 1 use the points with the same indices, in a random order for every k. Without this
+/// permutation a machine would get every machines-th point, and for machines = 2^m all of these lie in one of
+/// 2^m equal intervals.
+std::uint64_t sobol_place(const random::RandomKey& key, std::uint64_t index, std::uint64_t machines);
 
-/// Index in the design of one of the units (rigs, or trials) that are dealt to so many groups (worlds, or
-/// rigs) in turns: sobol_place() in the design sobol, otherwise its own.
+/// Index in the design of one of the units (machines, or trials) that are dealt to so many groups (worlds, or
+/// machines) in turns: sobol_place() in the design sobol, otherwise its own.
 std::uint64_t place_in_groups(Design design, const random::RandomKey& key, std::uint64_t unit,
                               std::uint64_t groups);
 

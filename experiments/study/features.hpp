@@ -40,7 +40,8 @@ struct StudyFeatures {
   trial::ErrorBands bands{};       ///< bands of the error whose entry and settling are measured
   trial::Tolerances tolerances{};  ///< of the position error, for which settling is measured
   bool position_error{false};      ///< the true overshoot, and settling within the tolerances, are measured
-  bool rigs{false};  ///< trials share rigs: the bounds account for the correlation of the trials of a rig
+  bool machines{
+      false};  ///< trials share machines: the bounds account for the correlation of the trials of a machine
   /// The design spreads the trials more evenly than chance (latin_hypercube, sobol): bounds are wider than
   /// needed.
   bool spread_trials{false};

@@ -58,10 +58,10 @@ bool is_of_the_move(std::string_view name) {
 bool differs_between_machines(const Study& study, DrawLevel level, std::string_view name) {
   switch (level) {
     case DrawLevel::world:
-    case DrawLevel::rig:
+    case DrawLevel::machine:
       return true;
     case DrawLevel::trial:
-      return study.rigs == 0 && !is_of_the_move(name);
+      return study.machines == 0 && !is_of_the_move(name);
     case DrawLevel::study:
     case DrawLevel::contact:
       break;

@@ -25,7 +25,8 @@ struct WorldValues {
 std::vector<WorldValues> world_values(const Study& study, std::int64_t point);
 
 /// Whether a value that is drawn so often differs between machines but not between the moves of one: drawn
-/// per world or rig; without rigs also per trial, unless it is of the command or the initial conditions.
+/// per world or machine; without machines also per trial, unless it is of the command or the initial
+/// conditions.
 /// @param name dotted path
 bool differs_between_machines(const Study& study, DrawLevel level, std::string_view name);
 
@@ -35,9 +36,9 @@ struct MachineInput {
   std::vector<std::uint32_t> slots;  ///< that share its random number
 };
 
-/// The drawn quantities in which the machines of a point differ: those drawn per rig; without rigs those
-/// drawn per trial that are not of the command or the initial conditions. Profiles are not among them. A row
-/// of joint samples is of the machine as a whole if one of its values is.
+/// The drawn quantities in which the machines of a point differ: those drawn per machine; without machines
+/// those drawn per trial that are not of the command or the initial conditions. Profiles are not among them.
+/// A row of joint samples is of the machine as a whole if one of its values is.
 std::vector<MachineInput> machine_inputs(const Study& study, std::int64_t point);
 
 /// The values of an input's slots at this quantile, in the units of the manifest: (dotted path, value).

@@ -14,18 +14,19 @@
 
 namespace zerocount::study {
 
-/// How often a random value is drawn: once per study, world, rig, trial or contact. In order of frequency.
+/// How often a random value is drawn: once per study, world, machine, trial or contact. In order of
+/// frequency.
 enum class DrawLevel : std::uint8_t {
   study,
   world,  ///< what all machines share, and nobody knows
-  rig,
+  machine,
   trial,
   contact  ///< friction only: at t = 0 and at each re-stick of a trial
 };
 
 /// How trials of a design point fall into groups, by which results are told apart. Groups of one grouping are
 /// numbered from 0.
-enum class Grouping : std::uint8_t { rig, world, condition, age };
+enum class Grouping : std::uint8_t { machine, world, condition, age };
 
 struct GroupingTraits {
   Grouping grouping;
@@ -35,7 +36,7 @@ struct GroupingTraits {
 
 /// All groupings, in the order of the enumeration. Their sizes are group_count() (study.hpp), and trial i is
 /// in group TrialTurns::group_of(grouping, i).
-inline constexpr std::array<GroupingTraits, 4> groupings{{{Grouping::rig, "rig", DrawLevel::rig},
+inline constexpr std::array<GroupingTraits, 4> groupings{{{Grouping::machine, "machine", DrawLevel::machine},
                                                           {Grouping::world, "world", DrawLevel::world},
                                                           {Grouping::condition, "condition", std::nullopt},
                                                           {Grouping::age, "age", std::nullopt}}};
@@ -53,30 +54,30 @@ struct ByGrouping {
   const T& operator[](Grouping grouping) const { return values.at(static_cast<std::size_t>(grouping)); }
 };
 
-/// How the trials of a point take turns: trial i runs on rig i mod R, under condition ⌊i/R⌋ mod C, and has
-/// the random numbers of j = i mod R + R·⌊i/(R·C)⌋, in world j mod W. So each rig bears every condition on
-/// the same draws. With ages these are the conditions at each age: number c + (C/A)·a is condition c at age
-/// a.
+/// How the trials of a point take turns: trial i runs on machine i mod R, under condition ⌊i/R⌋ mod C, and
+/// has the random numbers of j = i mod R + R·⌊i/(R·C)⌋, in world j mod W. So each machine bears every
+/// condition on the same draws. With ages these are the conditions at each age: number c + (C/A)·a is
+/// condition c at age a.
 struct TrialTurns {
-  std::int64_t rigs{1};        ///< R; 1 where no trials share a rig
+  std::int64_t machines{1};    ///< R; 1 where no trials share a machine
   std::int64_t conditions{1};  ///< C; 1 without conditions and ages
   std::int64_t worlds{1};      ///< W; 1 without worlds
   std::int64_t ages{1};        ///< A, a divisor of C; 1 without ages
 
-  std::int64_t condition_of(std::int64_t trial) const { return trial / rigs % conditions; }
+  std::int64_t condition_of(std::int64_t trial) const { return trial / machines % conditions; }
   /// j, of which there are trials/C.
   std::int64_t draw_of(std::int64_t trial) const {
-    return trial % rigs + rigs * (trial / (rigs * conditions));
+    return trial % machines + machines * (trial / (machines * conditions));
   }
   /// The trial with draw j under a condition.
   std::int64_t trial_of(std::int64_t draw, std::int64_t condition) const {
-    return draw % rigs + rigs * (condition + conditions * (draw / rigs));
+    return draw % machines + machines * (condition + conditions * (draw / machines));
   }
   /// The number of the trial's group, at every point; 0 without the grouping.
   std::int64_t group_of(Grouping grouping, std::int64_t trial) const {
     switch (grouping) {
-      case Grouping::rig:
-        return trial % rigs;
+      case Grouping::machine:
+        return trial % machines;
       case Grouping::world:
         return draw_of(trial) % worlds;
       case Grouping::condition:
@@ -115,7 +116,7 @@ struct InputColumn {
                                       ///< is not drawn
 };
 
-/// Columns of the tables of inputs: the parameters that differ between trials, rigs and worlds.
+/// Columns of the tables of inputs: the parameters that differ between trials, machines and worlds.
 struct InputColumns {
   std::vector<InputColumn> inputs;  ///< of trials
   /// Drawn for each group, the same at all points; none of a grouping without draws. What conditions override
@@ -127,9 +128,9 @@ struct InputColumns {
 struct RealisedProfile {
   std::string name;  ///< dotted path of the parameter, with "@point" appended if points differ
   std::string unit;
-  std::shared_ptr<const friction::Profile> profile;  ///< of the rotor of all trials, or of rig 0
-  std::function<std::shared_ptr<const friction::Profile>(std::int64_t rig)>
-      of_rig{};  ///< empty if all trials use one rotor
+  std::shared_ptr<const friction::Profile> profile;  ///< of the rotor of all trials, or of machine 0
+  std::function<std::shared_ptr<const friction::Profile>(std::int64_t machine)>
+      of_machine{};  ///< empty if all trials use one rotor
 };
 
 }  // namespace zerocount::study

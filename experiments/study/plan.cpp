@@ -12,8 +12,8 @@ namespace zerocount::study {
 
 std::int64_t group_count(const Study& study, Grouping grouping) {
   switch (grouping) {
-    case Grouping::rig:
-      return study.rigs;
+    case Grouping::machine:
+      return study.machines;
     case Grouping::world:
       return study.worlds;
     case Grouping::condition:
@@ -26,7 +26,7 @@ std::int64_t group_count(const Study& study, Grouping grouping) {
 
 TrialTurns turns_of(const Study& study) {
   const auto at_least_one = [](std::int64_t count) { return std::max<std::int64_t>(count, 1); };
-  return {at_least_one(study.rigs), condition_count(study), at_least_one(study.worlds),
+  return {at_least_one(study.machines), condition_count(study), at_least_one(study.worlds),
           at_least_one(group_count(study, Grouping::age))};
 }
 
@@ -36,8 +36,8 @@ std::int64_t draw_count(const Study& study, DrawLevel level) {
       break;
     case DrawLevel::world:
       return study.worlds;
-    case DrawLevel::rig:
-      return study.rigs;
+    case DrawLevel::machine:
+      return study.machines;
     case DrawLevel::trial:
     case DrawLevel::contact:
       return draw_count(study);

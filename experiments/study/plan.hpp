@@ -34,7 +34,7 @@ struct Value {
   };
   Kind kind{Kind::number};
   std::uint32_t index{0};                ///< into the plan's distributions, profiles or following values
-  DrawLevel level{DrawLevel::trial};     ///< how often it is drawn; for a profile study or rig
+  DrawLevel level{DrawLevel::trial};     ///< how often it is drawn; for a profile study or machine
   double number{0.0};                    ///< if kind is number
   std::optional<std::uint32_t> aging{};  ///< into the plan's laws of aging; none: it does not change with age
 };
@@ -77,7 +77,8 @@ inline std::size_t option_count(const PlanAxis& axis) {
 struct InputSource {
   std::uint32_t slot{0};
   bool profile_mean{false};
-  /// Of a rig or world: where conditions override it or ages change it, the turn (TrialTurns) of which it is.
+  /// Of a machine or world: where conditions override it or ages change it, the turn (TrialTurns) of which it
+  /// is.
   std::optional<std::int64_t> condition{};
 };
 
@@ -128,7 +129,7 @@ struct StudyPlan {
   std::optional<GaussianCopula> copula;        ///< of correlated values
   std::vector<std::uint32_t> sampled_slots;    ///< slots whose values share one random number: `samples`
   std::vector<SlotRandomness> randomness;      ///< [slot]
-  ByGrouping<random::RandomKey> sobol_places;  ///< of rigs and worlds, used by the design `sobol`
+  ByGrouping<random::RandomKey> sobol_places;  ///< of machines and worlds, used by the design `sobol`
   std::vector<std::uint32_t> input_slots;      ///< slots whose values differ between trials
   std::vector<InputSource> inputs;             ///< [input column]
   ByGrouping<std::vector<InputSource>> shared_inputs;  ///< [column of InputColumns::shared]

@@ -90,6 +90,15 @@ ValueLimits limits_of_following(const StudyPlan& plan, const FollowingValue& fol
   return {low, high, low <= 0.0, typical};
 }
 
+/// The median, also of a choice, whose values are in the order of its list.
+double median_of(const distributions::Distribution& distribution) {
+  const auto* choice = std::get_if<distributions::Choice>(&distribution);
+  if (choice == nullptr) return distributions::quantile(distribution, 0.5);
+  distributions::Choice sorted = *choice;
+  std::ranges::sort(sorted.values);
+  return distributions::quantile(sorted, 0.5);
+}
+
 bool assigns_any(const PlanAxis& axis, const std::vector<bool>& wanted) {
   return std::any_of(axis.assignments.begin(), axis.assignments.end(),
                      [&](const Assignment& assignment) { return wanted[assignment.slot]; });
@@ -99,6 +108,11 @@ bool assigns_any(const PlanAxis& axis, const std::vector<bool>& wanted) {
 std::pair<double, double> drawn_extremes(const StudyPlan& plan, const Value& value) {
   if (value.kind == Value::Kind::number) return {value.number, value.number};
   const distributions::Distribution& distribution = plan.distributions[value.index];
+  // The values of a choice are in the order of its list.
+  if (const auto* choice = std::get_if<distributions::Choice>(&distribution)) {
+    const auto [low, high] = std::ranges::minmax(choice->values);
+    return {low, high};
+  }
   return {distributions::quantile(distribution, 0x1p-53),
           distributions::quantile(distribution, 1.0 - 0x1p-53)};
 }
@@ -135,7 +149,7 @@ ValueLimits limits_of(const StudyPlan& plan, const Value& value) {
   if (value.kind == Value::Kind::distribution) {
     const distributions::Distribution& distribution = plan.distributions[value.index];
     const numerics::Interval values = distributions::support(distribution);
-    return {values.low, values.high, can_be_zero(distribution), distributions::quantile(distribution, 0.5)};
+    return {values.low, values.high, can_be_zero(distribution), median_of(distribution)};
   }
   const Rotors& rotors = *plan.profiles[value.index];
   const numerics::Interval values = rotors.all_limits();

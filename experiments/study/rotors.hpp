@@ -26,9 +26,9 @@ struct DrawnMean {
   bool operator==(const DrawnMean&) const = default;
 };
 
-/// The profiles of one friction parameter: a single rotor, or one rotor per rig. A profile is a function of
-/// the seed, the parameter's name and the rotor's number. Profiles are created on demand and cached up to
-/// `max_kept_bytes`, so that thousands of rigs need no setup time. Thread-safe.
+/// The profiles of one friction parameter: a single rotor, or one rotor per machine. A profile is a function
+/// of the seed, the parameter's name and the rotor's number. Profiles are created on demand and cached up to
+/// `max_kept_bytes`, so that thousands of machines need no setup time. Thread-safe.
 class Rotors {
  public:
   /// @param count number of rotors @param name dotted path of the parameter

@@ -29,10 +29,10 @@ struct ManifestSource {
   std::vector<std::string> overrides;  ///< "key=value", as given with --set, in order
 };
 
-/// Trials counted on a real rig.
+/// Trials counted on a real machine.
 struct ObservedCounts {
   std::int64_t successes{0};  ///< trials all of whose moves ended at zero error
-  std::int64_t of{1};         ///< trials, all on one rig
+  std::int64_t of{1};         ///< trials, all on one machine
 };
 
 struct StudyPlan;  // see plan.hpp
@@ -51,9 +51,9 @@ struct Study {
   double period{
       2.0 * std::numbers::pi};  ///< period of profiles along the axis: a revolution, rad; or the travel, m
   std::uint64_t seed{0};
-  std::int64_t trials{0};  ///< per design point; the maximum with `stop`
-  std::int64_t rigs{0};    ///< number of rigs; 0: no trials share a rig
-  std::int64_t worlds{0};  ///< number of worlds, which divides `rigs`; 0: nothing is drawn for each
+  std::int64_t trials{0};    ///< per design point; the maximum with `stop`
+  std::int64_t machines{0};  ///< number of machines; 0: no trials share a machine
+  std::int64_t worlds{0};    ///< number of worlds, which divides `machines`; 0: nothing is drawn for each
   /// What every machine bears in turn, by names; empty: one condition. With ages each condition at each age,
   /// "loaded, 100000 cycles", those of an age together.
   std::vector<std::string> conditions{};
@@ -67,7 +67,7 @@ struct Study {
   std::vector<Goal> goals{};              ///< all of which must be met; empty: the study has none
   std::optional<Tuning> tuning{};
   std::map<std::string, std::string>
-      observed;  ///< point label → observation on the real rig (the text of a case for all its points)
+      observed;  ///< point label → observation on the real machine (the text of a case for all its points)
   std::map<std::string, ObservedCounts> observed_counts;  ///< point label → its counts, where it has any
   std::vector<std::int64_t> retained_trials;  ///< trial indices whose traces are kept, at every point
   Retention retention{Retention::trials};

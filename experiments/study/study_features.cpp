@@ -98,7 +98,7 @@ StudyFeatures find_features(const StudyPlan& plan, const Study& study) {
   features.position_error = plan.common.verdict.position_error;
   features.load_error = plan.common.verdict.other_mass == motion::EncoderPlace::load;
   features.motor_error = plan.common.verdict.other_mass == motion::EncoderPlace::motor;
-  features.rigs = study.rigs > 0 && closed_loop;
+  features.machines = study.machines > 0 && closed_loop;
   features.spread_trials = is_spread(study.design);
   return features;
 }

@@ -33,7 +33,7 @@ struct GivenDraws {
   /// In place of the trial's draw (TrialTurns), for all random numbers that are not given. It may exceed
   /// Study::trials.
   std::optional<std::int64_t> number{};
-  std::optional<std::int64_t> rotor{};  ///< in place of the trial's rig, for profiles drawn per rig
+  std::optional<std::int64_t> rotor{};  ///< in place of the trial's machine, for profiles drawn per machine
   std::optional<std::int64_t> world{};  ///< in place of the trial's world
 };
 

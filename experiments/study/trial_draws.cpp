@@ -28,8 +28,8 @@ double drawn_uniform(const TrialDraws& draws, std::uint32_t slot, DrawLevel leve
       return design_uniform(design, randomness, 0, 0, count);
     case DrawLevel::world:
       return design_uniform(Design::latin_hypercube, randomness, 0, draws.world, count);
-    case DrawLevel::rig:
-      return design_uniform(design, randomness, 0, draws.rig, count);
+    case DrawLevel::machine:
+      return design_uniform(design, randomness, 0, draws.machine, count);
     case DrawLevel::trial:
     case DrawLevel::contact:
       break;
@@ -84,8 +84,8 @@ double at_age(const TrialDraws& draws, std::uint32_t slot, std::size_t point, do
 }
 
 std::int64_t rotor_of(const TrialDraws& draws, const Value& profile) {
-  if (profile.level != DrawLevel::rig) return 0;
-  return draws.given.rotor.value_or(static_cast<std::int64_t>(draws.index) % draws.study.rigs);
+  if (profile.level != DrawLevel::machine) return 0;
+  return draws.given.rotor.value_or(static_cast<std::int64_t>(draws.index) % draws.study.machines);
 }
 
 const GivenProfile* given_profile(const TrialDraws& draws, std::uint32_t slot) {
@@ -107,15 +107,15 @@ std::shared_ptr<const friction::Profile> profile_of(const TrialDraws& draws, std
 
 TrialDraws draws_of(const Study& study, std::int64_t point, std::int64_t draw, const GivenDraws& given) {
   const auto trial = static_cast<std::uint64_t>(given.number.value_or(draw));
-  const auto rigs = static_cast<std::uint64_t>(study.rigs);
+  const auto machines = static_cast<std::uint64_t>(study.machines);
   const auto place_in = [&study](Grouping grouping, std::uint64_t unit) {
     return place_in_groups(study.design, study.plan->sobol_places[grouping], unit,
                            static_cast<std::uint64_t>(group_count(study, grouping)));
   };
   return {study,
           trial,
-          place_in(rigs > 0 ? Grouping::rig : Grouping::world, trial),
-          rigs > 0 ? place_in(Grouping::world, trial % rigs) : 0,
+          place_in(machines > 0 ? Grouping::machine : Grouping::world, trial),
+          machines > 0 ? place_in(Grouping::world, trial % machines) : 0,
           study.worlds > 0 ? static_cast<std::uint64_t>(given.world.value_or(draw % study.worlds)) : 0,
           study.independent_points ? static_cast<std::uint32_t>(point) + 1 : 0,
           given};

@@ -19,11 +19,11 @@ using QuantileFunctions = std::vector<std::optional<distributions::QuantileFunct
 /// The coordinates of a trial's random numbers.
 struct TrialDraws {
   const Study& study;
-  std::uint64_t index;   ///< of the trial among those of its condition (TrialTurns::draw_of)
-  std::uint64_t place;   ///< index of its point in the design
-  std::uint64_t rig;     ///< index of its rig in the design, as `place`; 0 without rigs
-  std::uint64_t world;   ///< 0 without worlds
-  std::uint32_t stream;  ///< of values drawn per trial, not per rig
+  std::uint64_t index;    ///< of the trial among those of its condition (TrialTurns::draw_of)
+  std::uint64_t place;    ///< index of its point in the design
+  std::uint64_t machine;  ///< index of its machine in the design, as `place`; 0 without machines
+  std::uint64_t world;    ///< 0 without worlds
+  std::uint32_t stream;   ///< of values drawn per trial, not per machine
   const GivenDraws& given;
   QuantileFunctions* quantiles{nullptr};  ///< [distribution of the plan]; null: none are kept
 

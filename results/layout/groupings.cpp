@@ -11,7 +11,7 @@ std::span<const Grouping> groupings() {
   using enum study::Grouping;
   using study::traits_of;
   static constexpr std::array<Grouping, 4> all{
-      {{traits_of(rig), "index of the machine", "of the machine", true},
+      {{traits_of(machine), "index of the machine", "of the machine", true},
        {traits_of(world), "index of the world", "in the world"},
        {traits_of(condition), "index of the condition", "under the condition", false, true},
        {traits_of(age), "age of the machines", "at the age", false, false, true}}};

@@ -20,7 +20,7 @@ struct Grouping : study::GroupingTraits {
   bool has_values{false};       ///< the scale has the ages; otherwise it counts from 0
 };
 
-/// In the order of the file: rig, world, condition, age.
+/// In the order of the file: machine, world, condition, age.
 std::span<const Grouping> groupings();
 const Grouping& grouping_named(std::string_view name);
 

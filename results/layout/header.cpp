@@ -96,12 +96,6 @@ const Format& read_format(const hdf5::File& file) {
   const auto format =
       std::find_if(formats.begin(), formats.end(), [&](const Format& known) { return known.name == name; });
   if (format != formats.end()) return *format;
-  if (name == "zerocount-shard")
-    throw ForeignFile(
-        file.file_name(),
-        fmt::format("a shard of a run of zerocount {}, in HDF5; this program does not read it, and "
-                    "that zerocount can finish the run",
-                    file.text("zerocount_version")));
   throw ForeignFile(file.file_name(), fmt::format("its format is '{}'; expected '{}' or another of zerocount",
                                                   name, formats.front().name));
 }

@@ -40,7 +40,7 @@ inline std::int64_t total_rows(std::span<const RowRange> ranges) {
 }
 
 /// Version of the layout: files of any other are refused.
-inline constexpr std::int64_t format_version = 4;
+inline constexpr std::int64_t format_version = 5;
 
 /// One value of an enumeration, and its word in `flag_meanings` and in CSV.
 struct FlagMeaning {
@@ -195,11 +195,11 @@ struct StoredStatistics {
 /// Number of angles at which a profile is tabulated, over one revolution, where all trials are on one rotor.
 inline constexpr std::int64_t profile_angles = 4096;
 
-/// Number of angles of a profile where every rig has a rotor: the smallest power of two with eight angles in
-/// the shortest wavelength of the field, from 64 to profile_angles. With many rigs it is halved until there
-/// are at most 2²² values, as long as two angles remain in that wavelength.
+/// Number of angles of a profile where every machine has a rotor: the smallest power of two with eight angles
+/// in the shortest wavelength of the field, from 64 to profile_angles. With many machines it is halved until
+/// there are at most 2²² values, as long as two angles remain in that wavelength.
 /// @param harmonics of the profile's series.
-std::int64_t profile_angles_of_rig(std::size_t harmonics, std::int64_t rigs);
+std::int64_t profile_angles_of_machine(std::size_t harmonics, std::int64_t machines);
 
 /// The scale of the design points.
 Column point_scale();
@@ -226,7 +226,7 @@ Table jerk_table();
 Table trace_table(const study::StudyFeatures& features);
 Table statistic_table(const StatisticGroup& group, const std::vector<PointColumn>& columns);
 Table profile_table(const std::string& name, const std::string& unit);
-/// The rotors of all rigs: [rig, theta].
+/// The rotors of all machines: [machine, theta].
 Table rotor_table(const std::string& name, const std::string& unit);
 /// How many of the whole and real numbers in /sums belong to each design point: [point].
 Table sums_table();
@@ -241,7 +241,7 @@ Table on_axis(Table table, parameters::AxisKind axis);
 /// The column with its unit and long name on an axis of this kind.
 PointColumn on_axis(PointColumn column, parameters::AxisKind axis);
 
-/// Name in /trial and /rig of the column of an input parameter.
+/// Name in /trial and /machine of the column of an input parameter.
 std::string input_column_name(const std::string& parameter);
 
 }  // namespace zerocount::layout

@@ -99,11 +99,11 @@ MeasureTable own_measures() {
                          "first sample of the arrival dwell from the start of the move, -1 if never",
                          &M::arrival, {"a sample, or -1", -1.0}),
        .values = {.negative_is_missing = true}},
-      {.field = field<M>("settling_time", "s", "time of arrival from the start of the move, NaN if never",
+      {.field = field<M>("arrival_time", "s", "time of arrival from the start of the move, NaN if never",
                          &M::arrival_time, a_time_or_nan),
        .values = {.needs_target = true, .missing = Missing::late},
        .reduction = MoveReduction::largest,
-       .point = {"settling_time",
+       .point = {"arrival_time",
                  {{{n}, "moves that arrived, of which mean, min and max are"},
                   {{all}, "moves with a target, of which the quantiles are"},
                   {{mean}, "mean time until arrival of the moves that arrived"},
@@ -122,10 +122,10 @@ MeasureTable own_measures() {
                        "arrival: the error is first 0 for the whole dwell; median and p95 of all moves, "
                        "those that never arrived being later than any time; arrived: proportion of "
                        "moves\n"},
-       .output = {{"settling_time",
+       .output = {{"arrival_time",
                    "time until arrival, the longest of the trial's moves; a move that never arrived counts "
                    "with its duration"}},
-       .gate = {{"settling_time", Worse::more, 0.0005, 0.05}}},
+       .gate = {{"arrival_time", Worse::more, 0.0005, 0.05}}},
       {.field = field<M>("final_settling_time", "s",
                          "settling time at zero error, from the start of the move, NaN if never",
                          &M::final_settling_time, a_time_or_nan),

@@ -26,17 +26,17 @@ std::vector<std::string_view> first_of(ReportOrder order) {
   switch (order) {
     case ReportOrder::statistics:
       return {"outcome",           "stable",         "arrived",       "broke_away",
-              "saturated",         "settling_time",  "jerk_count",    "final_settling_time",
+              "saturated",         "arrival_time",   "jerk_count",    "final_settling_time",
               "overshoot",         "holding_torque", "peak_torque",   "creep",
               "reversal_depth",    "final_error",    "zero_fraction", "oscillation_amplitude",
               "oscillation_period"};
     case ReportOrder::levels:
       return {"holding_torque", "final_position", "creep"};
     case ReportOrder::summary:
-      return {"settling_time", "jerk_count", "stopped", "travel_time", "final_error", "phase_changes"};
+      return {"arrival_time", "jerk_count", "stopped", "travel_time", "final_error", "phase_changes"};
     case ReportOrder::outputs:
-      return {"outcome",    "settling_time", "arrived",    "stable",     "broke_away",
-              "jerk_count", "overshoot",     "true_error", "peak_torque"};
+      return {"outcome",    "arrival_time", "arrived",    "stable",     "broke_away",
+              "jerk_count", "overshoot",    "true_error", "peak_torque"};
   }
   return {};
 }

@@ -164,14 +164,14 @@ PointColumn on_axis(PointColumn column, parameters::AxisKind axis) {
   return column;
 }
 
-std::int64_t profile_angles_of_rig(std::size_t harmonics, std::int64_t rigs) {
+std::int64_t profile_angles_of_machine(std::size_t harmonics, std::int64_t machines) {
   constexpr std::int64_t min_angles = 64;
   constexpr std::int64_t max_values = std::int64_t{1} << 22;
   const std::int64_t wanted = 8 * static_cast<std::int64_t>(harmonics);
   const std::int64_t needed = 2 * static_cast<std::int64_t>(harmonics);
   std::int64_t angles = min_angles;
   while (angles < std::min(wanted, profile_angles)) angles *= 2;
-  while (angles * rigs > max_values && angles / 2 >= std::max(needed, min_angles)) angles /= 2;
+  while (angles * machines > max_values && angles / 2 >= std::max(needed, min_angles)) angles /= 2;
   return angles;
 }
 
@@ -181,7 +181,7 @@ Table profile_table(const std::string& name, const std::string& unit) {
 
 Table rotor_table(const std::string& name, const std::string& unit) {
   return {"profile/" + name,
-          group_scale(grouping_named("rig"), "1"),
+          group_scale(grouping_named("machine"), "1"),
           theta_scale(),
           {value_of_profile(name, unit)}};
 }

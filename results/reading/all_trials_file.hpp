@@ -25,7 +25,7 @@ class AllTrialsFile : public ResultsFile {
 
   /// The trials under one condition, as the file of a study of its own (study::under_condition): all that is
   /// read of trials, and header().trials and rows(), are of that study, whose row is point·trials + draw.
-  /// What the file has of its design points, rigs and traces stays that of all conditions. A file without
+  /// What the file has of its design points, machines and traces stays that of all conditions. A file without
   /// conditions is shown as it is.
   AllTrialsFile under_condition(std::int64_t condition) const;
 

@@ -128,19 +128,19 @@ void add_trial_tables(std::vector<ExportedTable>& tables, const TrialTables& tri
 
 void export_profiles(const ResultsFile& file, CsvFile& csv) {
   const std::vector<StoredProfile> profiles = file.profiles();
-  const bool of_rigs =
-      std::any_of(profiles.begin(), profiles.end(), [](const StoredProfile& p) { return p.rigs > 0; });
+  const bool of_machines =
+      std::any_of(profiles.begin(), profiles.end(), [](const StoredProfile& p) { return p.machines > 0; });
   csv.add("profile");
-  if (of_rigs) csv.add("rig");
+  if (of_machines) csv.add("machine");
   csv.add(head_with_unit("theta", profiles.front().theta_unit), "value", "unit of value");
   csv.end_row();
   for (const StoredProfile& profile : profiles) {
     const std::size_t angles = profile.theta.size();
     for (std::size_t i = 0; i < profile.value.size(); ++i) {
       csv.add(profile.name);
-      if (profile.rigs > 0) {
+      if (profile.machines > 0) {
         csv.add(static_cast<std::int64_t>(i / angles));
-      } else if (of_rigs) {
+      } else if (of_machines) {
         csv.add("");
       }
       csv.add(profile.theta[i % angles], profile.value[i], profile.unit);
@@ -149,7 +149,7 @@ void export_profiles(const ResultsFile& file, CsvFile& csv) {
   }
 }
 
-/// The inputs of rigs or worlds, or the names of conditions.
+/// The inputs of machines or worlds, or the names of conditions.
 void export_groups(const layout::Grouping& grouping, const StoredGroups& groups, CsvFile& csv) {
   csv.add(grouping.name);
   if (!groups.names.empty()) csv.add("name");
@@ -178,8 +178,8 @@ void export_by_group(const layout::Grouping& grouping, const StoredGroups& group
   }
 }
 
-/// The tables of a grouping: rigs.csv and rig_counts.csv. Ages, of which nothing else is known, have ages.csv
-/// alone; what machines have beside their counts, their lives, is in lives.csv.
+/// The tables of a grouping: machines.csv and machine_counts.csv. Ages, of which nothing else is known, have
+/// ages.csv alone; what machines have beside their counts, their lives, is in lives.csv.
 void add_groups(std::vector<ExportedTable>& tables, const ResultsFile& file,
                 const layout::Grouping& grouping) {
   const std::optional<StoredGroups> found = file.groups(grouping.name);

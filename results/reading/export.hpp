@@ -26,7 +26,7 @@ std::string value_text(const layout::RecordField<Record>& field, const Record& r
                                                      : std::to_string(whole);
 }
 
-/// The name of a column with its unit, such as "settling_time [s]"; the name alone where it has none ("1" or
+/// The name of a column with its unit, such as "arrival_time [s]"; the name alone where it has none ("1" or
 /// nothing).
 std::string head_with_unit(std::string_view name, std::string_view unit);
 
@@ -67,7 +67,7 @@ enum class ExistingFiles { refuse, replace };
 /// trials.csv, outcomes.csv (one row per move) and jerks.csv of the trials that the file keeps; profiles.csv
 /// where there are profiles, trace.csv where trials are retained, and the CSV files of those
 /// statistic_groups() that there are; then `further` ones. Columns have the names of the datasets (inputs
-/// without "input/"), with the unit in brackets where there is one, such as "settling_time [s]"; the values
+/// without "input/"), with the unit in brackets where there is one, such as "arrival_time [s]"; the values
 /// of profiles.csv have theirs in a column, because it differs from profile to profile. Enumerations are
 /// written as their labels. Memory is bounded. The files get their names when all of them are whole.
 /// @return the files, in that order

@@ -16,7 +16,7 @@ struct DatasetDifference {
   Kind kind{Kind::contents};
 };
 
-/// "/outcome/settling_time: differs from row 17 on"
+/// "/outcome/arrival_time: differs from row 17 on"
 std::string text_of(const DatasetDifference& difference);
 
 /// Compares all datasets of two files to the bit, in the order of the first, but statistics last: sizes,

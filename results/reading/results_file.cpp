@@ -251,10 +251,10 @@ std::vector<StoredProfile> ResultsFile::profiles() const {
     const std::string unit = folder.open_dataset("value").text("units");
     StoredProfile profile{name, unit, read_doubles(folder.open_dataset("theta")), {}};
     profile.theta_unit = folder.open_dataset("theta").text("units");
-    const bool of_rigs = folder.contains("rig");
+    const bool of_machines = folder.contains("machine");
     const layout::TableIo io = layout::TableIo::open(
-        file(), of_rigs ? layout::rotor_table(name, unit) : layout::profile_table(name, unit));
-    if (of_rigs) profile.rigs = io.rows();
+        file(), of_machines ? layout::rotor_table(name, unit) : layout::profile_table(name, unit));
+    if (of_machines) profile.machines = io.rows();
     profile.value = layout::read_column<double>(io, 0);
     profiles.push_back(std::move(profile));
   }

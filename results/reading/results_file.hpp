@@ -31,12 +31,12 @@ struct StoredProfile {
   std::string name;
   std::string unit;
   std::vector<double> theta;  ///< rad
-  std::vector<double> value;  ///< in `unit`; of rigs [rig][theta], flattened
-  std::int64_t rigs{0};       ///< each with a rotor of its own; 0: one rotor of all trials
+  std::vector<double> value;  ///< in `unit`; of machines [machine][theta], flattened
+  std::int64_t machines{0};   ///< each with a rotor of its own; 0: one rotor of all trials
   std::string theta_unit{"rad"};
 };
 
-/// The groups of a grouping in a results file (layout::groupings): its rigs, worlds, conditions or ages.
+/// The groups of a grouping in a results file (layout::groupings): its machines, worlds, conditions or ages.
 /// Counts and statistics are [point][group], flattened, and empty in a part.
 struct StoredGroups {
   std::int64_t count{0};
@@ -47,12 +47,12 @@ struct StoredGroups {
   std::string unit;                         ///< of these
   std::vector<std::int64_t> success;        ///< trials that succeeded
   std::vector<std::int64_t> trials;         ///< trials that were judged
-  std::vector<std::int64_t> goal_met;       ///< trials that meet the goal; empty of rigs, and without a goal
+  std::vector<std::int64_t> goal_met;  ///< trials that meet the goal; empty of machines, and without a goal
   std::vector<layout::PointColumn> statistics;
 };
 
 /// A results file, part or shard, open to be read: the description of the study, the tables by design point
-/// and rig, and what it keeps of its trials. Every function may find that the file is damaged, and throws
+/// and machine, and what it keeps of its trials. Every function may find that the file is damaged, and throws
 /// Failure (bad_data) then. Copies share the open file. One thread at a time uses them all.
 class ResultsFile {
  public:
@@ -85,7 +85,7 @@ class ResultsFile {
   bool has_profiles() const { return contains("profile"); }
   std::vector<StoredProfile> profiles() const;
 
-  /// Nothing in a study without such groups, and in a shard. @param name of a grouping: "rig"
+  /// Nothing in a study without such groups, and in a shard. @param name of a grouping: "machine"
   std::optional<StoredGroups> groups(std::string_view name) const;
 
   /// Nothing with `keep: statistics`.

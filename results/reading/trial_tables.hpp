@@ -132,7 +132,7 @@ trial::ErrorBands read_bands(const hdf5::File& file);
 /// The tolerances of the file; none if it has none.
 trial::Tolerances read_tolerances(const hdf5::File& file);
 
-/// The columns of the group `input` of /trial or /rig; none without such a group.
+/// The columns of the group `input` of /trial or /machine; none without such a group.
 std::vector<study::InputColumn> read_input_columns(const hdf5::Group& table);
 
 }  // namespace zerocount::reading

@@ -56,8 +56,8 @@ void validate_jerk_counts(const layout::TableReader& table, std::span<const std:
                           std::span<const trial::MoveOutcome> outcomes,
                           std::span<const layout::JerkRecord> jerks);
 
-/// Counts of the groups: not more trials than a group has (of rigs equally many, or none), and of them those
-/// that succeeded and those that meet the goal.
+/// Counts of the groups: not more trials than a group has (of machines equally many, or none), and of them
+/// those that succeeded and those that meet the goal.
 void validate_groups(const layout::Grouping& grouping, const layout::FileHeader& header,
                      const layout::TableIo& counts, const StoredGroups& stored);
 

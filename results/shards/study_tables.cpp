@@ -36,21 +36,21 @@ void write_one_rotor(hdf5::File& file, const study::RealisedProfile& realised, c
 }
 
 void write_rotors(hdf5::File& file, const study::RealisedProfile& realised, const study::Study& study) {
-  const std::int64_t rigs = study.rigs;
-  const std::int64_t angles = layout::profile_angles_of_rig(realised.profile->cosine.size(), rigs);
+  const std::int64_t machines = study.machines;
+  const std::int64_t angles = layout::profile_angles_of_machine(realised.profile->cosine.size(), machines);
   const std::vector<double> theta = places_over_period(study.period, angles);
   layout::TableIo io = layout::TableIo::create(
-      file, layout::on_axis(layout::rotor_table(realised.name, realised.unit), study.units.axis), rigs,
+      file, layout::on_axis(layout::rotor_table(realised.name, realised.unit), study.units.axis), machines,
       angles);
   io.number_rows(0);
   io.second_scale().write(0, angles, theta.data());
   const std::int64_t at_once = layout::chunk_rows(angles);
   std::vector<double> values;
-  for (std::int64_t first = 0; first < rigs; first += at_once) {
+  for (std::int64_t first = 0; first < machines; first += at_once) {
     values.clear();
-    const std::int64_t count = std::min(at_once, rigs - first);
-    for (std::int64_t rig = first; rig < first + count; ++rig) {
-      const std::shared_ptr<const friction::Profile> rotor = realised.of_rig(rig);
+    const std::int64_t count = std::min(at_once, machines - first);
+    for (std::int64_t machine = first; machine < first + count; ++machine) {
+      const std::shared_ptr<const friction::Profile> rotor = realised.of_machine(machine);
       for (const double angle : theta) values.push_back(friction::value_at(*rotor, angle));
     }
     io.column(0).write(first, count, values.data());
@@ -66,7 +66,7 @@ std::string unit_of(const study::Study& study, const layout::Grouping& grouping)
 
 void write_profiles(hdf5::File& file, const study::Study& study) {
   for (const study::RealisedProfile& realised : study.profiles) {
-    if (realised.of_rig) {
+    if (realised.of_machine) {
       write_rotors(file, realised, study);
     } else {
       write_one_rotor(file, realised, study);

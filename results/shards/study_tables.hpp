@@ -10,7 +10,7 @@
 /// The tables of a results file that describe its study, not its trials.
 namespace zerocount::shards {
 
-/// Writes the realised profiles of a study to /profile: of its one rotor, or of every rig.
+/// Writes the realised profiles of a study to /profile: of its one rotor, or of every machine.
 void write_profiles(hdf5::File& file, const study::Study& study);
 
 /// Writes what is known of the groups: the inputs of machines and worlds, names of conditions, ages. Nothing

@@ -164,12 +164,12 @@ std::optional<std::pair<std::int64_t, std::int64_t>> point_pair_option(const Arg
 /// As point_options, for an option that cannot be repeated.
 std::optional<std::int64_t> point_option(const Arguments& arguments, std::span<const std::string> labels);
 
-// Output files of the verbs. An existing file is replaced only with --force.
+// Output files of the commands. An existing file is replaced only with --force.
 
-/// The option --force of a verb that writes.
+/// The option --force of a command that writes.
 OptionSpec force_option();
 
-/// The rule, for the help of every verb with --force.
+/// The rule, for the help of every command with --force.
 inline constexpr std::string_view overwriting_rule =
     "An existing output is replaced only with --force, and only after the new one is complete.\n"
     "If the command fails, the output that was to be replaced is removed, unless it is a results\n"

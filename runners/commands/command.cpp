@@ -187,8 +187,7 @@ report::StudyReport verified_report(const reading::AllTrialsFile& file, report::
     return different;
   };
   report::StudyReport report = report::study_report(file, options);
-  const bool is_of_file_alone = !options.point && !options.comparison && !options.history;
-  if (is_of_file_alone) report.page.source = report_source(file.path());
+  report.page.source = report_source(file.path());
   for (const std::string& warning : report.warnings) status::tell("zerocount: warning: {}\n", warning);
   return report;
 }

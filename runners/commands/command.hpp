@@ -22,7 +22,7 @@
 
 namespace zerocount::commands {
 
-/// One verb of the command line.
+/// One command of the command line.
 struct Command {
   command_line::CommandSpec spec;
   std::string summary;  ///< one line
@@ -87,8 +87,8 @@ std::shared_ptr<const plugin::ControllerPlugin> plugin_option(const command_line
 /// The source of the report of a results file: its contents, by their checksum, and the build of the program.
 std::string report_source(const std::filesystem::path& file);
 
-/// The report of a results file, with its report_source() if no option adds to the file, and with a warning
-/// for each trial that is simulated again and differs from its record. Prints the warnings.
+/// The report of a results file, with its report_source(), and with a warning for each trial that is
+/// simulated again and differs from its record. Prints the warnings.
 /// @throws Failure as report::study_report
 report::StudyReport verified_report(const reading::AllTrialsFile& file, report::ReportOptions options = {});
 

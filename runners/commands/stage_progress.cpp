@@ -13,8 +13,8 @@ constexpr std::chrono::milliseconds stage_interval{100};  // the line decides wh
 
 }  // namespace
 
-StageProgress::StageProgress(std::string verb, bool quiet)
-    : verb_(std::move(verb)), line_(quiet), start_(std::chrono::steady_clock::now()) {
+StageProgress::StageProgress(std::string command, bool quiet)
+    : command_(std::move(command)), line_(quiet), start_(std::chrono::steady_clock::now()) {
   if (!quiet) printer_ = std::thread([this] { print_until_end(); });
 }
 
@@ -39,7 +39,7 @@ void StageProgress::print_until_end() {
     if (stage_.empty()) continue;
     line_.show([this] {
       const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start_;
-      return fmt::format("{}: {}, {}", verb_, stage_, status::duration_text(elapsed.count()));
+      return fmt::format("{}: {}, {}", command_, stage_, status::duration_text(elapsed.count()));
     });
   }
 }

@@ -16,8 +16,8 @@ namespace zerocount::commands {
 /// soon prints nothing.
 class StageProgress {
  public:
-  /// @param verb begins each message: "zerocount identify"
-  StageProgress(std::string verb, bool quiet);
+  /// @param command begins each message: "zerocount identify"
+  StageProgress(std::string command, bool quiet);
   /// Removes the line from a terminal.
   ~StageProgress();
   StageProgress(const StageProgress&) = delete;
@@ -30,7 +30,7 @@ class StageProgress {
  private:
   void print_until_end();
 
-  std::string verb_;
+  std::string command_;
   status::StatusLine line_;
   std::chrono::steady_clock::time_point start_;
   std::mutex mutex_;  // of the members below
@@ -42,8 +42,8 @@ class StageProgress {
 
 /// What `work` returns, while a StageProgress shows the stage.
 template <class Work>
-auto with_progress(std::string verb, std::string_view stage, const Work& work) {
-  StageProgress progress(std::move(verb), /*quiet=*/false);
+auto with_progress(std::string command, std::string_view stage, const Work& work) {
+  StageProgress progress(std::move(command), /*quiet=*/false);
   progress.enter(stage);
   return work();
 }

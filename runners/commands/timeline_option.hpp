@@ -12,7 +12,7 @@ namespace zerocount::timeline {
 class Timeline;
 }
 
-/// The option --timeline of verbs that work on all cores.
+/// The option --timeline of commands that work on all cores.
 namespace zerocount::commands {
 
 command_line::OptionSpec timeline_option();

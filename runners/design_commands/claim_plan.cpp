@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/statistics/clusters/rig_statistics.hpp"
+#include "analysis/statistics/clusters/machine_statistics.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/statistics/sample_size.hpp"
 #include "analysis/summary/summary.hpp"
@@ -27,7 +27,7 @@ using document::Description;
 using document::everywhere;
 using document::in_data;
 using statistics::ClaimPlan;
-using statistics::RigPlan;
+using statistics::MachinePlan;
 using statistics::SequentialCost;
 
 constexpr std::int64_t default_failures = 3;
@@ -37,9 +37,9 @@ constexpr double worst_case_rate = 0.5;
 struct PlanRequest {
   double confidence{statistics::summary_confidence};
   std::optional<double> success{}, true_success{}, power{}, halfwidth{};
-  std::optional<double> rig_sd{}, rigs_share{};
+  std::optional<double> machine_sd{}, machines_share{};
   std::int64_t failures{default_failures};
-  std::string pilot{};  ///< source of rig_sd and the rate, for people
+  std::string pilot{};  ///< source of machine_sd and the rate, for people
 
   double rate() const { return true_success.value_or(worst_case_rate); }
 };
@@ -47,19 +47,19 @@ struct PlanRequest {
 /// A design point of a pilot, under one condition where it has any.
 struct PilotPoint {
   std::string label;
-  double rate{0.0};    ///< of success
-  double rig_sd{0.0};  ///< standard deviation of the success probability between rigs
+  double rate{0.0};        ///< of success
+  double machine_sd{0.0};  ///< standard deviation of the success probability between machines
 };
 
-/// The point, and the condition, under which the rigs of the pilot differ most; none where no rigs have
-/// several trials.
+/// The point, and the condition, under which the machines of the pilot differ most; none where no machines
+/// have several trials.
 std::optional<PilotPoint> worst_point(const std::string& path) {
   std::optional<PilotPoint> worst;
   const auto take = [&](const summary::StudySummary& summary, std::string_view condition) {
     for (std::size_t i = 0; i < summary.points.size(); ++i) {
       const measures::PointSummary& point = summary.points[i];
-      const double sd = point.rigs.success_sd;
-      if (!std::isnan(sd) && (!worst || sd > worst->rig_sd))
+      const double sd = point.machines.success_sd;
+      if (!std::isnan(sd) && (!worst || sd > worst->machine_sd))
         worst = {study::label_under(summary.labels[i], condition), point.success_rate().value, sd};
     }
   };
@@ -74,21 +74,21 @@ std::optional<PilotPoint> worst_point(const std::string& path) {
   return worst;
 }
 
-/// Takes the standard deviation and the rate from the point of a pilot study whose rigs differ most.
+/// Takes the standard deviation and the rate from the point of a pilot study whose machines differ most.
 void measure_pilot(PlanRequest& request, const std::string& path) {
   const std::optional<PilotPoint> worst = worst_point(path);
   if (!worst) {
     throw Failure(ExitCode::bad_input,
                   fmt::format("{}: has no differences between machines; expected the results of a study with "
-                              "`rigs` and several trials on each",
+                              "`machines` and several trials on each",
                               path));
   }
   if (!(worst->rate > 0.0 && worst->rate < 1.0)) {
     throw Failure(ExitCode::bad_input, fmt::format("{}: no point has both successes and failures; expected "
-                                                   "--rig-sd and --true-success in place of a pilot",
+                                                   "--machine-sd and --true-success in place of a pilot",
                                                    path));
   }
-  request.rig_sd = worst->rig_sd;
+  request.machine_sd = worst->machine_sd;
   if (!request.true_success) request.true_success = worst->rate;
   request.pilot = fmt::format("{}, point {}", path, text::printable(worst->label));
 }
@@ -102,13 +102,13 @@ PlanRequest request_of(const command_line::Arguments& arguments) {
                       .true_success = probability("true-success"),
                       .power = probability("power"),
                       .halfwidth = probability("halfwidth"),
-                      .rig_sd = probability("rig-sd"),
-                      .rigs_share = probability("rigs-share"),
+                      .machine_sd = probability("machine-sd"),
+                      .machines_share = probability("machines-share"),
                       .failures = arguments.whole_number("failures", 0, 1000).value_or(default_failures)};
   if (!request.success && !request.halfwidth) arguments.refuse("expected --success or --halfwidth");
   if (request.power && !request.success) arguments.refuse("option '--power' needs --success");
   if (arguments.operands().empty()) return request;
-  if (request.rig_sd) arguments.refuse("expected --rig-sd or a pilot FILE, not both");
+  if (request.machine_sd) arguments.refuse("expected --machine-sd or a pilot FILE, not both");
   if (!request.halfwidth) arguments.refuse("a pilot FILE needs --halfwidth");
   measure_pilot(request, arguments.operands()[0]);
   return request;
@@ -124,9 +124,9 @@ struct ClaimRow {
 /// What was asked, and the plans that answer it; those of other questions are empty.
 struct Plans : PlanRequest {
   std::vector<ClaimRow> claims{};
-  std::vector<RigPlan> tolerance{};
-  std::vector<RigPlan> halfwidth_on_rigs{};
-  std::optional<SequentialCost> halfwidth_without_rigs{};
+  std::vector<MachinePlan> tolerance{};
+  std::vector<MachinePlan> halfwidth_on_machines{};
+  std::optional<SequentialCost> halfwidth_without_machines{};
 };
 
 std::vector<ClaimRow> claim_plans(const PlanRequest& request) {
@@ -146,41 +146,42 @@ std::vector<ClaimRow> claim_plans(const PlanRequest& request) {
   return rows;
 }
 
-std::vector<RigPlan> halfwidth_plans(const PlanRequest& request) {
-  constexpr std::array<std::int64_t, 8> listed_trials_per_rig{1, 2, 5, 10, 20, 50, 100, 1000};
-  std::vector<RigPlan> plans;
-  plans.reserve(listed_trials_per_rig.size());
-  for (const std::int64_t trials : listed_trials_per_rig) {
-    plans.push_back({statistics::rigs_for_halfwidth(*request.halfwidth, request.confidence, request.rate(),
-                                                    *request.rig_sd, trials),
+std::vector<MachinePlan> halfwidth_plans(const PlanRequest& request) {
+  constexpr std::array<std::int64_t, 8> listed_trials_per_machine{1, 2, 5, 10, 20, 50, 100, 1000};
+  std::vector<MachinePlan> plans;
+  plans.reserve(listed_trials_per_machine.size());
+  for (const std::int64_t trials : listed_trials_per_machine) {
+    plans.push_back({statistics::machines_for_halfwidth(*request.halfwidth, request.confidence,
+                                                        request.rate(), *request.machine_sd, trials),
                      trials});
   }
   return plans;
 }
 
-/// Plans in which more rigs need fewer trials on each. The rank of the tolerance statement rises in steps
-/// with the number of rigs, so that some larger numbers need more trials on each: these are left out.
-std::vector<RigPlan> tolerance_plans(const PlanRequest& request) {
-  const std::int64_t fewest = statistics::min_rigs_for_tolerance(*request.rigs_share, request.confidence);
-  std::vector<RigPlan> plans;
-  for (const std::int64_t rigs : {fewest, fewest + (fewest + 1) / 2, 2 * fewest, 4 * fewest}) {
-    const RigPlan plan =
-        statistics::plan_tolerance(*request.rigs_share, *request.success, request.confidence, rigs);
-    if (plans.empty() || plan.trials_per_rig < plans.back().trials_per_rig) plans.push_back(plan);
+/// Plans in which more machines need fewer trials on each. The rank of the tolerance statement rises in steps
+/// with the number of machines, so that some larger numbers need more trials on each: these are left out.
+std::vector<MachinePlan> tolerance_plans(const PlanRequest& request) {
+  const std::int64_t fewest =
+      statistics::min_machines_for_tolerance(*request.machines_share, request.confidence);
+  std::vector<MachinePlan> plans;
+  for (const std::int64_t machines : {fewest, fewest + (fewest + 1) / 2, 2 * fewest, 4 * fewest}) {
+    const MachinePlan plan =
+        statistics::plan_tolerance(*request.machines_share, *request.success, request.confidence, machines);
+    if (plans.empty() || plan.trials_per_machine < plans.back().trials_per_machine) plans.push_back(plan);
   }
   return plans;
 }
 
 Plans plans_of(PlanRequest request) {
   Plans plans{std::move(request)};
-  if (plans.rigs_share) {
+  if (plans.machines_share) {
     plans.tolerance = tolerance_plans(plans);
   } else if (plans.success) {
     plans.claims = claim_plans(plans);
   }
-  if (plans.halfwidth && plans.rig_sd) plans.halfwidth_on_rigs = halfwidth_plans(plans);
-  if (plans.halfwidth && !plans.rig_sd)
-    plans.halfwidth_without_rigs =
+  if (plans.halfwidth && plans.machine_sd) plans.halfwidth_on_machines = halfwidth_plans(plans);
+  if (plans.halfwidth && !plans.machine_sd)
+    plans.halfwidth_without_machines =
         statistics::sequential_cost(*plans.halfwidth, plans.confidence, plans.rate());
   return plans;
 }
@@ -205,12 +206,12 @@ std::string claim_headline(const Plans& plans) {
 }
 
 std::string tolerance_headline(const Plans& plans) {
-  const RigPlan& fewest = plans.tolerance.front();
+  const MachinePlan& fewest = plans.tolerance.front();
   return fmt::format(
       "{} machines with {} trials each, none of which fails, show that at least {} of machines hold zero in "
       "at least {} of moves, {}; trials of one move or more",
-      fewest.rigs, fewest.trials_per_rig, text::percent(*plans.rigs_share), text::percent(*plans.success),
-      with_confidence(plans));
+      fewest.machines, fewest.trials_per_machine, text::percent(*plans.machines_share),
+      text::percent(*plans.success), with_confidence(plans));
 }
 
 std::string halfwidth_headline(const Plans& plans) {
@@ -218,32 +219,33 @@ std::string halfwidth_headline(const Plans& plans) {
   const std::string aim =
       fmt::format("the {} bounds of a success rate of {} within ±{}", text::percent(plans.confidence),
                   text::percent(plans.rate()), text::percent(*plans.halfwidth));
-  if (plans.halfwidth_without_rigs)
-    return fmt::format("{} trials bring {}{}", plans.halfwidth_without_rigs->fixed, aim,
+  if (plans.halfwidth_without_machines)
+    return fmt::format("{} trials bring {}{}", plans.halfwidth_without_machines->fixed, aim,
                        plans.true_success ? "" : ", the worst case");
-  const std::vector<RigPlan>& on_rigs = plans.halfwidth_on_rigs;
+  const std::vector<MachinePlan>& on_machines = plans.halfwidth_on_machines;
   return fmt::format("{} to {} machines bring {}, with a standard deviation of {} between machines{}",
-                     on_rigs.back().rigs, on_rigs.front().rigs, aim, text::percent(*plans.rig_sd),
-                     plans.pilot.empty() ? "" : " (" + plans.pilot + ")");
+                     on_machines.back().machines, on_machines.front().machines, aim,
+                     text::percent(*plans.machine_sd), plans.pilot.empty() ? "" : " (" + plans.pilot + ")");
 }
 
 std::string halfwidth_sentence(const Plans& plans) {
-  if (plans.halfwidth_without_rigs)
+  if (plans.halfwidth_without_machines)
     return "`stop` takes more: its bounds hold at whatever number of trials the outcomes let it end";
-  if (plans.halfwidth_on_rigs.empty()) return "";
+  if (plans.halfwidth_on_machines.empty()) return "";
   const double rate = plans.rate();
   return fmt::format(
       "more trials on a machine help little once they outnumber {:.3g}: what differs between machines "
       "remains",
-      rate * (1.0 - rate) / (*plans.rig_sd * *plans.rig_sd));
+      rate * (1.0 - rate) / (*plans.machine_sd * *plans.machine_sd));
 }
 
-Description<RigPlan> rig_columns() {
-  return Description<RigPlan>()
-      .value(everywhere("rigs", "machines", "machines"), &RigPlan::rigs)
-      .value(everywhere("trials_per_rig", "trials on each", "trials on each"), &RigPlan::trials_per_rig)
+Description<MachinePlan> plan_columns() {
+  return Description<MachinePlan>()
+      .value(everywhere("machine_count", "machines", "number of machines"), &MachinePlan::machines)
+      .value(everywhere("trials_per_machine", "trials on each", "trials on each"),
+             &MachinePlan::trials_per_machine)
       .value(everywhere("trials", "trials", "trials on all machines"),
-             [](const RigPlan& plan) { return plan.rigs * plan.trials_per_rig; });
+             [](const MachinePlan& plan) { return plan.machines * plan.trials_per_machine; });
 }
 
 Description<ClaimRow> claim_columns() {
@@ -265,20 +267,21 @@ Description<Plans> halfwidth_description() {
   return Description<Plans>()
       .value(in_data("halfwidth", "half-width of the bounds", "1"), [](Of p) { return *p.halfwidth; })
       .value(in_data("rate", "assumed rate", "1"), [](Of p) { return p.rate(); })
-      .value(in_data("rig_sd", "standard deviation of the success probability between machines", "1"),
-             [](Of p) { return p.rig_sd; })
-      .table({.key = "rig_plans", .meaning = "machines and trials; none without rig_sd"}, rig_columns(),
-             &Plans::halfwidth_on_rigs)
+      .value(in_data("machine_sd", "standard deviation of the success probability between machines", "1"),
+             [](Of p) { return p.machine_sd; })
+      .table({.key = "machine_plans", .meaning = "machines and trials; none without machine_sd"},
+             plan_columns(), &Plans::halfwidth_on_machines)
       .value(
           everywhere("trials", "trials, decided beforehand", "trials without machines, decided beforehand"),
           [](Of p) {
-            return p.halfwidth_without_rigs ? std::optional(p.halfwidth_without_rigs->fixed) : std::nullopt;
+            return p.halfwidth_without_machines ? std::optional(p.halfwidth_without_machines->fixed)
+                                                : std::nullopt;
           })
       .value(everywhere("trials_with_stop", "trials with `stop`, about",
                         "trials without machines, decided by the outcomes"),
              [](Of p) {
-               return p.halfwidth_without_rigs ? std::optional(p.halfwidth_without_rigs->sequential)
-                                               : std::nullopt;
+               return p.halfwidth_without_machines ? std::optional(p.halfwidth_without_machines->sequential)
+                                                   : std::nullopt;
              })
       .sentence(halfwidth_sentence);
 }
@@ -312,15 +315,16 @@ document::AnswerDescription<Plans> success_answer() {
   return with_halfwidth(std::move(answer));
 }
 
-document::AnswerDescription<Plans> rigs_answer() {
+document::AnswerDescription<Plans> machines_answer() {
   document::AnswerDescription<Plans> answer =
-      answer_named("plan-rigs", "machines and trials that show a proportion of successful machines",
-                   "rig_plans", tolerance_headline);
+      answer_named("plan-machines", "machines and trials that show a proportion of successful machines",
+                   "machine_plans", tolerance_headline);
   answer.items
       .value(in_data("success", "proportion of its moves in which a machine holds zero", "1"),
              &Plans::success)
-      .value(in_data("rigs_share", "proportion of machines to be shown to succeed", "1"), &Plans::rigs_share)
-      .table({.key = "rig_plans", .meaning = "machines and trials, if no trial fails"}, rig_columns(),
+      .value(in_data("machines_share", "proportion of machines to be shown to succeed", "1"),
+             &Plans::machines_share)
+      .table({.key = "machine_plans", .meaning = "machines and trials, if no trial fails"}, plan_columns(),
              &Plans::tolerance)
       .sentence(halfwidth_headline);
   return with_halfwidth(std::move(answer));
@@ -336,11 +340,14 @@ document::AnswerDescription<Plans> halfwidth_answer() {
 
 document::Answer claim_plan(const command_line::Arguments& arguments) {
   const Plans plans = plans_of(request_of(arguments));
-  return (plans.rigs_share ? rigs_answer() : plans.success ? success_answer() : halfwidth_answer()).of(plans);
+  return (plans.machines_share ? machines_answer()
+          : plans.success      ? success_answer()
+                               : halfwidth_answer())
+      .of(plans);
 }
 
 std::vector<document::AnswerType> claim_plan_types() {
-  return {success_answer().complete_type(), rigs_answer().complete_type(),
+  return {success_answer().complete_type(), machines_answer().complete_type(),
           halfwidth_answer().complete_type()};
 }
 

@@ -17,8 +17,8 @@
 #include "runners/tuning/effects/effects.hpp"
 #include "runners/tuning/worst_machines/worst_machines.hpp"
 
-/// The verbs that design an axis: plan, tune, limits, worst and rare, their answers for the report, and what
-/// they share.
+/// The commands that design an axis: plan, tune, limits, worst and rare, their answers for the report, and
+/// what they share.
 namespace zerocount::design_commands {
 
 /// A study, and the point of it that is asked for.
@@ -109,10 +109,10 @@ using tuning::NamedValues;
 /// "controller.ki = 5, controller.kp = 0"
 std::string values_text(const NamedValues& values);
 
-/// "rig 3", or "trial 3" of a study without rigs.
-std::string machine_name(const tuning::WorstMachine& worst, bool on_rigs);
+/// "machine 3", or "trial 3" of a study without machines.
+std::string machine_name(const tuning::WorstMachine& worst, bool on_machines);
 
-/// "rig 3, 75 % of its moves meet the goal; friction.k1 = 175".
+/// "machine 3, 75 % of its moves meet the goal; friction.k1 = 175".
 std::string worst_machine_text(const tuning::WorstMachine& worst, const study::Study& study);
 
 /// The machine of a study that does worst; for data only, because worst_machine_text() says it.
@@ -125,15 +125,15 @@ inline constexpr std::int64_t usual_rare_trials = 1'000'000;
 /// @throws Failure: bad_input if the study draws nothing for each trial; interrupted
 document::Answer rare_of(const study::Study& study, const rare::Population& of, const trials::Effort& effort);
 
-/// `plan --success …`, `plan --rigs-share …` and `plan --halfwidth …`: the trials and rigs that show a claim,
-/// or bring the bounds of a rate within a half-width; the latter also beside the former.
+/// `plan --success …`, `plan --machines-share …` and `plan --halfwidth …`: the trials and machines that show
+/// a claim, or bring the bounds of a rate within a half-width; the latter also beside the former.
 /// @throws Failure (bad_input) for options that do not go together
 document::Answer claim_plan(const command_line::Arguments& arguments);
 
 std::vector<document::AnswerType> claim_plan_types();
 
-/// `plan MANIFEST` and `plan PILOT` without another question: the trials and rigs that decide the goal of the
-/// manifest. Of a manifest the smallest studies that can meet it, of a results file the study that
+/// `plan MANIFEST` and `plan PILOT` without another question: the trials and machines that decide the goal of
+/// the manifest. Of a manifest the smallest studies that can meet it, of a results file the study that
 /// decides it with a probability of 90 %.
 /// @throws Failure (bad_input) if there is no goal
 document::Answer goal_plan(const command_line::Arguments& arguments);

@@ -17,6 +17,7 @@
 #include "analysis/comparison/point_trials.hpp"
 #include "analysis/text/text.hpp"
 #include "core/text/text.hpp"
+#include "core/trial/move_measures.hpp"
 #include "experiments/study/condition_study.hpp"
 #include "runners/command_line/command_line.hpp"
 #include "runners/commands/command.hpp"
@@ -48,12 +49,14 @@ std::string measure_names() {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// `success_rate=0.02`, or `settling_time=5%` of the measure's value.
+/// `success_rate=0.02`, or `arrival_time=5%` of the measure's value.
 std::pair<std::string, comparison::GateMargin> read_margin(const command_line::Arguments& arguments,
                                                            const std::string& text) {
   const std::size_t equals = text.find('=');
   const std::string name = text.substr(0, equals);
   const auto measure = comparison::find_gate_measure(name);
+  if (const std::string_view meanings = trial::meanings_of_settling_time(name); !meanings.empty())
+    refuse_margin(arguments, text, fmt::format("{}", meanings));
   if (equals == std::string::npos || !measure)
     refuse_margin(arguments, text, fmt::format("MEASURE=M, a measure of {}", measure_names()));
   std::string number = text.substr(equals + 1);
@@ -117,11 +120,11 @@ comparison::PointTrials run_point(const study::Study& study, std::int64_t point,
            trials, pilot_block, draw, {}, [](const trial::TrialOutcome& outcome) { return outcome.moves; }))
     outcomes.insert(outcomes.end(), moves.begin(), moves.end());
   comparison::AlsoRead also;
-  also.rigs = study.rigs;
+  also.machines = study.machines;
   const std::vector<measures::CountedGoal> counted = measures::counted_goals(study);
   for (std::size_t i = 0; i < study.goals.size(); ++i) {
-    also.judged.push_back({study.goals[i], counted[i], study.rigs});
-    also.judged.back().counts = measures::CellCounts({study.rigs, study.worlds, 0});
+    also.judged.push_back({study.goals[i], counted[i], study.machines});
+    also.judged.back().counts = measures::CellCounts({study.machines, study.worlds, 0});
   }
   return comparison::gather_trials(outcomes, std::ssize(outcomes) / trials, also);
 }
@@ -143,7 +146,7 @@ struct EquivalencePlan {
   std::int64_t pilot{0};       ///< trials of each point under each condition
   std::int64_t conditions{1};  ///< under which each point is run
   comparison::Forecast forecast;
-  std::int64_t rigs{1};  ///< of each point; 1: no trials share one
+  std::int64_t machines{1};  ///< of each point; 1: no trials share one
   std::vector<PlannedMeasure> measures;
   std::vector<PlannedMeasure> unplanned;  ///< those of which too few trials of the pilot have a value
 };
@@ -165,18 +168,18 @@ void add_point(EquivalencePlan& plan, comparison::ForecastSamples& samples, cons
   }
 }
 
-/// The trials of a design point, under all conditions together: as many on each rig under each condition.
+/// The trials of a design point, under all conditions together: as many on each machine under each condition.
 /// @param each under each condition
 std::int64_t trials_of_point(const EquivalencePlan& plan, double each) {
-  const double on_rig = std::ceil(each / static_cast<double>(plan.rigs));
-  return plan.conditions * plan.rigs * static_cast<std::int64_t>(on_rig);
+  const double on_machine = std::ceil(each / static_cast<double>(plan.machines));
+  return plan.conditions * plan.machines * static_cast<std::int64_t>(on_machine);
 }
 
 /// The same to people: rounded up, as far as every number of trials can be run.
 std::string trials_text(const EquivalencePlan& plan, double each) {
   const std::int64_t trials = trials_of_point(plan, each);
-  return plan.conditions * plan.rigs > 1 ? std::to_string(trials)
-                                         : comparison::trials_text(static_cast<double>(trials));
+  return plan.conditions * plan.machines > 1 ? std::to_string(trials)
+                                             : comparison::trials_text(static_cast<double>(trials));
 }
 
 void take_forecast(const EquivalencePlan& plan, PlannedMeasure& measure,
@@ -197,12 +200,12 @@ EquivalencePlan plan_of(const command_line::Arguments& arguments) {
   const study::Study study = planned_study(arguments);
   require_goals_of_margins(plan.rules, study, arguments.operands()[0]);
   plan.conditions = study::condition_count(study);
-  plan.rigs = std::max<std::int64_t>(study.rigs, 1);
+  plan.machines = std::max<std::int64_t>(study.machines, 1);
   std::vector<study::Study> under;  // [condition]
   for (std::int64_t i = 0; i < plan.conditions; ++i) under.push_back(study::under_condition(study, i));
   const std::int64_t trials = under.front().trials;
-  plan.pilot = study.rigs > 0 ? trials : std::min(trials, pilot_trials);
-  const std::int64_t units = study.rigs > 0 ? study.rigs : plan.pilot;
+  plan.pilot = study.machines > 0 ? trials : std::min(trials, pilot_trials);
+  const std::int64_t units = study.machines > 0 ? study.machines : plan.pilot;
   comparison::ForecastSamples samples({units, units}, true);
   status::Progress progress(study::point_count(study) * plan.conditions * plan.pilot, 0,
                             trials::samples_per_trial(study), false);

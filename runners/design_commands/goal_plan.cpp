@@ -37,7 +37,7 @@ bool is_on_machines(const study::Study& study) {
   return std::ranges::any_of(study.goals, [](const study::Goal& goal) { return goal.machines.has_value(); });
 }
 
-/// The studies with their times, where goals on machines leave a choice between rigs and trials on each.
+/// The studies with their times, where goals on machines leave a choice between machines and trials on each.
 std::vector<PlannedStudy> with_times(const std::vector<goal::Needs>& studies, const study::Study& study) {
   std::vector<PlannedStudy> planned;
   planned.reserve(studies.size());
@@ -52,9 +52,11 @@ std::vector<PlannedStudy> with_times(const std::vector<goal::Needs>& studies, co
 document::Description<PlannedStudy> study_columns() {
   using Of = const PlannedStudy&;
   return document::Description<PlannedStudy>()
-      .value(everywhere("rigs", "machines", "machines; 0 without machines"), &PlannedStudy::rigs)
-      .value(to_people("trials on each"),
-             [](Of one) { return one.rigs > 0 ? std::optional(one.trials / one.rigs) : std::nullopt; })
+      .value(everywhere("machine_count", "machines", "number of machines; 0 without machines"),
+             &PlannedStudy::machines)
+      .value(
+          to_people("trials on each"),
+          [](Of one) { return one.machines > 0 ? std::optional(one.trials / one.machines) : std::nullopt; })
       .value(everywhere("trials", "trials", "trials of a design point"), &PlannedStudy::trials)
       .value({.heading = "time here", .shown = Shown::to_people, .numeric = true},
              [](Of one) { return one.seconds ? status::duration_text(*one.seconds) : std::string(); })
@@ -75,10 +77,10 @@ struct GoalPlans {
 std::string smallest_headline(const GoalPlans& plans) {
   if (plans.smallest.empty()) return "no study of up to 10⁹ trials can meet the goal";
   const goal::Needs& first = plans.smallest.front();
-  const bool on_rigs = plans.study.rigs > 0;
+  const bool on_machines = plans.study.machines > 0;
   return fmt::format("{} can be met from {} {} on, if no move misses {}",
                      plans.study.goals.size() > 1 ? "the goals" : "the goal",
-                     on_rigs ? first.rigs : first.trials, on_rigs ? "machines" : "trials",
+                     on_machines ? first.machines : first.trials, on_machines ? "machines" : "trials",
                      plans.study.goals.size() > 1 ? "them" : "it");
 }
 
@@ -119,7 +121,8 @@ document::AnswerDescription<GoalPlans> goal_answer() {
 struct Pilot {
   const summary::StudySummary& summary;
   summary::JudgedPoint judged;
-  std::vector<PlannedStudy> studies{};  ///< that decide it, where it leaves a choice between rigs and trials
+  std::vector<PlannedStudy>
+      studies{};  ///< that decide it, where it leaves a choice between machines and trials
 };
 
 document::AnswerDescription<Pilot> pilot_answer() {
@@ -157,7 +160,7 @@ document::Answer plan_of_manifest(const command_line::Arguments& arguments) {
   const std::string& path = arguments.operands()[0];
   const study::Study study = commands::load_study(path, arguments);
   goal::require_claim(study, path, other_plans);
-  const goal::StudyShape shape{study.rigs > 0, study.worlds, study::condition_count(study)};
+  const goal::StudyShape shape{study.machines > 0, study.worlds, study::condition_count(study)};
   const auto smallest = goal::smallest_studies(asked_goals(study), shape, study.points.labels.size());
   return goal_answer().of({study, with_times(smallest, study)});
 }
@@ -167,7 +170,7 @@ document::Answer plan_of_pilot(const std::string& path) {
   const summary::StudySummary summary = summary::summarise_file(path);
   if (!summary.question.claim()) goal::require_claim({}, path, other_plans);
   Pilot pilot{summary, summary::judge_point(summary, summary::choose_point(summary)), {}};
-  if (pilot.judged.needs && study.rigs > 0 && is_on_machines(study)) {
+  if (pilot.judged.needs && study.machines > 0 && is_on_machines(study)) {
     const summary::ChosenPoint& chosen = pilot.judged.chosen;
     pilot.studies = with_times(
         goal::deciding_studies(summary.question, summary.points[static_cast<std::size_t>(chosen.point)],

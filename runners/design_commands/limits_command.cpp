@@ -186,7 +186,7 @@ struct PointLimits {
 /// Tells what was simulated.
 std::string simulated_sentence(const PointLimits& found) {
   const std::int64_t all = trials::replicates_of(found.study, found.units.point).count;
-  const std::string units = std::string(found.study.rigs > 0 ? "machines" : "trials") + " of the study" +
+  const std::string units = std::string(found.study.machines > 0 ? "machines" : "trials") + " of the study" +
                             (found.study.conditions.empty() ? "" : " under each condition");
   return (found.units.count < all
               ? fmt::format("simulated: the first {} of {} {}, as many as the budget is enough for",
@@ -290,7 +290,7 @@ Failure too_small(const command_line::Budget& budget, const study::Study& study,
   return {budget.trials ? ExitCode::bad_input : ExitCode::inconclusive,
           fmt::format("option '--budget': it is not enough: the causes of failures of this point take about "
                       "{} trials on all its {}; expected {} or more, for the first {}",
-                      trials_of_limits(study, point), study.rigs > 0 ? "machines" : "trials", least,
+                      trials_of_limits(study, point), study.machines > 0 ? "machines" : "trials", least,
                       units.count)};
 }
 

@@ -16,10 +16,11 @@ constexpr const char* plan_help =
     "if none, one, two, … of the trials fail; with --true-success also the probability that the\n"
     "plan shows it, and with --power the plan that has this probability. --halfwidth H: the number\n"
     "of trials for bounds of a rate within ± H.\n"
-    "With machines, the trials of one machine are not independent. --rigs-share P: the number of machines, "
+    "With machines, the trials of one machine are not independent. --machines-share P: the number of "
+    "machines, "
     "and\n"
     "of trials on each, that shows that at least the proportion P of all machines succeeds in --success\n"
-    "of its trials. With --halfwidth, --rig-sd is the standard deviation of the success probability\n"
+    "of its trials. With --halfwidth, --machine-sd is the standard deviation of the success probability\n"
     "between machines: assumed, or measured in a pilot FILE with machines (at the point where it is "
     "largest;\n"
     "that point also gives the rate).\n"
@@ -32,10 +33,10 @@ constexpr const char* plan_help =
     "         zerocount plan --success 0.999 --confidence 0.95\n"
     "         zerocount plan --success 0.99 --true-success 0.995 --power 0.9\n"
     "         zerocount plan --halfwidth 0.005\n"
-    "         zerocount plan --halfwidth 0.02 --rig-sd 0.1 --true-success 0.9\n"
+    "         zerocount plan --halfwidth 0.02 --machine-sd 0.1 --true-success 0.9\n"
     "         zerocount plan --halfwidth 0.02 pilot.h5\n"
-    "         zerocount plan --success 0.97 --rigs-share 0.9\n"
-    "         zerocount plan --margin success_rate=0.02 --margin settling_time=5% --power 0.9 gains.yaml\n";
+    "         zerocount plan --success 0.97 --machines-share 0.9\n"
+    "         zerocount plan --margin success_rate=0.02 --margin arrival_time=5% --power 0.9 gains.yaml\n";
 
 document::Answer plan_answer(const command_line::Arguments& arguments) {
   const bool has_operand = !arguments.operands().empty();
@@ -71,17 +72,18 @@ commands::Command plan_command() {
         needing({"success", "halfwidth", "margin"},
                 {"confidence", "LEVEL", "of the claim, or of the bounds (default 0.95)"}),
         needing({"success"}, {"failures", "K", "list plans for 0 to K failures (default 3)"}),
-        excluding({"rigs-share"}, needing({"success", "halfwidth"},
-                                          {"true-success", "P",
-                                           "assumed true proportion: adds the probability of each plan"})),
-        excluding({"rigs-share"},
+        excluding(
+            {"machines-share"},
+            needing({"success", "halfwidth"},
+                    {"true-success", "P", "assumed true proportion: adds the probability of each plan"})),
+        excluding({"machines-share"},
                   needing({"true-success", "margin"}, {"power", "P", "find the plan with this probability"})),
         excluding({"margin"}, {"halfwidth", "H", "half-width of the two-sided bounds of a rate"}),
         needing({"success"},
-                {"rigs-share", "P",
+                {"machines-share", "P",
                  "minimum proportion of machines to be shown to succeed in --success of their trials"}),
         needing({"halfwidth"},
-                {"rig-sd", "SD", "standard deviation of the success probability between machines"}),
+                {"machine-sd", "SD", "standard deviation of the success probability between machines"}),
         {"margin", "MEASURE=M", "largest accepted difference of two equal studies; may be repeated", true},
         {"set", "KEY=VALUE", "with a MANIFEST: override a manifest key; may be repeated", true},
         answers::format_option()},

@@ -37,7 +37,7 @@ constexpr const char* rare_help =
     "score. If nothing leads to a failure, plain trials go on to the end of the budget.\n"
     "\n"
     "Without a goal the event is a move that does not end at zero counts.\n"
-    "--event asks for another event: MEASURE > x, such as 'settling_time > 0.5' or\n"
+    "--event asks for another event: MEASURE > x, such as 'arrival_time > 0.5' or\n"
     "'band_settling_time[1] > 0.05', with a column of moves.csv of 'zerocount export'. Each trial is\n"
     "on a machine of its own. Of several points --point chooses one, of several worlds --world, of\n"
     "several conditions --condition. Of several goals a move misses one of those that are about it.\n"
@@ -49,7 +49,7 @@ constexpr const char* rare_help =
     "narrow enough, 3 if not.\n"
     "\n"
     "Example: zerocount rare my-axis.yaml -o rare.h5\n"
-    "         zerocount rare my-axis.yaml -o late.h5 --event 'settling_time > 0.5'\n";
+    "         zerocount rare my-axis.yaml -o late.h5 --event 'arrival_time > 0.5'\n";
 
 std::optional<std::int64_t> world_to_ask(const command_line::Arguments& arguments,
                                          const study::Study& study) {

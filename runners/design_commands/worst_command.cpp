@@ -51,7 +51,7 @@ std::string headline(const Search& search) {
   const JudgedMachine& worst = search.found.in_box;
   return "worst in the box of the central 99.9 % of each input: " +
          (worst.is_previous ? fmt::format("none is worse than {} of the study",
-                                          machine_name(search.found.of_study, search.study.rigs > 0))
+                                          machine_name(search.found.of_study, search.study.machines > 0))
                             : fmt::format("{:.4g} % of {} moves {}{}", 100.0 * worst.met, worst.moves,
                                           goal::words_of(goal::question_of(search.study)).meet,
                                           study::condition_text(search.study, worst.condition)));
@@ -63,7 +63,7 @@ std::string replay_sentence(const Search& search) {
   if (!search.manifest || yaml::is_standard_stream(*search.manifest) || machine.manifest.empty()) return "";
   return fmt::format(
       "{0} has its manifest{1}; its worst trial: zerocount trace {2} --trial {3}", search.manifest->string(),
-      search.found.with_profiles ? fmt::format(", with the profiles of machine {}", machine.rig)
+      search.found.with_profiles ? fmt::format(", with the profiles of machine {}", machine.machine)
                                  : std::string(),
       text::shell_path(*search.manifest), machine.trial);
 }
@@ -84,8 +84,8 @@ document::Description<JudgedMachine> judged_description() {
 document::Description<JudgedMachine> found_description(const std::string& other_key,
                                                        const std::string& other_machine) {
   return document::Description<JudgedMachine>()
-      .value(in_data("rig", "machine of the study with its profiles; 0 without machines"),
-             &JudgedMachine::rig)
+      .value(in_data("machine", "machine of the study with its profiles; 0 without machines"),
+             &JudgedMachine::machine)
       .value(in_data("trial", "its worst trial, of its manifest"), &JudgedMachine::trial)
       .include(judged_description(), std::identity())
       .value(in_data("inputs", "the quantities that differ between machines, by parameter"),
@@ -233,12 +233,12 @@ std::string values_text(const NamedValues& values) {
   return text;
 }
 
-std::string machine_name(const WorstMachine& worst, bool on_rigs) {
-  return fmt::format("{} {}", on_rigs ? "machine" : "trial", worst.rig);
+std::string machine_name(const WorstMachine& worst, bool on_machines) {
+  return fmt::format("{} {}", on_machines ? "machine" : "trial", worst.machine);
 }
 
 std::string worst_machine_text(const WorstMachine& worst, const study::Study& study) {
-  return fmt::format("{}, {:.4g} % of its moves {}{}{}{}", machine_name(worst, study.rigs > 0),
+  return fmt::format("{}, {:.4g} % of its moves {}{}{}{}", machine_name(worst, study.machines > 0),
                      100.0 * worst.met, goal::words_of(goal::question_of(study)).meet,
                      claim_text(study, worst.claim), worst.inputs.empty() ? "" : "; ",
                      values_text(worst.inputs));
@@ -247,9 +247,9 @@ std::string worst_machine_text(const WorstMachine& worst, const study::Study& st
 document::Description<WorstMachine> worst_description() {
   return document::Description<WorstMachine>()
       .include(named_claim_columns(), &WorstMachine::names)
-      .value(in_data("rig",
+      .value(in_data("machine",
                      "number of the machine in the study, or of its trial where no trials share a machine"),
-             &WorstMachine::rig)
+             &WorstMachine::machine)
       .value(in_data("trial", "its worst trial"), &WorstMachine::trial)
       .value(in_data("met", "proportion of its moves that meet the goal", "1"), &WorstMachine::met)
       .value(in_data("inputs", "what it has drawn, by parameter"), &WorstMachine::inputs);

@@ -83,45 +83,45 @@ double stored_reals(const std::vector<double>& values) {
   return stored_bytes(hdf5::Element::float64, std::as_bytes(std::span(values)));
 }
 
-/// Bytes of the friction profiles, from those of some rigs.
+/// Bytes of the friction profiles, from those of some machines.
 double bytes_of_profiles(const study::Study& study) {
-  constexpr std::int64_t max_rigs = 4;
+  constexpr std::int64_t max_machines = 4;
   double bytes = 0.0;
   for (const study::RealisedProfile& realised : study.profiles) {
-    const std::int64_t rigs = realised.of_rig ? study.rigs : 1;
-    const std::int64_t tried = std::min(rigs, max_rigs);
-    const std::int64_t angles = realised.of_rig
-                                    ? layout::profile_angles_of_rig(realised.profile->cosine.size(), rigs)
-                                    : layout::profile_angles;
+    const std::int64_t machines = realised.of_machine ? study.machines : 1;
+    const std::int64_t tried = std::min(machines, max_machines);
+    const std::int64_t angles =
+        realised.of_machine ? layout::profile_angles_of_machine(realised.profile->cosine.size(), machines)
+                            : layout::profile_angles;
     std::vector<double> values;
-    for (std::int64_t rig = 0; rig < tried; ++rig) {
-      const auto rotor = realised.of_rig ? realised.of_rig(rig) : realised.profile;
+    for (std::int64_t machine = 0; machine < tried; ++machine) {
+      const auto rotor = realised.of_machine ? realised.of_machine(machine) : realised.profile;
       for (std::int64_t i = 0; i < angles; ++i)
         values.push_back(
             friction::value_at(*rotor, study.period * static_cast<double>(i) / static_cast<double>(angles)));
     }
     // The angles themselves are stored once.
-    bytes += stored_reals(values) * static_cast<double>(rigs) / static_cast<double>(tried) +
+    bytes += stored_reals(values) * static_cast<double>(machines) / static_cast<double>(tried) +
              8.0 * static_cast<double>(angles);
   }
   return bytes;
 }
 
-/// Bytes of the inputs of rigs.
-double bytes_of_rigs(const study::Study& study) {
-  constexpr std::int64_t max_rigs = 128;
-  const std::int64_t tried = std::min(study.rigs, max_rigs);
-  std::vector<std::vector<double>> columns(study.columns.shared[study::Grouping::rig].size());
-  for (std::int64_t rig = 0; rig < tried && !columns.empty(); ++rig) {
-    const std::vector<double> inputs = study::group_inputs(study, study::Grouping::rig, rig);
+/// Bytes of the inputs of machines.
+double bytes_of_machines(const study::Study& study) {
+  constexpr std::int64_t max_machines = 128;
+  const std::int64_t tried = std::min(study.machines, max_machines);
+  std::vector<std::vector<double>> columns(study.columns.shared[study::Grouping::machine].size());
+  for (std::int64_t machine = 0; machine < tried && !columns.empty(); ++machine) {
+    const std::vector<double> inputs = study::group_inputs(study, study::Grouping::machine, machine);
     for (std::size_t i = 0; i < columns.size(); ++i) columns[i].push_back(inputs[i]);
   }
   double bytes = 0.0;
   for (const std::vector<double>& column : columns)
     bytes += stored_bytes({.element = hdf5::Element::float64, .values = std::as_bytes(std::span(column))},
-                          static_cast<double>(study.rigs));
-  constexpr double bytes_of_count = 0.25;  // of the successes of a rig at a point; measured
-  return bytes + bytes_of_count * static_cast<double>(study.rigs * study::point_count(study));
+                          static_cast<double>(study.machines));
+  constexpr double bytes_of_count = 0.25;  // of the successes of a machine at a point; measured
+  return bytes + bytes_of_count * static_cast<double>(study.machines * study::point_count(study));
 }
 
 /// The trials that stand for some points, of the same number each.
@@ -205,7 +205,7 @@ double bytes_of_sums(const study::Study& study, const TrialSample& sample) {
     const double growth = std::clamp((all.raw - half.raw) / std::max(half.raw - quarter.raw, 1.0), 1.0, 2.0);
     const double ratio = (all.stored - quarter.stored) / std::max(all.raw - quarter.raw, 1.0);
     const double different =
-        study.rigs > 0 ? std::clamp(static_cast<double>(study.rigs), tried, wanted) : wanted;
+        study.machines > 0 ? std::clamp(static_cast<double>(study.machines), tried, wanted) : wanted;
     double added = all.raw - half.raw;
     for (double doublings = std::log2(different / tried); doublings > 0.0; --doublings) {
       added *= growth;
@@ -222,7 +222,7 @@ double bytes_of_sums(const study::Study& study, const TrialSample& sample) {
 double file_bytes(const study::Study& study, const TrialSample& sample) {
   return bytes_of_dataset * datasets_of(study) + static_cast<double>(study.manifest.text.size()) +
          bytes_of_trials(study, sample) + bytes_of_records(study, sample) + bytes_of_profiles(study) +
-         bytes_of_rigs(study) + bytes_of_points(study, sample) + bytes_of_sums(study, sample);
+         bytes_of_machines(study) + bytes_of_points(study, sample) + bytes_of_sums(study, sample);
 }
 
 }  // namespace zerocount::forecast

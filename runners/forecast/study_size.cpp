@@ -190,14 +190,14 @@ SumBytes bytes_of_sums(const study::Study& study, const std::vector<shards::Tria
   }
   const double all = numbers_of_sums(study, trials);
   const auto sampled = static_cast<double>(trials.size());
-  double of_rigs = 0.0;  // numbers of the rigs that no sampled trial is on
-  if (static_cast<double>(study.rigs) > sampled && trials.size() > 1) {
+  double of_machines = 0.0;  // numbers of the machines that no sampled trial is on
+  if (static_cast<double>(study.machines) > sampled && trials.size() > 1) {
     const std::vector<shards::TrialResult> half(trials.begin(), trials.begin() + std::ssize(trials) / 2);
-    const double per_rig =
+    const double per_machine =
         (all - numbers_of_sums(study, half)) / (sampled - static_cast<double>(half.size()));
-    of_rigs = std::max(0.0, per_rig) * (static_cast<double>(study.rigs) - sampled);
+    of_machines = std::max(0.0, per_machine) * (static_cast<double>(study.machines) - sampled);
   }
-  return {all * sizeof(double), (growth * all + of_rigs) * sizeof(double)};
+  return {all * sizeof(double), (growth * all + of_machines) * sizeof(double)};
 }
 
 /// Shards of a run: one each turn, or more where points are shorter.

@@ -275,7 +275,7 @@ std::string description_of(const study::Study& study) {
   json["description"] = study.description;
   json["seed"] = study.seed;
   json["trials"] = study.trials;
-  json["rigs"] = study.rigs;
+  json["machines"] = study.machines;
   json["worlds"] = study.worlds;
   json["conditions"] = study.conditions;
   json["condition_names"] = study.condition_names;

@@ -12,7 +12,7 @@
 #include "core/loop/dac.hpp"
 #include "core/loop/encoder.hpp"
 #include "core/plugin/arithmetic_mode.hpp"
-#include "core/trial/rig.hpp"
+#include "core/trial/machine.hpp"
 #include "core/trial/trial.hpp"
 #include "experiments/study/study_trial.hpp"
 #include "runners/plugins/plugin_library.hpp"

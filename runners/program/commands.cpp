@@ -161,20 +161,20 @@ std::vector<commands::Command> commands() {
 
 ExitCode run_command_line(std::span<const std::string> words) {
   if (words.empty()) throw Failure(ExitCode::bad_input, overview());
-  const std::string& verb = words.front();
-  if (verb == "--help" || verb == "-h" || verb == "help") {
+  const std::string& name = words.front();
+  if (name == "--help" || name == "-h" || name == "help") {
     return print(words.size() > 1 ? help_of(find_command(words[1])) : overview());
   }
-  if (verb == "--version" || verb == "-V") {
+  if (name == "--version" || name == "-V") {
     const layout::Provenance provenance = layout::current_provenance();
     return print(fmt::format("zerocount {} ({}, {})\n", provenance.zerocount_version, provenance.git_commit,
                              provenance.compiler));
   }
-  if (verb == "--describe") {  // for the packages of other languages
+  if (name == "--describe") {  // for the packages of other languages
     standard_output::write(library::described(words.subspan(1)));
     return ExitCode::success;
   }
-  const commands::Command command = find_command(verb);
+  const commands::Command command = find_command(name);
   const command_line::Arguments arguments(command.spec, {words.begin() + 1, words.end()});
   if (arguments.has("help")) return print(help_of(command));
   command_line::require_separate_files(arguments);

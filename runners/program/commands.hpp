@@ -10,7 +10,7 @@
 
 namespace zerocount::program {
 
-/// All verbs, in the order of the help.
+/// All commands, in the order of the help.
 std::vector<commands::Command> commands();
 
 /// Runs the program with its command-line arguments.

@@ -67,8 +67,8 @@ bool machines_differ(const study::Study& study, std::int64_t point) {
   return false;
 }
 
-/// The machines that are simulated. They are those of the study, or without `rigs` its trials; where nothing
-/// that is drawn differs between them, all trials are of one machine.
+/// The machines that are simulated. They are those of the study, or without `machines` its trials; where
+/// nothing that is drawn differs between them, all trials are of one machine.
 struct SimulatedMachines {
   std::int64_t machines;
   std::int64_t trials_of_machine;
@@ -81,11 +81,11 @@ struct SimulatedMachines {
 /// between them are told from those within.
 SimulatedMachines machines_of(const Alarm& alarm, std::int64_t max_trials) {
   const study::Study& study = alarm.study;
-  if (alarm.moves.rig) return {1, std::min(study.trials / study.rigs, max_trials), false};
+  if (alarm.moves.machine) return {1, std::min(study.trials / study.machines, max_trials), false};
   if (!machines_differ(study, alarm.moves.point)) return {1, std::min(study.trials, max_trials), true};
-  if (study.rigs == 0) return {std::min(study.trials, max_trials), 1, false};
-  const std::int64_t machines = std::min({study.rigs, max_simulated_machines, max_trials / 2});
-  return {machines, std::min(study.trials / study.rigs, max_trials / machines), false};
+  if (study.machines == 0) return {std::min(study.trials, max_trials), 1, false};
+  const std::int64_t machines = std::min({study.machines, max_simulated_machines, max_trials / 2});
+  return {machines, std::min(study.trials / study.machines, max_trials / machines), false};
 }
 
 /// The moves of simulated machines with each change.
@@ -114,8 +114,8 @@ class Simulations {
   /// The trial of the point with this number among those that are simulated.
   std::int64_t index(std::int64_t number) const {
     if (machines_.are_one) return number;
-    const std::int64_t machine = of_.moves.rig.value_or(number / machines_.trials_of_machine);
-    return machine + of_.study.rigs * (number % machines_.trials_of_machine);
+    const std::int64_t machine = of_.moves.machine.value_or(number / machines_.trials_of_machine);
+    return machine + of_.study.machines * (number % machines_.trials_of_machine);
   }
 
   /// @param change of the drawn parameters

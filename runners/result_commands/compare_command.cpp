@@ -44,7 +44,7 @@ constexpr const char* compare_help =
     "Margins and absolute requirements are given in a YAML file; missing ones have defaults\n"
     "(docs/compare.md):\n"
     "  fail_on: changed                 # as --changed-fails\n"
-    "  margins: {success_rate: 0.01, settling_time: {relative: 0.05, absolute: 1.0e-3}}\n"
+    "  margins: {success_rate: 0.01, arrival_time: {relative: 0.05, absolute: 1.0e-3}}\n"
     "  require: success_rate ≥ 0.995\n"
     "  points: {b: {success_rate: 0.05}}\n"
     "\n"

@@ -13,7 +13,7 @@
 #include "results/reading/all_trials_file.hpp"
 #include "runners/command_line/command_line.hpp"
 
-/// What the verbs on machines in use have in common: logs of moves, and the simulated moves beside them.
+/// What the commands on machines in use have in common: logs of moves, and the simulated moves beside them.
 namespace zerocount::result_commands {
 
 /// Reads all of a log. @param group column of the groups of moves; empty: none

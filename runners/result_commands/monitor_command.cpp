@@ -34,7 +34,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* monitor_help =
     "Has this machine changed? MOVES.csv has a row for each move of a machine in use, in their order,\n"
-    "and columns named like measures of moves (settling_time, band_settling_time[1], overshoot,\n"
+    "and columns named like measures of moves (arrival_time, band_settling_time[1], overshoot,\n"
     "outcome, ...), with units as [ms] where they are not those of the program. An empty cell, or\n"
     "NaN, is what never happened. BASELINE is a log of earlier moves of the machine, or a results\n"
     "file: then an alarm can mean that the model is wrong, and names the parameters that explain it,\n"
@@ -59,9 +59,10 @@ constexpr const char* monitor_help =
 
 constexpr auto polling_interval = std::chrono::milliseconds(200);
 
-std::optional<std::int64_t> rig_of(const command_line::Arguments& arguments, std::int64_t rigs) {
-  if (rigs == 0 && arguments.has("rig")) arguments.refuse("option '--rig': the study has no machines");
-  return rigs == 0 ? std::nullopt : arguments.whole_number("rig", 0, rigs - 1);
+std::optional<std::int64_t> machine_of(const command_line::Arguments& arguments, std::int64_t machines) {
+  if (machines == 0 && arguments.has("machine"))
+    arguments.refuse("option '--machine': the study has no machines");
+  return machines == 0 ? std::nullopt : arguments.whole_number("machine", 0, machines - 1);
 }
 
 /// Earlier moves, and the simulated study that they are of.
@@ -75,7 +76,7 @@ struct LoadedBaseline {
 LoadedBaseline load_baseline(const command_line::Arguments& arguments) {
   const fs::path path = arguments.operands()[0];
   if (!commands::is_results_file(path)) {
-    for (const char* const option : {"point", "condition", "age", "rig", "unchanged", "budget"})
+    for (const char* const option : {"point", "condition", "age", "machine", "unchanged", "budget"})
       if (arguments.has(option))
         arguments.refuse(fmt::format("option '--{}': {} is a log of moves; it belongs to results files",
                                      option, path.string()));
@@ -93,7 +94,7 @@ LoadedBaseline load_baseline(const command_line::Arguments& arguments) {
         ExitCode::bad_input,
         fmt::format("{}: its moves are torque levels; expected a study with targets", path.string()));
   const monitor::ModelMoves moves{point_of(arguments, file.point_labels()),
-                                  rig_of(arguments, file.study().rigs)};
+                                  machine_of(arguments, file.study().machines)};
   monitor::Baseline baseline = monitor::baseline_of(file, moves);
   return {std::move(baseline), std::move(file), moves, std::move(unchanged)};
 }
@@ -223,7 +224,7 @@ commands::Command monitor_command() {
         {"point", "P", "design point of a results file"},
         {"condition", "NAME", "condition of a results file with conditions"},
         {"age", "A", "age of a results file with ages"},
-        {"rig", "R", "only this machine of a results file, from 0"},
+        {"machine", "R", "only this machine of a results file, from 0"},
         {"seed", "N", "of ties and of simulated changes (default 1)"},
         {"budget", "B",
          "of the simulations after an alarm: a number of trials, or a time such as 60s (default: as many "

@@ -143,7 +143,6 @@ ExitCode write_report(const command_line::Arguments& arguments) {
   const std::stop_token stop = interruption ? interruption->token() : std::stop_token();
   const reading::AllTrialsFile file(arguments.operands()[0]);
   report::ReportPage page = report_of(arguments, file).page;
-  if (!parts.empty()) page.source.clear();
   add_parts(page, part_sections({file, command_line::point_option(arguments, file.point_labels())}, parts,
                                 budget, stop));
   if (stop.stop_requested()) page.state = report::PageState::unfinished;
@@ -187,7 +186,7 @@ std::vector<command_line::OptionSpec> with_part_options(std::vector<command_line
   return own;
 }
 
-/// The options of both verbs. @param own those of one of them, which come first
+/// The options of both commands. @param own those of one of them, which come first
 std::vector<command_line::OptionSpec> options_of_report(std::vector<command_line::OptionSpec> own) {
   own.insert(
       own.end(),

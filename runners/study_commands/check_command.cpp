@@ -118,16 +118,16 @@ std::optional<std::string> groups_text(std::int64_t groups, std::string_view eac
   return fmt::format("{}, {}{}{}", groups, each, names.empty() ? "" : ": ", fmt::join(names, ", "));
 }
 
-std::optional<std::string> rigs_text(const Plan& plan) {
+std::optional<std::string> machines_text(const Plan& plan) {
   const study::Study& study = plan.study;
-  return groups_text(study.rigs, of_each(study.trials, study.rigs, "trial") + " of each");
+  return groups_text(study.machines, of_each(study.trials, study.machines, "trial") + " of each");
 }
 
 std::optional<std::string> worlds_text(const Plan& plan) {
   const study::Study& study = plan.study;
   return groups_text(study.worlds,
-                     (study.rigs > 0 ? of_each(study.rigs, study.worlds, "machine")
-                                     : "about " + of_each(study.trials, study.worlds, "trial")) +
+                     (study.machines > 0 ? of_each(study.machines, study.worlds, "machine")
+                                         : "about " + of_each(study.trials, study.worlds, "trial")) +
                          " in each");
 }
 
@@ -266,9 +266,9 @@ document::Description<Plan> plan_description() {
       .value(in_data("trials", "trials of each point, or the most of them"),
              [](Of p) { return p.study.trials; })
       .value(in_data("moves", "moves of a trial"), [](Of p) { return p.study.moves; })
-      .value({"rigs", "machines at each point", "machines at each point; 0: none"},
-             [](Of p) { return p.study.rigs; })
-      .shown_as(rigs_text)
+      .value({"machine_count", "machines at each point", "number of machines at each point; 0: none"},
+             [](Of p) { return p.study.machines; })
+      .shown_as(machines_text)
       .value({"worlds", "worlds", "worlds; 0: none"}, [](Of p) { return p.study.worlds; })
       .shown_as(worlds_text)
       .value({"conditions", "under the conditions",
@@ -301,8 +301,9 @@ document::Description<Plan> plan_description() {
   add_inputs(
       plan, {"differ_in_contacts", "of these, drawn anew at each contact", "of these, drawn at each contact"},
       {DrawLevel::contact});
-  add_inputs(plan, {"differ_in_rigs", "differing between machines", "inputs that differ between machines"},
-             {DrawLevel::rig});
+  add_inputs(plan,
+             {"differ_in_machines", "differing between machines", "inputs that differ between machines"},
+             {DrawLevel::machine});
   add_inputs(plan, {"differ_in_worlds", "differing between worlds", "inputs that differ between worlds"},
              {DrawLevel::world});
   add_inputs(

@@ -13,7 +13,7 @@
 #include "analysis/theory/point_theory.hpp"
 #include "core/failure/failure.hpp"
 #include "core/loop/encoder.hpp"
-#include "core/trial/rig.hpp"
+#include "core/trial/machine.hpp"
 #include "core/trial/trial.hpp"
 #include "experiments/study/condition_study.hpp"
 #include "experiments/study/study_trial.hpp"

@@ -127,8 +127,8 @@ document::AnswerDescription<StatusReading> status_answer(const summary::StudySum
   return answer;
 }
 
-/// The summary of the finished trials, or in `reason` why it cannot be made: a damaged file, or a rig without
-/// a finished trial before the missing ones.
+/// The summary of the finished trials, or in `reason` why it cannot be made: a damaged file, or a machine
+/// without a finished trial before the missing ones.
 std::optional<summary::StudySummary> summary_so_far(const std::filesystem::path& output,
                                                     std::string& reason) {
   try {

@@ -58,13 +58,13 @@ void TraceWriter::begin(const TraceSubject& subject) {
     for (std::size_t i = 0; i < subject.trial.inputs.size(); ++i) {
       inputs[subject.study.columns.inputs[i].name] = subject.trial.inputs[i];
     }
-    const std::string rig =
-        subject.study.rigs > 0
-            ? fmt::format(", \"rig\": {}",
-                          study::group_of(subject.study, study::Grouping::rig, subject.index))
+    const std::string machine =
+        subject.study.machines > 0
+            ? fmt::format(", \"machine\": {}",
+                          study::group_of(subject.study, study::Grouping::machine, subject.index))
             : "";
     sink_(fmt::format("{{\"name\": {}, \"point\": {}, \"trial\": {}{},\n \"inputs\": {},\n \"samples\": [",
-                      nlohmann::json(subject.study.name).dump(), subject.point, subject.index, rig,
+                      nlohmann::json(subject.study.name).dump(), subject.point, subject.index, machine,
                       inputs.dump()));
     return;
   }

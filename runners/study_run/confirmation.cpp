@@ -31,12 +31,12 @@ study::Study fresh_study(const reading::ResultsFile& file, std::int64_t trials,
   }
   const std::int64_t conditions = study::condition_count(recorded);  // that each machine or draw bears
   const std::int64_t each =
-      !recorded.goals.empty() && recorded.rigs > 0 ? recorded.trials / recorded.rigs : conditions;
+      !recorded.goals.empty() && recorded.machines > 0 ? recorded.trials / recorded.machines : conditions;
   const std::int64_t least = std::max<std::int64_t>(recorded.worlds, 2);
   const std::int64_t per_world = std::max<std::int64_t>(recorded.worlds, 1);
-  const std::int64_t rigs = std::max(least, trials / each / per_world * per_world);
+  const std::int64_t machines = std::max(least, trials / each / per_world * per_world);
   const std::int64_t draws = std::max({trials / each, recorded.worlds, std::int64_t{1}});
-  const trials::Replicates fresh{recorded.rigs > 0 ? rigs : draws, each};
+  const trials::Replicates fresh{recorded.machines > 0 ? machines : draws, each};
   layout::FileHeader header = file.header();
   header.trials = fresh.trials();
   header.overrides.push_back(fmt::format("seed={}", trials::fresh_seed(recorded.seed, "confirmation")));
@@ -92,7 +92,7 @@ summary_answer::Confirmation confirm_point(const reading::ResultsFile& file, std
   confirmation.point = point;
   confirmation.seed = study.seed;
   confirmation.trials = study.trials;
-  confirmation.rigs = study.rigs;
+  confirmation.machines = study.machines;
   return confirmation;
 }
 

@@ -137,15 +137,15 @@ void return_freed_memory() {
 #endif
 }
 
-/// Bytes of what the statistics of a point keep of each rig: counts, and the distinct values of its moves,
-/// such as settling times.
-double memory_of_rigs(const study::Study& study) {
-  constexpr double of_rig = 1270.0,
-                   of_value = 470.0;  // of a rig, and of a trial with values of its own; measured
-  if (study.rigs == 0 || layout::has_sums(study.retention)) return 0.0;  // the forecast of sums has them
-  const double values =
-      std::min(static_cast<double>(study.trials), static_cast<double>(study.rigs) * samples_per_trial(study));
-  return of_rig * static_cast<double>(study.rigs) + of_value * values;
+/// Bytes of what the statistics of a point keep of each machine: counts, and the distinct values of its
+/// moves, such as settling times.
+double memory_of_machines(const study::Study& study) {
+  constexpr double of_machine = 1270.0,
+                   of_value = 470.0;  // of a machine, and of a trial with values of its own; measured
+  if (study.machines == 0 || layout::has_sums(study.retention)) return 0.0;  // the forecast of sums has them
+  const double values = std::min(static_cast<double>(study.trials),
+                                 static_cast<double>(study.machines) * samples_per_trial(study));
+  return of_machine * static_cast<double>(study.machines) + of_value * values;
 }
 
 /// Bytes of the statistics of the points that are written together, when all trials have been run.
@@ -156,9 +156,9 @@ double memory_of_statistics(const study::Study& study) {
       measures::statistic_fields(study.features, layout::measure_table(study.features)).size();
   const double of_point = 8.0 * copies *
                           static_cast<double>(std::ssize(study.points.axes) + std::int64_t(columns) +
-                                              study.rigs + 3 * study.worlds);
+                                              study.machines + 3 * study.worlds);
   return all_statistics +
-         (of_point + memory_of_rigs(study)) *
+         (of_point + memory_of_machines(study)) *
              static_cast<double>(std::min(study::point_count(study), layout::chunk_elements));
 }
 

@@ -99,8 +99,8 @@ std::optional<study::Study> with_values(const study::Study& study, std::span<con
 }
 
 Replicates replicates_of(const study::Study& study, std::int64_t point) {
-  if (study.rigs == 0) return {study::draw_count(study), study::condition_count(study), point};
-  return {study.rigs, study.trials / study.rigs, point};
+  if (study.machines == 0) return {study::draw_count(study), study::condition_count(study), point};
+  return {study.machines, study.trials / study.machines, point};
 }
 
 std::int64_t trial_of_replicate(const study::Study& study, const Replicates& replicates,
@@ -116,7 +116,7 @@ std::int64_t in_equal_worlds(const study::Study& study, std::int64_t count) {
 
 std::vector<std::string> overrides_for(const study::Study& study, const Replicates& replicates) {
   std::vector<std::string> overrides{fmt::format("trials={}", replicates.trials()), "design=monte_carlo"};
-  if (study.rigs > 0) overrides.push_back(fmt::format("rigs={}", replicates.count));
+  if (study.machines > 0) overrides.push_back(fmt::format("machines={}", replicates.count));
   if (!study.retained_trials.empty()) overrides.emplace_back("retain={trials: []}");
   return overrides;
 }

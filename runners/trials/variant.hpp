@@ -37,7 +37,7 @@ std::string refusal_of_values(const study::Study& study, std::span<const std::st
 std::optional<study::Study> with_values(const study::Study& study, std::span<const std::string> parameters,
                                         std::span<const double> values);
 
-/// Replicates of a study: machines with `trials_each` trials or, where no trials share a rig, trials that
+/// Replicates of a study: machines with `trials_each` trials or, where no trials share a machine, trials that
 /// have a machine each. With conditions each bears all of them equally often.
 struct Replicates {
   std::int64_t count{0};
@@ -47,7 +47,7 @@ struct Replicates {
   std::int64_t trials() const { return count * trials_each; }
 };
 
-/// Those of a study that is given: its rigs, or its draws.
+/// Those of a study that is given: its machines, or its draws.
 Replicates replicates_of(const study::Study& study, std::int64_t point);
 
 /// The trial of the study that is trial i (0 … trials_each − 1) of a replicate: it runs under condition i mod

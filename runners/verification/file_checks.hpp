@@ -23,7 +23,7 @@ struct Described {
 /// Checks everything that can be told without running a trial: the file was finished, and its attributes are
 /// those of its manifest; inputs, measures, jerks and sums are possible; and the file, made again from its
 /// manifest and its trials as a merge makes it, has the same datasets with the same values and units. Design
-/// points, profiles, rigs, numbers of rows and statistics follow from the trials and the manifest.
+/// points, profiles, machines, numbers of rows and statistics follow from the trials and the manifest.
 ///
 /// Needs as much room in the folder for temporary files as the file takes.
 /// @param plugin as recorded_study

@@ -20,7 +20,7 @@ manifest = """\
 zerocount: 1
 name: reading
 seed: 7
-rigs: 12
+machines: 12
 trials: 60
 friction:
   k1: {uniform: [90, 130]}
@@ -38,7 +38,7 @@ def expected_rows(zerocount):
     for point in json.loads(text)["points"]:
         names = ("success_rate", "success_rate_low", "success_rate_high")
         values = [point["trials"]] + [point[name] for name in names]
-        values += [point["settling_time"]["median"], point["settling_time"]["p95"], point["jerk_count"]["mean"]]
+        values += [point["arrival_time"]["median"], point["arrival_time"]["p95"], point["jerk_count"]["mean"]]
         rows.append((point["label"], [math.nan if value is None else value for value in values]))
     return rows
 

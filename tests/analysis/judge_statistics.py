@@ -3,7 +3,7 @@
 usage: judge_statistics.py means CASES      (lines of: mean sd low high confidence  x1 x2 …)
        judge_statistics.py proportions CASES  (lines of: confidence low high wilson_low wilson_high at_least  k1 n1 …)
        judge_statistics.py quantiles CASES    (lines of: probability size value low high  x11 … x1size x21 …)
-       judge_statistics.py observed CASES   (lines of: p k n successes simulated  p trials of a rig, successes of each)
+       judge_statistics.py observed CASES   (lines of: p k n successes simulated  p trials of a machine, successes of each)
        judge_statistics.py loop FILE.h5     (/point against /outcome)
        judge_statistics.py levels FILE.h5   (/level against /outcome)
 """
@@ -125,9 +125,9 @@ def judge_observed(path):
         k, n, successes, simulated = map(int, numbers[:4])
         expected = stats.fisher_exact([[k, n - k], [successes, simulated - successes]])[1]
         close(float(p), expected, 1e-6 * expected, f"Fisher: {line[:60]}")
-        p, trials, of_rigs = float(numbers[4]), int(numbers[5]), numpy.array(numbers[6:], dtype=int)
-        tails = (stats.hypergeom.cdf(k, trials, of_rigs, n).sum(), stats.hypergeom.sf(k - 1, trials, of_rigs, n).sum())
-        close(p, min(1.0, 2 * (1 + min(tails)) / (1 + len(of_rigs))), 1e-9, f"rigs: {line[:60]}")
+        p, trials, of_machines = float(numbers[4]), int(numbers[5]), numpy.array(numbers[6:], dtype=int)
+        tails = (stats.hypergeom.cdf(k, trials, of_machines, n).sum(), stats.hypergeom.sf(k - 1, trials, of_machines, n).sum())
+        close(p, min(1.0, 2 * (1 + min(tails)) / (1 + len(of_machines))), 1e-9, f"machines: {line[:60]}")
     print(len(lines), "samples")
 
 
@@ -150,11 +150,11 @@ def judge_loop(path):
                     of_trials = numpy.abs(outcome["final_error"][rows]).astype(float)
                     value, low, high = quantile_with_bounds(of_trials, probability)
                     expected[f"final_error_{name}_low"], expected[f"final_error_{name}_high"] = low, high
-                settling = outcome["settling_time"][rows]
+                settling = outcome["arrival_time"][rows]
                 value, low, high = quantile_with_bounds(numpy.nan_to_num(settling, nan=numpy.inf), probability)
-                expected["settling_time_" + name] = value
-                expected[f"settling_time_{name}_low"], expected[f"settling_time_{name}_high"] = low, high
-            expected["settling_time_moves"] = settling.size
+                expected["arrival_time_" + name] = value
+                expected[f"arrival_time_{name}_low"], expected[f"arrival_time_{name}_high"] = low, high
+            expected["arrival_time_moves"] = settling.size
             distance = numpy.abs(outcome["true_error"][rows][followed])
             expected["true_error_n"] = len(distance)
             expected["true_error_mean"] = distance.mean()

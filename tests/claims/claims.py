@@ -8,7 +8,7 @@
 A value with a range fails where it lies outside with one of the seeds. One with `counts`, the successes and trials behind the page,
 fails where the successes of all seeds together differ from them by more than chance (Fisher's exact test). What is allowed follows from
 the numbers of trials, and not from the lowest and the highest seed that made the page. Pages have the counts of seeds 11 to 20
-(--seeds 11 20), and claims run others. Trials must be independent: set as many `rigs` as `trials`.
+(--seeds 11 20), and claims run others. Trials must be independent: set as many `machines` as `trials`.
 """
 import argparse
 import json

@@ -61,7 +61,7 @@ def rows():
 
 def on_new_machines(program, folder, gains, seed):
     """The proportion of the moves that meet the goal, in %, and the p95 of their settling time, in ms."""
-    point = tunings.summary_of(program, folder, "tuned.yaml", {"seed": 10 ** 6 + seed, "rigs": 4000, "trials": 4000} | gains)[0]
+    point = tunings.summary_of(program, folder, "tuned.yaml", {"seed": 10 ** 6 + seed, "machines": 4000, "trials": 4000} | gains)[0]
     late = point["bands"][-1]["settling_time"]["p95"]
     return 100.0 * point["goal"]["rate"], None if late is None else 1000.0 * late
 

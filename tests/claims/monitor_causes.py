@@ -26,7 +26,7 @@ import tempfile
 CONTACT = """zerocount: 1
 name: contact
 seed: 5
-rigs: 64
+machines: 64
 trials: 1280
 friction: {k1: {uniform: [100, 120]}, alpha: 0.5}
 controller: {ki: 4.0e-5, sample_rate: 2000}
@@ -74,7 +74,7 @@ STUDIES = {
     ),
 }
 NAMES = {"controller.deadband": {"controller.deadband.enter"}}
-FEW = ["settling_time", "band_settling_time[1]", "overshoot", "outcome", "holding_torque", "peak_torque", "final_error"]
+FEW = ["arrival_time", "band_settling_time[1]", "overshoot", "outcome", "holding_torque", "peak_torque", "final_error"]
 BEFORE, AFTER = 192, 256  # trials: whole multiples of the machines of each study
 
 

@@ -30,7 +30,7 @@ controller: {{ki: 4.0e-5, sample_rate: 2000}}
 command: {{targets: [{targets}], hold: 0.25}}
 initial: {{encoder_phase: {{uniform: [0, 1]}}}}
 """
-MEASURES = ["settling_time", "band_settling_time[1]", "overshoot", "outcome", "holding_torque"]
+MEASURES = ["arrival_time", "band_settling_time[1]", "overshoot", "outcome", "holding_torque"]
 BASELINE, MOVES = 300, 1000
 
 

@@ -36,7 +36,7 @@ CHANGES = {
     "encoder scale that skips 1 % of the counts": ["encoder.fine_errors.missed=0.01"],
     "breakaway −10 %": ["friction.breakaway=0.27"],
 }
-MEASURES = ["settling_time", "band_settling_time[1]", "overshoot", "outcome", "holding_torque"]
+MEASURES = ["arrival_time", "band_settling_time[1]", "overshoot", "outcome", "holding_torque"]
 SEQUENCES, BASELINE, UNCHANGED, LONGEST, ALARM = 40, 500, 300, 2500, 0.001
 
 

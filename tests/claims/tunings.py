@@ -24,11 +24,11 @@ AXIS = """zerocount: 1
 name: axis
 seed: {seed}
 trials: 1000
-rigs: 100
+machines: 100
 command: {{targets: [29], hold: 0.5}}
 controller: {{ki: 3.85e-5, delay: 1}}
 friction:
-  k1: {{lognormal: {{median: 130, cv: 0.2}}, per: rig}}
+  k1: {{lognormal: {{median: 130, cv: 0.2}}, per: machine}}
   alpha: {{lognormal: {{median: 0.4, cv: 0.3}}}}
 initial: {{encoder_phase: {{uniform: [0, 1]}}}}
 goal: {goal}
@@ -70,7 +70,7 @@ def claim(program, budget, seed):
     with tempfile.TemporaryDirectory() as folder:
         (pathlib.Path(folder) / "axis.yaml").write_text(AXIS.format(seed=seed, goal=goal) + f"tune: {{{FREE}}}\n", encoding="utf-8")
         answer = tuned(program, folder, "axis.yaml", budget)
-        point = summary_of(program, folder, "tuned.yaml", {"seed": 1000 + seed, "trials": 100_000, "rigs": 100_000})[0]
+        point = summary_of(program, folder, "tuned.yaml", {"seed": 1000 + seed, "trials": 100_000, "machines": 100_000})[0]
         return seed, wanted, answer["status"], answer["proof"]["rate_low"], point["goal"]["rate"]
 
 

@@ -90,9 +90,9 @@ Json draws() {
   return all;
 }
 
-// Draws of a study with rigs, whose uniform parameters are on [1, 2), less 1: what is drawn for the rig, the
-// study, the trial, and contacts 0 to 3 of the trial; and the rotor of a profile.
-Json rig_draws() {
+// Draws of a study with machines, whose uniform parameters are on [1, 2), less 1: what is drawn for the
+// machine, the study, the trial, and contacts 0 to 3 of the trial; and the rotor of a profile.
+Json machine_draws() {
   Json all = Json::array();
   for (const char* independent : {"false", "true"}) {
     const study::Study study = study_of(
@@ -102,7 +102,7 @@ Json rig_draws() {
                          "  beta: {uniform: [1, 2], per: study}\n"
                          "  lambda: {uniform: [1, 2], per: contact}\n"
                          "initial: {position: {uniform: [1, 2]}}\n"),
-        {"seed=20020721", "rigs=1000000", "trials=5000000000",
+        {"seed=20020721", "machines=1000000", "trials=5000000000",
          std::string("independent_points=") + independent, "sweep={grid: {controller.ki: [0, 1]}}"});
     for (const std::int64_t trial : {0L, 1L, 1'000'001L, 4'999'999'999L}) {
       const study::StudyTrial drawn = study::study_trial(study, 1, trial);
@@ -113,7 +113,7 @@ Json rig_draws() {
         contacts.push_back(friction::friction_at(friction, 0.0, k).lambda - 1);
       const friction::Profile& rotor = *friction.profiled.at(0).profile;
       all.push_back({{"seed", study.seed},
-                     {"rigs", study.rigs},
+                     {"machines", study.machines},
                      {"trial", trial},
                      {"stream", study.independent_points ? 2 : 0},
                      {"friction.k1.profile.mean", input("friction.k1.profile.mean")},
@@ -167,8 +167,8 @@ int answer(const std::string& question) {
     std::cout << distributions().dump() << '\n';
   } else if (question == "draws") {
     std::cout << draws().dump() << '\n';
-  } else if (question == "rig_draws") {
-    std::cout << rig_draws().dump() << '\n';
+  } else if (question == "machine_draws") {
+    std::cout << machine_draws().dump() << '\n';
   } else if (question == "inputs") {
     std::cout << inputs().dump() << '\n';
   } else if (question == "histories") {

@@ -80,7 +80,7 @@ TEST(ShippedManifests, Figure8HasThirtyCountsAnd15000Samples) {
 TEST(ShippedManifests, TheGainsAreThoseOfThePaperWithWhatItSaw) {
   const study::Study study = shipped("paper-gains");
   EXPECT_EQ(study.trials, 10000);
-  EXPECT_EQ(study.rigs, 10000);
+  EXPECT_EQ(study.machines, 10000);
   const std::vector<std::pair<double, double>> gains{
       {3.85e-5, 0}, {9.45e-5, 0}, {9.45e-5, 6.21e-4}, {2.08e-4, 0}};
   ASSERT_EQ(study.points.labels.size(), gains.size() + 1);

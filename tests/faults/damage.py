@@ -139,7 +139,7 @@ READING = {
 
 
 def damaged_results(bench, name, words, damage, seed):
-    """The verb refuses the file with one message and makes nothing of it."""
+    """The command refuses the file with one message and makes nothing of it."""
     folder = bench.study_folder("short", name)
     good = bench.references["short"][1] / "out.h5"
     shutil.copy(good, folder / "good.h5")
@@ -195,7 +195,7 @@ def faults(bench, quick, seconds):
     for place in ("out.h5.shards/",) if quick else ("out.h5.part", "out.h5.shards/"):
         for content in ("cut",) if quick else ("cut", "cut", "garbage", "empty"):
             yield "left-over .part", left_over_part, (place, content, draw.random())
-    for verb, words in READING.items():
+    for command, words in READING.items():
         kinds = [draw.choice(list(DAMAGES))] if quick else DAMAGES
         for kind in kinds:
-            yield "damaged results given to a reading verb", damaged_results, (words, DAMAGES[kind], draw.random())
+            yield "damaged results given to a reading command", damaged_results, (words, DAMAGES[kind], draw.random())

@@ -62,11 +62,11 @@ def texts(folder):
     return {path.relative_to(folder): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
 
 
-def killed_text_output(bench, name, verb, target, at):
+def killed_text_output(bench, name, command, target, at):
     """An export or a report: what has its name is whole, and the next attempt makes all of it."""
     folder = bench.study_folder("short", name)
     shutil.copy(bench.references["short"][1] / "out.h5", folder / "in.h5")
-    words = [verb, "in.h5", "-o", target, "--force"]
+    words = [command, "in.h5", "-o", target, "--force"]
     ended = bench.run(words, folder)
     assert ended.code == 0, ended.err
     right = texts(folder / target) if (folder / target).is_dir() else {target: (folder / target).read_bytes()}
@@ -123,12 +123,12 @@ def faults(bench, quick, seconds):
     count = bench.calls_of(parts(bench, folder), folder)
     for at in draw.sample(range(1, count + 1), 2 if quick else 24):
         yield "KILL at the n-th system call of merge", killed_merge, (at, signal.SIGKILL)
-    for verb, target, number in (("export", "tables", 12), ("report", "page.html", 6)):
-        folder = bench.study_folder("short", f"count-{verb}")
+    for command, target, number in (("export", "tables", 12), ("report", "page.html", 6)):
+        folder = bench.study_folder("short", f"count-{command}")
         shutil.copy(bench.references["short"][1] / "out.h5", folder / "in.h5")
-        count = bench.calls_of([verb, "in.h5", "-o", target, "--force"], folder)
+        count = bench.calls_of([command, "in.h5", "-o", target, "--force"], folder)
         for at in draw.sample(range(1, count + 1), min(count, 1 if quick else number)):
-            yield f"KILL at the n-th system call of {verb}", killed_text_output, (verb, target, at)
+            yield f"KILL at the n-th system call of {command}", killed_text_output, (command, target, at)
     for _ in range(1 if quick else 4):
         yield "two runs on one output", two_runs, (draw.uniform(0.05, 0.8) * seconds,)
     for jump in (-86400, 5, 3600, 10**9) if not quick else (3600,):

@@ -26,8 +26,9 @@ void use_study(const study::Study& study) {
     require_text(study.points.labels[static_cast<std::size_t>(point)]);
     for (const std::int64_t index : ends_of(study.trials)) study::study_trial(study, point, index);
   }
-  if (study.rigs == 0) return;
-  for (const std::int64_t rig : ends_of(study.rigs)) study::group_inputs(study, study::Grouping::rig, rig);
+  if (study.machines == 0) return;
+  for (const std::int64_t machine : ends_of(study.machines))
+    study::group_inputs(study, study::Grouping::machine, machine);
 }
 
 }  // namespace zerocount::fuzz

@@ -16,7 +16,7 @@ void use_theory(const study::Study& study) {
   if (study.moves > max_moves) return;
   study::Study first = study;
   first.trials = 1;
-  first.rigs = std::min<std::int64_t>(study.rigs, 1);
+  first.machines = std::min<std::int64_t>(study.machines, 1);
   const document::AnswerDescription<theory::PointTheory> answer{{.name = "theory", .meaning = "theory"},
                                                                 theory::point_theory_description()};
   for (const std::int64_t point : std::set<std::int64_t>{0, study::point_count(study) - 1}) {

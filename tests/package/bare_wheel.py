@@ -43,7 +43,7 @@ def check_installed(wheel, folder, own):
     (other / "libhdf5_serial.so.103").write_text("not a library")
     environment = {"LD_LIBRARY_PATH": str(other)}
     run(binaries / "zerocount", "new", "paper-gains", "-o", "mine.yaml", cwd=folder, env=environment)
-    run(binaries / "zerocount", "run", "mine.yaml", "--set", "rigs=2", "--set", "trials=4", "-q", "-o", "mine.h5", cwd=folder, env=environment)
+    run(binaries / "zerocount", "run", "mine.yaml", "--set", "machines=2", "--set", "trials=4", "-q", "-o", "mine.h5", cwd=folder, env=environment)
     require("ok" in run(binaries / "zerocount", "verify", "mine.h5", cwd=folder, env=environment), "the file is intact")
     in_process = ("from zerocount import checked, library; study = checked.recorded_study('mine.h5'); "
                   "assert study.trials == 4 and len(study.trace(0, 0)['samples']['t']) > 0; print(library.places()[0])")

@@ -15,7 +15,7 @@ s = zc.study("my-axis.yaml").sweep("controller.ki", np.geomspace(5e3, 1e5, 8))
 r = s.run("first-use.h5", force=True)
 r = zc.open("first-use.h5")
 print(r.table)
-print(r.trials(point=3).shape, r.moves().shape, r.rigs().shape, r.jerks().shape, r.dataset.sizes)
+print(r.trials(point=3).shape, r.moves().shape, r.machines().shape, r.jerks().shape, r.dataset.sizes)
 trace = r.trace(point=3, trial=17)
 trace.plot().savefig("trace.png")
 r.plot("settled").matplotlib().savefig("settled.png")
@@ -40,7 +40,7 @@ tuned = zc.tune("my-axis.yaml", "tuned.h5", free={"controller.ki": {"log": [5e3,
                 budget=2000, force=True)
 print(tuned, tuned.room)
 print(zc.compare("first-use.h5", points=(2, 3)).verdict, zc.plan(success=0.99)["plans"][0])
-print(zc.sample(s, 2, outcome="settling_time")([90, 600, 1e5, 0.5, 20, 0.5]))
+print(zc.sample(s, 2, outcome="arrival_time")([90, 600, 1e5, 0.5, 20, 0.5]))
 try:
     zc.study("my-axis.yaml").set({"dac.bits": 99}).labels
 except zc.ManifestError as error:

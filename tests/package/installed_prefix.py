@@ -34,7 +34,7 @@ def completions(script, line, cwd=None):
 def check_program(prefix, folder):
     program = prefix / "bin/zerocount"
     run(program, "new", "paper-gains", "-o", "mine.yaml", cwd=folder)
-    run(program, "run", "mine.yaml", "--set", "rigs=2", "--set", "trials=4", "-q", "-o", "mine.h5", cwd=folder)
+    run(program, "run", "mine.yaml", "--set", "machines=2", "--set", "trials=4", "-q", "-o", "mine.h5", cwd=folder)
     run(program, "report", "mine.h5", "-o", "mine.html", cwd=folder)
     shipped = (prefix / "share/zerocount/manifests/paper-gains.yaml").read_text()
     require((folder / "mine.yaml").read_text() == shipped, "`new` copies the installed manifest")

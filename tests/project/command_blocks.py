@@ -64,7 +64,7 @@ def prepared(root, program, folder):
     for name in ("examples", "experiments"):
         (folder / name).symlink_to(root / name)
     study = STUDY.search((root / "README.md").read_text(encoding="utf-8"))[0]
-    (folder / "study.yaml").write_text(study.replace("rigs: 1000", "rigs: 4").replace("trials: 2000", "trials: 8"), encoding="utf-8")
+    (folder / "study.yaml").write_text(study.replace("machines: 1000", "machines: 4").replace("trials: 2000", "trials: 8"), encoding="utf-8")
     subprocess.run([program, "run", "study.yaml", "-q", "-o", "study.h5"], cwd=folder, check=True)
 
 

@@ -1,6 +1,7 @@
-"""The lists of shipped studies that the site adds to docs/studies.md, from the manifests, the pages and the claims.
+"""The list of shipped studies in docs/studies.md, from the manifests, the pages and the claims.
 
-usage: studies.py ROOT         prints them; fails where no page answers a study
+usage: studies.py ROOT            fails where the page has another list, or no page answers a study
+       studies.py ROOT --write    writes the list into the page
 
 A study of which tests/claims/claims.yaml runs a result again has a row: the question of the manifest's first comment (its description where
 that asks none), and the result. Others are links. Each leads to the first heading of docs that names the study, or to the one above a
@@ -15,6 +16,9 @@ import textwrap
 import yaml
 
 from links import FENCED, HEADING, anchor_of
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from page_table import replace_table, table_in  # noqa: E402
 
 PAGE = "docs/studies.md"
 
@@ -62,11 +66,19 @@ def lists(root):
 
 
 def table(root):
-    """The page's part that the site adds."""
+    """The list as Markdown."""
     rows, links = lists(root)
     others = textwrap.fill(f"Others: {', '.join(links)}.", 150, break_long_words=False, break_on_hyphens=False)
     return "\n".join(["| study | question | result |\n| --- | --- | --- |", *rows, "", others, ""])
 
 
+def main(root, write):
+    page = root / PAGE
+    if write:
+        replace_table(page, "studies", table(root))
+    elif table_in(page, "studies") != table(root):
+        sys.exit(f"{PAGE}: the list of studies is out of date; run tests/project/studies.py . --write")
+
+
 if __name__ == "__main__":
-    print(table(pathlib.Path(sys.argv[1]).resolve()))
+    main(pathlib.Path(sys.argv[1]).resolve(), "--write" in sys.argv[2:])

@@ -46,7 +46,7 @@ def first(axis: zc.Study, folder: pathlib.Path) -> zc.Results:
 @pytest.fixture(scope="session")
 def small(axis: zc.Study, folder: pathlib.Path) -> zc.Results:
     """The README's first study with 200 trials at three gains."""
-    study = axis.set(rigs=100, trials=200).sweep("controller.ki", [5e3, 1.2e4, 4e4])
+    study = axis.set(machines=100, trials=200).sweep("controller.ki", [5e3, 1.2e4, 4e4])
     return study.run(folder / "small.h5")
 
 

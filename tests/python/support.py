@@ -18,9 +18,9 @@ ROOT = pathlib.Path(__file__).parents[2]
 SHIPPED = sorted((ROOT / "experiments" / "manifests").glob("*.yaml"))
 
 SMALL: dict[str, dict[str, Any]] = {
-    "compensators": {"rigs": 4, "trials": 8},
-    "contact-variation": {"rigs": 4, "trials": 8},
-    "delay": {"rigs": 20, "trials": 60},
+    "compensators": {"machines": 4, "trials": 8},
+    "contact-variation": {"machines": 4, "trials": 8},
+    "delay": {"machines": 20, "trials": 60},
     "friction-models": {"trials": 4},
     "identification": {},
     "initial-conditions": {"trials": 20},
@@ -54,7 +54,7 @@ def first_study(root: pathlib.Path, path: pathlib.Path) -> None:
 def short_first_study(root: pathlib.Path, path: pathlib.Path) -> None:
     """Writes that manifest with a fifth of its trials."""
     first_study(root, path)
-    text = path.read_text(encoding="utf-8").replace("rigs: 1000", "rigs: 200").replace("trials: 2000", "trials: 400")
+    text = path.read_text(encoding="utf-8").replace("machines: 1000", "machines: 200").replace("trials: 2000", "trials: 400")
     path.write_text(text, encoding="utf-8")
 
 

@@ -60,20 +60,20 @@ def other(small: zc.Results, folder: pathlib.Path) -> zc.Results:
 def asked(axis: zc.Study, small: zc.Results, other: zc.Results, results_of: ResultsOf, folder: pathlib.Path) -> dict[str, Asked]:
     """Calls that answer, and the same commands."""
     manifest, margins, records = folder / "short-axis.yaml", folder / "margins.yaml", results_of("identification")
-    axis.set(rigs=50, trials=100).save(manifest)
+    axis.set(machines=50, trials=100).save(manifest)
     axis = zc.study(manifest)
     worlds, goal = results_of("unknown-friction"), {"band": 1, "within": 0.05, "moves": 0.8}
-    machines = small.study.set(goal={"band": 2, "within": 0.05, "moves": 0.5, "machines": 0.7}, trials=400, rigs=20).run(folder / "m.h5")
-    wide = "{success_rate: 0.5, arrival_rate: 0.5, stable_rate: 0.5, jerk_count: 1000, settling_time: 1}"
+    machines = small.study.set(goal={"band": 2, "within": 0.05, "moves": 0.5, "machines": 0.7}, trials=400, machines=20).run(folder / "m.h5")
+    wide = "{success_rate: 0.5, arrival_rate: 0.5, stable_rate: 0.5, jerk_count: 1000, arrival_time: 1}"
     margins.write_text(f"margins: {wide}\n", encoding="utf-8")
-    few = axis.without("rigs").set(trials=50, **{"command.hold": 0.1}).sweep("controller.ki", [1e4])
+    few = axis.without("machines").set(trials=50, **{"command.hold": 0.1}).sweep("controller.ki", [1e4])
     few.save(folder / "few.yaml")
-    margin, label = {"success_rate": 0.2, "settling_time": "50%"}, small.study.labels[2]
+    margin, label = {"success_rate": 0.2, "arrival_time": "50%"}, small.study.labels[2]
     laws, steps = ["spring", "dahl"], ("identify", records.path, "--point", "steps")
     slide = folder / "slide.csv"
     (folder / "slide.yaml").write_text(SLIDE, encoding="utf-8")
     by_program("trace", folder / "slide.yaml", "--format", "csv", "-o", slide)
-    shown = {"success": 0.97, "rigs_share": 0.9}
+    shown = {"success": 0.97, "machines_share": 0.9}
     return {
         "judge the best": (small.judge, ("judge", small.path)),
         "judge a point": (lambda: small.judge(1), ("judge", small.path, "--point", 1)),
@@ -104,10 +104,10 @@ def asked(axis: zc.Study, small: zc.Results, other: zc.Results, results_of: Resu
             ("plan", "--success", 0.99, "--true-success", 0.995, "--power", 0.9),
         ),
         "plan a width": (lambda: zc.plan(halfwidth=0.01), ("plan", "--halfwidth", 0.01)),
-        "plan rigs": (lambda: zc.plan(**shown), ("plan", "--success", 0.97, "--rigs-share", 0.9)),
-        "plan rigs that differ": (
-            lambda: zc.plan(halfwidth=0.02, rig_sd=0.1, true_success=0.9),
-            ("plan", "--halfwidth", 0.02, "--rig-sd", 0.1, "--true-success", 0.9),
+        "plan machines": (lambda: zc.plan(**shown), ("plan", "--success", 0.97, "--machines-share", 0.9)),
+        "plan machines that differ": (
+            lambda: zc.plan(halfwidth=0.02, machine_sd=0.1, true_success=0.9),
+            ("plan", "--halfwidth", 0.02, "--machine-sd", 0.1, "--true-success", 0.9),
         ),
         "plan a study": (lambda: zc.plan(axis), ("plan", manifest)),
         "plan a study with settings": (
@@ -118,7 +118,7 @@ def asked(axis: zc.Study, small: zc.Results, other: zc.Results, results_of: Resu
         "plan from a pilot": (lambda: zc.plan(small), ("plan", small.path)),
         "plan an equivalence": (
             lambda: zc.plan(few, margin=margin, power=0.9),
-            ("plan", folder / "few.yaml", "--margin", "success_rate=0.2", "--margin", "settling_time=50%", "--power", 0.9),
+            ("plan", folder / "few.yaml", "--margin", "success_rate=0.2", "--margin", "arrival_time=50%", "--power", 0.9),
         ),
         "identify": (lambda: zc.identify(records.path, point="steps"), steps),
         "identify laws": (lambda: zc.identify(records.path, point="steps", model=laws), (*steps, "--model", laws[0], "--model", laws[1])),
@@ -131,8 +131,8 @@ def asked(axis: zc.Study, small: zc.Results, other: zc.Results, results_of: Resu
         "parameters": (lambda: zc.ask("parameters"), ("parameters",)),
         "guides": (lambda: zc.ask("parameters", guides=True), ("parameters", "--guides")),
         "sensitivity": (
-            lambda: zc.ask("sensitivity", small, output=["success", "settling_time"]),
-            ("sensitivity", small.path, "--output", "success", "--output", "settling_time"),
+            lambda: zc.ask("sensitivity", small, output=["success", "arrival_time"]),
+            ("sensitivity", small.path, "--output", "success", "--output", "arrival_time"),
         ),
     }
 

@@ -27,7 +27,7 @@ ODD = [None, 3, 2.5, True, b"x", [1], {1: 2}, Odd(), Odd, np.array(1.0), lambda:
 def calls(axis: zc.Study, first: zc.Results) -> dict[str, Callable[[Any], Any]]:
     """Calls of public functions with an odd value as one of their arguments."""
     sample = zc.sample(axis, 2)
-    watch = zc.monitor({"settling_time": [0.04, 0.05, 0.06]})
+    watch = zc.monitor({"arrival_time": [0.04, 0.05, 0.06]})
     return {
         "study": zc.study,
         "open": zc.open,
@@ -38,7 +38,7 @@ def calls(axis: zc.Study, first: zc.Results) -> dict[str, Callable[[Any], Any]]:
         "compare": zc.compare,
         "identify": zc.identify,
         "monitor": zc.monitor,
-        "monitor moves": lambda odd: zc.monitor({"settling_time": [0.04, 0.05]}, Odd() if odd is None else odd),
+        "monitor moves": lambda odd: zc.monitor({"arrival_time": [0.04, 0.05]}, Odd() if odd is None else odd),
         "update": watch.update,
         "read": watch.read,
         "plan": lambda odd: zc.plan(success=odd, failures=odd),
@@ -108,14 +108,14 @@ def test_results_are_the_same_in_another_folder_and_process(
     monkeypatch.chdir(first.path.parent)
     results = zc.open(first.path.name)
     log = pathlib.Path("log.csv")
-    log.write_text("settling_time\n" + "0.04\n0.05\n" * 10)
+    log.write_text("arrival_time\n" + "0.04\n0.05\n" * 10)
     watch = zc.monitor(str(log))
     (tmp_path / "results.pickle").write_bytes(pickle.dumps(results))
     monkeypatch.chdir(tmp_path)
     assert results.path.is_absolute()
     assert results.judge().status == first.judge().status
     assert len(results.moves(0)) > 0
-    assert watch.update({"settling_time": [0.05]}).status == "undecided"
+    assert watch.update({"arrival_time": [0.05]}).status == "undecided"
     code = "import pickle, pathlib; print(pickle.loads(pathlib.Path('results.pickle').read_bytes()).judge().status)"
     said = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, env=dict(os.environ))
     assert said.stdout.strip() == first.judge().status

@@ -11,7 +11,7 @@ MANIFEST = """\
 zerocount: 1
 name: two-goals
 seed: 5
-rigs: 20
+machines: 20
 trials: 100
 goals:
   first: {on: [0], tolerance: 4.0e-6, after_profile: 0.15, moves: 0.5, machines: 0.5, limits: {overshoot: 3}}

@@ -274,7 +274,7 @@ def test_an_interruption_stops_a_sample(axis: zc.Study, interrupted_soon: None) 
 @pytest.mark.long
 def test_other_threads_run_beside_a_sample(axis: zc.Study) -> None:
     """Python's lock is free while trials are simulated: another thread makes progress, and may simulate too."""
-    f = zc.sample(axis, 2, outcome="settling_time", threads=1)
+    f = zc.sample(axis, 2, outcome="arrival_time", threads=1)
     x = f.draw(4000)
     expected = f(x[:300])
     steps, stop, beside = [0], threading.Event(), []

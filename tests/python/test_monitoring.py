@@ -20,15 +20,15 @@ def times(seed: int, moves: int, factor: float = 1.0) -> list[float]:
 
 
 def test_updates_say_what_the_log_says(tmp_path: pathlib.Path) -> None:
-    before = pd.DataFrame({"settling_time": times(1, 100), "overshoot": np.arange(100) % 3})
-    moves = pd.DataFrame({"settling_time": times(2, 30) + times(3, 60, 1.5), "overshoot": np.arange(90) % 3})
-    moves.loc[5, "settling_time"] = np.nan
+    before = pd.DataFrame({"arrival_time": times(1, 100), "overshoot": np.arange(100) % 3})
+    moves = pd.DataFrame({"arrival_time": times(2, 30) + times(3, 60, 1.5), "overshoot": np.arange(90) % 3})
+    moves.loc[5, "arrival_time"] = np.nan
     before.to_csv(tmp_path / "before.csv", index=False)
     moves.to_csv(tmp_path / "moves.csv", index=False)
     watch = zc.monitor(before)
     assert watch.update(moves[:20]).status == "undecided"
     assert watch.update(moves[20:30].to_dict("records")).moves == 30
-    answer = watch.update(moves[30:][["overshoot", "settling_time"]])
+    answer = watch.update(moves[30:][["overshoot", "arrival_time"]])
     by_hand = json.loads(by_program("monitor", tmp_path / "before.csv", tmp_path / "moves.csv", "--format", "json", accepted=(1,)))
     assert [answer[key] for key in SAME] == [by_hand[key] for key in SAME]
     assert (answer.status, answer.direction) == ("changed", "higher")
@@ -38,45 +38,45 @@ def test_updates_say_what_the_log_says(tmp_path: pathlib.Path) -> None:
 
 @pytest.mark.long
 def test_results_are_a_baseline(small: zc.Results) -> None:
-    moves = {"settling_time": [10.0, None, 10.0] * 5}
+    moves = {"arrival_time": [10.0, None, 10.0] * 5}
     answer = zc.monitor(small, moves, point=0)
     assert (answer.status, answer.direction) == ("changed", "higher")
     assert answer.baseline_moves == len(small.moves(0))
 
 
 def test_moves_of_other_columns_are_refused() -> None:
-    watch = zc.monitor({"settling_time": times(1, 10)})
-    watch.update({"settling_time": 0.05})
-    with pytest.raises(ValueError, match="expected settling_time"):
+    watch = zc.monitor({"arrival_time": times(1, 10)})
+    watch.update({"arrival_time": 0.05})
+    with pytest.raises(ValueError, match="expected arrival_time"):
         watch.update({"overshoot": 1})
     with pytest.raises(ValueError, match="different lengths"):
-        zc.monitor({"settling_time": [0.05, 0.06], "overshoot": [1]})
+        zc.monitor({"arrival_time": [0.05, 0.06], "overshoot": [1]})
     with pytest.raises(zc.ManifestError, match="no measure to compare"):
-        zc.monitor({"overshoot": [1, 2]}, {"settling_time": [1.0]})
+        zc.monitor({"overshoot": [1, 2]}, {"arrival_time": [1.0]})
 
 
 def test_what_is_not_judged_is_named() -> None:
     """A column under another name is told from one that is not there."""
-    before = {"settling_time": times(1, 100), "overshoot": list(range(100)), "jerk_count": [0, 1] * 50}
-    moves = {"settling_time": times(2, 100), "Over_Shoot": list(range(100))}
+    before = {"arrival_time": times(1, 100), "overshoot": list(range(100)), "jerk_count": [0, 1] * 50}
+    moves = {"arrival_time": times(2, 100), "Over_Shoot": list(range(100))}
     answer = zc.monitor(before, moves)
     missing = answer.not_judged[answer.not_judged.why == "missing"]
     assert list(missing.measure) == ["overshoot", "jerk_count"]
     assert list(missing.near)[0] == "Over_Shoot"
-    with pytest.raises(zc.ManifestError, match="the column 'Settling_Time' of .* looks like settling_time"):
-        zc.monitor(before, {"Settling_Time": times(2, 10), "stable": [1] * 10})
-    with pytest.raises(zc.ManifestError, match="'Settling_Time' looks like settling_time"):
-        zc.monitor(before, {"Settling_Time": times(2, 10)})
+    with pytest.raises(zc.ManifestError, match="the column 'Arrival_Time' of .* looks like arrival_time"):
+        zc.monitor(before, {"Arrival_Time": times(2, 10), "stable": [1] * 10})
+    with pytest.raises(zc.ManifestError, match="'Arrival_Time' looks like arrival_time"):
+        zc.monitor(before, {"Arrival_Time": times(2, 10)})
 
 
 def test_refused_moves_are_not_added() -> None:
-    watch = zc.monitor({"settling_time": times(1, 10)})
+    watch = zc.monitor({"arrival_time": times(1, 10)})
     with pytest.raises(ValueError, match="no columns"):
         watch.update([])
     with pytest.raises(zc.DataError):
-        watch.update({"settling_time": [0.05, -1.0]})
-    assert watch.update({"settling_time": [0.05]}).moves == 1
+        watch.update({"arrival_time": [0.05, -1.0]})
+    assert watch.update({"arrival_time": [0.05]}).moves == 1
     with pytest.raises(zc.DataError):
-        watch.update({"settling_time": "soon"})
+        watch.update({"arrival_time": "soon"})
     assert watch.update([]).moves == 1
-    assert watch.update({"settling_time": [pd.NA, None]}).moves == 3
+    assert watch.update({"arrival_time": [pd.NA, None]}).moves == 3

@@ -25,9 +25,9 @@ sys.meta_path.insert(0, Blocked())
 import numpy as np
 import zerocount as zc
 
-s = zc.study("my-axis.yaml").set(rigs=20, trials=40).sweep("controller.ki", [5e3, 1.2e4])
+s = zc.study("my-axis.yaml").set(machines=20, trials=40).sweep("controller.ki", [5e3, 1.2e4])
 r = s.run("without.h5")
-f = zc.sample(r, 1, outcome="settling_time")
+f = zc.sample(r, 1, outcome="arrival_time")
 answers = {{
     "judge": r.judge().status,
     "trace": r.trace(1, 3).error[-1].item(),
@@ -48,7 +48,7 @@ for name, ask in {{
     "trials": r.trials,
     "moves": r.moves,
     "jerks": r.jerks,
-    "rigs": r.rigs,
+    "machines": r.machines,
     "levels": r.levels,
     "dataset": lambda: r.dataset,
     "matplotlib": lambda: r.plot("success").matplotlib(),
@@ -102,7 +102,7 @@ def test_everything_else_works_without_them(axis: zc.Study, folder: pathlib.Path
     """Runs, judgements, traces, samples and answers are as with the packages, and none of these is imported."""
     answers = without["answers"]
     r = zc.open(folder / "without.h5")
-    f = zc.sample(r, 1, outcome="settling_time")
+    f = zc.sample(r, 1, outcome="arrival_time")
     assert without["loaded"] == []
     assert answers["judge"] == r.judge().status and answers["trace"] == r.trace(1, 3).error[-1]
     assert answers["trial"] == [0.0, 0.0]

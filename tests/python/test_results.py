@@ -76,7 +76,7 @@ def flat(record: dict[str, Any], prefix: str = "") -> dict[str, Any]:
 
 @pytest.fixture(params=["small", *dear_by_night(CLOSED)])
 def results(request: pytest.FixtureRequest, small: zc.Results, results_of: ResultsOf) -> zc.Results:
-    """Results of closed loops: trials on rigs, in worlds, with profiles, of a sequence, of a linear axis."""
+    """Results of closed loops: trials on machines, in worlds, with profiles, of a sequence, of a linear axis."""
     return small if request.param == "small" else results_of(request.param)
 
 
@@ -165,9 +165,9 @@ def test_trials_tell_how_moves_are_combined(small: zc.Results) -> None:
     assert set(small.moves()) - {"goal_met"} == set(told)
 
 
-@pytest.mark.parametrize("shared", [{"rigs": 6}, {"worlds": 3}, {"rigs": 6, "worlds": 3}], ids=str)
+@pytest.mark.parametrize("shared", [{"machines": 6}, {"worlds": 3}, {"machines": 6, "worlds": 3}], ids=str)
 def test_trials_under_a_condition_are_those_of_its_study(shared: dict[str, int], tmp_path: pathlib.Path) -> None:
-    """The trials under a condition are those of the study with its overrides, with rig and world."""
+    """The trials under a condition are those of the study with its overrides, with machine and world."""
     manifest: dict[str, Any] = {
         "zerocount": 1,
         "name": "conditions",
@@ -202,7 +202,7 @@ def test_ages_and_lives_are_those_of_the_trials(tmp_path: pathlib.Path) -> None:
         "zerocount": 1,
         "name": "ages",
         "seed": 3,
-        "rigs": 6,
+        "machines": 6,
         "trials": 144,
         "conditions": {"empty": {}, "loaded": {"plant.inertia": 9e-4}},
         "ages": {"at": [0, 10, 100], "unit": "h"},
@@ -219,14 +219,14 @@ def test_ages_and_lives_are_those_of_the_trials(tmp_path: pathlib.Path) -> None:
     assert set(trials["condition"]) == {"empty", "loaded"}
     assert found.dataset["age"].values.tolist() == trials["age"].tolist()
     young = trials["k1"] / (1 + trials["aging"] * trials["age"] / 100)
-    np.testing.assert_allclose(young, young.groupby(trials["rig"]).transform("first"), rtol=1e-12)
+    np.testing.assert_allclose(young, young.groupby(trials["machine"]).transform("first"), rtol=1e-12)
     counts = trials.groupby("age")[["success", "goal_met"]].sum()
     assert counts["success"].tolist() == ages["success"].tolist()
     assert counts["goal_met"].tolist() == ages["goal_met"].tolist()
-    meets = moves.groupby(["age", "condition", "rig"], observed=True)["goal_met"].mean() >= 0.8
-    of_rigs = meets.groupby(["age", "rig"]).all().unstack("age")
-    assert of_rigs.mean().tolist() == ages["machines"].tolist()
-    alive = of_rigs.cummin(axis=1)
+    meets = moves.groupby(["age", "condition", "machine"], observed=True)["goal_met"].mean() >= 0.8
+    of_machines = meets.groupby(["age", "machine"]).all().unstack("age")
+    assert of_machines.mean().tolist() == ages["machines"].tolist()
+    alive = of_machines.cummin(axis=1)
     expected = [max((age for age in alive if row[age]), default=np.nan) for _, row in alive.iterrows()]
     assert same(lives["life"].to_numpy(), np.array(expected))
     assert lives.attrs["units"]["life"] == "h"
@@ -262,17 +262,17 @@ def test_moves_can_have_their_inputs(results: zc.Results) -> None:
 
 
 def test_tables_agree_with_one_another(results: zc.Results) -> None:
-    """Rates, rigs, worlds, jerks and the tables of single points follow from the trials."""
+    """Rates, machines, worlds, jerks and the tables of single points follow from the trials."""
     trials, table, jerks = results.trials(), results.table, results.jerks()
     rates = table["success_rate"].to_numpy()
     with h5py.File(results.path) as file:
-        constant = {kind: list(file.get(f"{kind}/input", ())) for kind in ("rig", "world")}
+        constant = {kind: list(file.get(f"{kind}/input", ())) for kind in ("machine", "world")}
     assert (trials.groupby("point")["success"].mean() == table["success_rate"]).all()
     assert (trials.groupby("point").size() == table["trials"]).all()
     per_trial = jerks.groupby("trial").size().reindex(trials.index, fill_value=0)
     assert (per_trial == trials["jerk_count"]).all()
     assert np.allclose(trials.groupby("point")["jerk_count"].mean(), table["jerk_count_mean"], rtol=1e-14)
-    for kind in ("rig", "world"):
+    for kind in ("machine", "world"):
         if kind in trials:
             machines = getattr(results, kind + "s")
             assert (machines()["success"] == trials.groupby(kind)["success"].sum()).all()
@@ -283,7 +283,7 @@ def test_tables_agree_with_one_another(results: zc.Results) -> None:
             assert (trials.groupby(kind)[inputs_of].nunique() == 1).all(axis=None)
             assert same(trials.groupby(kind)[inputs_of].first().to_numpy(), machines()[inputs_of].to_numpy())
         else:
-            with pytest.raises(zc.DataError, match="has no " + ("machines" if kind == "rig" else kind + "s")):
+            with pytest.raises(zc.DataError, match="has no " + ("machines" if kind == "machine" else kind + "s")):
                 getattr(results, kind + "s")()
     for point in (0, len(table) - 1):
         mine = trials[trials["point"] == point]
@@ -326,7 +326,7 @@ def test_an_open_loop_has_levels(name: str, results_of: ResultsOf, tmp_path: pat
     assert set(r.trials()["outcome"]) == {"open_loop"} and not r.trials()["success"].any()
     assert len(r.table) == len(tables["points"]) and r.table["success_rate"].isna().all()
     with pytest.raises(zc.DataError, match="jerks|machines"):
-        r.rigs()
+        r.machines()
 
 
 def test_a_closed_loop_has_no_levels(small: zc.Results) -> None:
@@ -337,10 +337,10 @@ def test_a_closed_loop_has_no_levels(small: zc.Results) -> None:
 
 def test_kept_failures_are_the_failures(axis: zc.Study, tmp_path: pathlib.Path) -> None:
     """A study that keeps failures has the same statistics, and those trials, moves and jerks that failed."""
-    study = axis.set(rigs=20, trials=60).sweep("controller.ki", [1e4, 6e4])
+    study = axis.set(machines=20, trials=60).sweep("controller.ki", [1e4, 6e4])
     everything = study.run(tmp_path / "all.h5")
     failures = study.set(keep="failures").run(tmp_path / "failures.h5")
-    assert failures.table.equals(everything.table) and failures.rigs(1).equals(everything.rigs(1))
+    assert failures.table.equals(everything.table) and failures.machines(1).equals(everything.machines(1))
     for point in (None, 0, 1):
         trials = everything.trials(point)
         failed = trials[~trials["success"]]
@@ -363,7 +363,7 @@ def test_a_point_is_named_by_its_number_or_label(small: zc.Results) -> None:
     """All numbers and labels are points, of NumPy too; nothing else is."""
     for number, label in enumerate(small.study.labels):
         assert small.point(number) == small.point(np.int64(number)) == small.point(label) == small.point(str(number)) == number
-    asks = (small.point, small.trials, small.moves, small.jerks, small.rigs, small.trace, small.judge)
+    asks = (small.point, small.trials, small.moves, small.jerks, small.machines, small.trace, small.judge)
     for wrong, ask in zip((-1, 3, "3", "0.5", "", "controller.ki", 99), asks):
         with pytest.raises(zc.ManifestError, match="expected 0 to 2 or a label"):
             ask(wrong)
@@ -376,7 +376,7 @@ def test_a_point_is_named_by_its_number_or_label(small: zc.Results) -> None:
 def test_names_are_unique_and_short(path: pathlib.Path) -> None:
     """The names of the columns of trials are ends of the full names, tell them apart, and are no longer than needed."""
     study = zc.study(path).checked
-    full = ["trial", "point", "index", "rig", "world", *(column["name"] for column in study.inputs), *study.descriptions["outcome"]]
+    full = ["trial", "point", "index", "machine", "world", *(column["name"] for column in study.inputs), *study.descriptions["outcome"]]
     short = [short_name(name, full) for name in full]
     assert len(set(short)) == len(full)
     for name, less in zip(full, short):
@@ -468,7 +468,7 @@ def test_a_trial_that_does_not_exist_is_refused(small: zc.Results, point: int, t
 
 def test_results_have_the_study_that_was_run(axis: zc.Study, folder: pathlib.Path, tmp_path: pathlib.Path) -> None:
     """The study of a results file has its hash, also where the command line set a key twice."""
-    words = ["--set", "trials=40", "--set", "rigs=20", "--set", "command.targets.0=5", "--set", "trials=60"]
+    words = ["--set", "trials=40", "--set", "machines=20", "--set", "command.targets.0=5", "--set", "trials=60"]
     by_program("run", folder / "my-axis.yaml", "-o", tmp_path / "r.h5", "-q", *words)
     r = zc.open(tmp_path / "r.h5")
     assert r.checked.sha256 == h5py.File(r.path).attrs["study_sha256"]

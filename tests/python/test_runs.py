@@ -75,7 +75,7 @@ def test_a_finished_run_is_opened(axis: zc.Study, first: zc.Results, capfd: pyte
 def test_a_study_that_stopped_is_opened(axis: zc.Study, tmp_path: pathlib.Path) -> None:
     """A finished study that chose its number of trials is opened by its own study."""
     stop = {"success_rate_halfwidth": 0.1, "max_trials": 1000}
-    study = axis.without("goal", "rigs").sweep("controller.ki", [5e3]).set(trials=100, stop=stop)
+    study = axis.without("goal", "machines").sweep("controller.ki", [5e3]).set(trials=100, stop=stop)
     r = study.run(tmp_path / "stop.h5")
     assert 100 < len(r.trials()) < 1000
     assert study.run(r.path).trials().equals(r.trials())
@@ -83,7 +83,7 @@ def test_a_study_that_stopped_is_opened(axis: zc.Study, tmp_path: pathlib.Path) 
 
 def test_another_study_is_refused_and_force_replaces_it(axis: zc.Study, tmp_path: pathlib.Path) -> None:
     """A file of another study stays as it was, unless it is to be replaced."""
-    few = axis.set(rigs=2, trials=4)
+    few = axis.set(machines=2, trials=4)
     few.run(tmp_path / "r.h5")
     before = (tmp_path / "r.h5").read_bytes()
     with pytest.raises(zc.ManifestError, match="results of another study: seed is 1 there and 2 here"):
@@ -94,7 +94,7 @@ def test_another_study_is_refused_and_force_replaces_it(axis: zc.Study, tmp_path
 
 def test_a_run_is_extended(axis: zc.Study, tmp_path: pathlib.Path) -> None:
     """More trials of the same study are added to those of the file: all are as in one run."""
-    some, more = axis.set(rigs=4, trials=40), axis.set(rigs=4, trials=100)
+    some, more = axis.set(machines=4, trials=40), axis.set(machines=4, trials=100)
     some.run(tmp_path / "extended.h5")
     r = more.run(tmp_path / "extended.h5")
     assert_same_data(r, more.run(tmp_path / "whole.h5", threads=1))
@@ -112,7 +112,7 @@ def test_progress_is_passed_on(axis: zc.Study, tmp_path: pathlib.Path) -> None:
 
 def test_a_watched_run_leaves_its_report(axis: zc.Study, tmp_path: pathlib.Path) -> None:
     """The page of a watched run ends as its report."""
-    axis.set(trials=20, rigs=20).run(tmp_path / "w.h5", watch=tmp_path / "w.html")
+    axis.set(trials=20, machines=20).run(tmp_path / "w.h5", watch=tmp_path / "w.html")
     assert "Requirements" in (tmp_path / "w.html").read_text()
 
 
@@ -135,11 +135,11 @@ def test_messages_are_those_of_the_program(
 
 def test_a_run_costs_little_more_than_the_program(axis: zc.Study, folder: pathlib.Path, tmp_path: pathlib.Path) -> None:
     """A run takes at most 0.15 s longer than the same command of the program, the check of its manifest included."""
-    path, settings = folder / "my-axis.yaml", {"rigs": 2, "trials": 2}
+    path, settings = folder / "my-axis.yaml", {"machines": 2, "trials": 2}
     alone, by_package = [], []
     for number in range(5):
         start = time.perf_counter()
-        done = program("run", path, "-o", tmp_path / f"{number}.h5", "--set", "rigs=2", "--set", "trials=2")
+        done = program("run", path, "-o", tmp_path / f"{number}.h5", "--set", "machines=2", "--set", "trials=2")
         alone.append(time.perf_counter() - start)
         assert done.returncode == 0
         start = time.perf_counter()

@@ -71,7 +71,7 @@ def scipy_of(form: dict[str, Any]) -> Any:
 def every_kind(axis: zc.Study) -> zc.Study:
     """The README's study with a variable of every distribution, some of them correlated."""
     settings = {**EVERY_KIND, "correlation": CORRELATION}
-    return axis.without("sweep", "rigs", "goal").set(**{"controller.ki": 1.2e4, "command.hold": 0.1, "encoder.fine_errors.noise": 0}).set(**settings)
+    return axis.without("sweep", "machines", "goal").set(**{"controller.ki": 1.2e4, "command.hold": 0.1, "encoder.fine_errors.noise": 0}).set(**settings)
 
 
 def is_discrete(form: dict[str, Any]) -> bool:
@@ -121,7 +121,7 @@ def test_draws_have_the_correlations_of_the_manifest(every_kind: zc.Study) -> No
 
 def test_openturns_has_the_same_distribution(every_kind: zc.Study) -> None:
     """The joint distribution for OpenTURNS has the quantiles and correlations of `draw`, and its draws are accepted."""
-    f = zc.sample(every_kind, outcome="settling_time")
+    f = zc.sample(every_kind, outcome="arrival_time")
     joint = f.distribution
     assert list(joint.getDescription()) == f.names
     u = np.linspace(0.0005, 0.9995, 500)
@@ -160,7 +160,7 @@ def test_the_inputs_of_trials_give_their_recorded_outcomes(name: str, first: zc.
     r = first if name == "first" else results_of(name)
     points = sorted({0, len(r.checked.labels) // 2, len(r.checked.labels) - 1})
     trials = r.trials()
-    measures = ["success", "settling_time", "peak_torque", "jerk_count", "final_error", "band_settling_time[0]"]
+    measures = ["success", "arrival_time", "peak_torque", "jerk_count", "final_error", "band_settling_time[0]"]
     equal = total = 0
     for point in points:
         mine = trials[trials["point"] == point]
@@ -188,7 +188,7 @@ def test_a_profile_is_its_mean_and_its_score(folder: pathlib.Path) -> None:
     """The profile of each trial is drawn anew; the success over draws is that of a study with many machines."""
     study = zc.study(
         {
-            "zerocount": 1, "name": "profile", "seed": 5, "rigs": 1500, "trials": 1500,
+            "zerocount": 1, "name": "profile", "seed": 5, "machines": 1500, "trials": 1500,
             "friction": {"k1": {"profile": {"mean": {"lognormal": {"median": 110, "cv": 0.1}}, "cv": 0.2, "correlation_length": 0.2}}},
             "controller": {"ki": 9e-5}, "command": {"targets": [{"integers": [1, 30]}], "hold": 0.3},
             "initial": {"encoder_phase": {"uniform": [0, 1]}, "position": {"uniform": [0, 6.283185307179586]}},
@@ -318,9 +318,9 @@ def test_outcomes_are_the_measures_of_trials(first: zc.Results) -> None:
             expected = trials[name].to_numpy(dtype=float)
             assert np.isclose(found, expected, rtol=1e-12, atol=0, equal_nan=True).mean() >= 0.95, name
     with pytest.raises(zc.ManifestError, match="a number for each trial"):
-        zc.sample(first, 2, outcome=lambda measures: measures["settling_time"])(x)
-    late = zc.sample(first, 2, outcome=lambda measures: (measures["settling_time"] > 0.05).sum(axis=1))
-    assert same(late(x), (measures["settling_time"] > 0.05).sum(axis=1).astype(float))
+        zc.sample(first, 2, outcome=lambda measures: measures["arrival_time"])(x)
+    late = zc.sample(first, 2, outcome=lambda measures: (measures["arrival_time"] > 0.05).sum(axis=1))
+    assert same(late(x), (measures["arrival_time"] > 0.05).sum(axis=1).astype(float))
 
 
 OUTSIDE = {

@@ -51,7 +51,7 @@ def test_a_shipped_manifest_survives_a_dict(path: pathlib.Path) -> None:
     """A shipped manifest that was made a dict and a study again is the same study."""
     study = zc.study(path)
     again = zc.study(study.to_dict())
-    for what in ("labels", "trials", "rigs", "worlds", "moves", "goal", "name"):
+    for what in ("labels", "trials", "machines", "worlds", "moves", "goal", "name"):
         assert getattr(again, what) == getattr(study, what)
     for what in ("inputs", "axes", "bands", "seed", "description"):
         assert repr(getattr(again.checked, what)) == repr(getattr(study.checked, what))
@@ -112,7 +112,7 @@ def test_a_value_that_a_manifest_cannot_have_is_refused(axis: zc.Study, value: A
 def test_a_setting_is_what_the_program_calls_set(axis: zc.Study, folder: pathlib.Path) -> None:
     """The hash of a study with settings is the one that `zerocount run --set` records, and their order counts."""
     values: dict[str, Any] = {
-        "trials": 4, "rigs": 2, "controller.delay": 1, "friction.k1": {"lognormal": {"median": 80, "cv": 0.1}},
+        "trials": 4, "machines": 2, "controller.delay": 1, "friction.k1": {"lognormal": {"median": 80, "cv": 0.1}},
         "command.targets.0": 5, "sweep.grid.controller.ki": [5000.0, 2e4], "description": "yes: a #text",
     }  # fmt: skip
     for number, order in enumerate([list(values), list(values)[::-1]]):
@@ -127,8 +127,8 @@ def test_a_setting_is_what_the_program_calls_set(axis: zc.Study, folder: pathlib
 
 def test_the_last_setting_of_a_key_holds(axis: zc.Study) -> None:
     """A study does not change; a later setting takes the place of an earlier one, also of a part of it."""
-    study = axis.set(trials=2000, rigs=10).set(trials=30)
-    assert (axis.trials, study.trials, study.rigs) == (400, 30, 10)
+    study = axis.set(trials=2000, machines=10).set(trials=30)
+    assert (axis.trials, study.trials, study.machines) == (400, 30, 10)
     part = axis.set(**{"command.targets.0": 5}).set(command={"targets": [7, 8, 9], "hold": 0.5})
     assert part.moves == 3 and part.set(**{"command.targets.0": 5}).to_dict()["command"]["targets"] == [5, 8, 9]
 
@@ -197,7 +197,7 @@ def test_a_study_is_a_study(axis: zc.Study) -> None:
     again = pickle.loads(pickle.dumps(study))
     assert again.sha256 == study.sha256 and repr(again) == "<Study 'my-axis': 8 design points × 3000 trials>"
     assert axis.sweep("controller.ki", {"logspace": [5e3, 1e5, 8]}).labels == axis.labels
-    assert "my-axis" in repr(axis.set(rigs=0))
+    assert "my-axis" in repr(axis.set(machines=0))
 
 
 def test_a_saved_study_reads_again(axis: zc.Study, tmp_path: pathlib.Path) -> None:
@@ -292,7 +292,7 @@ def test_a_study_at_a_point_has_the_lists_that_are_swept(axis: zc.Study) -> None
 BAD_SETTINGS: list[tuple[str, Any, str]] = [
     ("dac.bits", 99, "dac.bits"),
     ("friction.k11", 3, "friction.k11"),
-    ("rigs", 0, "rigs"),
+    ("machines", 0, "machines"),
     ("controller.sample_rate", "fast", "controller.sample_rate"),
     ("controller.sample_rate", "very fast", "controller.sample_rate"),
     ("friction.k1", {"uniform": [-1, 2]}, "friction.k1.uniform"),
@@ -327,7 +327,7 @@ def test_an_error_that_a_setting_causes_elsewhere_names_the_manifest(axis: zc.St
 def test_errors_can_be_sent_to_another_process(axis: zc.Study) -> None:
     """An error survives pickling with all its parts."""
     with pytest.raises(zc.ManifestError) as raised:
-        axis.set(rigs=0).checked
+        axis.set(machines=0).checked
     again = pickle.loads(pickle.dumps(raised.value))
     assert type(again) is zc.ManifestError and again.problems == raised.value.problems and again.code == 2
 

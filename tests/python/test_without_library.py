@@ -16,7 +16,7 @@ import json, math, sys
 import numpy as np
 import zerocount as zc
 
-s = zc.study("my-axis.yaml").set(rigs=20, trials=40).sweep("controller.ki", [5e3, 1.2e4])
+s = zc.study("my-axis.yaml").set(machines=20, trials=40).sweep("controller.ki", [5e3, 1.2e4])
 r = s.run("without-library.h5")
 refused = {}
 for name, ask in {
@@ -44,7 +44,7 @@ def test_all_else_is_as_with_it(axis: zc.Study, folder: pathlib.Path) -> None:
     done = subprocess.run([sys.executable, "-c", SCRIPT], cwd=folder, capture_output=True, text=True, check=False, env=environment)
     assert done.returncode == 0, done.stderr
     found = json.loads(done.stdout)
-    s = axis.set(rigs=20, trials=40).sweep("controller.ki", [5e3, 1.2e4])
+    s = axis.set(machines=20, trials=40).sweep("controller.ki", [5e3, 1.2e4])
     r = zc.open(folder / "without-library.h5")
     assert found["facts"] == {name: repr(value) for name, value in vars(s.checked).items() if name != "_handle"}
     assert found["recorded"] == s.sha256 and found["tree"] == s.to_dict() and found["point"] == 1

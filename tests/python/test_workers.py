@@ -50,7 +50,7 @@ def client() -> Iterator[Any]:
 @pytest.fixture(scope="module")
 def long(axis: zc.Study) -> zc.Study:
     """The first study at three gains, which takes a second or two."""
-    return axis.set(rigs=200, trials=400).sweep("controller.ki", [5e3, 1.2e4, 4e4])
+    return axis.set(machines=200, trials=400).sweep("controller.ki", [5e3, 1.2e4, 4e4])
 
 
 @pytest.fixture(scope="module")
@@ -133,7 +133,7 @@ def test_an_interrupted_call_goes_on_with_the_parts_that_are_missing(
 @pytest.mark.long
 def test_force_discards_what_is_there(axis: zc.Study, client: Any, tmp_path: pathlib.Path) -> None:
     """Parts, shards and results of another study are replaced only with force."""
-    few = axis.set(rigs=2, trials=4)
+    few = axis.set(machines=2, trials=4)
     (tmp_path / "r.h5.shards").mkdir()
     with pytest.raises(zc.ManifestError, match=r"continue it without a client"):
         few.run(tmp_path / "r.h5", client=client)
@@ -147,7 +147,7 @@ def test_force_discards_what_is_there(axis: zc.Study, client: Any, tmp_path: pat
 @pytest.mark.parametrize("parts", [0, 33])
 def test_a_study_cannot_have_more_parts_than_trials(axis: zc.Study, client: Any, tmp_path: pathlib.Path, parts: int) -> None:
     """The number of parts is from 1 to that of the trials; the default is at most the latter."""
-    few = axis.set(rigs=2, trials=4)
+    few = axis.set(machines=2, trials=4)
     with pytest.raises(zc.ManifestError, match=rf"parts={parts}: expected a number from 1 to 32"):
         few.run(tmp_path / "r.h5", client=client, parts=parts)
     assert list(tmp_path.iterdir()) == []
@@ -156,14 +156,14 @@ def test_a_study_cannot_have_more_parts_than_trials(axis: zc.Study, client: Any,
 def test_a_study_that_cannot_be_divided_is_refused_at_once(axis: zc.Study, client: Any, tmp_path: pathlib.Path) -> None:
     """What is wrong with the study has the error of the program, and no other worker tries it."""
     stop = {"success_rate_halfwidth": 0.1, "max_trials": 1000}
-    study = axis.without("goal", "rigs").sweep("controller.ki", [5e3]).set(trials=100, stop=stop)
+    study = axis.without("goal", "machines").sweep("controller.ki", [5e3]).set(trials=100, stop=stop)
     with pytest.raises(zc.ManifestError, match="a study with `stop` cannot be divided"):
         study.run(tmp_path / "r.h5", client=client)
 
 
 def test_workers_need_no_folder_of_the_client(long: zc.Study, client: Any, tmp_path: pathlib.Path) -> None:
     """A study whose folder a worker does not have runs there."""
-    study = zc.studies.Study(long.text, "elsewhere.yaml", tmp_path / "only-here", ["trials=4", "rigs=2"])
+    study = zc.studies.Study(long.text, "elsewhere.yaml", tmp_path / "only-here", ["trials=4", "machines=2"])
     (tmp_path / "only-here").mkdir()
     build = program("--version").stdout.strip()
     sent = client.submit(workers.run_part, study, 1, 2, 1, build).result()
@@ -193,7 +193,7 @@ def program_of_workers(client: Any, path: str) -> Iterator[None]:
 @pytest.mark.long
 def test_a_failure_of_the_workers_is_one_of_the_machine(axis: zc.Study, client: Any, tmp_path: pathlib.Path) -> None:
     """A part that fails on every worker ends the run with what the package says there."""
-    few = axis.set(rigs=2, trials=4)
+    few = axis.set(machines=2, trials=4)
     with program_of_workers(client, "/nowhere/zerocount"):
         with pytest.raises(zc.MachineError, match="/nowhere/zerocount is not a program that runs here"):
             few.run(tmp_path / "r.h5", client=client, parts=2)
@@ -214,7 +214,7 @@ def test_a_part_whose_machine_fails_runs_again(axis: zc.Study, client: Any, tmp_
     script = tmp_path / "fails-once"
     script.write_text(FAILS_ONCE.format(folder=tmp_path, program=os.environ["ZEROCOUNT_PROGRAM"]), encoding="utf-8")
     script.chmod(0o700)
-    few = axis.set(rigs=2, trials=4)
+    few = axis.set(machines=2, trials=4)
     with program_of_workers(client, str(script)):
         r = few.run(tmp_path / "r.h5", client=client, parts=2)
     assert (tmp_path / "failed").is_dir()

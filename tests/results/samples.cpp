@@ -129,24 +129,24 @@ study::Study sample_study(std::int64_t points, std::int64_t trials, std::int64_t
   return study;
 }
 
-study::Study sample_study_with_rigs(std::int64_t points, std::int64_t trials, std::int64_t moves) {
+study::Study sample_study_with_machines(std::int64_t points, std::int64_t trials, std::int64_t moves) {
   study::Study study = sample_study(points, trials, moves);
-  study.rigs = 8;
+  study.machines = 8;
   auto plan = std::make_shared<study::StudyPlan>();
-  plan->base = {{.kind = study::Value::Kind::distribution, .index = 0, .level = study::DrawLevel::rig}};
+  plan->base = {{.kind = study::Value::Kind::distribution, .index = 0, .level = study::DrawLevel::machine}};
   plan->distributions = {distributions::Uniform{100.0, 120.0}};
   plan->randomness.resize(1);
-  plan->shared_inputs[study::Grouping::rig] = {{0, false}};
+  plan->shared_inputs[study::Grouping::machine] = {{0, false}};
   study.plan = std::move(plan);
-  study.columns.shared[study::Grouping::rig] = {
-      {"friction.k1", "N m/rad", "lowest stiffness", study::DrawLevel::rig}};
-  study::RealisedProfile of_rigs{"friction.k2", "N m/rad", study.profiles[0].profile};
-  of_rigs.of_rig = [one = study.profiles[0].profile](std::int64_t rig) {
+  study.columns.shared[study::Grouping::machine] = {
+      {"friction.k1", "N m/rad", "lowest stiffness", study::DrawLevel::machine}};
+  study::RealisedProfile of_machines{"friction.k2", "N m/rad", study.profiles[0].profile};
+  of_machines.of_machine = [one = study.profiles[0].profile](std::int64_t machine) {
     friction::Profile rotor = *one;
-    rotor.location += 0.01 * static_cast<double>(rig);
+    rotor.location += 0.01 * static_cast<double>(machine);
     return std::make_shared<const friction::Profile>(rotor);
   };
-  study.profiles.push_back(of_rigs);
+  study.profiles.push_back(of_machines);
   return study;
 }
 
@@ -198,9 +198,9 @@ std::vector<shards::ShardInfo> write_sample_shards(const std::filesystem::path& 
 layout::StoredStatistics sample_statistics(const reading::AllTrialsFile& file) {
   const std::int64_t trials = file.header().trials;
   layout::PointColumn count{"trials", "1", "trials of the design point", {}};
-  layout::PointColumn settling{"settling_time_mean", "s", "mean settling time of the first move", {}};
+  layout::PointColumn settling{"arrival_time_mean", "s", "mean settling time of the first move", {}};
   for (std::int64_t point = 0; point < file.header().points; ++point) {
-    const std::vector<double> times = file.measure("settling_time", {point * trials, trials});
+    const std::vector<double> times = file.measure("arrival_time", {point * trials, trials});
     double sum = 0.0;
     double arrived = 0.0;
     for (std::size_t i = 0; i < times.size(); i += static_cast<std::size_t>(file.moves())) {
@@ -212,9 +212,10 @@ layout::StoredStatistics sample_statistics(const reading::AllTrialsFile& file) {
     settling.values.push_back(sum / arrived);
   }
   layout::StoredStatistics stored{{count, settling}, {sample_table(file)}, {}};
-  if (const std::optional<reading::StoredGroups> rigs = file.groups("rig")) {
-    stored.groups["rig"] = counted_worlds(file, rigs->count);  // as if trial i were on rig i mod 8
-    stored.groups["rig"].goal_met.clear();
+  if (const std::optional<reading::StoredGroups> machines = file.groups("machine")) {
+    stored.groups["machine"] =
+        counted_worlds(file, machines->count);  // as if trial i were on machine i mod 8
+    stored.groups["machine"].goal_met.clear();
   }
   return stored;
 }
@@ -295,9 +296,9 @@ std::filesystem::path write_file_in_worlds(const std::filesystem::path& director
     add("age", std::ssize(study.ages.at));
     if (!study.ages.at.empty()) {
       const std::vector<double> of_ages(points * study.ages.at.size(), 0.5);
-      const std::vector<double> lives(points * static_cast<std::size_t>(study.rigs));
+      const std::vector<double> lives(points * static_cast<std::size_t>(study.machines));
       stored.groups["age"].statistics = {{"machines", "1", "proportion of machines", of_ages}};
-      stored.groups["rig"].statistics = {{"life", study.ages.unit, "last age", lives}};
+      stored.groups["machine"].statistics = {{"life", study.ages.unit, "last age", lives}};
     }
     return stored;
   };

@@ -15,9 +15,9 @@ namespace zerocount::testing {
 /// record has all columns that there are. Nothing reads its manifest, which is any text.
 study::Study sample_study(std::int64_t points = 3, std::int64_t trials = 40, std::int64_t moves = 2);
 
-/// The same on 8 rigs, with one input that is drawn for each, and a rotor for each.
-study::Study sample_study_with_rigs(std::int64_t points = 3, std::int64_t trials = 40,
-                                    std::int64_t moves = 2);
+/// The same on 8 machines, with one input that is drawn for each, and a rotor for each.
+study::Study sample_study_with_machines(std::int64_t points = 3, std::int64_t trials = 40,
+                                        std::int64_t moves = 2);
 
 /// Some result of a row: random, a function of the row alone. Some trials have no jerks, some many.
 shards::TrialResult sample_result(const study::Study& study, std::int64_t row);

@@ -24,7 +24,7 @@ zerocount: 1
 name: axis <b>|x|</b>
 seed: 7
 trials: 240
-rigs: 24
+machines: 24
 goal: {band: 2, within: 0.3, moves: 0.9, machines: 0.7}
 controller: {ki: 4.0e-5, sample_rate: 2000}
 friction: {k1: {uniform: [70, 150]}, alpha: {log_uniform: [0.1, 4]}}
@@ -47,7 +47,7 @@ zerocount: 1
 name: claims
 seed: 9
 trials: 240
-rigs: 20
+machines: 20
 worlds: 4
 goals:
   large: {"on": [0], band: 1, within: 0.05, moves: 0.9}
@@ -121,15 +121,15 @@ QUESTIONS = [
     "compare axis.h5 again.h5",
     "compare sweep.h5 sweep.h5",
     "history show --database history.sqlite",
-    "monitor axis.h5 tables/outcomes.csv --measure settling_time --measure outcome",
-    "monitor axis.h5 tables/outcomes.csv --rig 3",
+    "monitor axis.h5 tables/outcomes.csv --measure arrival_time --measure outcome",
+    "monitor axis.h5 tables/outcomes.csv --machine 3",
     "accept axis.h5 tables/outcomes.csv",
     "plan axis.yaml",
     "plan axis.h5",
     "plan --success 0.999",
     "plan --halfwidth 0.005",
-    "plan --halfwidth 0.02 --rig-sd 0.1 --true-success 0.9",
-    "plan --success 0.97 --rigs-share 0.9",
+    "plan --halfwidth 0.02 --machine-sd 0.1 --true-success 0.9",
+    "plan --success 0.97 --machines-share 0.9",
     "plan --margin success_rate=0.1 axis.yaml",
     "sensitivity axis.h5",
     "judge claims.h5",

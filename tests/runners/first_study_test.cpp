@@ -70,19 +70,19 @@ std::string success_of(const nlohmann::json& point) {
 // The whole study, as the reader runs it, and what the README says of it.
 TEST_F(FirstStudy, ItsCommandsDoWhatTheReadmeSays) {
   std::istringstream lines(block(text_, "sh"));
-  std::vector<std::string> verbs;
+  std::vector<std::string> commands;
   for (std::string line; std::getline(lines, line);) {
     std::vector<std::string> words = label_text(line);
     ASSERT_FALSE(words.empty());
     EXPECT_EQ(words.front(), "build/release/zerocount") << line;
     words.erase(words.begin());
     ASSERT_FALSE(words.empty()) << line;
-    verbs.push_back(words.front());
+    commands.push_back(words.front());
     if (words.front() == "run") words.insert(words.end(), {"--quiet"});
     const ProgramResult result = program(words);
     EXPECT_EQ(result.code, 0) << line << "\n" << result.err;
   }
-  EXPECT_EQ(verbs, (std::vector<std::string>{"check", "run", "summary", "judge", "report"}));
+  EXPECT_EQ(commands, (std::vector<std::string>{"check", "run", "summary", "judge", "report"}));
   EXPECT_TRUE(says(folder_.read("my-axis.html"), "</html>"));
 
   const auto points = points_of("my-axis.h5");
@@ -96,8 +96,8 @@ TEST_F(FirstStudy, ItsCommandsDoWhatTheReadmeSays) {
   expect_said(
       fmt::format("{} % of the moves are within 10 µrad for good", percent(judged["rate"].get<double>())));
   expect_said("at least " + text::percent_at_least(judged["rate_low"].get<double>()) + " of all moves");
-  expect_said(
-      fmt::format("{} of the 1000 machines had no miss", points[2]["goal"]["rigs_without_miss"].get<int>()));
+  expect_said(fmt::format("{} of the 1000 machines had no miss",
+                          points[2]["goal"]["machines_without_miss"].get<int>()));
   expect_said(fmt::format("too slow ({} %)", percent(points[0]["goal"]["rate"].get<double>())));
   expect_said(fmt::format("criterion (6) holds in {} % of the trials, {} % are stable.",
                           percent(points[4]["prediction"]["stable_share"].get<double>()),

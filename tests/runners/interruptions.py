@@ -136,11 +136,11 @@ class Signals(Runs):
         self.assertIn("are kept", said)
 
     def test_a_command_with_nothing_to_keep_ends_within_a_second(self):
-        (self.folder / "days.csv").write_text("settling_time\n" + "".join(f"{0.01 + (i * 7919 % 997) * 1e-6:.6f}\n" for i in range(2_000_000)))
-        (self.folder / "baseline.csv").write_text("settling_time\n" + "".join(f"{0.01 + (i * 7919 % 997) * 1e-6:.6f}\n" for i in range(1000)))
+        (self.folder / "days.csv").write_text("arrival_time\n" + "".join(f"{0.01 + (i * 7919 % 997) * 1e-6:.6f}\n" for i in range(2_000_000)))
+        (self.folder / "baseline.csv").write_text("arrival_time\n" + "".join(f"{0.01 + (i * 7919 % 997) * 1e-6:.6f}\n" for i in range(1000)))
         for kind in (signal.SIGINT, signal.SIGTERM):
             with self.subTest(kind.name):
-                process = self.begun("monitor", "baseline.csv", "days.csv", "--measure", "settling_time", seconds=0.3)
+                process = self.begun("monitor", "baseline.csv", "days.csv", "--measure", "arrival_time", seconds=0.3)
                 start = time.monotonic()
                 process.send_signal(kind)
                 process.wait()
@@ -150,7 +150,7 @@ class Signals(Runs):
 
 class Files(Runs):
     def outputs(self):
-        """Every kind of file that a verb replaces, and the command that makes it."""
+        """Every kind of file that a command replaces, and the command that makes it."""
         self.complete("run", "short.yaml", "-o", "in.h5")
         return {"out.h5": ["run", "short.yaml", "-o", "out.h5"], "out.csv": ["trace", "in.h5", "-o", "out.csv"],
                 "page.html": ["report", "in.h5", "-o", "page.html"], "copy.yaml": ["new", "paper-gains", "-o", "copy.yaml"],
@@ -188,8 +188,8 @@ class Files(Runs):
         self.complete("run", "short.yaml", "-o", "out.h5")
         with h5py.File(self.folder / "out.h5", "a") as file:
             file.attrs["note"] = "seen"
-        for verb in ("summary", "verify"):
-            refused = self.run_program(verb, "out.h5")
+        for command in ("summary", "verify"):
+            refused = self.run_program(command, "out.h5")
             self.assertEqual(refused.returncode, 4)
             self.assertIn("run its manifest again", refused.stdout + refused.stderr)
 

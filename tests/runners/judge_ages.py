@@ -36,14 +36,14 @@ OF_A_RUN = {"created", "REFERENCE_LIST", "DIMENSION_LIST"}  # attributes with ti
 
 def random_study(draw):
     """A manifest, and its aged values: {path: law, scale, rate of a number, value of a number}."""
-    rigs, conditions, ages, worlds = 2 * draw.randint(1, 3), draw.randint(0, 2), draw.randint(1, 4), draw.choice([0, 2])
+    machines, conditions, ages, worlds = 2 * draw.randint(1, 3), draw.randint(0, 2), draw.randint(1, 4), draw.choice([0, 2])
     at = [draw.choice([0, 2])]
     while len(at) < ages:
         at.append((at[-1] + 1) * draw.randint(2, 40))
     each = draw.randint(1, 3)
     manifest = {
-        "zerocount": 1, "name": "aged", "seed": draw.randint(0, 1 << 40), "rigs": rigs,
-        "trials": rigs * max(conditions, 1) * ages * each, "design": draw.choice(["monte_carlo", "latin_hypercube", "sobol"]),
+        "zerocount": 1, "name": "aged", "seed": draw.randint(0, 1 << 40), "machines": machines,
+        "trials": machines * max(conditions, 1) * ages * each, "design": draw.choice(["monte_carlo", "latin_hypercube", "sobol"]),
         "ages": {"at": at, "unit": draw.choice(["cycles", "h", "km"])},
         "friction": {}, "plant": {}, "initial": {"position": {"uniform": [0, 6]}},
         "controller": {"ki": draw.choice([3e-5, 6e-5])},
@@ -106,23 +106,23 @@ class Files(unittest.TestCase):
 
 class Trials(Files):
     def judge(self, name, manifest, values):
-        rigs, at = manifest["rigs"], np.array(manifest["ages"]["at"], float)
+        machines, at = manifest["machines"], np.array(manifest["ages"]["at"], float)
         conditions, worlds = max(len(manifest.get("conditions", {})), 1), manifest.get("worlds", 0)
         with h5py.File(self.folder / name) as file:
             index, point = file["trial/index"][:], file["trial/point"][:]
-            rig, condition = index % rigs, index // rigs % conditions
-            age = index // (rigs * conditions) % len(at)
-            draw = index % rigs + rigs * (index // (rigs * conditions * len(at)))
+            machine, condition = index % machines, index // machines % conditions
+            age = index // (machines * conditions) % len(at)
+            draw = index % machines + machines * (index // (machines * conditions * len(at)))
             self.assertEqual(file["age/age"][:].tolist(), at.tolist())
             self.assertEqual(file["age/age"].attrs["units"], manifest["ages"]["unit"])
             inputs = {path: data[:] for path, data in file["trial/input"].items()}
-            turns = {"rig": rig, "world": draw % worlds if worlds else None}
+            turns = {"machine": machine, "world": draw % worlds if worlds else None}
             for path, (law, scale, rate, number) in values.items():
                 rates = inputs.get(f"{path}.aging", rate)
                 if rate is None:
-                    of_rig = file[f"rig/input/{path}.aging"][:]
-                    np.testing.assert_array_equal(rates, of_rig[rig])
-                    self.assertEqual(len(set(of_rig)), rigs)
+                    of_machine = file[f"machine/input/{path}.aging"][:]
+                    np.testing.assert_array_equal(rates, of_machine[machine])
+                    self.assertEqual(len(set(of_machine)), machines)
                 new = inputs[path] / LAWS[law](rates, at[age] / scale)
                 if number is not None:
                     np.testing.assert_allclose(new, number, rtol=1e-12)
@@ -136,10 +136,10 @@ class Trials(Files):
                 expected = np.array([manifest["conditions"][c].get("controller.ki", manifest["controller"]["ki"])
                                      for c in manifest["conditions"]])
                 np.testing.assert_array_equal(inputs["controller.ki"], expected[condition])
-            self.judge_counts(file, manifest, point, rig, condition, age)
+            self.judge_counts(file, manifest, point, machine, condition, age)
 
-    def judge_counts(self, file, manifest, point, rig, condition, age):
-        at, rigs, conditions = file["age/age"][:], manifest["rigs"], max(len(manifest.get("conditions", {})), 1)
+    def judge_counts(self, file, manifest, point, machine, condition, age):
+        at, machines, conditions = file["age/age"][:], manifest["machines"], max(len(manifest.get("conditions", {})), 1)
         groups = max(manifest.get("worlds", 0), 1)
         bands, times = file["band"][:].tolist(), file["outcome/band_settling_time"][:]
         success = (file["outcome/outcome"][:] == 0).all(axis=1)
@@ -148,19 +148,19 @@ class Trials(Files):
                  for goal in goals]
         meets = np.logical_and.reduce([met.all(axis=1) for met, _ in moves])
         for p in range(point.max() + 1):
-            lives, alive = np.full(rigs, np.nan), np.ones(rigs, bool)
+            lives, alive = np.full(machines, np.nan), np.ones(machines, bool)
             for a in range(len(at)):
                 here = (point == p) & (age == a)
                 self.assertEqual([file[f"age/{name}"][p, a] for name in ("trials", "success", "goal_met")],
                                  [here.sum(), success[here].sum(), meets[here].sum()])
-                meeting = np.array([all(met[here & (rig == r) & (condition == c)].mean() >= wanted
-                                        for met, wanted in moves for c in range(conditions)) for r in range(rigs)])
-                machines = min(meeting[world::groups].mean() for world in range(groups))
-                self.assertAlmostEqual(file["age/machines"][p, a], machines, 12)
-                self.assertTrue(0 <= file["age/machines_low"][p, a] <= machines <= file["age/machines_high"][p, a] <= 1)
+                meeting = np.array([all(met[here & (machine == r) & (condition == c)].mean() >= wanted
+                                        for met, wanted in moves for c in range(conditions)) for r in range(machines)])
+                proportion = min(meeting[world::groups].mean() for world in range(groups))
+                self.assertAlmostEqual(file["age/machines"][p, a], proportion, 12)
+                self.assertTrue(0 <= file["age/machines_low"][p, a] <= proportion <= file["age/machines_high"][p, a] <= 1)
                 alive &= meeting
                 lives[alive] = at[a]
-            np.testing.assert_array_equal(file["rig/life"][p], lives)
+            np.testing.assert_array_equal(file["machine/life"][p], lives)
             for c in range(conditions if conditions > 1 else 0):
                 here = (point == p) & (condition == c)
                 self.assertEqual([file[f"condition/{name}"][p, c] for name in ("trials", "success", "goal_met")],
@@ -201,7 +201,7 @@ class Trials(Files):
     def test_answers_say_what_the_file_has(self):
         manifest, _ = random_study(random.Random(12))
         manifest["ages"]["at"] = [0, 10]
-        manifest["trials"] = 2 * manifest["rigs"] * max(len(manifest.get("conditions", {})), 1) * 3
+        manifest["trials"] = 2 * manifest["machines"] * max(len(manifest.get("conditions", {})), 1) * 3
         manifest.update(friction={"k1": {"uniform": [100, 120], "aging": {"exponential": -0.1, "scale": 10.0}}}, plant={})
         self.write("aged.yaml", manifest)
         self.run_program("run", "aged.yaml", "-o", "aged.h5", "-q")
@@ -211,7 +211,7 @@ class Trials(Files):
             for number, point in enumerate(points):
                 for name in ("trials", "success", "goal_met", "machines", "machines_low", "machines_high"):
                     self.assertEqual([row[name] for row in point["ages"]], file[f"age/{name}"][number].tolist())
-                lives = file["rig/life"][number]
+                lives = file["machine/life"][number]
                 self.assertEqual([row["living"] for row in point["ages"]], [(lives >= a).mean() for a in (0, 10)])
                 for row in point["ages"]:  # the rate is that of a claim at this age
                     at_age = [c["rate"] for c in point["claims"] if c["condition"].endswith(f"{row['age']:g} {manifest['ages']['unit']}")]
@@ -226,7 +226,7 @@ class Trials(Files):
 class Runs(Files):
     def study(self, trials):
         manifest, _ = random_study(random.Random(21))
-        manifest.update(rigs=6, worlds=3, trials=trials, design="monte_carlo", goal={"band": 1, "within": 0.03, "moves": 0.7},
+        manifest.update(machines=6, worlds=3, trials=trials, design="monte_carlo", goal={"band": 1, "within": 0.03, "moves": 0.7},
                         conditions={"empty": {}, "loaded": {"plant.inertia": 7e-4}}, ages={"at": [0, 5, 50]}, plant={},
                         friction={"k1": {"uniform": [90, 130], "aging": {"linear": {"uniform": [-0.2, 0]}, "scale": 50.0}},
                                   "lambda": {"interval": [5, 20], "aging": {"logarithmic": 0.1, "scale": 5.0}}})
@@ -244,7 +244,7 @@ class Runs(Files):
                 self.run_program("merge", *[f"{keep}-part{part}.h5" for part in (1, 2, 3)], "-o", f"{keep}-merged.h5")
                 self.expect_equal(f"{keep}1.h5", f"{keep}2.h5")
                 self.expect_equal(f"{keep}1.h5", f"{keep}-merged.h5")
-        for group in ("age", "rig", "condition", "world"):
+        for group in ("age", "machine", "condition", "world"):
             whole, sums = self.contents("trials1.h5"), self.contents("statistics1.h5")
             for path in whole:
                 if path.startswith(f"{group}/") and "@" not in path and whole[path] is not None:

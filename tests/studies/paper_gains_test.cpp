@@ -52,9 +52,9 @@ TEST(PaperGains, TheTrialsThatAreStoppedWouldNotHaveComeBack) {
 }
 
 TEST(PaperGains, EveryAxisHasAFrictionOfItsOwnAndEveryMoveAStartOfItsOwn) {
-  const study::Study study = shipped_study("paper-gains", {"rigs=500"});
+  const study::Study study = shipped_study("paper-gains", {"machines=500"});
   std::set<double> k1, k2, beta, exponent, preload;
-  for (std::int64_t index = 0; index < 2 * study.rigs; ++index) {
+  for (std::int64_t index = 0; index < 2 * study.machines; ++index) {
     const trial::TrialParameters p = trial_of(study, "a", index);
     k1.insert(friction::friction_at(p.friction, p.initial.position).k1);
     k2.insert(p.friction.uniform.k2);
@@ -62,10 +62,10 @@ TEST(PaperGains, EveryAxisHasAFrictionOfItsOwnAndEveryMoveAStartOfItsOwn) {
     exponent.insert(p.friction.uniform.n);
     preload.insert(p.initial.preload);
   }
-  const auto rigs = static_cast<std::size_t>(study.rigs);
-  for (const auto& values : {k2, beta, exponent}) EXPECT_EQ(values.size(), rigs);
-  EXPECT_EQ(k1.size(), 2 * rigs) << "by place on the rotor";
-  EXPECT_EQ(preload.size(), 2 * rigs);
+  const auto machines = static_cast<std::size_t>(study.machines);
+  for (const auto& values : {k2, beta, exponent}) EXPECT_EQ(values.size(), machines);
+  EXPECT_EQ(k1.size(), 2 * machines) << "by place on the rotor";
+  EXPECT_EQ(preload.size(), 2 * machines);
 }
 
 // beta-from-outcomes: the default of β is the one at which the five gains behave as the paper reports

@@ -9,7 +9,7 @@ import subprocess
 import sys
 import tempfile
 
-SMALLER = ["--set", "rigs=100", "--set", "trials=800"]
+SMALLER = ["--set", "machines=100", "--set", "trials=800"]
 
 
 def ask(program, *arguments):
@@ -47,7 +47,7 @@ def main():
             expect(set(claims_of(program, tonight).values()), {1.0}, f"moves in the goals with a delay of {delay}")
         expect(ask(program, "compare", stage, tonight)[0] in (0, 3), True, "compare with more delay does not fail")
         for command in (("sensitivity", stage), ("report", stage, "-o", pathlib.Path(folder) / "stage.html"), ("plan", manifest),
-                        ("limits", manifest, "--set", "rigs=20", "--set", "trials=40")):
+                        ("limits", manifest, "--set", "machines=20", "--set", "trials=40")):
             code, text = ask(program, *command)
             expect(code, 0, f"{command[0]}: {text}")
         run(program, manifest, tonight, "--force", "--set", "controller.feedforward.friction=0")

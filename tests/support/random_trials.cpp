@@ -90,8 +90,8 @@ void choose_loop(Draws& draws, TrialKind kind, trial::TrialParameters& p) {
   }
 }
 
-/// A rig with nothing in common with the paper's: every number over orders of magnitude, the gains scaled to
-/// stay near the stability bounds.
+/// A machine with nothing in common with the paper's: every number over orders of magnitude, the gains scaled
+/// to stay near the stability bounds.
 trial::TrialParameters unlike_the_paper(Draws& draws) {
   trial::TrialParameters p;
   p.plant = {draws.log_uniform(5e-5, 5e-2), draws.log_uniform(0.01, 3.0),
@@ -149,7 +149,7 @@ trial::TrialParameters any_like_the_paper(Draws& draws) {
   return like_the_paper(draws, static_cast<TrialKind>(draws.integer(0, 2)));
 }
 
-trial::TrialParameters any_rig(Draws& draws) {
+trial::TrialParameters any_machine(Draws& draws) {
   return draws.chance(0.25) ? unlike_the_paper(draws) : any_like_the_paper(draws);
 }
 
@@ -164,7 +164,7 @@ trial::TrialParameters hunting(Draws& draws) {
 }
 
 trial::TrialParameters amplified(Draws& draws) {
-  trial::TrialParameters p = draws.chance(0.3) ? hunting(draws) : any_rig(draws);
+  trial::TrialParameters p = draws.chance(0.3) ? hunting(draws) : any_machine(draws);
   if (p.friction.model == friction::FrictionModel::presliding && draws.chance(0.2)) {
     p.friction.model = friction::FrictionModel::spring;
   }
@@ -173,7 +173,7 @@ trial::TrialParameters amplified(Draws& draws) {
 }
 
 trial::TrialParameters arriving(Draws& draws) {
-  trial::TrialParameters p = any_rig(draws);
+  trial::TrialParameters p = any_machine(draws);
   p.friction.model = static_cast<friction::FrictionModel>(draws.chance(0.6) ? 0 : draws.integer(1, 2));
   p.initial.mode = draws.chance(0.5) ? trial::InitialMode::slide : trial::InitialMode::stick;
   const double breakaway = p.friction.uniform.breakaway;
@@ -183,7 +183,7 @@ trial::TrialParameters arriving(Draws& draws) {
 }
 
 trial::TrialParameters remembering(Draws& draws) {
-  trial::TrialParameters p = any_rig(draws);
+  trial::TrialParameters p = any_machine(draws);
   const double breakaway = friction::friction_at(p.friction, p.initial.position).breakaway;
   p.initial.history.reversals = static_cast<int>(draws.integer(1, draws.chance(0.8) ? 12 : 300));
   p.initial.history.torque = breakaway * draws.uniform(0.02, 0.95);
@@ -193,7 +193,7 @@ trial::TrialParameters remembering(Draws& draws) {
 }
 
 trial::TrialParameters loaded(Draws& draws) {
-  trial::TrialParameters p = draws.chance(0.2) ? arriving(draws) : any_rig(draws);
+  trial::TrialParameters p = draws.chance(0.2) ? arriving(draws) : any_machine(draws);
   if (p.friction.model != friction::FrictionModel::spring && draws.chance(0.2))
     p.friction.model = friction::FrictionModel::spring;
   if (draws.chance(0.2)) p.amplifier.bandwidth = p.controller.sample_rate * draws.log_uniform(0.05, 2.0);

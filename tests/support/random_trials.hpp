@@ -11,7 +11,7 @@ enum class TrialKind {
   calm,              ///< a few counts at low gain: settles, creeps, jerks; the hook holds
   ringing,           ///< gains around and above the stability bounds
   breaking_away,     ///< thousands of counts or large gains: breakaway, slides, re-sticks
-  unlike_the_paper,  ///< other rigs: every parameter over orders of magnitude
+  unlike_the_paper,  ///< other machines: every parameter over orders of magnitude
   spring_alone,      ///< one of the first three with creep off by the friction model
   coulomb,           ///< Amonton–Coulomb friction, which hunts under integral control
   amplified,         ///< an amplifier of finite bandwidth, with each of the friction models

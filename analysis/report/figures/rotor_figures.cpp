@@ -39,10 +39,10 @@ std::optional<std::size_t> position_column(const reading::AllTrialsFile& file) {
   return std::nullopt;
 }
 
-/// The trials of a figure: those of a point, or of one rig at that point.
+/// The trials of a figure: those of a point, or of one machine at that point.
 struct ShownTrials {
   std::int64_t point{0};
-  std::optional<std::int64_t> rig{};
+  std::optional<std::int64_t> machine{};
 };
 
 /// The trials with their final positions. Trials with a non-finite state have that of their start.
@@ -53,7 +53,9 @@ std::vector<EndOnRotor> ends_of(const ReportedStudy& reported, const ShownTrials
   measures::visit_trials(
       reported.file, rows, [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
         const std::int64_t trial = row - rows.first;
-        if (shown.rig && study::group_of(reported.study, study::Grouping::rig, trial) != *shown.rig) return;
+        if (shown.machine &&
+            study::group_of(reported.study, study::Grouping::machine, trial) != *shown.machine)
+          return;
         const double start = starts[static_cast<std::size_t>(trial)];
         const double end = start + moves.back().final_position;
         ends.push_back({trial, on_rotor(std::isfinite(end) ? end : start, reported.study.period),
@@ -114,16 +116,16 @@ FigureData sector_data(const std::vector<EndOnRotor>& ends, double period, std::
   return data;
 }
 
-/// The rig that meets the question least often at the point.
-std::int64_t worst_rig(const ReportedStudy& reported, std::int64_t point) {
-  const std::vector<statistics::RigMoves> rigs =
-      counts_of(question_of(reported), point_of(reported, point)).rigs;
-  return std::ranges::min_element(rigs, {}, &statistics::RigMoves::met) - rigs.begin();
+/// The machine that meets the question least often at the point.
+std::int64_t worst_machine(const ReportedStudy& reported, std::int64_t point) {
+  const std::vector<statistics::MachineMoves> machines =
+      counts_of(question_of(reported), point_of(reported, point)).machines;
+  return std::ranges::min_element(machines, {}, &statistics::MachineMoves::met) - machines.begin();
 }
 
-reading::StoredProfile rotor_of_rig(const reading::StoredProfile& profile, std::int64_t rig) {
+reading::StoredProfile rotor_of_machine(const reading::StoredProfile& profile, std::int64_t machine) {
   reading::StoredProfile rotor{profile.name, profile.unit, profile.theta, {}};
-  const auto first = profile.value.begin() + rig * std::ssize(profile.theta);
+  const auto first = profile.value.begin() + machine * std::ssize(profile.theta);
   rotor.value.assign(first, first + std::ssize(profile.theta));
   return rotor;
 }
@@ -131,13 +133,14 @@ reading::StoredProfile rotor_of_rig(const reading::StoredProfile& profile, std::
 std::string caption_of(const ReportedStudy& reported, const std::string& parameter, const ShownTrials& shown,
                        bool failed) {
   const std::string& label = label_of(reported, shown.point);
-  const std::string trials =
-      shown.rig ? fmt::format("machine {} at point {}", *shown.rig, label) : fmt::format("point {}", label);
+  const std::string trials = shown.machine ? fmt::format("machine {} at point {}", *shown.machine, label)
+                                           : fmt::format("point {}", label);
   const goal::QuestionWords& words = words_of(question_of(reported));
   std::string caption =
-      shown.rig ? fmt::format("The line is {} along the $track of machine {}, the one with the lowest {}. ",
-                              parameter, *shown.rig, words.rate)
-                : fmt::format("The line is {} along the $track, the same in all trials. ", parameter);
+      shown.machine
+          ? fmt::format("The line is {} along the $track of machine {}, the one with the lowest {}. ",
+                        parameter, *shown.machine, words.rate)
+          : fmt::format("The line is {} along the $track, the same in all trials. ", parameter);
   caption += failed ? fmt::format("The marks are the {} of {}, at the $rotor_angle where they ended. ",
                                   words.failing, trials)
                     : fmt::format("No trial of {} {}. ", trials, words.failed);
@@ -151,9 +154,10 @@ std::string caption_of(const ReportedStudy& reported, const std::string& paramet
 
 Figure rotor_figure(const ReportedStudy& reported, const reading::StoredProfile& stored, std::size_t column) {
   ShownTrials shown{point_of_profile(reported, stored.name)};
-  if (stored.rigs > 0) shown.rig = worst_rig(reported, shown.point);
-  const reading::StoredProfile profile = shown.rig ? rotor_of_rig(stored, *shown.rig) : stored;
-  const std::int64_t trials_shown = reported.file.header().trials / std::max<std::int64_t>(stored.rigs, 1);
+  if (stored.machines > 0) shown.machine = worst_machine(reported, shown.point);
+  const reading::StoredProfile profile = shown.machine ? rotor_of_machine(stored, *shown.machine) : stored;
+  const std::int64_t trials_shown =
+      reported.file.header().trials / std::max<std::int64_t>(stored.machines, 1);
   const double period = reported.study.period;
   const std::vector<EndOnRotor> ends = ends_of(reported, shown, column);
   std::vector<EndOnRotor> failures;

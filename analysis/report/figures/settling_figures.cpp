@@ -20,11 +20,11 @@ constexpr std::int64_t max_curves = 6;   ///< of a figure; under conditions at l
 constexpr std::int64_t max_steps = 160;  ///< of a curve
 
 /// Half-width of the simultaneous confidence band of a distribution function: √(ln(2M/α)/2n) for n
-/// independent clusters (trials or rigs) of M dependent moves each. (Dvoretzky, Kiefer and Wolfowitz 1956
+/// independent clusters (trials or machines) of M dependent moves each. (Dvoretzky, Kiefer and Wolfowitz 1956
 /// with the constant of Massart 1990, for each of the M moves at the level α/M; the mean of M functions that
 /// are each within the band is so too.)
 double band_of(const ReportedStudy& reported, const measures::PointSummary& point) {
-  const std::int64_t clusters = reported.study.rigs > 0 ? reported.study.rigs : point.trials;
+  const std::int64_t clusters = reported.study.machines > 0 ? reported.study.machines : point.trials;
   const std::int64_t moves = point.moves / clusters;
   const double alpha = 1.0 - statistics::summary_confidence;
   return std::sqrt(std::log(2.0 * static_cast<double>(moves) / alpha) /
@@ -148,9 +148,9 @@ std::string bands_sentence(const ReportedStudy& reported) {
       reported.summary.features.dependent_trials
           ? "would contain the whole curve of a point with 95 % confidence if its trials were independent"
           : "contain the whole curve of a point with 95 % confidence",
-      reported.study.rigs > 0 ? fmt::format("{} machines", reported.study.rigs)
-                              : fmt::format("{} trials", study::draw_count(reported.study)),
-      reported.study.rigs == 0 && moves > 1 ? fmt::format(" of {} moves each", moves) : "");
+      reported.study.machines > 0 ? fmt::format("{} machines", reported.study.machines)
+                                  : fmt::format("{} trials", study::draw_count(reported.study)),
+      reported.study.machines == 0 && moves > 1 ? fmt::format(" of {} moves each", moves) : "");
 }
 
 std::optional<Figure> arrival_figure(const ReportedStudy& reported) {

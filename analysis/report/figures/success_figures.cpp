@@ -33,12 +33,12 @@ struct ShownLine {
     const goal::Verdict verdict = verdict_on(question, shown);
     goal::QuestionRate rate{verdict.machines.value,
                             {verdict.machines.low, verdict.machines.high},
-                            verdict.rigs_meeting,
-                            shown.goals.front().shape().rigs};
+                            verdict.machines_meeting,
+                            shown.goals.front().shape().machines};
     if (verdict.worlds.empty()) return rate;
     const std::size_t world = goal::worst_worlds_first(*question.claim(), verdict).front();
-    rate.hits = verdict.worlds[world].rigs_meeting;
-    rate.events = std::ssize(shown.goals[question.parts.front().number].sum({.world = world}).rigs);
+    rate.hits = verdict.worlds[world].machines_meeting;
+    rate.events = std::ssize(shown.goals[question.parts.front().number].sum({.world = world}).machines);
     return rate;
   }
   /// The proportion that is asked for.

@@ -210,7 +210,7 @@ Figure response_figure(const ReportedStudy& reported, const std::vector<SampleTr
     smallest = std::min(smallest, half_width(part.claim, resolution));
   if (shown.parts.empty()) smallest = half_width(std::nullopt, resolution);
   largest = std::max(1.2 * largest, 3.0 * smallest);
-  const char* const subject = reported.study.rigs > 0 ? "machine" : "trial";
+  const char* const subject = reported.study.machines > 0 ? "machine" : "trial";
   const motion::EncoderPlace mass = shown.mass.value_or(parameters.plant.load.encoder);
   const std::string of_mass = one_of_two ? fmt::format(" of the {}", study::mass_text(mass)) : "";
   const bool is_beside =

@@ -50,7 +50,7 @@ class PointValues {
   std::string text(std::string_view name) const;
   std::string text(std::size_t slot) const;
 
-  /// "per rig", "per trial", … where the value is drawn; else empty.
+  /// "per machine", "per trial", … where the value is drawn; else empty.
   std::string draw_text(std::size_t slot) const;
 
  private:

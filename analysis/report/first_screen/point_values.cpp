@@ -17,7 +17,7 @@ std::string_view level_text(study::DrawLevel level) {
       return "drawn once";
     case study::DrawLevel::world:
       return "per world";
-    case study::DrawLevel::rig:
+    case study::DrawLevel::machine:
       return "per machine";
     case study::DrawLevel::trial:
       return "per trial";

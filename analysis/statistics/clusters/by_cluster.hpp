@@ -8,7 +8,7 @@
 
 namespace zerocount::statistics {
 
-/// A sum for each cluster, such as a rig, zero at first, that parts of a study add up. In memory from the
+/// A sum for each cluster, such as a machine, zero at first, that parts of a study add up. In memory from the
 /// first cluster that was added to up to the last one: a block of trials is in few of many clusters.
 template <class Sum = std::int64_t>
 class ByCluster {

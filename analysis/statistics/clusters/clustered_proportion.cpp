@@ -70,15 +70,15 @@ ClusterSums& ClusterSums::operator+=(const ClusterSums& other) {
   return *this;
 }
 
-ClusterSums sums_by_rig(std::span<const double> hits, std::int64_t rigs) {
+ClusterSums sums_by_machine(std::span<const double> hits, std::int64_t machines) {
   ClusterSums sums;
-  for (std::int64_t rig = 0; rig < rigs; ++rig) {
-    std::int64_t of_rig = 0, trials = 0;
-    for (std::int64_t i = rig; i < std::ssize(hits); i += rigs) {
-      of_rig += hits[static_cast<std::size_t>(i)] > 0.0;
+  for (std::int64_t machine = 0; machine < machines; ++machine) {
+    std::int64_t of_machine = 0, trials = 0;
+    for (std::int64_t i = machine; i < std::ssize(hits); i += machines) {
+      of_machine += hits[static_cast<std::size_t>(i)] > 0.0;
       ++trials;
     }
-    sums.add(of_rig, trials);
+    sums.add(of_machine, trials);
   }
   return sums;
 }

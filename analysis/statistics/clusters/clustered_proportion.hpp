@@ -9,7 +9,7 @@
 
 namespace zerocount::statistics {
 
-/// k hits among n events that form clusters: the trials of one rig, the moves or the jerks of one trial.
+/// k hits among n events that form clusters: the trials of one machine, the moves or the jerks of one trial.
 /// Clusters are independent; events of one cluster are correlated.
 struct ClusteredProportion {
   std::int64_t hits{0};          ///< k
@@ -47,9 +47,9 @@ struct ClusterSums {
   }
 };
 
-/// The sums over rigs of trials, of which trial i runs on rig i mod rigs. @param hits 1 for each trial that
-/// is one, otherwise 0
-ClusterSums sums_by_rig(std::span<const double> hits, std::int64_t rigs);
+/// The sums over machines of trials, of which trial i runs on machine i mod machines. @param hits 1 for each
+/// trial that is one, otherwise 0
+ClusterSums sums_by_machine(std::span<const double> hits, std::int64_t machines);
 
 /// The equivalent number of independent events (effective sample size),
 ///

@@ -57,14 +57,14 @@ double fisher_p(const Successes& observed, const Successes& simulated) {
   return std::min(1.0, p);
 }
 
-/// Σ P(H_i = x) over the rigs, x = 0 … n.
+/// Σ P(H_i = x) over the machines, x = 0 … n.
 std::vector<double> mixture(std::int64_t n, std::span<const std::int64_t> successes, std::int64_t trials) {
-  std::map<std::int64_t, double> rigs;  // with so many successes
-  for (const std::int64_t each : successes) rigs[each] += 1.0;
+  std::map<std::int64_t, double> machines;  // with so many successes
+  for (const std::int64_t each : successes) machines[each] += 1.0;
   std::vector<double> sums(static_cast<std::size_t>(n) + 1, 0.0);
-  for (const auto& [each, count] : rigs) {
-    const std::vector<double> of_rig = hypergeometric(n, {each, trials});
-    for (std::size_t x = 0; x < sums.size(); ++x) sums[x] += count * of_rig[x];
+  for (const auto& [each, count] : machines) {
+    const std::vector<double> of_machine = hypergeometric(n, {each, trials});
+    for (std::size_t x = 0; x < sums.size(); ++x) sums[x] += count * of_machine[x];
   }
   return sums;
 }
@@ -73,8 +73,8 @@ double rank_p(const std::vector<double>& sums, std::int64_t k) {
   const auto at = sums.begin() + k;
   const double low = std::accumulate(sums.begin(), at + 1, 0.0);
   const double high = std::accumulate(at, sums.end(), 0.0);
-  const double rigs = std::accumulate(sums.begin(), sums.end(), 0.0);
-  return std::min(1.0, 2.0 * (1.0 + std::min(low, high)) / (rigs + 1.0));
+  const double machines = std::accumulate(sums.begin(), sums.end(), 0.0);
+  return std::min(1.0, 2.0 * (1.0 + std::min(low, high)) / (machines + 1.0));
 }
 
 }  // namespace
@@ -86,8 +86,8 @@ ObservedTest fisher_test(const Successes& observed, const Successes& simulated) 
                                                   fisher_p({observed.trials, observed.trials}, simulated))};
 }
 
-ObservedTest rig_rank_test(const Successes& observed, std::span<const std::int64_t> successes,
-                           std::int64_t trials) {
+ObservedTest machine_rank_test(const Successes& observed, std::span<const std::int64_t> successes,
+                               std::int64_t trials) {
   require_counts(observed);
   if (observed.trials > trials) {
     throw Failure(ExitCode::bad_data,

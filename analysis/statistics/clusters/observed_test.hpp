@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <span>
 
-/// Whether counts on a real rig are consistent with a simulation. Exact, two-sided.
+/// Whether counts on a real machine are consistent with a simulation. Exact, two-sided.
 namespace zerocount::statistics {
 
 /// k successes in n trials.
@@ -27,18 +27,19 @@ struct ObservedTest {
 /// @throws Failure (bad_data) for impossible counts.
 ObservedTest fisher_test(const Successes& observed, const Successes& simulated);
 
-/// Test of k of n trials on one real rig against R simulated rigs that differ, of m ≥ n trials each. If the
-/// real rig is one more draw from the distribution of the rigs, it is as likely to have any rank among them
-/// as any other. Rig i with K_i successes has H_i in n of its m trials, which is hypergeometric. With
+/// Test of k of n trials on one real machine against R simulated machines that differ, of m ≥ n trials each.
+/// If the real machine is one more draw from the distribution of the machines, it is as likely to have any
+/// rank among them as any other. Machine i with K_i successes has H_i in n of its m trials, which is
+/// hypergeometric. With
 ///
 ///   p₋ = (1 + Σ P(H_i ≤ k))/(R + 1),  p₊ = (1 + Σ P(H_i ≥ k))/(R + 1),  p = min(1, 2·min(p₋, p₊)).
 ///
 /// This is the rank test of exchangeable observations (Vovk, Gammerman and Shafer, Algorithmic Learning in a
 /// Random World, 2005, section 2.2), averaged over the choice of the n trials. p is never below 2/(R + 1): it
-/// takes 39 rigs to find a difference at 5 %.
-/// @param successes [rig] K_i, @param trials m
+/// takes 39 machines to find a difference at 5 %.
+/// @param successes [machine] K_i, @param trials m
 /// @throws Failure (bad_data) for impossible counts, or n > m.
-ObservedTest rig_rank_test(const Successes& observed, std::span<const std::int64_t> successes,
-                           std::int64_t trials);
+ObservedTest machine_rank_test(const Successes& observed, std::span<const std::int64_t> successes,
+                               std::int64_t trials);
 
 }  // namespace zerocount::statistics

@@ -47,15 +47,16 @@ SuccessClaim weaker_claim(const SuccessClaim& one, const SuccessClaim& other) {
 
 double rule_of_three(const SuccessClaim& claim) {
   if (claim.failures > 0 || claim.trials == 0) return unknown;
-  return -std::log1p(-claim.confidence) / static_cast<double>(claim.rigs > 0 ? claim.rigs : claim.trials);
+  return -std::log1p(-claim.confidence) /
+         static_cast<double>(claim.machines > 0 ? claim.machines : claim.trials);
 }
 
 std::string claim_sentence(const SuccessClaim& claim, std::string_view succeed) {
   if (claim.trials == 0) return "nothing: no trial";
   const std::string level = fmt::format("with {} confidence", text::percent(claim.confidence));
-  const std::string subject = claim.rigs > 0 ? "trials on all machines" : "axes";
-  const std::string trials = fmt::format("{} trials{}", claim.trials,
-                                         claim.rigs > 0 ? fmt::format(" on {} machines", claim.rigs) : "");
+  const std::string subject = claim.machines > 0 ? "trials on all machines" : "axes";
+  const std::string trials = fmt::format(
+      "{} trials{}", claim.trials, claim.machines > 0 ? fmt::format(" on {} machines", claim.machines) : "");
   if (claim.failures == claim.trials) {
     return fmt::format("at most {} of {} {}, {} (no success in {})",
                        text::percent_at_most(claim.success_at_most), subject, succeed, level, trials);

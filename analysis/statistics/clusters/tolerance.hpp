@@ -38,7 +38,7 @@ struct SuccessClaim {
   double failure_at_most{1.0};   ///< its complement
   double success_at_most{
       1.0};  ///< proportion of axes, proportion_at_most; not claimed together with success_at_least
-  std::int64_t rigs{0};  ///< that ran the trials; 0: every trial is a different axis
+  std::int64_t machines{0};  ///< that ran the trials; 0: every trial is a different axis
 };
 
 /// For a number of trials that was fixed in advance.
@@ -51,8 +51,8 @@ SuccessClaim success_claim_at_any_time(std::int64_t successes, std::int64_t tria
 /// Combines two claims about the same trials: `one` with the weaker bounds of both.
 SuccessClaim weaker_claim(const SuccessClaim& one, const SuccessClaim& other);
 
-/// Rule of three: −ln(1 − confidence)/n, which is 3/n at 95 %, with n the number of trials, or of rigs if
-/// trials share rigs. Approximates failure_at_most without a failure; NaN after a failure.
+/// Rule of three: −ln(1 − confidence)/n, which is 3/n at 95 %, with n the number of trials, or of machines if
+/// trials share machines. Approximates failure_at_most without a failure; NaN after a failure.
 double rule_of_three(const SuccessClaim& claim);
 
 /// "at least 99.9 % of axes succeed, with 95 % confidence", with the numbers of trials and failures.

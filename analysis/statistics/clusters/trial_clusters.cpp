@@ -10,13 +10,13 @@
 namespace zerocount::statistics {
 
 void TrialClusters::add_trial(std::int64_t trial, std::vector<double>& observed, std::int64_t size) {
-  if (rigs_in_all_ == 0) {
+  if (machines_in_all_ == 0) {
     trials_.add_cluster(std::span<double>(observed), size);
     return;
   }
-  const std::int64_t rig = trial % rigs_in_all_;
-  for (const double value : observed) add({rig, value, 1});
-  sizes_.add(rig, size);
+  const std::int64_t machine = trial % machines_in_all_;
+  for (const double value : observed) add({machine, value, 1});
+  sizes_.add(machine, size);
 }
 
 void TrialClusters::add_trials(std::int64_t trial, std::span<const double> values, std::size_t of_trial,
@@ -27,7 +27,7 @@ void TrialClusters::add_trials(std::int64_t trial, std::span<const double> value
     find_known(some, observed);
     return nan_is_late ? std::ssize(some) : std::ssize(observed);
   };
-  if (rigs_in_all_ == 0 && of_trial == 1) {
+  if (machines_in_all_ == 0 && of_trial == 1) {
     const std::int64_t size = observe(values);
     return trials_.add_single_values(observed, size - std::ssize(observed));
   }
@@ -74,16 +74,16 @@ std::int64_t TrialClusters::size() const {
 }
 
 ClusteredSample TrialClusters::sample() const {
-  if (rigs_in_all_ == 0) return trials_;
+  if (machines_in_all_ == 0) return trials_;
   TrialClusters combined = *this;
   combined.combine();
   ClusteredSample sample;
   auto count = combined.counts_.cbegin();
-  for (std::int64_t rig = sizes_.first(); rig < sizes_.end(); ++rig) {
+  for (std::int64_t machine = sizes_.first(); machine < sizes_.end(); ++machine) {
     Histogram<double> observed;
-    for (; count != combined.counts_.cend() && count->rig == rig; ++count)
+    for (; count != combined.counts_.cend() && count->machine == machine; ++count)
       observed.add(count->value, count->times);
-    sample.add_cluster(observed, sizes_[rig]);
+    sample.add_cluster(observed, sizes_[machine]);
   }
   return sample;
 }

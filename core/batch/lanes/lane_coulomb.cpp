@@ -1,7 +1,7 @@
 // Lanes with Coulomb friction alone, friction::CoulombFriction: they stand until they may break away. Their
 // slides are those of the kernels, but in the sample in which they begin.
 #include "core/batch/lanes/running_batch.hpp"
-#include "core/trial/rig.hpp"
+#include "core/trial/machine.hpp"
 
 namespace zerocount::batch {
 namespace {

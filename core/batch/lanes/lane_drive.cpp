@@ -6,7 +6,7 @@
 
 #include "core/numerics/elementary_functions.hpp"
 #include "core/trial/disturbance.hpp"
-#include "core/trial/rig.hpp"
+#include "core/trial/machine.hpp"
 
 namespace zerocount::batch {
 namespace {

@@ -14,7 +14,7 @@
 #include "core/loop/dac.hpp"
 #include "core/loop/drive.hpp"
 #include "core/loop/measurement.hpp"
-#include "core/trial/rig.hpp"
+#include "core/trial/machine.hpp"
 
 namespace zerocount::batch {
 namespace {

@@ -13,8 +13,8 @@
 #include "core/loop/drive.hpp"
 #include "core/loop/encoder.hpp"
 #include "core/loop/measurement.hpp"
+#include "core/trial/machine.hpp"
 #include "core/trial/move_measures.hpp"
-#include "core/trial/rig.hpp"
 
 namespace zerocount::batch {
 namespace {

@@ -1,7 +1,7 @@
 // The torque on the rotor from sample to sample, in lanes with a LaneDrive.
 #include "core/batch/lanes/running_batch.hpp"
 #include "core/numerics/elementary_functions.hpp"
-#include "core/trial/rig.hpp"
+#include "core/trial/machine.hpp"
 
 namespace zerocount::batch {
 namespace {

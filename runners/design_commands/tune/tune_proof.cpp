@@ -111,12 +111,12 @@ std::string lacking_sentence(Of tuning) {
   const study::Goal& goal = study.goals[proof.verdict.goal];
   std::string lines;
   if (goal.machines) {
-    const std::int64_t trials = study::draw_count(study) / study.rigs;
+    const std::int64_t trials = study::draw_count(study) / study.machines;
     const measures::CountedGoal asked = measures::asked_of_moves(tuning.study)[proof.verdict.goal];
     lines = goal::one_machine_text(
-        goal, {study.rigs, trials, trials * measures::asked_moves(asked, study.moves)}, proof.verdict);
+        goal, {study.machines, trials, trials * measures::asked_moves(asked, study.moves)}, proof.verdict);
   }
-  return proof.needs ? lines + goal::needs_sentence(goal, *proof.needs, study.rigs > 0) : lines;
+  return proof.needs ? lines + goal::needs_sentence(goal, *proof.needs, study.machines > 0) : lines;
 }
 
 /// The time after which the wanted proportion of moves are within the band for good, where it is too late.
@@ -157,8 +157,8 @@ Description<Tuning> proof_description() {
           [](Of t) {
             return worst_goal(t).machines ? std::optional(proof_in(t).verdict.machines.low) : std::nullopt;
           })
-      .value(everywhere("rigs", "machines", "machines; 0 without machines"),
-             [](Of t) { return proof_in(t).study.rigs; })
+      .value(everywhere("machine_count", "machines", "number of machines; 0 without machines"),
+             [](Of t) { return proof_in(t).study.machines; })
       .value(everywhere("trials", "trials", "trials"), [](Of t) { return proof_in(t).study.trials; })
       .value(in_data("seed", "seed of the proof"), [](Of t) { return proof_in(t).study.seed; })
       .value(everywhere("attempts", "attempts", "candidates or sizes that were proven"),
@@ -273,9 +273,9 @@ std::string tune_headline(Of tuning) {
 std::string page_headline(Of tuning) {
   if (!tuning.answer.is_met()) return tune_headline(tuning);
   const study::Study& proof = tuning.answer.proof->study;
-  return fmt::format(
-      "met by the tuned values, proven on {} that the search never saw",
-      proof.rigs > 0 ? fmt::format("{} machines", proof.rigs) : fmt::format("{} trials", proof.trials));
+  return fmt::format("met by the tuned values, proven on {} that the search never saw",
+                     proof.machines > 0 ? fmt::format("{} machines", proof.machines)
+                                        : fmt::format("{} trials", proof.trials));
 }
 
 void add_proof_facts(Items& items) {

@@ -44,8 +44,8 @@ class CheckAnswer(Answer):
         Trials of each point, or the most of them.
     moves : int
         Moves of a trial.
-    rigs : int
-        Machines at each point; 0: none.
+    machine_count : int
+        Number of machines at each point; 0: none.
     worlds : int
         Worlds; 0: none.
     conditions : list[str]
@@ -72,7 +72,7 @@ class CheckAnswer(Answer):
         Inputs that differ between trials.
     differ_in_contacts : list[str]
         Of these, drawn at each contact.
-    differ_in_rigs : list[str]
+    differ_in_machines : list[str]
         Inputs that differ between machines.
     differ_in_worlds : list[str]
         Inputs that differ between worlds.
@@ -154,7 +154,7 @@ class CheckAnswer(Answer):
     points: int
     trials: int
     moves: int
-    rigs: int
+    machine_count: int
     worlds: int
     conditions: list[str]
     judged_by: str | None
@@ -165,7 +165,7 @@ class CheckAnswer(Answer):
     memory_bytes: float | None
     differ_in_trials: list[str]
     differ_in_contacts: list[str]
-    differ_in_rigs: list[str]
+    differ_in_machines: list[str]
     differ_in_worlds: list[str]
     same_in_points: list[str]
     sampled_together: str | None
@@ -280,7 +280,7 @@ class Goal(Record):
         machines.
     other_mass : OtherMass or None
         The same of the load, which the goal of the motor does not ask.
-    rigs_without_miss : int or None
+    machines_without_miss : int or None
         Machines all of whose moves meet the goal.
     """
 
@@ -300,7 +300,7 @@ class Goal(Record):
     without_miss_high: float | None
     trials_of_one_machine: int | None
     other_mass: OtherMass | None
-    rigs_without_miss: int | None
+    machines_without_miss: int | None
 
 
 class Confirmation(Record):
@@ -322,7 +322,7 @@ class Confirmation(Record):
         Lower bound.
     success_rate_high : float or None
         Upper bound.
-    one_trial_per_rig : bool
+    one_trial_per_machine : bool
         Whether every new trial has a machine of its own.
     goal : Goal or None
         Whether the new trials meet the goal.
@@ -337,7 +337,7 @@ class Confirmation(Record):
     success_rate: float | None
     success_rate_low: float | None
     success_rate_high: float | None
-    one_trial_per_rig: bool
+    one_trial_per_machine: bool
     goal: Goal | None
 
 
@@ -365,7 +365,7 @@ class SummaryAnswer(Answer):
         - ``label``: label of the design point
         - ``axes``: values of the swept parameters; null where one has a distribution
         - ``goal``.* (name, condition, status, rate, rate_low, rate_high, machines, machines_low, machines_high,
-          without_miss, without_miss_low, without_miss_high, trials_of_one_machine, other_mass, rigs_without_miss):
+          without_miss, without_miss_low, without_miss_high, trials_of_one_machine, other_mass, machines_without_miss):
           whether the point meets the goal, with bounds of this point alone
         - ``goals``: each of the goals, by name
           - ``name``: name of the goal: of several the worst, which all of this is of
@@ -386,7 +386,7 @@ class SummaryAnswer(Answer):
             where the goal is not on machines
           - ``other_mass``.* (of, rate, rate_low, rate_high): the same of the load, which the goal of the motor does not
             ask
-          - ``rigs_without_miss``: machines all of whose moves meet the goal
+          - ``machines_without_miss``: machines all of whose moves meet the goal
         - ``machines_together``: proportion of machines that meet all goals on machines, as observed; nothing where only
           one claim is on machines
         - ``trials``: trials of the point
@@ -415,8 +415,8 @@ class SummaryAnswer(Answer):
           trials
         - ``stable_rate_wilson_high``: upper 95 % Wilson bound of stable_rate, with machines for the effective number of
           trials
-        - ``settling_time``.* (n, moves, mean, min, p05, p25, median, median_low, median_high, p75, p95, p95_low,
-          p95_high, max, mean_low, mean_high): statistics of settling time
+        - ``arrival_time``.* (n, moves, mean, min, p05, p25, median, median_low, median_high, p75, p95, p95_low,
+          p95_high, max, mean_low, mean_high): statistics of arrival time
         - ``jerk_count``.* (n, mean, sd, median, p95, max, total, mean_low, mean_high): statistics of jerk count
         - ``jerk_interval``.* (n, mean, median): statistics of jerk interval
         - ``jerk_slowing``.* (moves, slowing, quickening, share, tau): statistics of jerk slowing
@@ -437,8 +437,8 @@ class SummaryAnswer(Answer):
         - ``travel_time``.* (mean, max): statistics of travel time
         - ``phase_changes``.* (trials, mean, max): statistics of phase changes
         - ``encoder_disagreement``.* (trials, mean, max): statistics of encoder disagreement
-        - ``rigs``.* (n, success_sd, without_failure, without_failure_low, without_failure_high, worst_5_percent):
-          statistics of rigs
+        - ``machines``.* (n, success_sd, without_failure, without_failure_low, without_failure_high, worst_5_percent):
+          statistics of machines
         - ``true_overshoot``.* (n, mean, p95, max): statistics of true overshoot
         - ``stopped``: trials that were ended early, because a move had diverged
         - ``controller_failed``: trials that the controller ended by giving no finite torque
@@ -495,7 +495,8 @@ class SummaryAnswer(Answer):
           zero_repeatability_rate_low, zero_repeatability_rate_high, true, encoder, load_true, motor_true): values of
           ISO 230-2
         - ``stopping``.* (success_rate_low, success_rate_high, confidence, halfwidth, halfwidth_asked,
-          halfwidth_confidence, reached, of_rigs): what the rule that ended the study asked for, and what was reached
+          halfwidth_confidence, reached, of_machines): what the rule that ended the study asked for, and what was
+          reached
         - ``worlds``.* (n, success, success_rates, goal_rates, goal_status, met, missed, undecided, bad_worlds, rule):
           the worlds at the point
         - ``claims``: each goal under each condition at the point
@@ -548,8 +549,8 @@ class SummaryAnswer(Answer):
           - ``settling_time_p95``: 95 % quantile of the settling time, of the goal and condition that the rate is of;
             none where it is not within the hold, s
           - ``status``: verdict on the goal
-        - ``assurance``.* (success_at_least, failure_at_most, rule_of_three, settling_time, statement, rigs): what the
-          trials show of all axes that the manifest describes
+        - ``assurance``.* (success_at_least, failure_at_most, rule_of_three, arrival_time, statement, machines): what
+          the trials show of all axes that the manifest describes
         - ``levels``: the torque levels
           - ``level``: number of the torque level
           - ``n``: trials whose motion was not lost, of which the values of the level are
@@ -1055,13 +1056,13 @@ class Needed(Record):
 
     Attributes
     ----------
-    rigs : int
-        Machines; 0 without machines.
+    machine_count : int
+        Number of machines; 0 without machines.
     trials : int
         Trials of a design point.
     """
 
-    rigs: int
+    machine_count: int
     trials: int
 
 
@@ -1438,8 +1439,8 @@ class Proof(Record):
         Upper bound.
     machines_low : float or None
         Lower bound of the proportion of machines that meet the goal, if it is about machines.
-    rigs : int
-        Machines; 0 without machines.
+    machine_count : int
+        Number of machines; 0 without machines.
     trials : int
         Trials.
     seed : int
@@ -1461,7 +1462,7 @@ class Proof(Record):
     rate_low: float | None
     rate_high: float | None
     machines_low: float | None
-    rigs: int
+    machine_count: int
     trials: int
     seed: int
     attempts: int
@@ -1478,7 +1479,7 @@ class Worst(Record):
         Its goal, of several.
     condition : str or None
         Its condition, with conditions.
-    rig : int
+    machine : int
         Number of the machine in the study, or of its trial where no trials share a machine.
     trial : int
         Its worst trial.
@@ -1490,7 +1491,7 @@ class Worst(Record):
 
     goal: str | None
     condition: str | None
-    rig: int
+    machine: int
     trial: int
     met: float | None
     inputs: dict[str, float | None]
@@ -1882,7 +1883,7 @@ class Box(Record):
 
     Attributes
     ----------
-    rig : int
+    machine : int
         Machine of the study with its profiles; 0 without machines.
     trial : int
         Its worst trial, of its manifest.
@@ -1902,7 +1903,7 @@ class Box(Record):
         Whether it is the worst machine of the study.
     """
 
-    rig: int
+    machine: int
     trial: int
     condition: str | None
     goal: str | None
@@ -1918,7 +1919,7 @@ class Likely(Record):
 
     Attributes
     ----------
-    rig : int
+    machine : int
         Machine of the study with its profiles; 0 without machines.
     trial : int
         Its worst trial, of its manifest.
@@ -1938,7 +1939,7 @@ class Likely(Record):
         Whether it is the machine of the box.
     """
 
-    rig: int
+    machine: int
     trial: int
     condition: str | None
     goal: str | None
@@ -1958,7 +1959,7 @@ class WorstAnswer(Answer):
         Its goal, of several.
     condition : str or None
         Its condition, with conditions.
-    rig : int
+    machine : int
         Number of the machine in the study, or of its trial where no trials share a machine.
     trial : int
         Its worst trial.
@@ -1978,7 +1979,7 @@ class WorstAnswer(Answer):
 
     goal: str | None
     condition: str | None
-    rig: int
+    machine: int
     trial: int
     met: float | None
     inputs: dict[str, float | None]
@@ -2787,7 +2788,7 @@ class PlanGoalAnswer(Answer):
     plans : pandas.DataFrame
         Studies, if no move misses the goal.
 
-        - ``rigs``: machines; 0 without machines
+        - ``machine_count``: number of machines; 0 without machines
         - ``trials``: trials of a design point
         - ``seconds``: computing time with all cores of this machine; of goals on machines, s
 
@@ -2814,7 +2815,7 @@ class PlanPilotAnswer(Answer):
     studies : pandas.DataFrame or None
         Studies that decide it; of goals on machines.
 
-        - ``rigs``: machines; 0 without machines
+        - ``machine_count``: number of machines; 0 without machines
         - ``trials``: trials of a design point
         - ``seconds``: computing time with all cores of this machine; of goals on machines, s
 
@@ -2838,13 +2839,13 @@ class Halfwidth(Record):
         half-width of the bounds.
     rate : float or None
         Assumed rate.
-    rig_sd : float or None
+    machine_sd : float or None
         Standard deviation of the success probability between machines.
-    rig_plans : pandas.DataFrame
-        Machines and trials; none without rig_sd.
+    machine_plans : pandas.DataFrame
+        Machines and trials; none without machine_sd.
 
-        - ``rigs``: machines
-        - ``trials_per_rig``: trials on each
+        - ``machine_count``: number of machines
+        - ``trials_per_machine``: trials on each
         - ``trials``: trials on all machines
 
     trials : int or None
@@ -2855,8 +2856,8 @@ class Halfwidth(Record):
 
     halfwidth: float | None
     rate: float | None
-    rig_sd: float | None
-    rig_plans: pandas.DataFrame
+    machine_sd: float | None
+    machine_plans: pandas.DataFrame
     trials: int | None
     trials_with_stop: int | None
 
@@ -2896,7 +2897,7 @@ class PlanSuccessAnswer(Answer):
     halfwidth: Halfwidth | None
 
 
-class PlanRigsAnswer(Answer):
+class PlanMachinesAnswer(Answer):
     """Machines and trials that show a proportion of successful machines.
 
     Attributes
@@ -2905,13 +2906,13 @@ class PlanRigsAnswer(Answer):
         Confidence of the claim, or of the bounds.
     success : float or None
         Proportion of its moves in which a machine holds zero.
-    rigs_share : float or None
+    machines_share : float or None
         Proportion of machines to be shown to succeed.
-    rig_plans : pandas.DataFrame
+    machine_plans : pandas.DataFrame
         Machines and trials, if no trial fails.
 
-        - ``rigs``: machines
-        - ``trials_per_rig``: trials on each
+        - ``machine_count``: number of machines
+        - ``trials_per_machine``: trials on each
         - ``trials``: trials on all machines
 
     halfwidth : Halfwidth or None
@@ -2922,8 +2923,8 @@ class PlanRigsAnswer(Answer):
 
     confidence: float | None
     success: float | None
-    rigs_share: float | None
-    rig_plans: pandas.DataFrame
+    machines_share: float | None
+    machine_plans: pandas.DataFrame
     halfwidth: Halfwidth | None
 
 
@@ -3110,7 +3111,7 @@ class StatusAnswer(Answer):
     parts: Parts | None
 
 
-PlanAnswer = Union[PlanGoalAnswer, PlanPilotAnswer, PlanSuccessAnswer, PlanRigsAnswer, PlanHalfwidthAnswer, PlanEquivalenceAnswer]
+PlanAnswer = Union[PlanGoalAnswer, PlanPilotAnswer, PlanSuccessAnswer, PlanMachinesAnswer, PlanHalfwidthAnswer, PlanEquivalenceAnswer]
 
 
 TYPES: dict[str, type[Answer]] = {
@@ -3137,7 +3138,7 @@ TYPES: dict[str, type[Answer]] = {
     "plan-goal": PlanGoalAnswer,
     "plan-pilot": PlanPilotAnswer,
     "plan-success": PlanSuccessAnswer,
-    "plan-rigs": PlanRigsAnswer,
+    "plan-machines": PlanMachinesAnswer,
     "plan-halfwidth": PlanHalfwidthAnswer,
     "plan-equivalence": PlanEquivalenceAnswer,
     "sensitivity": SensitivityAnswer,
@@ -3183,7 +3184,7 @@ class Ask(Protocol):
     @overload
     def __call__(self, command: Literal["accept"], /, *operands: Any, **options: Any) -> AcceptAnswer: ...
     @overload
-    def __call__(self, command: Literal["plan"], /, *operands: Any, **options: Any) -> PlanGoalAnswer | PlanPilotAnswer | PlanSuccessAnswer | PlanRigsAnswer | PlanHalfwidthAnswer | PlanEquivalenceAnswer: ...
+    def __call__(self, command: Literal["plan"], /, *operands: Any, **options: Any) -> PlanGoalAnswer | PlanPilotAnswer | PlanSuccessAnswer | PlanMachinesAnswer | PlanHalfwidthAnswer | PlanEquivalenceAnswer: ...
     @overload
     def __call__(self, command: Literal["sensitivity"], /, *operands: Any, **options: Any) -> SensitivityAnswer: ...
     @overload

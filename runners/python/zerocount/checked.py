@@ -25,8 +25,8 @@ class CheckedStudy:
     ----------
     name, description : str
         Of the manifest.
-    seed, trials, rigs, worlds, moves : int
-        ``rigs`` is 0 where each trial has a machine of its own, ``worlds`` where nothing is drawn for a world.
+    seed, trials, machines, worlds, moves : int
+        ``machines`` is 0 where each trial has a machine of its own, ``worlds`` where nothing is drawn for a world.
     conditions, condition_names : list of str
         Those that every machine bears in turn, with ages each condition at each age; those of the manifest.
     ages : list of float
@@ -58,7 +58,7 @@ class CheckedStudy:
     description: str
     seed: int
     trials: int
-    rigs: int
+    machines: int
     worlds: int
     conditions: list[str]
     condition_names: list[str]

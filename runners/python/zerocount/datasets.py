@@ -149,7 +149,7 @@ class ResultsDatasets:
 _WHAT = {
     "trial": "trials: its study does not keep them",
     "outcome": "outcomes of trials: its study does not keep them",
-    "rig": "machines: each trial is on one of its own",
+    "machine": "machines: each trial is on one of its own",
     "world": "worlds: nothing in its manifest is drawn per world",
     "age": "ages: its manifest has none",
     "level": "torque levels: its loop is closed",

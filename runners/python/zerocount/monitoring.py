@@ -89,8 +89,8 @@ class Monitor:
 
     Examples
     --------
-    >>> watch = zc.monitor({"settling_time": [0.041, 0.043, 0.040, 0.044, 0.042]})
-    >>> watch.update({"settling_time": [0.042, 0.043]}).status
+    >>> watch = zc.monitor({"arrival_time": [0.041, 0.043, 0.040, 0.044, 0.042]})
+    >>> watch.update({"arrival_time": [0.042, 0.043]}).status
     'undecided'
     """
 
@@ -174,7 +174,7 @@ def monitor(baseline: Any, moves: Any = None, **options: Any) -> Monitor | Monit
     moves : path or table, optional
         The moves in their order. Without them the machine is watched by :meth:`Monitor.update`.
     **options
-        Of the command: ``alarm``, ``change``, ``measure`` (a list), ``block``, ``group``, ``unchanged`` (a list), ``point``, ``condition``, ``age``, ``rig``, ``seed``, ``budget``.
+        Of the command: ``alarm``, ``change``, ``measure`` (a list), ``block``, ``group``, ``unchanged`` (a list), ``point``, ``condition``, ``age``, ``machine``, ``seed``, ``budget``.
 
     Returns
     -------
@@ -191,8 +191,8 @@ def monitor(baseline: Any, moves: Any = None, **options: Any) -> Monitor | Monit
 
     Examples
     --------
-    >>> before = {"settling_time": [0.041, 0.043, 0.040, 0.044, 0.042] * 10}
-    >>> zc.monitor(before, {"settling_time": [0.061, 0.063] * 20}).direction
+    >>> before = {"arrival_time": [0.041, 0.043, 0.040, 0.044, 0.042] * 10}
+    >>> zc.monitor(before, {"arrival_time": [0.061, 0.063] * 20}).direction
     'higher'
     """
     watch = Monitor(baseline, **options)

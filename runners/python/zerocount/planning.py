@@ -23,8 +23,8 @@ def plan(
     true_success: float | None = None,
     power: float | None = None,
     halfwidth: float | None = None,
-    rigs_share: float | None = None,
-    rig_sd: float | None = None,
+    machines_share: float | None = None,
+    machine_sd: float | None = None,
     margin: Mapping[str, str | float] | None = None,
 ) -> PlanAnswer:
     """How many trials a claim needs.
@@ -45,12 +45,12 @@ def plan(
         Probability with which the plan shows it.
     halfwidth : float, optional
         Half-width of the bounds of a rate.
-    rigs_share : float, optional
+    machines_share : float, optional
         Least proportion of machines.
-    rig_sd : float, optional
+    machine_sd : float, optional
         Standard deviation of the success probability between machines.
     margin : dict, optional
-        Largest accepted differences by measure: ``{"settling_time": "5%"}``.
+        Largest accepted differences by measure: ``{"arrival_time": "5%"}``.
 
     Returns
     -------
@@ -71,7 +71,7 @@ def plan(
         true_success=true_success,
         power=power,
         halfwidth=halfwidth,
-        rigs_share=rigs_share,
-        rig_sd=rig_sd,
+        machines_share=machines_share,
+        machine_sd=machine_sd,
         margin=margin,
     )

@@ -39,8 +39,8 @@ _TABLE = (
     "stable_rate",
     "stable_rate_low",
     "stable_rate_high",
-    "settling_time_median",
-    "settling_time_p95",
+    "arrival_time_median",
+    "arrival_time_p95",
     "band_settling_time_p95",
     "tolerance_settling_time_p95",
     "jerk_count_mean",
@@ -195,7 +195,7 @@ class Results:
             Index ``point``, the number of the design point. Columns: ``label``; the swept keys; with a goal
             ``goal`` (met, missed, undecided), ``goal_rate`` and its bounds; ``trials``; ``success_rate``, the
             proportion of trials that end at zero counts, and ``stable_rate``, each with bounds;
-            ``settling_time_median`` and ``_p95`` (s), the arrival at zero; ``band_settling_time_p95[b]`` (s),
+            ``arrival_time_median`` and ``_p95`` (s), the arrival at zero; ``band_settling_time_p95[b]`` (s),
             after which the error stays within b counts, ``tolerance_settling_time_p95[t]`` (s), after which the
             position error stays within t; ``jerk_count_mean`` per trial. Quantiles are of all moves:
             the k-th smallest of n with k = ⌈p·n⌉, where a move that never arrives is later than any other.
@@ -205,13 +205,13 @@ class Results:
         >>> r = zc.open("my-axis.h5")
         >>> r.table.loc[2, ["ki", "goal", "goal_rate"]].to_list()
         [11767.7344682513, 'met', 0.97975]
-        >>> r.table.attrs["units"]["settling_time_p95"]
+        >>> r.table.attrs["units"]["arrival_time_p95"]
         's'
         """
         everything = self.statistics
         axes = [short_name(str(axis["name"]), list(everything)) for axis in self.checked.axes]
         wanted = [name for part in _TABLE for name in everything if name.partition("[")[0] == part]
-        wanted += [name for name in everything if name == "rigs_without_failure"]
+        wanted += [name for name in everything if name == "machines_without_failure"]
         table = everything[["label", *axes, *wanted]].astype({"trials": int})
         table.attrs = {kind: {name: of[name] for name in table} for kind, of in everything.attrs.items()}
         if self.checked.goals:
@@ -273,7 +273,7 @@ class Results:
         -------
         pandas.DataFrame
             Index ``trial``, the row of the trial in the file. Columns: ``point``, ``index`` (of the trial at its
-            point), ``rig`` if trials share machines, ``world`` if the study has worlds, ``condition`` if it has
+            point), ``machine`` if trials share machines, ``world`` if the study has worlds, ``condition`` if it has
             conditions, ``age`` if it has ages, the inputs, ``success`` (zero counts at the end of every move), ``goal_met`` (every move meets the goal), ``outcome`` (of the
             worst move), and the measures of the moves, combined. ``attrs["combined"]`` tells how: ``all`` or
             ``any`` of the moves have the quality, the ``sum``, the ``largest`` magnitude (NaN if a move has none),
@@ -282,8 +282,8 @@ class Results:
         Examples
         --------
         >>> t = zc.open("my-axis.h5").trials(point=2)
-        >>> t[["k1", "rig", "success"]].iloc[0].to_dict()
-        {'k1': 129.43261101715342, 'rig': 0, 'success': False}
+        >>> t[["k1", "machine", "success"]].iloc[0].to_dict()
+        {'k1': 129.43261101715342, 'machine': 0, 'success': False}
         """
         columns = self._columns.trials(self._rows(point))
         trial = columns.pop("trial").values
@@ -337,7 +337,7 @@ class Results:
         trials = self._group("trial", self._rows(point))["trial"].values
         return table[table["trial"].isin(trials)]
 
-    def rigs(self, point: int | str | None = None) -> pandas.DataFrame:
+    def machines(self, point: int | str | None = None) -> pandas.DataFrame:
         """Machines, one row each.
 
         Parameters
@@ -348,10 +348,10 @@ class Results:
         Returns
         -------
         pandas.DataFrame
-            Index ``rig``. Columns: what is drawn per machine, ``trials``, and ``success``, those of them that end at
-            zero counts. Those that meet the goal: ``trials(point).groupby("rig")["goal_met"].sum()``.
+            Index ``machine``. Columns: what is drawn per machine, ``trials``, and ``success``, those of them that end at
+            zero counts. Those that meet the goal: ``trials(point).groupby("machine")["goal_met"].sum()``.
         """
-        return self._machines("rig", point)
+        return self._machines("machine", point)
 
     def worlds(self, point: int | str | None = None) -> pandas.DataFrame:
         """Worlds, one row each: what all machines share and nobody knows.
@@ -419,15 +419,15 @@ class Results:
         Returns
         -------
         pandas.DataFrame
-            Index ``rig``. Column ``life``: the last age up to and including which the machine meets the goal in its
+            Index ``machine``. Column ``life``: the last age up to and including which the machine meets the goal in its
             proportion of moves under every condition; NaN if it does not at the first.
         """
-        columns = self._group("rig")
+        columns = self._group("machine")
         if "life" not in columns:
             raise DataError(f"{self.path}: its machines have no lives: the study has no ages, or no goal", 4)
         row = self.best if point is None else self.point(point)
-        life = dataclasses.replace(columns["life"], values=columns["life"].values[row], dimensions=("rig",))
-        return frame("the table of lives", {"life": life}, columns["rig"].values, "rig")
+        life = dataclasses.replace(columns["life"], values=columns["life"].values[row], dimensions=("machine",))
+        return frame("the table of lives", {"life": life}, columns["machine"].values, "machine")
 
     def levels(self) -> pandas.DataFrame:
         """Torque levels of an open-loop study, one row for each point and level.

@@ -269,7 +269,7 @@ def sample(
 
     Examples
     --------
-    >>> f = zc.sample("my-axis.yaml", point=2, outcome="settling_time")
+    >>> f = zc.sample("my-axis.yaml", point=2, outcome="arrival_time")
     >>> f.names
     ['friction.k1', 'friction.k2', 'friction.beta', 'friction.alpha', 'command.targets.0', 'initial.encoder_phase']
     >>> f([90, 600, 1e5, 0.5, 20, 0.5])

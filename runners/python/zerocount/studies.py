@@ -304,9 +304,9 @@ class Study:
         return self.checked.trials
 
     @property
-    def rigs(self) -> int:
+    def machines(self) -> int:
         """Machines that share the trials; 0 if each trial is on one of its own."""
-        return self.checked.rigs
+        return self.checked.machines
 
     @property
     def worlds(self) -> int:
@@ -464,7 +464,7 @@ class Study:
 
         >>> import distributed
         >>> with distributed.Client(processes=False, dashboard_address=None) as client:
-        ...     r = zc.study("my-axis.yaml").set(rigs=100, trials=200).run("on-workers.h5", client=client)
+        ...     r = zc.study("my-axis.yaml").set(machines=100, trials=200).run("on-workers.h5", client=client)
         >>> len(r.trials(2))
         200
         """

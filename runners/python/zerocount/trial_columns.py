@@ -117,16 +117,16 @@ class TrialColumns:
         Trial i runs on machine i mod R, under condition i div R mod C, at age i div RC mod A, with the draws of
         i mod R + R * (i div RCA).
         """
-        rigs, conditions, ages = max(self.study.rigs, 1), self.study.condition_names, self.study.ages
-        of_age = rigs * max(len(conditions), 1)
-        draw = index % rigs + rigs * (index // (of_age * max(len(ages), 1)))
+        machines, conditions, ages = max(self.study.machines, 1), self.study.condition_names, self.study.ages
+        of_age = machines * max(len(conditions), 1)
+        draw = index % machines + machines * (index // (of_age * max(len(ages), 1)))
         columns = {}
-        if self.study.rigs > 0:
-            columns["rig"] = Column(index % rigs, ("trial",), "1", "index of the machine of the trial")
+        if self.study.machines > 0:
+            columns["machine"] = Column(index % machines, ("trial",), "1", "index of the machine of the trial")
         if self.study.worlds > 0:
             columns["world"] = Column(draw % self.study.worlds, ("trial",), "1", "index of the world")
         if conditions:
-            number = index // rigs % len(conditions)
+            number = index // machines % len(conditions)
             columns["condition"] = Column(number, ("trial",), "1", "what the machine bears", conditions)
         if ages:
             age = np.array(ages)[index // of_age % len(ages)]

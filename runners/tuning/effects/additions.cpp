@@ -170,7 +170,7 @@ class ModeSearch {
     limit.note = fmt::format("{}; {}", found, point.note);
     if (units_ < runs_.units())
       limit.note += fmt::format("; first {} of {} {}: {:.4g} % without it", units_, runs_.units(),
-                                runs_.study().rigs > 0 ? "machines" : "draws",
+                                runs_.study().machines > 0 ? "machines" : "draws",
                                 100.0 * estimate_of(runs_.aim(), runs_.base().units, units_).rate);
     return limit;
   }

@@ -1,5 +1,5 @@
 #include "core/friction/friction_model.hpp"
-#include "core/trial/rig.hpp"
+#include "core/trial/machine.hpp"
 #include "experiments/parameters/element_lists.hpp"
 #include "experiments/parameters/parameter_rows.hpp"
 #include "runners/tuning/effects/idealisations.hpp"

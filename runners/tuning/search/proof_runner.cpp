@@ -31,12 +31,14 @@ constexpr std::int64_t usual_units = 500;  // at least, where the effort is enou
 std::int64_t min_units_of(const study::Study& study, std::size_t goal, std::int64_t each,
                           std::size_t points) {
   const measures::CountedGoal counted = measures::asked_of_moves(study)[goal];
-  const bool on_rigs = study.rigs > 0;
+  const bool on_machines = study.machines > 0;
   std::int64_t fewest = 0;
-  for (const goal::Needs& one : goal::smallest_studies(
-           study.goals[goal], on_rigs, measures::asked_moves(counted, study.moves), points, study.worlds)) {
-    if (!on_rigs) fewest = std::max(fewest, one.trials);
-    if (on_rigs && one.trials <= each * one.rigs && (fewest == 0 || one.rigs < fewest)) fewest = one.rigs;
+  for (const goal::Needs& one :
+       goal::smallest_studies(study.goals[goal], on_machines, measures::asked_moves(counted, study.moves),
+                              points, study.worlds)) {
+    if (!on_machines) fewest = std::max(fewest, one.trials);
+    if (on_machines && one.trials <= each * one.machines && (fewest == 0 || one.machines < fewest))
+      fewest = one.machines;
   }
   return fewest;
 }
@@ -49,17 +51,17 @@ std::int64_t min_units_of(const study::Study& study, std::int64_t each, std::siz
   return least;
 }
 
-/// @param each trials of a rig
+/// @param each trials of a machine
 measures::CellCounts at_trials_each(const measures::CellCounts& counts, std::int64_t each) {
   measures::CellCounts scaled(counts.shape());
   for (std::size_t condition = 0; condition < counts.conditions(); ++condition) {
-    const std::vector<statistics::RigMoves> rigs = counts.sum({.condition = condition}).rigs;
-    for (std::size_t rig = 0; rig < rigs.size(); ++rig) {
+    const std::vector<statistics::MachineMoves> machines = counts.sum({.condition = condition}).machines;
+    for (std::size_t machine = 0; machine < machines.size(); ++machine) {
       const std::int64_t trials = each / static_cast<std::int64_t>(counts.conditions());
-      const auto factor = static_cast<double>(trials) / static_cast<double>(rigs[rig].trials);
-      scaled.add_rig(rig, condition,
-                     {trials, std::llround(static_cast<double>(rigs[rig].moves) * factor),
-                      std::llround(static_cast<double>(rigs[rig].met) * factor)});
+      const auto factor = static_cast<double>(trials) / static_cast<double>(machines[machine].trials);
+      scaled.add_machine(machine, condition,
+                         {trials, std::llround(static_cast<double>(machines[machine].moves) * factor),
+                          std::llround(static_cast<double>(machines[machine].met) * factor)});
     }
   }
   return scaled;
@@ -71,7 +73,7 @@ std::int64_t deciding_units(const study::Study& study, const GoalCounts& counts,
                             std::int64_t most) {
   const std::vector<goal::Needs> studies = goal::deciding_studies(study.goals, counts, points, 0.5);
   if (studies.empty()) return most / 8;
-  return studies.front().rigs > 0 ? studies.front().rigs : studies.front().trials;
+  return studies.front().machines > 0 ? studies.front().machines : studies.front().trials;
 }
 
 std::string_view key_of(std::string_view entry) {
@@ -127,7 +129,7 @@ GoalCounts counts_of(const study::Study& study, const trials::Replicates& units,
                      std::span<const UnitResult> results) {
   const auto conditions = static_cast<std::size_t>(study::condition_count(study));
   measures::Shape shape = measures::shape_of(study);
-  if (shape.rigs > 0) shape.rigs = std::ssize(results);
+  if (shape.machines > 0) shape.machines = std::ssize(results);
   GoalCounts goals(study.goals.size(), measures::CellCounts(shape));
   for (std::size_t goal = 0; goal < goals.size(); ++goal) {
     measures::CellCounts& counts = goals[goal];
@@ -135,12 +137,13 @@ GoalCounts counts_of(const study::Study& study, const trials::Replicates& units,
       for (std::size_t condition = 0; condition < conditions; ++condition) {
         const ClaimResult& claim = results[unit].claims[goal * conditions + condition];
         const auto number = static_cast<std::int64_t>(unit);
-        if (study.rigs == 0) {
+        if (study.machines == 0) {
           counts.add(trials::trial_of_replicate(study, units, number, static_cast<std::int64_t>(condition)),
                      claim.moves, claim.met);
         } else {
-          counts.add_rig(unit, condition,
-                         {units.trials_each / static_cast<std::int64_t>(conditions), claim.moves, claim.met});
+          counts.add_machine(
+              unit, condition,
+              {units.trials_each / static_cast<std::int64_t>(conditions), claim.moves, claim.met});
         }
       }
     }
@@ -167,7 +170,7 @@ Judged judged(const study::Study& study, const trials::Replicates& units,
 }
 
 GoalCounts with_trials_each(GoalCounts counts, std::int64_t each) {
-  if (counts.front().shape().rigs == 0) return counts;
+  if (counts.front().shape().machines == 0) return counts;
   for (measures::CellCounts& goal : counts) goal = at_trials_each(goal, each);
   return counts;
 }

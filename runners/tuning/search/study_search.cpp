@@ -87,7 +87,7 @@ std::int64_t trials_of_machine(const study::Study& study) {
   const bool on_machines =
       std::ranges::any_of(study.goals, [](const study::Goal& goal) { return goal.machines.has_value(); });
   if (!on_machines) return conditions;
-  return std::max<std::int64_t>(study.trials / (study.rigs * conditions), 10) * conditions;
+  return std::max<std::int64_t>(study.trials / (study.machines * conditions), 10) * conditions;
 }
 
 std::int64_t search_trials_of_machine(const study::Study& study) {

@@ -214,11 +214,15 @@ Criterion criterion_of(const study::Study& study, std::size_t goal, const std::s
   const bool lacks_band = name.starts_with("band_") && !name.ends_with("]") && dot != std::string::npos;
   const std::string with_band =
       lacks_band ? fmt::format("{}[{}]{}", name, question.claim()->band, text.substr(dot)) : text;
+  if (const std::string_view meanings = trial::meanings_of_settling_time(text); !meanings.empty())
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: tune.minimise: '{}' may mean two measures; expected {}", study.name, text,
+                              meanings));
   const auto quantity = comparison::find_requirable(with_band);
   if (!quantity || quantity->kind != comparison::RequirementKind::quantile) {
     throw Failure(ExitCode::bad_input,
                   fmt::format("{}: tune.minimise: '{}' is no quantile of a measure; expected one such as "
-                              "band_settling_time.p95, settling_time.median or, with verdict.motion, "
+                              "band_settling_time.p95, arrival_time.median or, with verdict.motion, "
                               "rest_torque_noise.p95",
                               study.name, text));
   }

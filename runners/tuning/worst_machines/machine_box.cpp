@@ -97,9 +97,10 @@ void hold_means_of_profiles(manifest_text::PointChanges& changes, const MachineB
   for (const auto& [slot, value] : box.profiles()) {
     const study::Rotors& rotors = *plan.profiles[value->index];
     if (rotors.drawn_mean())
-      changes.values.emplace_back(fmt::format("{}.profile.mean", plan.table.rows[slot].name),
-                                  age_factor(box, *value, values) *
-                                      rotors.mean(value->level == study::DrawLevel::rig ? point.rig : 0));
+      changes.values.emplace_back(
+          fmt::format("{}.profile.mean", plan.table.rows[slot].name),
+          age_factor(box, *value, values) *
+              rotors.mean(value->level == study::DrawLevel::machine ? point.machine : 0));
   }
 }
 
@@ -127,12 +128,12 @@ MachineBox::MachineBox(study::Study study, std::int64_t point)
   for (std::size_t slot = 0; slot < values.size(); ++slot) {
     if (values[slot]->kind != study::Value::Kind::profile) continue;
     profiles_.emplace_back(slot, values[slot]);
-    has_profile_per_rig_ |= values[slot]->level == study::DrawLevel::rig;
+    has_profile_per_machine_ |= values[slot]->level == study::DrawLevel::machine;
   }
 }
 
 BoxPoint MachineBox::machine_of(std::int64_t unit) const {
-  return {given_.rigs > 0 ? unit : 0, study::drawn_quantiles(given_, point_, unit, inputs_)};
+  return {given_.machines > 0 ? unit : 0, study::drawn_quantiles(given_, point_, unit, inputs_)};
 }
 
 /// Of the likely machines Σ z² as a part of its limit; of the others 0.
@@ -161,7 +162,7 @@ BoxPoint MachineBox::inside(BoxPoint point, MachineRegion region) const {
   if (const double excess = excess_of(point, region); excess > 1.0) approach_median(point, std::sqrt(excess));
   // Measured values at the ends of their ranges may be those of no machine.
   const auto is_machine = [&] {
-    return study::is_machine(searched_, point_, point.rig, draws_of(point, given_.trials));
+    return study::is_machine(searched_, point_, point.machine, draws_of(point, given_.trials));
   };
   constexpr int max_steps = 100;
   for (int step = 0; step < max_steps && !is_machine(); ++step) approach_median(point, 1.1);
@@ -183,16 +184,16 @@ study::GivenDraws MachineBox::draws_of(const BoxPoint& point, std::int64_t numbe
     for (const std::uint32_t slot : inputs_[i].slots) given.uniforms[slot] = point.quantiles[i];
   }
   given.number = number;
-  given.rotor = point.rig;
+  given.rotor = point.machine;
   return given;
 }
 
 trial::TrialParameters MachineBox::trial_of(const BoxPoint& point, std::int64_t number) const {
-  return study::study_trial(searched_, point_, point.rig, draws_of(point, number)).parameters;
+  return study::study_trial(searched_, point_, point.machine, draws_of(point, number)).parameters;
 }
 
-std::int64_t rigs_of_manifest(const MachineBox& box, const BoxPoint& point) {
-  return box.has_profile_per_rig() ? std::max<std::int64_t>(point.rig + 1, 2) : 1;
+std::int64_t machines_of_manifest(const MachineBox& box, const BoxPoint& point) {
+  return box.has_profile_per_machine() ? std::max<std::int64_t>(point.machine + 1, 2) : 1;
 }
 
 std::string manifest_of(const MachineBox& box, const BoxPoint& point, const NamedValues& values,
@@ -208,12 +209,12 @@ std::string manifest_of(const MachineBox& box, const BoxPoint& point, const Name
     const std::vector<std::uint32_t>& rows = study.plan->sampled_slots;
     if (std::ranges::find(rows, input.slots.front()) != rows.end()) changes.removed.emplace_back("samples");
   }
-  const std::int64_t rigs = rigs_of_manifest(box, point);
-  changes.keys.emplace_back("trials", fmt::format("{}", manifest.trials * rigs));
-  if (box.has_profile_per_rig()) {
-    changes.keys.emplace_back("rigs", fmt::format("{}", rigs));
+  const std::int64_t machines = machines_of_manifest(box, point);
+  changes.keys.emplace_back("trials", fmt::format("{}", manifest.trials * machines));
+  if (box.has_profile_per_machine()) {
+    changes.keys.emplace_back("machines", fmt::format("{}", machines));
   } else {
-    changes.removed.emplace_back("rigs");
+    changes.removed.emplace_back("machines");
     for (const study::Goal& goal : study.goals)
       changes.removed.push_back(goal.name.empty() ? "goal.machines" : "goals." + goal.name + ".machines");
   }

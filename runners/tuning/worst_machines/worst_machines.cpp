@@ -154,7 +154,7 @@ void race(std::vector<BoxPoint>& points, const MachineBox& box, const MachineFai
 
 constexpr std::int64_t trials_of_verdict = 256;
 constexpr std::int64_t judged_at_once = 64;
-constexpr std::size_t worst_rigs = 4;
+constexpr std::size_t starting_machines = 4;  // the worst of the study, from which the search begins
 constexpr std::size_t max_corners = 64;
 constexpr std::size_t filling_points = 128;
 constexpr int generations = 8;
@@ -171,16 +171,16 @@ NamedValues inputs_of_machine(const study::Study& study, std::int64_t point, con
   const auto has_columns = [&study](const study::GroupingTraits& of) {
     return !study.columns.shared[of.grouping].empty();
   };
-  const bool of_rig = study.rigs > 0 && std::ranges::any_of(study::groupings, has_columns);
-  if (!of_rig || !study.conditions.empty()) {  // what conditions override is an input of trials
+  const bool of_machine = study.machines > 0 && std::ranges::any_of(study::groupings, has_columns);
+  if (!of_machine || !study.conditions.empty()) {  // what conditions override is an input of trials
     add(study.columns.inputs, study::study_trial(study, point, machine.trial).inputs,
-        of_rig ? study::DrawLevel::rig : study::DrawLevel::contact);
+        of_machine ? study::DrawLevel::machine : study::DrawLevel::contact);
     return named;
   }
   for (const study::GroupingTraits& of : study::groupings)
     if (has_columns(of))
       add(study.columns.shared[of.grouping],
-          study::group_inputs(study, of.grouping, study::group_of(study, of.grouping, machine.rig)),
+          study::group_inputs(study, of.grouping, study::group_of(study, of.grouping, machine.machine)),
           study::DrawLevel::contact);
   return named;
 }
@@ -213,15 +213,15 @@ JudgedMachine judged(const BoxPoint& point, const MachineBox& box, const Machine
                      const MachineManifest& manifest, const trials::Effort& effort) {
   const study::Study& study = box.study();
   JudgedMachine machine;
-  machine.rig = point.rig;
+  machine.machine = point.machine;
   machine.quantiles = point.quantiles;
   machine.inputs = values_at(study, box.point(), point.quantiles);
-  const std::int64_t step = rigs_of_manifest(box, point);
+  const std::int64_t step = machines_of_manifest(box, point);
   std::vector<trial::TrialParameters> trials;
   std::int64_t first = 0;
   try {
     machine.manifest = manifest_of(box, point, machine.inputs, manifest);
-    first = box.has_profile_per_rig() ? point.rig : 0;
+    first = box.has_profile_per_machine() ? point.machine : 0;
     trials = trials_of_manifest(machine, box, first, step, manifest.trials);
   } catch (const Failure& failure) {
     if (failure.code() != ExitCode::bad_input && failure.code() != ExitCode::bad_data) throw;
@@ -280,7 +280,7 @@ class MachineSearch {
     std::size_t likely = worst_that([&](const BoxPoint& point) { return box_.is_likely(point); });
     if (likely == named.size()) likely = in_box;  // not sought: no likely machine is worse
     return {worst_machine(box_.study(), units_.point, results), judgements[1], judgements[in_box],
-            judgements[likely], box_.has_profile_per_rig()};
+            judgements[likely], box_.has_profile_per_machine()};
   }
 
  private:
@@ -309,11 +309,11 @@ class MachineSearch {
   }
 
   std::vector<BoxPoint> first_points(MachineRegion region, const std::vector<std::int64_t>& order) {
-    const std::size_t best = std::min(order.size(), worst_rigs);
+    const std::size_t best = std::min(order.size(), starting_machines);
     const std::size_t size = box_.inputs().size();
     std::vector<BoxPoint> points;
     const auto add = [&](const std::vector<double>& place) {
-      BoxPoint point{box_.study().rigs > 0 ? order[points.size() % best] : 0, {}};
+      BoxPoint point{box_.study().machines > 0 ? order[points.size() % best] : 0, {}};
       for (const double one : place) point.quantiles.push_back(quantile_at(one));
       points.push_back(box_.inside(std::move(point), region));
     };
@@ -333,7 +333,7 @@ class MachineSearch {
   }
 
   BoxPoint child_of(const BoxPoint& parent, double step) {
-    BoxPoint child{parent.rig, parent.quantiles};
+    BoxPoint child{parent.machine, parent.quantiles};
     for (double& one : child.quantiles) {
       if (numbers_.uniform() < 0.5)
         one = quantile_at(std::clamp(place_at(one) + step * numbers_.normal(), 0.0, 1.0));
@@ -377,7 +377,7 @@ WorstMachine worst_machine(const study::Study& study, std::int64_t point,
       measures::asked_moves(measures::asked_of_moves(study)[machine.claim.goal], study.moves);
   const std::int64_t trial_under_condition =
       (std::ranges::max_element(result.values) - result.values.begin()) / asked;
-  machine.trial = trials::trial_of_replicate(study, {.count = std::ssize(results)}, machine.rig,
+  machine.trial = trials::trial_of_replicate(study, {.count = std::ssize(results)}, machine.machine,
                                              trial_under_condition * study::condition_count(study) +
                                                  static_cast<std::int64_t>(machine.claim.condition));
   machine.inputs = inputs_of_machine(study, point, machine);
@@ -389,7 +389,7 @@ std::int64_t trials_of_worst_machines(const study::Study& study, const trials::R
   // A race takes 4 trials of each machine, 12 more of a quarter, and 48 more of a quarter of these.
   constexpr auto of_newcomer =
       stage_trials[0] + (stage_trials[1] - stage_trials[0]) / 4 + (stage_trials[2] - stage_trials[1]) / 16;
-  constexpr auto first = static_cast<std::int64_t>(worst_rigs + max_corners + filling_points);
+  constexpr auto first = static_cast<std::int64_t>(starting_machines + max_corners + filling_points);
   constexpr auto later = static_cast<std::int64_t>(generations * children);
   return units.trials() +
          study::condition_count(study) * (of_newcomer * (first + later) + 3 * trials_of_verdict);
@@ -420,7 +420,7 @@ WorstMachines worst_machines(const study::Study& study, const trials::Replicates
   }
   const auto worst_by = [&](const auto& met) { return *std::ranges::min_element(under, {}, met); };
   const auto is_same = [](const JudgedMachine& a, const JudgedMachine& b) {
-    return a.condition == b.condition && a.rig == b.rig && a.quantiles == b.quantiles;
+    return a.condition == b.condition && a.machine == b.machine && a.quantiles == b.quantiles;
   };
   WorstMachines found = worst_by([](const WorstMachines& one) { return one.of_study.met; });
   const WorstMachines in_box = worst_by([](const WorstMachines& one) { return one.in_box.met; });

@@ -19,9 +19,9 @@
 
 namespace zerocount::tuning {
 
-/// A machine: a rig, and [machine input] the quantile that it has.
+/// A machine: a machine, and [machine input] the quantile that it has.
 struct BoxPoint {
-  std::int64_t rig{0};
+  std::int64_t machine{0};
   std::vector<double> quantiles;
   std::vector<ClaimResult> results{};  ///< [stage of a race] of its first trials, all goals together
 };
@@ -48,9 +48,9 @@ class MachineBox {
 
   /// The values of the point that are profiles, by their slots.
   const std::vector<std::pair<std::size_t, const study::Value*>>& profiles() const { return profiles_; }
-  bool has_profile_per_rig() const { return has_profile_per_rig_; }
+  bool has_profile_per_machine() const { return has_profile_per_machine_; }
 
-  /// The machine of a rig of the study or, without rigs, of a trial.
+  /// The machine of a machine of the study or, without machines, of a trial.
   BoxPoint machine_of(std::int64_t unit) const;
   /// The nearest machine of the region on the way to the median.
   BoxPoint inside(BoxPoint point, MachineRegion region) const;
@@ -69,7 +69,7 @@ class MachineBox {
   std::vector<study::MachineInput> inputs_;
   study::Study searched_;  ///< with independent draws, as many as are wanted
   std::vector<std::pair<std::size_t, const study::Value*>> profiles_;
-  bool has_profile_per_rig_{false};
+  bool has_profile_per_machine_{false};
 };
 
 /// How the manifest of a machine is written.
@@ -79,9 +79,9 @@ struct MachineManifest {
   std::int64_t trials{0};                         ///< of the machine
 };
 
-/// The rigs of the machine's manifest: more than one only where a profile belongs to a rig. The machine is
-/// the last rig, and its trials are every rigs_of_manifest()-th from there on.
-std::int64_t rigs_of_manifest(const MachineBox& box, const BoxPoint& point);
+/// The machines of the machine's manifest: more than one only where a profile belongs to a machine. The
+/// machine is the last machine, and its trials are every machines_of_manifest()-th from there on.
+std::int64_t machines_of_manifest(const MachineBox& box, const BoxPoint& point);
 
 /// The manifest of a machine: values in place of their distributions, as they act at its age, and all else
 /// as in the study.
@@ -97,9 +97,9 @@ using NamedValues = std::vector<std::pair<std::string, double>>;
 
 /// The machine of a study that does worst.
 struct WorstMachine {
-  std::int64_t rig{0};    ///< or the trial, where no trials share a rig
-  std::int64_t trial{0};  ///< its worst trial
-  double met{0.0};        ///< proportion of its moves that meet the goal
+  std::int64_t machine{0};  ///< or the trial, where no trials share a machine
+  std::int64_t trial{0};    ///< its worst trial
+  double met{0.0};          ///< proportion of its moves that meet the goal
   NamedValues inputs;
   /// The goal that it meets in the fewest of its moves, and the condition: of these trial and met are.
   ClaimPlace claim{};
@@ -118,7 +118,7 @@ WorstMachine worst_machine(const study::Study& study, std::int64_t point,
 struct JudgedMachine {
   std::int64_t condition{0};
   std::optional<std::string> condition_name{};  ///< without conditions none
-  std::int64_t rig{0};                ///< of the study, from which it has its profiles; 0 without rigs
+  std::int64_t machine{0};            ///< of the study, from which it has its profiles; 0 without machines
   std::int64_t trial{0};              ///< its worst trial, of the manifest
   std::int64_t moves{0};              ///< by which it is judged
   double met{0.0};                    ///< proportion of these moves that meet all goals which ask them
@@ -150,7 +150,7 @@ struct WorstMachines {
   JudgedMachine in_box;
   /// Of those of the box whose normal scores have Σ z² ≤ the 99.9 % quantile of χ², without correlations.
   JudgedMachine likely;
-  bool with_profiles{false};  ///< the machines have profiles of their rigs
+  bool with_profiles{false};  ///< the machines have profiles of their machines
   BoxEdges edges{};           ///< under the condition of in_box
 };
 

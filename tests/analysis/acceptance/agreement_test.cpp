@@ -9,7 +9,7 @@ namespace {
 
 using acceptance::Agreement;
 using acceptance::agreement_of;
-using statistics::RigMoves;
+using statistics::MachineMoves;
 
 /// Machines whose proportions of good moves are uniform about the centre.
 class Machines {
@@ -23,10 +23,11 @@ class Machines {
     for (std::int64_t i = 0; i < moves; ++i) met += draws_.uniform(0.0, 1.0) < rate ? 1 : 0;
     return met;
   }
-  std::vector<RigMoves> rigs(int count, std::int64_t moves) {
-    std::vector<RigMoves> rigs;
-    for (int i = 0; i < count; ++i) rigs.push_back({.trials = moves, .moves = moves, .met = met_of(moves)});
-    return rigs;
+  std::vector<MachineMoves> simulated(int count, std::int64_t moves) {
+    std::vector<MachineMoves> machines;
+    for (int i = 0; i < count; ++i)
+      machines.push_back({.trials = moves, .moves = moves, .met = met_of(moves)});
+    return machines;
   }
 
  private:
@@ -38,15 +39,15 @@ class Machines {
 TEST(Agreement, OfOneMachineIsTheRankTest) {
   Machines machines(1, 0.8, 0.15);
   for (int i = 0; i < 10; ++i) {
-    const std::vector<RigMoves> rigs = machines.rigs(50, 60);
+    const std::vector<MachineMoves> simulated = machines.simulated(50, 60);
     const std::vector<std::int64_t> met{machines.met_of(40)};
     std::vector<std::int64_t> successes;
-    for (const RigMoves& rig : rigs) successes.push_back(rig.met);
-    const double exact = statistics::rig_rank_test({met[0], 40}, successes, 60).p;
-    const Agreement agreement = agreement_of(met, 40, rigs, 1);
+    for (const MachineMoves& machine : simulated) successes.push_back(machine.met);
+    const double exact = statistics::machine_rank_test({met[0], 40}, successes, 60).p;
+    const Agreement agreement = agreement_of(met, 40, simulated, 1);
     EXPECT_EQ(agreement.p, exact) << i;
     // One more machine, of another number of moves, calls for the permutation test.
-    std::vector<RigMoves> uneven = rigs;
+    std::vector<MachineMoves> uneven = simulated;
     uneven.push_back({.trials = 61, .moves = 61, .met = 48});
     EXPECT_NEAR(agreement_of(met, 40, uneven, 1).p, exact, 5.0 * std::sqrt(exact / 9999.0) + 0.04) << i;
     EXPECT_NEAR(agreement.lowest_p, 2.0 / 51.0, 1e-12);
@@ -58,9 +59,9 @@ TEST(Agreement, IsSeldomRefusedToMachinesOfTheSameKind) {
   constexpr int studies = 120;
   int refused = 0;
   for (int i = 0; i < studies; ++i) {
-    const std::vector<RigMoves> rigs = machines.rigs(20, 50);
+    const std::vector<MachineMoves> simulated = machines.simulated(20, 50);
     const std::vector<std::int64_t> met{machines.met_of(30), machines.met_of(30), machines.met_of(30)};
-    refused += agreement_of(met, 30, rigs, static_cast<std::uint64_t>(i)).p <= 0.05 ? 1 : 0;
+    refused += agreement_of(met, 30, simulated, static_cast<std::uint64_t>(i)).p <= 0.05 ? 1 : 0;
   }
   EXPECT_LE(refused, 0.05 * studies + 3.1 * std::sqrt(0.05 * studies));
   EXPECT_GE(refused, 1);
@@ -70,7 +71,7 @@ TEST(Agreement, IsRefusedToWorseMachines) {
   Machines built(3, 0.6, 0.05);
   Machines simulated(4, 0.9, 0.05);
   const std::vector<std::int64_t> met{built.met_of(100), built.met_of(100), built.met_of(100)};
-  const Agreement agreement = agreement_of(met, 100, simulated.rigs(40, 200), 1);
+  const Agreement agreement = agreement_of(met, 100, simulated.simulated(40, 200), 1);
   EXPECT_LE(agreement.p, 0.001);
   EXPECT_TRUE(agreement.is_lower);
   EXPECT_GT(agreement.predicted.low, 0.8);
@@ -81,7 +82,8 @@ TEST(Agreement, IsRefusedToWorseMachines) {
 // Of machines that are the simulated ones about 95 % are in the interval.
 TEST(Agreement, PredictsTheProportionOfSuchMachines) {
   Machines machines(5, 0.85, 0.1);
-  const Agreement agreement = agreement_of(std::vector<std::int64_t>{40, 40}, 50, machines.rigs(300, 50), 1);
+  const Agreement agreement =
+      agreement_of(std::vector<std::int64_t>{40, 40}, 50, machines.simulated(300, 50), 1);
   int inside = 0;
   constexpr int pairs = 2000;
   for (int i = 0; i < pairs; ++i) {

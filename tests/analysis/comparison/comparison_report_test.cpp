@@ -27,7 +27,7 @@ comparison::ChangeVerdict change_behind(comparison::GateVerdict verdict) {
 comparison::Judgement reported_measure(const std::string& name, comparison::GateVerdict verdict) {
   comparison::Judgement one;
   one.measure = name;
-  one.unit.assign(1, name == "settling_time" ? 's' : '1');
+  one.unit.assign(1, name == "arrival_time" ? 's' : '1');
   one.verdict = verdict;
   one.change = change_behind(verdict);
   if (verdict == comparison::GateVerdict::not_measured) return one;
@@ -50,7 +50,7 @@ comparison::StudyComparison sample() {
   comparison::PointComparison point;
   point.label = "a | \"b\"";
   point.judgements = {reported_measure("success_rate", comparison::GateVerdict::regression),
-                      reported_measure("settling_time", comparison::GateVerdict::inconclusive),
+                      reported_measure("arrival_time", comparison::GateVerdict::inconclusive),
                       reported_measure("jerk_count", comparison::GateVerdict::not_measured),
                       reported_measure("stable_rate", comparison::GateVerdict::passed)};
   point.judgements[1].trials_to_decide = 1234.0;
@@ -175,7 +175,7 @@ TEST(ComparisonReport, TheSentenceSaysWhatWouldDecide) {
   comparison.points[0].judgements[0].max_trials_margin = 0.031;
   EXPECT_EQ(comparison::verdict_sentence(comparison),
             "inconclusive: 1 of 3 judgements are open; 9000 trials per design point would not decide: "
-            "settling_time at a | \"b\" (margin 0.02 s; 0.031 s would be decided)");
+            "arrival_time at a | \"b\" (margin 0.02 s; 0.031 s would be decided)");
 }
 
 TEST(ComparisonReport, NumbersOfTrialsAreRoundedUp) {

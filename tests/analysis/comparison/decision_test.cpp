@@ -150,7 +150,7 @@ comparison::PointTrials agreeing(std::int64_t trials) {
   all.values["success_rate"].assign(count, true);
   all.values["arrival_rate"].assign(count, true);
   all.values["stable_rate"].assign(count, true);
-  all.values["settling_time"].assign(count, 0.03);
+  all.values["arrival_time"].assign(count, 0.03);
   all.values["jerk_count"].assign(count, 0.0);
   return all;
 }
@@ -180,7 +180,7 @@ TEST(Evidence, AFewTrialsThatAgreeShowNothing) {
 TEST(Evidence, TrialsThatNoLongerArriveFailByTheirArrivalAndNotByTheirTimes) {
   comparison::PointTrials after = agreeing(500);
   std::fill(after.values["arrival_rate"].begin(), after.values["arrival_rate"].end(), false);
-  std::fill(after.values["settling_time"].begin(), after.values["settling_time"].end(), std::nan(""));
+  std::fill(after.values["arrival_time"].begin(), after.values["arrival_time"].end(), std::nan(""));
   for (const bool paired : {false, true}) {
     const auto measures = comparison::compare_measures({}, "", {agreeing(500), after, paired});
     EXPECT_TRUE(std::isnan(measures[3].p));
@@ -192,11 +192,11 @@ TEST(Evidence, TrialsThatNoLongerArriveFailByTheirArrivalAndNotByTheirTimes) {
 TEST(Evidence, MovesAreComparedWithTheirPartners) {
   comparison::PointTrials before = agreeing(100);
   before.moves = 2;
-  before.values["settling_time"].clear();
+  before.values["arrival_time"].clear();
   comparison::PointTrials after = before;
   for (int trial = 0; trial < 100; ++trial) {
-    before.values["settling_time"].insert(before.values["settling_time"].end(), {0.01, 0.5});
-    after.values["settling_time"].insert(after.values["settling_time"].end(), {0.02, std::nan("")});
+    before.values["arrival_time"].insert(before.values["arrival_time"].end(), {0.01, 0.5});
+    after.values["arrival_time"].insert(after.values["arrival_time"].end(), {0.02, std::nan("")});
   }
   const auto measures = comparison::compare_measures({}, "", {before, after, true});
   EXPECT_NEAR(measures[3].effect, 0.01, 1e-15);

@@ -95,7 +95,7 @@ void expect_a_change_of_the_margin_to_fail(bool paired, int comparisons) {
   std::mt19937_64 random(47);
   comparison::GateRules rules;
   rules.margins["success_rate"] = {0.05, 0.0, false};
-  rules.margins["settling_time"] = {0.2 * points[1].settling, 0.0, false};
+  rules.margins["arrival_time"] = {0.2 * points[1].settling, 0.0, false};
   rules.margins["jerk_count"] = {0.0, 0.0, false};
   std::array<int, 2> passed{};  // of success and settling time, at the second point
   for (int i = 0; i < comparisons; ++i) {
@@ -117,7 +117,7 @@ TEST_P(NullComparisons, PassAChangeOfTheMarginNoMoreOftenThanStated) {
 }
 
 /// How often a measure of a single point fails at a true change of so many margins; the others do not change.
-/// @param measure success_rate with a margin of 0.05, or settling_time with a
+/// @param measure success_rate with a margin of 0.05, or arrival_time with a
 /// tenth of the baseline
 double failure_rate(bool paired, const std::string& measure, double margins, std::int64_t count,
                     int comparisons) {
@@ -126,10 +126,10 @@ double failure_rate(bool paired, const std::string& measure, double margins, std
   comparison::GateRules rules;
   rules.measures = {measure};
   rules.margins["success_rate"] = {0.05, 0.0, false};
-  rules.margins["settling_time"] = {0.0, 0.1, false};
+  rules.margins["arrival_time"] = {0.0, 0.1, false};
   SyntheticPoint changed = point;
   if (measure == "success_rate") changed.success -= margins * 0.05;
-  if (measure == "settling_time") changed.settling *= 1.0 + margins * 0.1;
+  if (measure == "arrival_time") changed.settling *= 1.0 + margins * 0.1;
   int failures = 0;
   for (int i = 0; i < comparisons; ++i) {
     const TrialChances before = draw_chances(random, count);
@@ -148,7 +148,7 @@ double failure_rate(bool paired, const std::string& measure, double margins, std
 // the margin is found.
 void expect_failures_beyond_the_margin_alone(bool paired, int comparisons) {
   const double allowed = 0.05 + 2.5 * std::sqrt(0.05 * 0.95 / comparisons);
-  for (const char* const measure : {"success_rate", "settling_time"}) {
+  for (const char* const measure : {"success_rate", "arrival_time"}) {
     for (const double margins : {0.8, 1.0}) {
       const double rate = failure_rate(paired, measure, margins, 400, comparisons);
       ::testing::Test::RecordProperty(fmt::format("{} {}", measure, margins), std::to_string(rate));

@@ -12,13 +12,13 @@ using comparison::PointTrials;
 
 /// How the machines of a study settle, and how many moves are seen of each.
 struct Machines {
-  std::int64_t rigs{0};  ///< 0: every trial on one of its own
+  std::int64_t machines{0};  ///< 0: every trial on one of its own
   std::int64_t trials{200};
   std::int64_t moves{1};
-  double median{0.02};  ///< of the settling times, s
-  double of_rigs{0.2};  ///< sd of the logarithms of the medians of the rigs
-  double never{0.0};    ///< probability that a move does not settle
-  double shift{0.0};    ///< s, that every move is later
+  double median{0.02};      ///< of the settling times, s
+  double of_machines{0.2};  ///< sd of the logarithms of the medians of the machines
+  double never{0.0};        ///< probability that a move does not settle
+  double shift{0.0};        ///< s, that every move is later
 };
 
 /// The trials of a study with the seed `draws`; `again` redraws some of them.
@@ -29,12 +29,13 @@ PointTrials settled_trials(const Machines& machines, unsigned draws, unsigned ag
   std::mt19937_64 of_change(again);
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> uniform;
-  std::vector<double> of_rigs;
-  for (std::int64_t rig = 0; rig < std::max(machines.rigs, machines.trials); ++rig)
-    of_rigs.push_back(std::exp(machines.of_rigs * normal(of_draws)));
+  std::vector<double> of_machines;
+  for (std::int64_t machine = 0; machine < std::max(machines.machines, machines.trials); ++machine)
+    of_machines.push_back(std::exp(machines.of_machines * normal(of_draws)));
   std::vector<trial::MoveOutcome> outcomes;
   for (std::int64_t i = 0; i < machines.trials; ++i) {
-    const double rig = of_rigs[static_cast<std::size_t>(machines.rigs > 0 ? i % machines.rigs : i)];
+    const double machine =
+        of_machines[static_cast<std::size_t>(machines.machines > 0 ? i % machines.machines : i)];
     for (std::int64_t move = 0; move < machines.moves; ++move) {
       double z = normal(of_draws);
       double u = uniform(of_draws);
@@ -45,15 +46,16 @@ PointTrials settled_trials(const Machines& machines, unsigned draws, unsigned ag
         u = u_again;
       }
       trial::MoveOutcome outcome;
-      const double time = machines.median * rig * std::exp(0.1 * z) + machines.shift;
+      const double time = machines.median * machine * std::exp(0.1 * z) + machines.shift;
       if (u >= machines.never) outcome.bands[0].settling_time = sample * std::round(time / sample);
       outcomes.push_back(outcome);
     }
   }
   comparison::AlsoRead also;
-  also.rigs = machines.rigs;
-  const std::optional<double> asked = machines.rigs > 0 ? std::optional(0.9) : std::nullopt;
-  also.judged = {{{.band = 0, .within = 0.03, .moves = 0.9, .machines = asked}, {0, 0.03}, machines.rigs}};
+  also.machines = machines.machines;
+  const std::optional<double> asked = machines.machines > 0 ? std::optional(0.9) : std::nullopt;
+  also.judged = {
+      {{.band = 0, .within = 0.03, .moves = 0.9, .machines = asked}, {0, 0.03}, machines.machines}};
   return comparison::gather_trials(outcomes, machines.moves, also);
 }
 
@@ -65,7 +67,7 @@ std::vector<Judgement> compare_settled(const PointTrials& before, const PointTri
   return points[0].judgements;
 }
 
-/// Studies whose trials are independent, have several moves, or share rigs; paired or not.
+/// Studies whose trials are independent, have several moves, or share machines; paired or not.
 struct Layer {
   Machines machines;
   bool paired;
@@ -75,7 +77,7 @@ std::vector<Layer> layers() {
   for (const bool paired : {false, true}) {
     all.push_back({{.trials = 200}, paired});
     all.push_back({{.trials = 100, .moves = 3}, paired});
-    all.push_back({{.rigs = 60, .trials = 240, .moves = 2, .never = 0.02}, paired});
+    all.push_back({{.machines = 60, .trials = 240, .moves = 2, .never = 0.02}, paired});
   }
   return all;
 }
@@ -89,7 +91,7 @@ std::vector<std::string> measure_names(const std::vector<Judgement>& measures) {
 TEST(GoalMeasures, AreJudgedInPlaceOfTheOthersUnlessTheRulesNameThese) {
   using Names = std::vector<std::string>;
   const PointTrials of_moves = settled_trials({}, 1);
-  const PointTrials of_machines = settled_trials({.rigs = 50}, 1);
+  const PointTrials of_machines = settled_trials({.machines = 50}, 1);
   const auto names = [](const comparison::GateRules& rules, const PointTrials& trials) {
     return measure_names(comparison::compare_measures(rules, "a", {trials, trials, true}));
   };
@@ -165,7 +167,7 @@ TEST(GoalMeasures, FindARealWorsening) {
   for (const auto& [machines, paired] : layers()) {
     Machines many = machines;
     many.trials *= 3;
-    many.rigs *= 3;
+    many.machines *= 3;
     Machines worse = many;
     worse.median *= 1.4;  // of the times; more of them come too late
     for (unsigned seed = 1; seed <= 10; ++seed) {
@@ -196,9 +198,9 @@ TEST(GoalMeasures, AMoveThatNeverSettlesIsLaterThanAnyTime) {
   EXPECT_EQ(neither.verdict, comparison::GateVerdict::not_measured);
 }
 
-// Half as many trials on each rig show more rigs without a miss; they are no better.
+// Half as many trials on each machine show more machines without a miss; they are no better.
 TEST(GoalMeasures, JudgeMachinesByAsManyMovesOfEach) {
-  const Machines few{.rigs = 200, .trials = 400};
+  const Machines few{.machines = 200, .trials = 400};
   Machines many = few;
   many.trials = 4000;
   const auto of_machines = [](const std::vector<Judgement>& all) { return all[1]; };

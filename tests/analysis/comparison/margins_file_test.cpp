@@ -23,20 +23,20 @@ TEST(MarginsFile, SaysWhatTheRulesAre) {
   const comparison::GateRules rules = read(R"(
 confidence: 0.99
 false_discovery_rate: 0.01
-measures: [success_rate, settling_time]
+measures: [success_rate, arrival_time]
 margins:
   success_rate: 0.005
-  settling_time: {relative: 0.1, absolute: 2.0e-3, fail_on: changed}
+  arrival_time: {relative: 0.1, absolute: 2.0e-3, fail_on: changed}
 require: success_rate ≥ 0.9
 points:
   b-with-kp:
     success_rate: 0.05
-    require: [success_rate >= 0.5, settling_time.p95 <= 0.2]
+    require: [success_rate >= 0.5, arrival_time.p95 <= 0.2]
 )");
   EXPECT_EQ(rules.confidence, 0.99);
   EXPECT_EQ(rules.false_discovery_rate, 0.01);
   const comparison::GateMeasure success = *comparison::find_gate_measure("success_rate");
-  const comparison::GateMeasure settling = *comparison::find_gate_measure("settling_time");
+  const comparison::GateMeasure settling = *comparison::find_gate_measure("arrival_time");
   EXPECT_EQ(comparison::margin_of(rules, "a", success).absolute, 0.005);
   EXPECT_EQ(comparison::margin_of(rules, "b-with-kp", success).absolute, 0.05);
   EXPECT_EQ(comparison::margin_of(rules, "b-with-kp", settling).relative, 0.1);
@@ -46,7 +46,7 @@ points:
   for (const comparison::GateMeasure& one :
        comparison::judged_measures(rules, layout::measure_table(), {{"", true}}))
     judged.emplace_back(one.name);
-  EXPECT_EQ(judged, (std::vector<std::string>{"success_rate", "settling_time"}));
+  EXPECT_EQ(judged, (std::vector<std::string>{"success_rate", "arrival_time"}));
   ASSERT_EQ(comparison::requirements_of(rules, "a").size(), 1u);
   ASSERT_EQ(comparison::requirements_of(rules, "b-with-kp").size(), 3u);
   EXPECT_EQ(comparison::requirements_of(rules, "b-with-kp")[2].limit, 0.2);
@@ -58,10 +58,6 @@ TEST(MarginsFile, SaysWhetherEveryChangeFails) {
   EXPECT_FALSE(read("fail_on: worse\n").changed_fails);
   EXPECT_EQ(fault("fail_on: better\n"),
             "gate.yaml:1:10: fail_on: 'better' is not a kind of failure; expected worse or changed");
-  // The name that files of earlier versions have for it.
-  const comparison::GateRules earlier = read("margins: {jerk_count: {absolute: 0.2, both_ways: true}}\n");
-  EXPECT_TRUE(
-      comparison::margin_of(earlier, "a", *comparison::find_gate_measure("jerk_count")).changed_fails);
 }
 
 TEST(MarginsFile, LeavesTheDefaultsToWhatItDoesNotName) {
@@ -79,7 +75,7 @@ TEST(MarginsFile, TellsEveryMistakeWithItsPlace) {
   EXPECT_EQ(fault("margins: {sucess_rate: 0.1}\n"),
             "gate.yaml:1:11: margins.sucess_rate: unknown key, nearest known: success_rate; expected one of "
             "goal_rate, goal_machines, goal_settling_time, success_rate, arrival_rate, stable_rate, "
-            "settling_time, jerk_count");
+            "arrival_time, jerk_count");
   EXPECT_EQ(
       fault("margins: {success_rate: {}}\n"),
       "gate.yaml:1:25: margins.success_rate: the margin has no size; expected absolute or relative, or both");
@@ -99,11 +95,11 @@ TEST(MarginsFile, TellsEveryMistakeWithItsPlace) {
     EXPECT_TRUE(says(fault(fmt::format("require: {}\n", text)), "cannot be understood")) << text;
   EXPECT_EQ(fault("require: [success_rate ≥ 99.5]\n"),
             "gate.yaml:1:11: require.0: 99.5 is not a proportion; expected a number from 0 to 1");
-  EXPECT_EQ(fault("require: settling_time.p95 ≥ 0.1\n"),
-            "gate.yaml:1:10: require: a least settling_time.p95 is asked for; expected ≤ and a limit");
+  EXPECT_EQ(fault("require: arrival_time.p95 ≥ 0.1\n"),
+            "gate.yaml:1:10: require: a least arrival_time.p95 is asked for; expected ≤ and a limit");
   EXPECT_EQ(fault("measures: []\n"),
             "gate.yaml:1:11: measures: the list is empty; expected a list of some of goal_rate, "
-            "goal_machines, goal_settling_time, success_rate, arrival_rate, stable_rate, settling_time, "
+            "goal_machines, goal_settling_time, success_rate, arrival_rate, stable_rate, arrival_time, "
             "jerk_count");
   const std::string both = fault("margins: {success_rate: -1, jerk_count: no}\nconfidence: 2\n");
   EXPECT_TRUE(says(both, "gate.yaml:1:25: margins.success_rate: ",
@@ -122,7 +118,7 @@ TEST(MarginsFile, TakesARequirementWithAnyBlanks) {
     EXPECT_TRUE(rules.requirements[0].at_least);
     EXPECT_EQ(rules.requirements[0].limit, 0.5);
   }
-  EXPECT_FALSE(read("require: settling_time.p95<=0.1\n").requirements[0].at_least);
+  EXPECT_FALSE(read("require: arrival_time.p95<=0.1\n").requirements[0].at_least);
 }
 
 TEST(MarginsFile, TakesRequirementsOfErrorBandsAndTheGoal) {
@@ -180,7 +176,7 @@ comparison::PointTrials with_successes(std::int64_t successes, std::int64_t tria
     all.values["success_rate"].push_back(i < successes);
     all.values["arrival_rate"].push_back(i < successes);
     all.values["stable_rate"].push_back(i < successes);
-    all.values["settling_time"].push_back(i < successes ? 0.001 * static_cast<double>(i + 1) : std::nan(""));
+    all.values["arrival_time"].push_back(i < successes ? 0.001 * static_cast<double>(i + 1) : std::nan(""));
     all.values["jerk_count"].push_back(static_cast<double>(i % 2));
   }
   return all;
@@ -221,12 +217,12 @@ TEST(Requirement, ManyOfThemMustBeContradictedMoreStrictly) {
 
 // A trial that does not arrive settles later than any limit.
 TEST(Requirement, AQuantileCountsTrialsThatNeverSettle) {
-  EXPECT_EQ(judged("settling_time.p95 ≤ 0.5", with_successes(500, 500)).verdict,
+  EXPECT_EQ(judged("arrival_time.p95 ≤ 0.5", with_successes(500, 500)).verdict,
             comparison::GateVerdict::passed);
-  const comparison::Judgement late = judged("settling_time.p95 ≤ 0.5", with_successes(400, 500));
+  const comparison::Judgement late = judged("arrival_time.p95 ≤ 0.5", with_successes(400, 500));
   EXPECT_EQ(late.verdict, comparison::GateVerdict::regression);
   EXPECT_EQ(late.current, std::numeric_limits<double>::infinity());
-  EXPECT_NEAR(judged("settling_time.median ≤ 0.3", with_successes(400, 500)).current, 0.250, 1e-12);
+  EXPECT_NEAR(judged("arrival_time.median ≤ 0.3", with_successes(400, 500)).current, 0.250, 1e-12);
 }
 
 TEST(Requirement, TheMeanOfTheJerksHasBoundsOfItsOwn) {

@@ -45,7 +45,7 @@ comparison::PointTrials synthetic_trials(const SyntheticPoint& point, const Tria
     trials.values["arrival_rate"].push_back(arrived);
     trials.values["stable_rate"].push_back(arrived && trial[1] < 0.97);
     const double time = sample * std::round(-point.settling * std::log1p(-trial[2]) / sample);
-    trials.values["settling_time"].push_back(arrived ? time : std::numeric_limits<double>::quiet_NaN());
+    trials.values["arrival_time"].push_back(arrived ? time : std::numeric_limits<double>::quiet_NaN());
     const double rest = trial[3] / jerking;  // uniform among those that jerk
     trials.values["jerk_count"].push_back(rest < 1.0 ? std::ceil(-point.jerks / jerking * std::log1p(-rest))
                                                      : 0.0);

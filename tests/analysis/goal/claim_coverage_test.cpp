@@ -45,25 +45,25 @@ std::vector<Population> populations() {
 
 struct Case {
   std::size_t goals;
-  std::int64_t rigs;  ///< 0: every trial is a machine of its own
-  bool on_machines;   ///< the goals; otherwise on moves
-  bool correlated;    ///< the moves meet or miss all goals together, as far as their proportions allow
+  std::int64_t machines;  ///< 0: every trial is a machine of its own
+  bool on_machines;       ///< the goals; otherwise on moves
+  bool correlated;        ///< the moves meet or miss all goals together, as far as their proportions allow
 };
 
-constexpr std::int64_t moves_of_rig = 20;
+constexpr std::int64_t moves_of_machine = 20;
 
 /// A study: the first goal is of the population, the others are met by all machines in 0.99 of their moves.
 std::vector<measures::CellCounts> study_of(testing::Draws& draws, const Population& population,
                                            const Case& one) {
-  std::vector<measures::CellCounts> counts(one.goals, measures::CellCounts({.rigs = one.rigs}));
-  const std::int64_t machines = one.rigs > 0 ? one.rigs : 300;
-  for (std::int64_t rig = 0; rig < machines; ++rig) {
+  std::vector<measures::CellCounts> counts(one.goals, measures::CellCounts({.machines = one.machines}));
+  const std::int64_t machines = one.machines > 0 ? one.machines : 300;
+  for (std::int64_t machine = 0; machine < machines; ++machine) {
     const double first = population.proportion(draws, one.on_machines);
-    for (std::int64_t move = 0; move < (one.rigs > 0 ? moves_of_rig : 1); ++move) {
+    for (std::int64_t move = 0; move < (one.machines > 0 ? moves_of_machine : 1); ++move) {
       const double common = draws.uniform(0.0, 1.0);
       for (std::size_t i = 0; i < one.goals; ++i) {
         const double own = one.correlated ? common : draws.uniform(0.0, 1.0);
-        counts[i].add(rig + machines * move, 1, own < (i == 0 ? first : 0.99));
+        counts[i].add(machine + machines * move, 1, own < (i == 0 ? first : 0.99));
       }
     }
   }
@@ -89,7 +89,7 @@ void expect_rarely_wrong(int studies) {
                           Case{4, 60, true, true}}) {
     std::string row =
         fmt::format("| {} goals on {}, {} machines{} |", one.goals, one.on_machines ? "machines" : "moves",
-                    one.rigs, one.correlated ? ", correlated" : "");
+                    one.machines, one.correlated ? ", correlated" : "");
     for (const Population& population : populations()) {
       const double wrong = wrongly_met(population, one, studies);
       row += fmt::format(" {:.1f} |", wrong);
@@ -118,7 +118,7 @@ TEST(ClaimCoverage, TakesFewerTrialsThanBonferroni) {
       for (std::int64_t met = n; met > static_cast<std::int64_t>(asked * static_cast<double>(n)); --met) {
         const auto k = static_cast<double>(met);
         const measures::MoveCounts counts{
-            .moves = n, .met = met, .of_trials = {n, met, n, k, k, static_cast<double>(n)}, .rigs = {}};
+            .moves = n, .met = met, .of_trials = {n, met, n, k, k, static_cast<double>(n)}, .machines = {}};
         if (judge_goal(goal, counts, divided_by).status != Status::met) break;
         least = met;
       }

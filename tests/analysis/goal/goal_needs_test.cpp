@@ -54,20 +54,20 @@ std::int64_t binomial(testing::Draws& draws, std::int64_t n, double p) {
   return hits;
 }
 
-/// A study of one world. @param rigs 0: every trial on a machine of its own
-measures::CellCounts counts_of_study(testing::Draws& draws, const Machines& machines, std::int64_t rigs,
+/// Counts of a study of one world. @param count number of machines; 0: every trial on a machine of its own
+measures::CellCounts counts_of_study(testing::Draws& draws, const Machines& machines, std::int64_t count,
                                      std::int64_t trials) {
-  measures::CellCounts counts({.rigs = rigs});
-  if (rigs == 0) {
+  measures::CellCounts counts({.machines = count});
+  if (count == 0) {
     const std::int64_t hits = binomial(draws, trials, machines.mean);
     const auto met = static_cast<double>(hits);
     counts.add_trials(0, 0, {trials, hits, trials, met, met, static_cast<double>(trials)});
     return counts;
   }
-  for (std::int64_t rig = 0; rig < rigs; ++rig) {
-    const std::int64_t each = trials / rigs;
-    counts.add_rig(static_cast<std::size_t>(rig), 0,
-                   {each, each, binomial(draws, each, machines.draw(draws))});
+  for (std::int64_t machine = 0; machine < count; ++machine) {
+    const std::int64_t each = trials / count;
+    counts.add_machine(static_cast<std::size_t>(machine), 0,
+                       {each, each, binomial(draws, each, machines.draw(draws))});
   }
   return counts;
 }
@@ -75,10 +75,10 @@ measures::CellCounts counts_of_study(testing::Draws& draws, const Machines& mach
 struct Planned {
   std::string name;
   study::Goal goal;
-  std::int64_t rigs;    ///< of the pilot
-  std::int64_t trials;  ///< of the pilot
-  double sd;            ///< between machines
-  double least_mean;    ///< of the machines, which is drawn for each pilot
+  std::int64_t machines;  ///< of the pilot
+  std::int64_t trials;    ///< of the pilot
+  double sd;              ///< between machines
+  double least_mean;      ///< of the machines, which is drawn for each pilot
 };
 
 class GoalNeedsOf : public ::testing::TestWithParam<Planned> {};
@@ -91,12 +91,12 @@ TEST_P(GoalNeedsOf, NineInTenStudiesAreDecided) {
   int decided = 0;
   while (planned < 100) {
     const Machines machines{draws.uniform(plan.least_mean, 1.0 - 0.02 * (1.0 - plan.least_mean)), plan.sd};
-    const measures::CellCounts pilot = counts_of_study(draws, machines, plan.rigs, plan.trials);
+    const measures::CellCounts pilot = counts_of_study(draws, machines, plan.machines, plan.trials);
     if (judge_goal(plan.goal, pilot, 1).status != Status::undecided) continue;
     const Needs needs = needs_of(plan.goal, pilot, 1);
     ++planned;
     if (needs.trials == 0) continue;
-    const measures::CellCounts study = counts_of_study(draws, machines, needs.rigs, needs.trials);
+    const measures::CellCounts study = counts_of_study(draws, machines, needs.machines, needs.trials);
     decided += judge_goal(plan.goal, study, 1).status == Status::undecided ? 0 : 1;
   }
   EXPECT_GE(decided, 81);  // 0.9·100 − 3 standard deviations
@@ -104,19 +104,19 @@ TEST_P(GoalNeedsOf, NineInTenStudiesAreDecided) {
 
 INSTANTIATE_TEST_SUITE_P(
     Machines, GoalNeedsOf,
-    ::testing::Values(Planned{"one_trial_each", {.within = 0.05, .moves = 0.95}, 0, 200, 0.0, 0.85},
-                      Planned{"small_pilot", {.within = 0.05, .moves = 0.8}, 0, 30, 0.0, 0.5},
-                      Planned{"moves_of_rigs", {.within = 0.05, .moves = 0.9}, 30, 300, 0.05, 0.75},
-                      Planned{
-                          "moves_of_few_rigs_alike", {.within = 0.05, .moves = 0.95}, 20, 400, 0.0, 0.96}),
+    ::testing::Values(
+        Planned{"one_trial_each", {.within = 0.05, .moves = 0.95}, 0, 200, 0.0, 0.85},
+        Planned{"small_pilot", {.within = 0.05, .moves = 0.8}, 0, 30, 0.0, 0.5},
+        Planned{"moves_of_machines", {.within = 0.05, .moves = 0.9}, 30, 300, 0.05, 0.75},
+        Planned{"moves_of_few_machines_alike", {.within = 0.05, .moves = 0.95}, 20, 400, 0.0, 0.96}),
     [](const auto& info) { return info.param.name; });
 
 // Student's quantile for so few machines makes their moves worth less. A plan that forgets it has fewer
 // machines, and is decided more seldom than it promises.
 TEST(GoalNeeds, AStudyOfFewMachinesIsDecidedAsOftenAsPlanned) {
   const study::Goal goal{.within = 0.05, .moves = 0.5};
-  measures::CellCounts pilot({.rigs = 4});
-  for (std::size_t rig = 0; rig < 4; ++rig) pilot.add_rig(rig, 0, {100, 100, 57});
+  measures::CellCounts pilot({.machines = 4});
+  for (std::size_t machine = 0; machine < 4; ++machine) pilot.add_machine(machine, 0, {100, 100, 57});
   const Needs needs = needs_of(goal, pilot, 1);
   // The posterior after 228 of 400 moves met the goal, with Jeffreys' prior.
   const double mean = 228.5 / 401.0;
@@ -126,23 +126,23 @@ TEST(GoalNeeds, AStudyOfFewMachinesIsDecidedAsOftenAsPlanned) {
   int decided = 0;
   for (int i = 0; i < studies; ++i) {
     const Machines machines{likely.draw(draws), 0.0};
-    const measures::CellCounts study = counts_of_study(draws, machines, needs.rigs, needs.trials);
+    const measures::CellCounts study = counts_of_study(draws, machines, needs.machines, needs.trials);
     decided += judge_goal(goal, study, 1).status == Status::undecided ? 0 : 1;
   }
-  EXPECT_NEAR(decided, 0.9 * studies, 60) << needs.rigs;  // 3 standard deviations
+  EXPECT_NEAR(decided, 0.9 * studies, 60) << needs.machines;  // 3 standard deviations
 }
 
 // 58 machines without a miss do not exclude that one in twenty always fails.
 TEST(GoalNeeds, CountMachinesWhereTheyHardlyMiss) {
   const study::Goal goal{.within = 0.05, .moves = 0.95};
-  EXPECT_EQ(cheapest(smallest_studies(goal, true, 1, 1)).rigs, 59);
+  EXPECT_EQ(cheapest(smallest_studies(goal, true, 1, 1)).machines, 59);
   std::int64_t without_miss = 0;
   for (const std::int64_t misses : {0, 1, 4}) {
-    measures::CellCounts pilot({.rigs = 20});
-    for (std::size_t rig = 0; rig < 20; ++rig)
-      pilot.add_rig(rig, 0, {100, 100, std::cmp_less(rig, misses) ? 99 : 100});
+    measures::CellCounts pilot({.machines = 20});
+    for (std::size_t machine = 0; machine < 20; ++machine)
+      pilot.add_machine(machine, 0, {100, 100, std::cmp_less(machine, misses) ? 99 : 100});
     ASSERT_EQ(judge_goal(goal, pilot, 1).status, Status::undecided) << misses;
-    const std::int64_t needed = needs_of(goal, pilot, 1).rigs;
+    const std::int64_t needed = needs_of(goal, pilot, 1).machines;
     EXPECT_GE(needed, 59) << misses;
     if (misses == 0) without_miss = needed;
     EXPECT_GE(needed, without_miss) << "a pilot with misses plans no smaller study than one without";
@@ -159,16 +159,17 @@ TEST(GoalNeeds, OfMachinesDecideNineInTenStudiesOfMachinesAsThese) {
     const measures::CellCounts pilot = counts_of_study(draws, {draws.uniform(0.8, 0.99), 0.06}, 40, 4000);
     if (judge_goal(goal, pilot, 1).status != Status::undecided) continue;
     const Needs needs = needs_of(goal, pilot, 1);
-    if (needs.trials == 0 || needs.rigs > 5000) continue;
+    if (needs.trials == 0 || needs.machines > 5000) continue;
     ++planned;
-    measures::CellCounts study({.rigs = needs.rigs});
-    const std::vector<statistics::RigMoves> rigs = pilot.sum().rigs;
-    for (std::int64_t rig = 0; rig < needs.rigs; ++rig) {
-      const statistics::RigMoves& like = rigs[static_cast<std::size_t>(draws.integer(0, 39))];
-      const std::int64_t each = needs.trials / needs.rigs;
-      study.add_rig(static_cast<std::size_t>(rig), 0,
-                    {each, each,
-                     binomial(draws, each, static_cast<double>(like.met) / static_cast<double>(like.moves))});
+    measures::CellCounts study({.machines = needs.machines});
+    const std::vector<statistics::MachineMoves> machines = pilot.sum().machines;
+    for (std::int64_t machine = 0; machine < needs.machines; ++machine) {
+      const statistics::MachineMoves& like = machines[static_cast<std::size_t>(draws.integer(0, 39))];
+      const std::int64_t each = needs.trials / needs.machines;
+      study.add_machine(
+          static_cast<std::size_t>(machine), 0,
+          {each, each,
+           binomial(draws, each, static_cast<double>(like.met) / static_cast<double>(like.moves))});
     }
     decided += judge_goal(goal, study, 1).status == Status::undecided ? 0 : 1;
   }

@@ -22,9 +22,9 @@ trial::MoveOutcome move_settled_at(double time) {
   return move;
 }
 
-/// Trials of one move, on so many rigs; `met` of them meet the goal.
-measures::CellCounts counts_of(std::int64_t met, std::int64_t trials, std::int64_t rigs = 0) {
-  measures::CellCounts counts({.rigs = rigs});
+/// Trials of one move, on so many machines; `met` of them meet the goal.
+measures::CellCounts counts_of(std::int64_t met, std::int64_t trials, std::int64_t machines = 0) {
+  measures::CellCounts counts({.machines = machines});
   for (std::int64_t i = 0; i < trials; ++i) {
     const trial::MoveOutcome move = move_settled_at(i < met ? 0.05 : 0.0505);
     measures::count_moves(counts, within_50_ms, i, {&move, 1});
@@ -58,7 +58,7 @@ TEST(Goal, OfTheBestOfManyPointsNeedsMore) {
   EXPECT_EQ(judge_goal(goal, counts_of(300, 300), 20).status, Status::undecided);
 }
 
-TEST(Goal, OfMovesOnRigsAllowsForTheirDifferences) {
+TEST(Goal, OfMovesOnMachinesAllowsForTheirDifferences) {
   const study::Goal goal{.within = 0.05, .moves = 0.99};
   EXPECT_EQ(judge_goal(goal, counts_of(1000, 1000), 1).status, Status::met);
   EXPECT_EQ(judge_goal(goal, counts_of(1000, 1000, 100), 1).status, Status::undecided);
@@ -96,7 +96,7 @@ TEST(Goal, IsRarelyClaimedOfTheBestPointThatMissesIt) {
 TEST(GoalNeeds, DecideIfTheProportionsAreThoseObserved) {
   const study::Goal moves{.within = 0.05, .moves = 0.98};
   const Needs trials = needs_of(moves, counts_of(99, 100), 1);
-  EXPECT_EQ(trials.rigs, 0);
+  EXPECT_EQ(trials.machines, 0);
   ASSERT_GT(trials.trials, 100);
   const auto at = [](double rate, std::int64_t n) {
     return counts_of(static_cast<std::int64_t>(rate * static_cast<double>(n) + 0.5), n);
@@ -109,9 +109,10 @@ TEST(GoalNeeds, DecideIfTheProportionsAreThoseObserved) {
   const study::Goal machines{.within = 0.05, .moves = 0.9, .machines = 0.9};
   const measures::CellCounts few = counts_of(200, 200, 20);
   ASSERT_EQ(judge_goal(machines, few, 1).status, Status::undecided);
-  const Needs rigs = needs_of(machines, few, 1);
-  ASSERT_GT(rigs.rigs, 20);
-  EXPECT_EQ(judge_goal(machines, counts_of(rigs.trials, rigs.trials, rigs.rigs), 1).status, Status::met);
+  const Needs needed = needs_of(machines, few, 1);
+  ASSERT_GT(needed.machines, 20);
+  EXPECT_EQ(judge_goal(machines, counts_of(needed.trials, needed.trials, needed.machines), 1).status,
+            Status::met);
 }
 
 TEST(GoalText, NamesTheGoalAndItsThreeReadings) {
@@ -134,8 +135,9 @@ TEST(GoalText, NamesTheGoalAndItsThreeReadings) {
 // 372 of 400 machines pass 10 trials of 4 moves: a machine at 98 % whose trials fail as a whole often does.
 TEST(GoalText, SaysWhatTheMovesOfOneMachineLack) {
   const study::Goal goal{.band = 1, .within = 0.05, .moves = 0.99, .machines = 0.95};
-  measures::MoveCounts counts{.moves = 16000, .met = 15888, .of_trials = {}, .rigs = {}};
-  for (int rig = 0; rig < 400; ++rig) counts.rigs.push_back({10, 40, rig < 372 ? 40 : 36});
+  measures::MoveCounts counts{.moves = 16000, .met = 15888, .of_trials = {}, .machines = {}};
+  for (int machine = 0; machine < 400; ++machine)
+    counts.machines.push_back({10, 40, machine < 372 ? 40 : 36});
   const std::string text = readings_text(goal, counts, judge_goal(goal, counts, 1));
   EXPECT_NE(
       text.find(
@@ -145,13 +147,14 @@ TEST(GoalText, SaysWhatTheMovesOfOneMachineLack) {
       std::string::npos)
       << text;
   EXPECT_LT(text.find("machines without a miss"), text.find("machines that meet it")) << text;
-  for (statistics::RigMoves& rig : counts.rigs)
-    rig = {10, 40, rig.met == 40 && &rig < &counts.rigs[330] ? 40 : 36};
+  for (statistics::MachineMoves& machine : counts.machines)
+    machine = {10, 40, machine.met == 40 && &machine < &counts.machines[330] ? 40 : 36};
   const std::string fewer = readings_text(goal, counts, judge_goal(goal, counts, 1));
   EXPECT_NE(fewer.find("; all 330 machines that had none may be at 97.6"), std::string::npos) << fewer;
   // It is so in each world, too; what all machines may be at is not said of several worlds.
-  measures::CellCounts worlds({.rigs = 400, .worlds = 4});
-  for (std::size_t rig = 0; rig < 400; ++rig) worlds.add_rig(rig, 0, counts.rigs[rig]);
+  measures::CellCounts worlds({.machines = 400, .worlds = 4});
+  for (std::size_t machine = 0; machine < 400; ++machine)
+    worlds.add_machine(machine, 0, counts.machines[machine]);
   const std::string in_worlds = readings_text(goal, worlds.sum(), judge_goal(goal, worlds, 1));
   EXPECT_NE(
       in_worlds.find(
@@ -159,13 +162,13 @@ TEST(GoalText, SaysWhatTheMovesOfOneMachineLack) {
       std::string::npos)
       << in_worlds;
   EXPECT_EQ(in_worlds.find("that had none"), std::string::npos) << in_worlds;
-  for (statistics::RigMoves& rig : counts.rigs) rig = {300, 300, 300};
-  counts.rigs.resize(20);
+  for (statistics::MachineMoves& machine : counts.machines) machine = {300, 300, 300};
+  counts.machines.resize(20);
   const std::string enough = readings_text(goal, counts, judge_goal(goal, counts, 1));
   EXPECT_EQ(enough.find("cannot show"), std::string::npos) << enough;
 }
 
-// The smallest study meets the goal without a miss, and one rig or trial fewer does not.
+// The smallest study meets the goal without a miss, and one machine or trial fewer does not.
 TEST(GoalPlan, IsTheSmallestStudyThatCanMeetTheGoal) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> uniform;
@@ -174,25 +177,25 @@ TEST(GoalPlan, IsTheSmallestStudyThatCanMeetTheGoal) {
     if (round % 2 == 0) goal.machines = 0.5 + 0.49 * uniform(random);
     const std::int64_t moves = 1 + static_cast<std::int64_t>(random() % 3);
     const std::size_t points = 1 + random() % 9;
-    const auto meets = [&](std::int64_t rigs, std::int64_t trials) {
+    const auto meets = [&](std::int64_t machines, std::int64_t trials) {
       measures::MoveCounts counts;
-      for (std::int64_t rig = 0; rig < rigs; ++rig)
-        counts.rigs.push_back({trials, trials * moves, trials * moves});
-      counts.moves = counts.met = rigs * trials * moves;
+      for (std::int64_t machine = 0; machine < machines; ++machine)
+        counts.machines.push_back({trials, trials * moves, trials * moves});
+      counts.moves = counts.met = machines * trials * moves;
       return judge_goal(goal, counts, points).status == Status::met;
     };
     const std::vector<Needs> studies = smallest_studies(goal, true, moves, points);
     ASSERT_FALSE(studies.empty());
     for (const Needs& study : studies) {
-      const std::int64_t trials = study.trials / study.rigs;
-      EXPECT_TRUE(meets(study.rigs, trials));
-      EXPECT_FALSE(meets(study.rigs - 1, trials)) << study.rigs << " × " << trials;
+      const std::int64_t trials = study.trials / study.machines;
+      EXPECT_TRUE(meets(study.machines, trials));
+      EXPECT_FALSE(meets(study.machines - 1, trials)) << study.machines << " × " << trials;
     }
   }
   // Clopper and Pearson: 0.05^(1/n) ≥ 0.99 from n = 299 on.
   const study::Goal plain{.band = 0, .within = 0.05, .moves = 0.99};
   EXPECT_EQ(smallest_studies(plain, false, 1, 1).at(0).trials, 299);
-  EXPECT_EQ(smallest_studies(plain, true, 1, 1).at(0).rigs, 299);
+  EXPECT_EQ(smallest_studies(plain, true, 1, 1).at(0).machines, 299);
 }
 
 TEST(GoalText, SaysWhichStudyDecides) {

@@ -56,11 +56,11 @@ TEST(GoalInWorlds, HasBoundsOfTheWorstWorld) {
   EXPECT_EQ(worst_worlds_first(goal, verdict), (std::vector<std::size_t>{1, 2, 0}));
 }
 
-/// Worlds of different random rates, on rigs or not, and a goal near these rates.
+/// Worlds of different random rates, on machines or not, and a goal near these rates.
 struct RatesInWorlds {
   static constexpr unsigned seeds = 200;
   explicit RatesInWorlds(unsigned seed) : draws(seed) {
-    if (rigs > 0 && draws.chance(0.5)) goal.machines = draws.uniform(0.5, 0.9);
+    if (machines > 0 && draws.chance(0.5)) goal.machines = draws.uniform(0.5, 0.9);
     std::vector<double> rates;
     for (std::int64_t world = 0; world < worlds; ++world) rates.push_back(draws.uniform(0.7, 1.0));
     for (std::int64_t i = 0; i < trials * worlds; ++i) {
@@ -74,17 +74,17 @@ struct RatesInWorlds {
 
   testing::Draws draws;
   std::int64_t worlds{draws.integer(2, 6)};
-  std::int64_t rigs{draws.chance(0.5) ? 0 : draws.integer(5, 30)};  ///< of each world
-  std::int64_t trials{rigs > 0 ? rigs* draws.integer(2, 20) : draws.integer(50, 400)};
+  std::int64_t machines{draws.chance(0.5) ? 0 : draws.integer(5, 30)};  ///< of each world
+  std::int64_t trials{machines > 0 ? machines* draws.integer(2, 20) : draws.integer(50, 400)};
   std::int64_t moves{draws.integer(1, 2)};  ///< of a trial
   std::size_t points{static_cast<std::size_t>(draws.integer(1, 4))};
   study::Goal goal{.within = 0.05,
                    .moves = draws.uniform(0.7, 0.95),
                    .machines = {},
                    .confidence = draws.uniform(0.8, 0.99)};
-  measures::CellCounts counts{{.rigs = rigs * worlds, .worlds = worlds}};
-  std::vector<measures::CellCounts> alone{
-      std::vector(static_cast<std::size_t>(worlds), measures::CellCounts({.rigs = rigs}))};  ///< [world]
+  measures::CellCounts counts{{.machines = machines * worlds, .worlds = worlds}};
+  std::vector<measures::CellCounts> alone{std::vector(
+      static_cast<std::size_t>(worlds), measures::CellCounts({.machines = machines}))};  ///< [world]
 };
 
 TEST_EACH_SEED(RatesInWorlds, AreJudgedAsTheLowestOfSoManyStudies) {
@@ -97,8 +97,8 @@ TEST_EACH_SEED(RatesInWorlds, AreJudgedAsTheLowestOfSoManyStudies) {
     lowest.low = std::min(lowest.low, one.low);
     lowest.high = std::min(lowest.high, one.high);
   };
-  std::int64_t rigs_meeting = 0;
-  std::int64_t rigs_without_miss = 0;
+  std::int64_t machines_meeting = 0;
+  std::int64_t machines_without_miss = 0;
   std::vector<std::size_t> met_in;
   std::vector<std::size_t> missed_in;
   for (std::size_t world = 0; world < alone.size(); ++world) {
@@ -108,15 +108,15 @@ TEST_EACH_SEED(RatesInWorlds, AreJudgedAsTheLowestOfSoManyStudies) {
     expect_equal_bounds(verdict.worlds[world].machines, one.machines);
     lower(lowest_moves, one.moves);
     lower(lowest_machines, one.machines);
-    rigs_meeting += one.rigs_meeting;
-    rigs_without_miss += one.rigs_without_miss;
+    machines_meeting += one.machines_meeting;
+    machines_without_miss += one.machines_without_miss;
     if (one.status == Status::met) met_in.push_back(world);
     if (one.status == Status::missed) missed_in.push_back(world);
   }
   expect_equal_bounds(verdict.moves, lowest_moves);
   if (goal.machines) expect_equal_bounds(verdict.machines, lowest_machines);
-  EXPECT_EQ(verdict.rigs_meeting, rigs_meeting);
-  EXPECT_EQ(verdict.rigs_without_miss, rigs_without_miss);
+  EXPECT_EQ(verdict.machines_meeting, machines_meeting);
+  EXPECT_EQ(verdict.machines_without_miss, machines_without_miss);
   EXPECT_EQ(worlds_that(Status::met, verdict), met_in);
   EXPECT_EQ(worlds_that(Status::missed, verdict), missed_in);
   EXPECT_EQ(verdict.status == Status::met, met_in.size() == alone.size());
@@ -203,7 +203,7 @@ TEST(GoalNeedsInWorlds, DecideIfTheRatesAreThoseObserved) {
     const measures::CellCounts counts = counts_in_worlds(observed.met, observed.trials);
     ASSERT_EQ(judge_goal(goal, counts, 1).status, Status::undecided);
     const Needs needs = needs_of(goal, counts, 1);
-    EXPECT_EQ(needs.rigs, 0);
+    EXPECT_EQ(needs.machines, 0);
     ASSERT_GT(needs.trials, counts.sum().moves);
     ASSERT_EQ(needs.trials % counts.shape().worlds, 0);
     const auto status_of = [&](std::int64_t trials) {
@@ -217,22 +217,22 @@ TEST(GoalNeedsInWorlds, DecideIfTheRatesAreThoseObserved) {
   }
 }
 
-/// The rigs of all worlds. @param worlds [world][rig]
-measures::CellCounts counts_on_rigs(const std::vector<std::vector<statistics::RigMoves>>& worlds) {
-  const std::size_t rigs = worlds.front().size() * worlds.size();
-  measures::CellCounts counts({static_cast<std::int64_t>(rigs), std::ssize(worlds), 0});
-  for (std::size_t rig = 0; rig < rigs; ++rig)
-    counts.add_rig(rig, 0, worlds[rig % worlds.size()][rig / worlds.size()]);
+/// The machines of all worlds. @param worlds [world][machine]
+measures::CellCounts counts_on_machines(const std::vector<std::vector<statistics::MachineMoves>>& worlds) {
+  const std::size_t machines = worlds.front().size() * worlds.size();
+  measures::CellCounts counts({static_cast<std::int64_t>(machines), std::ssize(worlds), 0});
+  for (std::size_t machine = 0; machine < machines; ++machine)
+    counts.add_machine(machine, 0, worlds[machine % worlds.size()][machine / worlds.size()]);
   return counts;
 }
 
-/// So many rigs with so many trials each, with the rates of the rigs observed.
-std::vector<statistics::RigMoves> rigs_with_rates_of(const std::vector<statistics::RigMoves>& observed,
-                                                     std::int64_t rigs, std::int64_t trials) {
-  std::vector<statistics::RigMoves> larger;
-  for (std::int64_t rig = 0; rig < rigs; ++rig) {
-    const double place = (static_cast<double>(rig) + 0.5) / static_cast<double>(rigs);
-    const statistics::RigMoves& like =
+/// So many machines with so many trials each, with the rates of the machines observed.
+std::vector<statistics::MachineMoves> machines_with_rates_of(
+    const std::vector<statistics::MachineMoves>& observed, std::int64_t machines, std::int64_t trials) {
+  std::vector<statistics::MachineMoves> larger;
+  for (std::int64_t machine = 0; machine < machines; ++machine) {
+    const double place = (static_cast<double>(machine) + 0.5) / static_cast<double>(machines);
+    const statistics::MachineMoves& like =
         observed[static_cast<std::size_t>(place * static_cast<double>(observed.size()))];
     larger.push_back(
         {trials, trials,
@@ -241,28 +241,30 @@ std::vector<statistics::RigMoves> rigs_with_rates_of(const std::vector<statistic
   return larger;
 }
 
-// The rigs of one world need more trials each, to be told from rigs below the goal; the other world needs
-// more rigs, because some are below it.
-TEST(GoalNeedsInWorlds, HaveRigsAndTrialsForTheWorldThatNeedsMost) {
+// The machines of one world need more trials each, to be told from machines below the goal; the other world
+// needs more machines, because some are below it.
+TEST(GoalNeedsInWorlds, HaveMachinesAndTrialsForTheWorldThatNeedsMost) {
   const study::Goal goal{.within = 0.05, .moves = 0.85, .machines = 0.8};
-  const std::vector<statistics::RigMoves> close(20, {10, 10, 9});
-  std::vector<statistics::RigMoves> mixed(20, {10, 10, 10});
+  const std::vector<statistics::MachineMoves> close(20, {10, 10, 9});
+  std::vector<statistics::MachineMoves> mixed(20, {10, 10, 10});
   mixed[0] = mixed[1] = {10, 10, 5};
   for (const auto& worlds :
        {std::vector{close, close}, std::vector{mixed, mixed}, std::vector{close, mixed}}) {
-    const measures::CellCounts counts = counts_on_rigs(worlds);
+    const measures::CellCounts counts = counts_on_machines(worlds);
     ASSERT_EQ(judge_goal(goal, counts, 1).status, Status::undecided);
     const Needs needs = needs_of(goal, counts, 1);
-    ASSERT_GT(needs.rigs, 40);
-    EXPECT_EQ(needs.rigs % 2, 0);
-    ASSERT_EQ(needs.trials % needs.rigs, 0) << needs.trials << " trials on " << needs.rigs << " machines";
-    const std::int64_t of_a_rig = needs.trials / needs.rigs;
-    EXPECT_EQ(judge_goal(goal,
-                         counts_on_rigs({rigs_with_rates_of(worlds[0], needs.rigs / 2, of_a_rig),
-                                         rigs_with_rates_of(worlds[1], needs.rigs / 2, of_a_rig)}),
-                         1)
-                  .status,
-              Status::met);
+    ASSERT_GT(needs.machines, 40);
+    EXPECT_EQ(needs.machines % 2, 0);
+    ASSERT_EQ(needs.trials % needs.machines, 0)
+        << needs.trials << " trials on " << needs.machines << " machines";
+    const std::int64_t of_a_machine = needs.trials / needs.machines;
+    EXPECT_EQ(
+        judge_goal(goal,
+                   counts_on_machines({machines_with_rates_of(worlds[0], needs.machines / 2, of_a_machine),
+                                       machines_with_rates_of(worlds[1], needs.machines / 2, of_a_machine)}),
+                   1)
+            .status,
+        Status::met);
   }
 }
 

@@ -61,8 +61,8 @@ bool meets(const Machine& machine, double age, std::size_t conditions) {
 
 struct LifeCase {
   std::size_t conditions;
-  std::int64_t rigs;
-  std::int64_t moves;  ///< of a rig under each condition at each age
+  std::int64_t machines;
+  std::int64_t moves;  ///< of a machine under each condition at each age
 };
 
 Question question_over(const LifeCase& one) {
@@ -75,14 +75,14 @@ Question question_over(const LifeCase& one) {
 
 measures::CellCounts counts_over(testing::Draws& draws, const Aging& aging, const LifeCase& one) {
   measures::CellCounts counts(
-      {.rigs = one.rigs, .conditions = static_cast<std::int64_t>(one.conditions * ages.size())});
-  for (std::int64_t rig = 0; rig < one.rigs; ++rig) {
+      {.machines = one.machines, .conditions = static_cast<std::int64_t>(one.conditions * ages.size())});
+  for (std::int64_t number = 0; number < one.machines; ++number) {
     const Machine machine = aging.draw(draws);
     for (std::size_t turn = 0; turn < one.conditions * ages.size(); ++turn) {
       const double chance = machine.proportion(ages[turn / one.conditions], turn % one.conditions);
       std::int64_t met = 0;
       for (std::int64_t move = 0; move < one.moves; ++move) met += draws.chance(chance) ? 1 : 0;
-      counts.add_rig(static_cast<std::size_t>(rig), turn, {one.moves, one.moves, met});
+      counts.add_machine(static_cast<std::size_t>(number), turn, {one.moves, one.moves, met});
     }
   }
   return counts;
@@ -144,7 +144,7 @@ void expect_bounds_cover(int studies) {
   for (const LifeCase& one :
        {LifeCase{1, 40, 20}, LifeCase{1, 200, 20}, LifeCase{2, 40, 20}, LifeCase{2, 100, 60}}) {
     std::string row = fmt::format("| {} condition{}, {} machines, {} moves |", one.conditions,
-                                  one.conditions == 1 ? "" : "s", one.rigs, one.moves);
+                                  one.conditions == 1 ? "" : "s", one.machines, one.moves);
     const Question question = question_over(one);
     for (const Aging& aging : aging_populations()) {
       const Truth truth = truth_of(aging, one, many);
@@ -154,7 +154,7 @@ void expect_bounds_cover(int studies) {
         const std::vector<measures::CellCounts> counts{counts_over(draws, aging, one)};
         const std::vector<BoundedProportion> at = machines_at_ages(question, counts);
         const std::vector<Survival> curve =
-            survival_of(lives_of_rigs(question, counts), question.ages.at, 0.95);
+            survival_of(lives_of_machines(question, counts), question.ages.at, 0.95);
         for (std::size_t age = 0; age < ages.size(); ++age) {
           machines.count(age, at[age], truth.machines[age]);
           living.count(age, curve[age].living, truth.living[age]);

@@ -24,17 +24,17 @@ struct SeveralGoals {
   explicit SeveralGoals(unsigned seed) : draws(seed) {
     for (std::int64_t i = 0; i < number; ++i) {
       goals.push_back({.within = 0.05, .moves = draws.uniform(0.7, 0.97), .machines = {}, .confidence = 0.9});
-      if (rigs > 0 && draws.chance(0.5)) goals.back().machines = draws.uniform(0.5, 0.9);
+      if (machines > 0 && draws.chance(0.5)) goals.back().machines = draws.uniform(0.5, 0.9);
       const double rate = draws.uniform(0.7, 1.0);
-      measures::CellCounts& of_goal = counts.emplace_back(measures::Shape{.rigs = rigs});
+      measures::CellCounts& of_goal = counts.emplace_back(measures::Shape{.machines = machines});
       for (std::int64_t trial = 0; trial < trials; ++trial) of_goal.add(trial, 1, draws.chance(rate));
     }
   }
 
   testing::Draws draws;
   std::int64_t number{draws.integer(2, 4)};
-  std::int64_t rigs{draws.chance(0.5) ? 0 : draws.integer(10, 40)};
-  std::int64_t trials{rigs > 0 ? rigs* draws.integer(2, 20) : draws.integer(50, 400)};
+  std::int64_t machines{draws.chance(0.5) ? 0 : draws.integer(10, 40)};
+  std::int64_t trials{machines > 0 ? machines* draws.integer(2, 20) : draws.integer(50, 400)};
   std::vector<study::Goal> goals;
   std::vector<measures::CellCounts> counts;
 };
@@ -77,13 +77,13 @@ TEST_EACH_SEED(SeveralGoals, AreJudgedByTheWorst) {
 
 TEST_EACH_SEED(SeveralGoals, AreJudgedUnderEachConditionAlike) {
   const std::int64_t conditions = draws.integer(2, 3);
-  std::vector<measures::CellCounts> under(goals.size(),
-                                          measures::CellCounts({.rigs = rigs, .conditions = conditions}));
+  std::vector<measures::CellCounts> under(
+      goals.size(), measures::CellCounts({.machines = machines, .conditions = conditions}));
   std::vector<std::vector<measures::CellCounts>> alone(goals.size());
   for (std::size_t i = 0; i < goals.size(); ++i) {
-    alone[i].assign(static_cast<std::size_t>(conditions), measures::CellCounts({.rigs = rigs}));
+    alone[i].assign(static_cast<std::size_t>(conditions), measures::CellCounts({.machines = machines}));
     const double rate = draws.uniform(0.7, 1.0);
-    const std::int64_t each = std::max<std::int64_t>(rigs, 1);
+    const std::int64_t each = std::max<std::int64_t>(machines, 1);
     for (std::int64_t trial = 0; trial < conditions * trials; ++trial) {
       const std::int64_t met = draws.chance(rate);
       under[i].add(trial, 1, met);
@@ -112,7 +112,7 @@ TEST_EACH_SEED(SeveralGoals, AreJudgedUnderEachConditionAlike) {
 
 TEST_EACH_SEED(SeveralGoals, ShowTheLoadUnderItsOwnWorstCondition) {
   const std::int64_t conditions = draws.integer(2, 4);
-  const measures::Shape shape{.rigs = rigs, .conditions = conditions};
+  const measures::Shape shape{.machines = machines, .conditions = conditions};
   Question question{.parts = {},
                     .conditions = std::vector<std::string>(static_cast<std::size_t>(conditions), "any")};
   measures::PointSummary point;
@@ -124,7 +124,7 @@ TEST_EACH_SEED(SeveralGoals, ShowTheLoadUnderItsOwnWorstCondition) {
     std::vector<double> rates(static_cast<std::size_t>(conditions));
     for (double& rate : rates) rate = draws.uniform(0.5, 1.0);
     for (std::int64_t trial = 0; trial < conditions * trials; ++trial) {
-      const std::int64_t condition = trial / std::max<std::int64_t>(rigs, 1) % conditions;
+      const std::int64_t condition = trial / std::max<std::int64_t>(machines, 1) % conditions;
       point.goals[i].add(trial, 1, draws.chance(0.9));
       point.for_the_load[i].add(trial, 1, draws.chance(rates[static_cast<std::size_t>(condition)]));
     }
@@ -152,15 +152,15 @@ double largest_number(int studies) {
   return studies * 0.05 + 3.0 * std::sqrt(studies * 0.05 * 0.95);
 }
 
-/// The verdicts on studies of 300 trials, or 60 rigs of 20 moves, whose goals are met with these rates.
+/// The verdicts on studies of 300 trials, or 60 machines of 20 moves, whose goals are met with these rates.
 std::vector<Verdict> verdicts_on(const std::vector<study::Goal>& goals, const std::vector<double>& rates,
-                                 std::int64_t rigs, int studies) {
+                                 std::int64_t machines, int studies) {
   testing::Draws draws(9);
   std::vector<Verdict> verdicts;
   for (int study = 0; study < studies; ++study) {
-    std::vector<measures::CellCounts> counts(goals.size(), measures::CellCounts({.rigs = rigs}));
+    std::vector<measures::CellCounts> counts(goals.size(), measures::CellCounts({.machines = machines}));
     for (std::size_t i = 0; i < goals.size(); ++i) {
-      for (std::int64_t trial = 0; trial < (rigs > 0 ? rigs * 20 : 300); ++trial)
+      for (std::int64_t trial = 0; trial < (machines > 0 ? machines * 20 : 300); ++trial)
         counts[i].add(trial, 1, draws.chance(rates[i]));
     }
     verdicts.push_back(judge_goals(goals, counts, 1));
@@ -171,15 +171,15 @@ std::vector<Verdict> verdicts_on(const std::vector<study::Goal>& goals, const st
 // One goal is exactly at what it asks for, the others are met by far: the hardest case of the test.
 TEST(SeveralGoals, AreRarelyClaimedToBeMetWhereOneIsAtItsLimit) {
   constexpr int studies = 800;
-  for (const std::int64_t rigs : {0, 60}) {
+  for (const std::int64_t machines : {0, 60}) {
     for (const std::size_t number : {2U, 4U}) {
       const std::vector<study::Goal> goals(number, {.within = 0.05, .moves = 0.9, .machines = {}});
       std::vector<double> rates(number, 0.999);
       rates.back() = 0.9;
-      const std::vector<Verdict> verdicts = verdicts_on(goals, rates, rigs, studies);
+      const std::vector<Verdict> verdicts = verdicts_on(goals, rates, machines, studies);
       const auto claimed =
           std::ranges::count_if(verdicts, [](const Verdict& one) { return one.status == Status::met; });
-      EXPECT_LE(static_cast<double>(claimed), largest_number(studies)) << rigs << " machines, " << number;
+      EXPECT_LE(static_cast<double>(claimed), largest_number(studies)) << machines << " machines, " << number;
     }
   }
 }

@@ -43,8 +43,8 @@ struct FewMachines {
         for (std::int64_t machine = 0; machine < machines; ++machine) {
           std::int64_t met = 0;
           for (std::int64_t move = 0; move < moves; ++move) met += draws.chance(rate) ? 1 : 0;
-          of_goal.add_rig(static_cast<std::size_t>(machine), static_cast<std::size_t>(c),
-                          {moves, moves, met});
+          of_goal.add_machine(static_cast<std::size_t>(machine), static_cast<std::size_t>(c),
+                              {moves, moves, met});
         }
       }
     }
@@ -66,7 +66,8 @@ TEST_EACH_SEED(FewMachines, AreJudgedByTheBoundsAndWhereTheseAreEqualByTheObserv
   EXPECT_EQ(verdict.goal, verdict.claims[worst].goal);
   EXPECT_EQ(verdict.condition, verdict.claims[worst].condition);
   for (std::size_t c = 0; c < static_cast<std::size_t>(conditions); ++c) {
-    const ClaimVerdict& under = worst_under(verdict, c);
+    const ClaimVerdict& under =
+        worst_where(verdict, [c](const ClaimVerdict& claim) { return claim.condition == c; });
     for (std::size_t i = 0; i < places.size(); ++i) {
       if (verdict.claims[i].condition == c) {
         EXPECT_LE(places_of(under, goals[under.goal]), places[i]);
@@ -78,10 +79,11 @@ TEST_EACH_SEED(FewMachines, AreJudgedByTheBoundsAndWhereTheseAreEqualByTheObserv
 // A study of few machines shows nothing of a proportion of machines: its bounds are 0 under every condition.
 TEST(Standing, ObservedMachinesRankClaimsWithEqualBounds) {
   const study::Goal goal{.within = 0.05, .moves = 0.9, .machines = 0.9};
-  measures::CellCounts counts({.rigs = 3, .conditions = 3});
+  measures::CellCounts counts({.machines = 3, .conditions = 3});
   const std::vector<std::vector<std::int64_t>> met{{5, 5, 5}, {5, 5, 4}, {5, 5, 5}};
   for (std::size_t c = 0; c < 3; ++c) {
-    for (std::size_t machine = 0; machine < 3; ++machine) counts.add_rig(machine, c, {5, 5, met[c][machine]});
+    for (std::size_t machine = 0; machine < 3; ++machine)
+      counts.add_machine(machine, c, {5, 5, met[c][machine]});
   }
   const Verdict verdict = judge_goal(goal, counts, 1);
   for (const ClaimVerdict& claim : verdict.claims) ASSERT_EQ(claim.machines.low, 0.0);
@@ -104,8 +106,8 @@ std::vector<measures::SettlingTimes> settling_after(const std::vector<double>& p
 /// of the time that is allowed.
 measures::PointSummary point_with(std::int64_t met, double part_of_time) {
   measures::PointSummary point;
-  measures::CellCounts counts({.rigs = 5});
-  for (std::size_t machine = 0; machine < 5; ++machine) counts.add_rig(machine, 0, {100, 100, met});
+  measures::CellCounts counts({.machines = 5});
+  for (std::size_t machine = 0; machine < 5; ++machine) counts.add_machine(machine, 0, {100, 100, met});
   point.goals = {counts};
   point.goal_settling = {settling_after({part_of_time})};
   return point;
@@ -136,9 +138,9 @@ TEST(Standing, TheLaterOfEqualConditionsIsTheWorst) {
   Question question = question_of_goal();
   question.conditions = {"empty", "loaded", "cold"};
   measures::PointSummary point;
-  measures::CellCounts counts({.rigs = 5, .conditions = 3});
+  measures::CellCounts counts({.machines = 5, .conditions = 3});
   for (std::size_t c = 0; c < 3; ++c) {
-    for (std::size_t machine = 0; machine < 5; ++machine) counts.add_rig(machine, c, {20, 20, 20});
+    for (std::size_t machine = 0; machine < 5; ++machine) counts.add_machine(machine, c, {20, 20, 20});
   }
   point.goals = {counts};
   point.goal_settling = {settling_after({0.4, std::numeric_limits<double>::infinity(), 0.6})};

@@ -8,7 +8,7 @@
 
 namespace zerocount::testing {
 
-history::RunRecord run_of_day(int day, double rate_a, double rate_b, double settling_time) {
+history::RunRecord run_of_day(int day, double rate_a, double rate_b, double arrival_time) {
   history::RunRecord run{{"gains", "series", "study", fmt::format("file {}", day), std::to_string(day), 200,
                           "0.1.0", fmt::format("{:040x}", day),
                           fmt::format("2026-{:02}-{:02}T02:30:00Z", day / 28 + 1, day % 28 + 1)}};
@@ -17,11 +17,11 @@ history::RunRecord run_of_day(int day, double rate_a, double rate_b, double sett
                           statistics::clopper_pearson(std::llround(200.0 * rate), 200), 200});
   }
   run.values.push_back({"a",
-                        "settling_time",
+                        "arrival_time",
                         "s",
                         statistics::MeasurementKind::mean,
-                        settling_time,
-                        {settling_time - 0.001, settling_time + 0.001},
+                        arrival_time,
+                        {arrival_time - 0.001, arrival_time + 0.001},
                         190});
   return run;
 }

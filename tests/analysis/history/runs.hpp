@@ -9,7 +9,7 @@ namespace zerocount::testing {
 
 /// A run of the study "gains" on day `day` of 2026, with success rates at the points a and b of 200 trials
 /// and the settling time at a.
-history::RunRecord run_of_day(int day, double rate_a, double rate_b = 0.5, double settling_time = 0.03);
+history::RunRecord run_of_day(int day, double rate_a, double rate_b = 0.5, double arrival_time = 0.03);
 
 /// The comparison of a run with a baseline of the last day of 2025, whose rates are 0.5.
 void compare_with_baseline(history::RunRecord& run, double p);

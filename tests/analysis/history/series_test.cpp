@@ -44,7 +44,7 @@ TEST(HistorySeries, NameTheCommitOfAStep) {
   const History history = history::history_of(runs);
   ASSERT_EQ(history.series.size(), 3U);
   EXPECT_TRUE(series_of(history, "a", "success_rate").changes.empty());
-  EXPECT_TRUE(series_of(history, "a", "settling_time").changes.empty());
+  EXPECT_TRUE(series_of(history, "a", "arrival_time").changes.empty());
   const history::Series& b = series_of(history, "b", "success_rate");
   ASSERT_EQ(b.changes.size(), 1U);
   EXPECT_NEAR(static_cast<double>(b.changes[0].first), 40.0, 1.0);

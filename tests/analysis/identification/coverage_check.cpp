@@ -1,8 +1,8 @@
-// How often the 95 % intervals of `zerocount identify` hold the truth, over simulated rigs.
+// How often the 95 % intervals of `zerocount identify` hold the truth, over simulated machines.
 //
 // usage: identification_coverage PROTOCOL SETS [FIRST] [NOISE] [TORQUE_STEP] [SKEW]
 //   PROTOCOL     three: ramps, steps and holds as three records; one: all in one record; short: in 3 s
-//   SETS, FIRST  so many rigs, from this number on (default 0)
+//   SETS, FIRST  so many machines, from this number on (default 0)
 //   NOISE        of the readings before rounding, counts (default 0)
 //   TORQUE_STEP  of the DAC, N m (default 2.4e-4; 0: exact)
 //   SKEW         samples by which the torque acts late (default 0)
@@ -40,7 +40,7 @@ int main(int count, char** words) {
       study.sets, first, instrument.noise, instrument.torque_step, instrument.skew, study.refused,
       study.lacking);
   fmt::print("{:<20} {:>6} {:>10} {:>9} {:>6} {:>12} {:>11} {:>9} {:>6}\n", "parameter", "held", "estimated",
-             "coverage", "open", "rms error/se", "half-width", "farthest", "rig");
+             "coverage", "open", "rms error/se", "half-width", "farthest", "machine");
   for (const IntervalCoverage& c : study.parameters) {
     const double n = c.estimated;
     fmt::print("{:<20} {:>6} {:>10} {:>7.1f} % {:>6} {:>12.2f} {:>9.2g} % {:>9.2f} {:>6}\n", c.name, c.held,

@@ -1,4 +1,4 @@
-// Coverage: of rigs drawn at random, 95 % of the intervals hold the truth. A small share of what
+// Coverage: of machines drawn at random, 95 % of the intervals hold the truth. A small share of what
 // identification_coverage does at length.
 #include <cmath>
 
@@ -10,42 +10,42 @@
 namespace zerocount::testing {
 namespace {
 
-/// The chance that fewer hold of so many rigs' intervals, each with the chance of 95 %, is 1 to 7 in 1000.
-/// With intervals 0.6 of the width that they should have (76 %) it would be 7 in 10 of 24 rigs and 1.5 in 10
-/// of 3, and there are nine parameters.
-int least_held(int rigs) {
-  if (rigs == 24) return 19;
-  return rigs == 12 ? 8 : 2;  // of 3
+/// The chance that fewer hold of so many machines' intervals, each with the chance of 95 %, is 1 to 7 in
+/// 1000. With intervals 0.6 of the width that they should have (76 %) it would be 7 in 10 of 24 machines
+/// and 1.5 in 10 of 3, and there are nine parameters.
+int least_held(int machines) {
+  if (machines == 24) return 19;
+  return machines == 12 ? 8 : 2;  // of 3
 }
 
 /// Root mean square of so many errors that are distributed as their standard error says: its quantile.
-double error_ratio(int rigs, double probability) {
-  return std::sqrt(boost::math::quantile(boost::math::chi_squared(rigs), probability) / rigs);
+double error_ratio(int machines, double probability) {
+  return std::sqrt(boost::math::quantile(boost::math::chi_squared(machines), probability) / machines);
 }
 
 void expect_coverage(const CoverageStudy& study) {
-  const int rigs = study.sets;
+  const int machines = study.sets;
   EXPECT_EQ(study.refused, 0);
   EXPECT_LE(study.lacking, 3);
   ASSERT_EQ(study.parameters.size(), 10u);
   for (const IntervalCoverage& coverage : study.parameters) {
-    EXPECT_GE(coverage.estimated, rigs - 1) << coverage.name;
-    EXPECT_GE(coverage.held + rigs - coverage.estimated, least_held(rigs)) << coverage.name;
+    EXPECT_GE(coverage.estimated, machines - 1) << coverage.name;
+    EXPECT_GE(coverage.held + machines - coverage.estimated, least_held(machines)) << coverage.name;
     // Nor are they wide for nothing: errors are what the standard errors say.
     const double ratio = std::sqrt(coverage.squared_errors / coverage.estimated);
-    EXPECT_GT(ratio, error_ratio(rigs, 2e-4)) << coverage.name;
-    EXPECT_LT(ratio, error_ratio(rigs, 1.0 - 2e-4)) << coverage.name;
+    EXPECT_GT(ratio, error_ratio(machines, 2e-4)) << coverage.name;
+    EXPECT_LT(ratio, error_ratio(machines, 1.0 - 2e-4)) << coverage.name;
   }
 }
 
-CoverageStudy of_counts_alone(int rigs) {
-  return study_coverage(1000, rigs, short_test(), {}, {{}, 200});
+CoverageStudy of_counts_alone(int machines) {
+  return study_coverage(1000, machines, short_test(), {}, {{}, 200});
 }
 
-CoverageStudy of_noisy_counts(int rigs) {
+CoverageStudy of_noisy_counts(int machines) {
   TestInstrument instrument;
   instrument.noise = 0.3;
-  return study_coverage(2000, rigs, short_test(), instrument, {{}, 200});
+  return study_coverage(2000, machines, short_test(), instrument, {{}, 200});
 }
 
 // A smoke test of the long ones below.
@@ -53,11 +53,11 @@ TEST(IdentificationCoverage, IntervalsHoldTheTruthOfCountsAlone) {
   expect_coverage(of_counts_alone(3));
 }
 
-TEST(IdentificationCoverage, DISABLED_IntervalsHoldTheTruthOfCountsAloneOfManyRigs) {
+TEST(IdentificationCoverage, DISABLED_IntervalsHoldTheTruthOfCountsAloneOfManyMachines) {
   expect_coverage(of_counts_alone(24));
 }
 
-TEST(IdentificationCoverage, DISABLED_IntervalsHoldTheTruthOfNoisyCountsOfManyRigs) {
+TEST(IdentificationCoverage, DISABLED_IntervalsHoldTheTruthOfNoisyCountsOfManyMachines) {
   expect_coverage(of_noisy_counts(12));
 }
 

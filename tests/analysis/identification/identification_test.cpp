@@ -219,7 +219,7 @@ TorqueProgramme steps_and_ramps() {
   return programme;
 }
 
-/// That of the paper's rig, which does not break away.
+/// That of the paper's machine, which does not break away.
 fit::ContactParameters strong_contact() {
   fit::ContactParameters contact;
   contact.friction.breakaway = 10.0;

@@ -36,7 +36,7 @@ fit::ContactParameters random_contact(std::mt19937_64& random) {
   contact.plant.inertia *= factor();
   contact.friction.alpha *= factor();
   contact.friction.n = std::uniform_real_distribution<double>(1.5, 2.5)(random);
-  // The hardening limit at 0.1 N m, 1e-3 rad for the paper's kind of rig, is what is spread; λ follows.
+  // The hardening limit at 0.1 N m, 1e-3 rad for the paper's kind of machine, is what is spread; λ follows.
   contact.friction.lambda = std::pow(0.1, contact.friction.n) / (1e-3 * factor());
   contact.friction.breakaway = 10.0;
   return contact;

@@ -28,7 +28,7 @@ class TorqueProgramme {
   std::vector<double> torque_;
 };
 
-/// What a rig's DAC and encoder do.
+/// What a machine's DAC and encoder do.
 struct TestInstrument {
   double counts_per_revolution{1.62e6};
   double torque_step{2.4e-4};  ///< Δu, N m; 0: the torque is exact
@@ -37,7 +37,8 @@ struct TestInstrument {
   double compliance{0.0};      ///< of a fixture that gives way under the torque, rad/(N m)
 };
 
-/// A rig of the paper's kind: its numbers, each times a random factor of 0.5 to 2, and n between 1.5 and 2.5.
+/// A machine of the paper's kind: its numbers, each times a random factor of 0.5 to 2, and n between 1.5
+/// and 2.5.
 fit::ContactParameters random_contact(std::mt19937_64& random);
 
 /// A test of a rotor, simulated by core's Plant sample by sample, and read by an encoder of random phase.
@@ -70,10 +71,10 @@ struct IntervalCoverage {
   double squared_errors{0.0};  ///< Σ (error/standard error)²
   double half_widths{0.0};     ///< Σ half-width/value
   double farthest{0.0};        ///< largest |error/standard error|
-  int farthest_set{0};         ///< of which rig
+  int farthest_set{0};         ///< of which machine
 };
 
-/// What came of identifying many rigs.
+/// What came of identifying many machines.
 struct CoverageStudy {
   std::vector<IntervalCoverage> parameters;  ///< in the order of Identification::parameters
   int sets{0};

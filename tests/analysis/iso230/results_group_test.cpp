@@ -318,9 +318,10 @@ TEST(RepeatabilityFile, CountsTheTrialsThatRepeatExactlyByTheEncoder) {
   EXPECT_DOUBLE_EQ(points[1].zero_bounds.high, statistics::clopper_pearson(58, 60).high);
 }
 
-// All trials of one of six rigs repeat exactly, those of the others do not: one event of six, not ten of 60.
-TEST(RepeatabilityFile, TakesTheTrialsOfARigForOneAnother) {
-  const study::Study study = testing::sequence_study("cycles: 3", 60, "rigs: 6\n");
+// All trials of one of six machines repeat exactly, those of the others do not: one event of six, not ten
+// of 60.
+TEST(RepeatabilityFile, TakesTheTrialsOfAMachineForOneAnother) {
+  const study::Study study = testing::sequence_study("cycles: 3", 60, "machines: 6\n");
   std::vector<shards::TrialResult> results = testing::sequence_results(study);
   for (std::size_t row = 0; row < 60; ++row)
     for (trial::MoveOutcome& move : results[row].outcome.moves)

@@ -203,30 +203,30 @@ TEST(JerkRates, BoundsCoverTheMeanRateOfTrialsThatDiffer) {
   EXPECT_GE(covered.reported, 0.925);
 }
 
-/// 400 moves on 40 rigs, of which about half jerk: trial i runs on rig i mod 40.
-std::vector<ObservedMove> moves_on_rigs(std::mt19937_64& random) {
-  constexpr std::int64_t rigs = 40;
-  std::vector<double> own(rigs);
+/// 400 moves on 40 machines, of which about half jerk: trial i runs on machine i mod 40.
+std::vector<ObservedMove> moves_on_machines(std::mt19937_64& random) {
+  constexpr std::int64_t machines = 40;
+  std::vector<double> own(machines);
   for (double& rate : own) rate = random() % 2 == 0 ? 20.0 : 0.0;
   std::vector<ObservedMove> moves;
-  for (std::int64_t trial = 0; trial < 10 * rigs; ++trial) {
-    const double rate = own[static_cast<std::size_t>(trial % rigs)];
+  for (std::int64_t trial = 0; trial < 10 * machines; ++trial) {
+    const double rate = own[static_cast<std::size_t>(trial % machines)];
     moves.push_back(random_move(trial, 400, random, [rate](double) { return rate; }));
-    moves.back().cluster = trial % rigs;
+    moves.back().cluster = trial % machines;
   }
   return moves;
 }
 
-// All trials of a rig have its friction: there are 40 values, not 400.
-TEST(JerkRates, BoundsCoverTheMeanRateOfRigsThatDiffer) {
+// All trials of a machine have its friction: there are 40 values, not 400.
+TEST(JerkRates, BoundsCoverTheMeanRateOfMachinesThatDiffer) {
   constexpr double truth = 10.0;
   constexpr int rounds = 300;
   std::mt19937_64 random(113);
-  double over_trials = 0.0, over_rigs = 0.0;
+  double over_trials = 0.0, over_machines = 0.0;
   for (int round = 0; round < rounds; ++round) {
-    JerkRates rigs(true), trials;
-    for (ObservedMove& move : moves_on_rigs(random)) {
-      rigs.add(move);
+    JerkRates machines(true), trials;
+    for (ObservedMove& move : moves_on_machines(random)) {
+      machines.add(move);
       move.cluster = move.trial;
       trials.add(move);
     }
@@ -236,22 +236,22 @@ TEST(JerkRates, BoundsCoverTheMeanRateOfRigsThatDiffer) {
       return bounds.low <= truth && truth <= bounds.high;
     };
     over_trials += covers(trials);
-    over_rigs += covers(rigs);
+    over_machines += covers(machines);
   }
   EXPECT_LT(over_trials, 0.7 * rounds);
-  EXPECT_GE(over_rigs, (0.95 - 0.038) * rounds);  // three standard errors
+  EXPECT_GE(over_machines, (0.95 - 0.038) * rounds);  // three standard errors
 }
 
-// The rigs come round again: in which order their moves come does not matter.
-TEST(JerkRates, OfRigsAreThoseOfTheirMovesInAnyOrder) {
+// The machines come round again: in which order their moves come does not matter.
+TEST(JerkRates, OfMachinesAreThoseOfTheirMovesInAnyOrder) {
   std::mt19937_64 random(114);
-  std::vector<ObservedMove> moves = moves_on_rigs(random);
-  JerkRates in_turn(true), rig_by_rig;
+  std::vector<ObservedMove> moves = moves_on_machines(random);
+  JerkRates in_turn(true), machine_by_machine;
   for (const ObservedMove& move : moves) in_turn.add(move);
   std::stable_sort(moves.begin(), moves.end(),
                    [](const ObservedMove& a, const ObservedMove& b) { return a.cluster < b.cluster; });
-  for (const ObservedMove& move : moves) rig_by_rig.add(move);
-  const std::vector<JerkRate> found = in_turn.rates(0.95), expected = rig_by_rig.rates(0.95);
+  for (const ObservedMove& move : moves) machine_by_machine.add(move);
+  const std::vector<JerkRate> found = in_turn.rates(0.95), expected = machine_by_machine.rates(0.95);
   ASSERT_EQ(found.size(), expected.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
     EXPECT_EQ(found[i].jerks, expected[i].jerks);

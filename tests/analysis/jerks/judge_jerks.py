@@ -19,7 +19,7 @@ zerocount: 1
 name: jerking
 seed: 11
 trials: 80
-{rigs}friction:
+{machines}friction:
   k1: {{uniform: [90, 130]}}
   k2: {{uniform: [600, 900]}}
   alpha: {{log_uniform: [0.25, 2.0]}}
@@ -77,15 +77,15 @@ def judge_proportion(found, hits, events, place):
     close(found["proportion_high"], stats.beta.isf(tail, p * n + 1, n - p * n) if p < 1 else 1.0, place)
 
 
-def judge_point(found, file, point, rigs):
-    """@param rigs that the trials run on, trial i on rig i mod rigs; 0: each trial is a cluster of its own."""
+def judge_point(found, file, point, machines):
+    """@param machines that the trials run on, trial i on machine i mod machines; 0: each trial is a cluster of its own."""
     rows = numpy.flatnonzero(file["trial/point"][:] == point)
     arrival = file["outcome/arrival"][rows]
     arrived = file["outcome/arrived"][rows].astype(bool) & (file["outcome/outcome"][rows] != 3)
     holding = numpy.sign(file["outcome/holding_torque"][rows])
     jerk = {name: file["jerk/" + name][:] for name in ("trial", "move", "onset", "duration", "magnitude", "direction")}
     trials = len(rows)
-    clusters = rigs or trials
+    clusters = machines or trials
     edges = 10.0 ** (numpy.arange(-30, 20) / 5.0)
     exposure, onsets = numpy.zeros((clusters, len(edges))), numpy.zeros((clusters, len(edges)))
     intervals, owners = [], []
@@ -180,29 +180,29 @@ def judge_point(found, file, point, rigs):
     return int(jerks.sum())
 
 
-def judge_study(zerocount, rigs):
-    text = manifest.format(rigs=f"rigs: {rigs}\n" if rigs else "")
+def judge_study(zerocount, machines):
+    text = manifest.format(machines=f"machines: {machines}\n" if machines else "")
     pathlib.Path("study.yaml").write_text(text, encoding="utf-8")
-    output = f"study-{rigs}.h5"
+    output = f"study-{machines}.h5"
     subprocess.run([zerocount, "run", "study.yaml", "-o", output], check=True, stderr=subprocess.DEVNULL)
     words = [zerocount, "jerks", output, "--format", "json", "--confidence", str(confidence), "--creep-trials", "5"]
     report = json.loads(subprocess.check_output(words, text=True))
     assert report["name"] == "jerking" and report["confidence"] == confidence
     with h5py.File(output) as file:
-        counts = [judge_point(found, file, found["point"], rigs) for found in report["points"]]
+        counts = [judge_point(found, file, found["point"], machines) for found in report["points"]]
     assert len(counts) == 2 and min(counts) > 30, counts
     for found in report["points"]:
         creep = found["creep"]
         assert creep["predicted"] == creep["ended"] and creep["lasting_predicted"] == creep["lasting"], creep
-    print(f"{counts} jerks agree, {rigs} rigs")
+    print(f"{counts} jerks agree, {machines} machines")
 
 
 def main():
     zerocount = os.path.abspath(sys.argv[1])
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
-        for rigs in (0, 16):
-            judge_study(zerocount, rigs)
+        for machines in (0, 16):
+            judge_study(zerocount, machines)
         os.chdir("/")
 
 

@@ -303,14 +303,14 @@ TEST_P(EachLaw, IsToldFromTheNearestWithItsParameters) {
 }
 
 TEST_P(EachLaw, DISABLED_IsFoundInItsOwnRecordsWithItsParameters) {
-  constexpr int rigs = 2;
+  constexpr int machines = 2;
   Held all;
-  for (int rig = 0; rig < rigs; ++rig) {
-    std::mt19937_64 random(static_cast<std::uint64_t>(100 * rig + 7));
+  for (int machine = 0; machine < machines; ++machine) {
+    std::mt19937_64 random(static_cast<std::uint64_t>(100 * machine + 7));
     const Truth truth = rotor_of(GetParam(), random);
     const LawComparison found = fit::compare_laws({record_of(truth, random)}, {{GetParam()}});
     const IdentifiedLaw& law = found.laws.front();
-    EXPECT_TRUE(law.checks.passed) << "machine " << rig << ": "
+    EXPECT_TRUE(law.checks.passed) << "machine " << machine << ": "
                                    << document::text(fit::laws_answer().of(found));
     const Held held = held_by(law, truth);
     all.held += held.held;
@@ -318,7 +318,7 @@ TEST_P(EachLaw, DISABLED_IsFoundInItsOwnRecordsWithItsParameters) {
   }
   // 95 % each; of 10 to 20 that depend on one another 70 % are all but certain.
   EXPECT_GE(all.held, 0.7 * all.estimated);
-  EXPECT_GE(all.estimated, 4 * rigs);
+  EXPECT_GE(all.estimated, 4 * machines);
 }
 
 TEST_P(EachLaw, DISABLED_IsToldFromTheOthers) {

@@ -114,7 +114,7 @@ TEST(DividedPoint, HasTheStatisticsOfTheWhole) {
   testing::Draws draws(2304);
   for (int round = 0; round < 24; ++round) {
     const bool open_loop = round % 4 == 3;
-    const MoveKind kind{.open_loop = open_loop, .shape = {.rigs = round % 3 == 1 ? 7 : 0}};
+    const MoveKind kind{.open_loop = open_loop, .shape = {.machines = round % 3 == 1 ? 7 : 0}};
     const auto moves = static_cast<std::size_t>(draws.uniform(1.0, 4.0));
     std::vector<JerkingTrial> trials;
     for (int i = 0; i < 210; ++i) trials.push_back(random_trial(draws, moves, open_loop));
@@ -142,7 +142,7 @@ TEST(DividedPoint, HasTheStatisticsOfTrialsThatWereAddedOneByOne) {
   testing::Draws draws(2308);
   for (int round = 0; round < 24; ++round) {
     const bool open_loop = round % 4 == 3;
-    const MoveKind kind{.open_loop = open_loop, .shape = {.rigs = round % 3 == 1 ? 7 : 0}};
+    const MoveKind kind{.open_loop = open_loop, .shape = {.machines = round % 3 == 1 ? 7 : 0}};
     const auto of_trial = static_cast<std::size_t>(round % 2 == 0 ? 1.0 : draws.uniform(1.0, 4.0));
     PointAccumulator one_by_one(kind), together(kind);
     std::vector<JerkingTrial> trials;
@@ -205,7 +205,7 @@ PlainStatistics plain_statistics(const layout::Measure& measure, const std::vect
 TEST(DividedPoint, HasTheSumsAndQualitiesOfEachTrial) {
   testing::Draws draws(2309);
   for (int round = 0; round < 16; ++round) {
-    const MoveKind kind{.shape = {.rigs = round % 3 == 1 ? 7 : 0}};
+    const MoveKind kind{.shape = {.machines = round % 3 == 1 ? 7 : 0}};
     const auto of_trial = static_cast<std::size_t>(draws.integer(1, 4));
     PointAccumulator point(kind);
     std::vector<JerkingTrial> trials;
@@ -244,7 +244,7 @@ TEST(DividedPoint, RefusesTheStateOfAnotherKindOfPoint) {
   testing::Draws draws(2305);
   const PointAccumulator point = random_point(draws, {}, 2);
   const statistics::State state = point.state();
-  PointAccumulator other(MoveKind{.shape = {.rigs = 5}});
+  PointAccumulator other(MoveKind{.shape = {.machines = 5}});
   EXPECT_THROW(other.restore(state.whole, state.real, 2), Failure);
   EXPECT_THROW(PointAccumulator().restore(state.whole, state.real, 3), Failure) << "another number of moves";
   statistics::State shorter = state;
@@ -268,7 +268,7 @@ TEST(DividedPoint, OfAnyNumbersIsRefusedOrHasStatistics) {
   int refused = 0;
   constexpr int rounds = 400;
   for (int round = 0; round < rounds; ++round) {
-    const MoveKind kind{.open_loop = round % 5 == 4, .shape = {.rigs = round % 2 == 1 ? 7 : 0}};
+    const MoveKind kind{.open_loop = round % 5 == 4, .shape = {.machines = round % 2 == 1 ? 7 : 0}};
     statistics::State changed = random_point(draws, kind, 2).state();
     const auto place =
         static_cast<std::size_t>(draws.uniform(0.0, static_cast<double>(changed.whole.size())));

@@ -45,7 +45,7 @@ struct GoalSettlingTimes {
   /// where a move never settles.
   template <class Scale>
   std::vector<double> times_under(std::int64_t condition, Scale scale) const {
-    const study::TrialTurns turns{std::max<std::int64_t>(rigs, 1), conditions};
+    const study::TrialTurns turns{std::max<std::int64_t>(machines, 1), conditions};
     std::vector<double> times;
     for (std::int64_t trial = 0; trial < trials; ++trial) {
       if (turns.condition_of(trial) != condition) continue;
@@ -61,7 +61,7 @@ struct GoalSettlingTimes {
   }
 
   GoalSettling of(std::int64_t first, std::int64_t end) const {
-    GoalSettling settling(goal, {.rigs = rigs, .conditions = conditions});
+    GoalSettling settling(goal, {.machines = machines, .conditions = conditions});
     for (std::int64_t trial = first; trial < end; ++trial)
       settling.add(trial, goal, of_trials[static_cast<std::size_t>(trial)]);
     return settling;
@@ -69,8 +69,8 @@ struct GoalSettlingTimes {
 
   testing::Draws draws;
   std::int64_t conditions{draws.integer(1, 3)};
-  std::int64_t rigs{draws.chance(0.5) ? 0 : draws.integer(2, 6)};
-  std::int64_t trials{std::max<std::int64_t>(rigs, 1) * conditions * draws.integer(4, 20)};
+  std::int64_t machines{draws.chance(0.5) ? 0 : draws.integer(2, 6)};
+  std::int64_t trials{std::max<std::int64_t>(machines, 1) * conditions * draws.integer(4, 20)};
   std::int64_t moves{draws.integer(1, 4)};
   CountedGoal goal;
   std::vector<std::vector<trial::MoveOutcome>> of_trials;
@@ -108,7 +108,7 @@ TEST_EACH_SEED(GoalSettlingTimes, AreOfTheMovesThatItAsksUnderEachCondition) {
     EXPECT_DOUBLE_EQ(found[static_cast<std::size_t>(condition)].share,
                      std::isnan(share) ? std::numeric_limits<double>::infinity() : share);
     double longest = goal.within.after_profile ? 0.0 : goal.within.time;
-    const study::TrialTurns turns{std::max<std::int64_t>(rigs, 1), conditions};
+    const study::TrialTurns turns{std::max<std::int64_t>(machines, 1), conditions};
     for (std::int64_t trial = 0; trial < trials; ++trial)
       for (const std::int64_t move : goal.on)
         if (turns.condition_of(trial) == condition)
@@ -125,7 +125,7 @@ TEST_EACH_SEED(GoalSettlingTimes, DoNotDependOnHowTrialsAreDivided) {
   statistics::State state;
   statistics::StateWriter writer(state);
   GoalSettling::transfer(parts, writer);
-  GoalSettling restored(goal, {.rigs = rigs, .conditions = conditions});
+  GoalSettling restored(goal, {.machines = machines, .conditions = conditions});
   statistics::StateReader reader(state.whole, state.real);
   GoalSettling::transfer(restored, reader);
   EXPECT_TRUE(restored.is_valid(trials * asked_moves(goal, moves)));

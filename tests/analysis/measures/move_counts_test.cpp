@@ -25,7 +25,7 @@ statistics::State state_of(const CellCounts& counts) {
   return state;
 }
 
-/// Random trials on rigs or not, in some worlds, under some conditions.
+/// Random trials on machines or not, in some worlds, under some conditions.
 struct CountsInCells {
   static constexpr unsigned seeds = 300;
   explicit CountsInCells(unsigned seed) : draws(seed) {
@@ -52,11 +52,11 @@ struct CountsInCells {
   /// The trials of these cells alone, one after the other.
   MoveCounts alone(const Cells& cells) const {
     MoveCounts sum;
-    std::vector<statistics::RigMoves> rigs(static_cast<std::size_t>(shape.rigs));
-    std::vector<bool> asked(rigs.size(), false);
+    std::vector<statistics::MachineMoves> machines(static_cast<std::size_t>(shape.machines));
+    std::vector<bool> asked(machines.size(), false);
     for (std::int64_t trial = 0; trial < trials; ++trial) {
-      // All rigs in turn, under one condition after the other.
-      const std::int64_t turn = std::max<std::int64_t>(shape.rigs, 1);
+      // All machines in turn, under one condition after the other.
+      const std::int64_t turn = std::max<std::int64_t>(shape.machines, 1);
       const std::int64_t conditions = std::max<std::int64_t>(shape.conditions, 1);
       const std::int64_t draw = trial % turn + turn * (trial / (turn * conditions));
       if (cells.condition && !std::cmp_equal(trial / turn % conditions, *cells.condition)) continue;
@@ -64,24 +64,24 @@ struct CountsInCells {
       const std::int64_t hits = met[static_cast<std::size_t>(trial)];
       sum.moves += moves;
       sum.met += hits;
-      if (shape.rigs == 0) {
+      if (shape.machines == 0) {
         sum.of_trials.add(hits, moves);
       } else {
         asked[static_cast<std::size_t>(trial % turn)] = true;
-        rigs[static_cast<std::size_t>(trial % turn)] += {1, moves, hits};
+        machines[static_cast<std::size_t>(trial % turn)] += {1, moves, hits};
       }
     }
-    for (std::size_t rig = 0; rig < rigs.size(); ++rig)
-      if (asked[rig]) sum.rigs.push_back(rigs[rig]);
+    for (std::size_t machine = 0; machine < machines.size(); ++machine)
+      if (asked[machine]) sum.machines.push_back(machines[machine]);
     return sum;
   }
 
   testing::Draws draws;
   std::int64_t worlds{draws.chance(0.4) ? 0 : draws.integer(2, 5)};
   std::int64_t conditions{draws.chance(0.4) ? 0 : draws.integer(2, 4)};
-  std::int64_t rigs{draws.chance(0.5) ? 0 : std::max<std::int64_t>(worlds, 1) * draws.integer(1, 4)};
-  Shape shape{rigs, worlds, conditions};
-  std::int64_t trials{std::max<std::int64_t>(rigs, 1) * std::max<std::int64_t>(conditions, 1) *
+  std::int64_t machines{draws.chance(0.5) ? 0 : std::max<std::int64_t>(worlds, 1) * draws.integer(1, 4)};
+  Shape shape{machines, worlds, conditions};
+  std::int64_t trials{std::max<std::int64_t>(machines, 1) * std::max<std::int64_t>(conditions, 1) *
                       draws.integer(std::max<std::int64_t>(worlds, 1), 30)};
   std::int64_t moves{draws.integer(1, 3)};  ///< of a trial
   std::vector<std::int64_t> met;            ///< [trial]
@@ -128,7 +128,7 @@ TEST_EACH_SEED(CountsInCells, AreRestoredFromAnArchiveOfTheirShape) {
 // Sums that contradict each other are found: all but the number of trials where nothing else counts them.
 TEST_EACH_SEED(CountsInCells, ThatDoNotAddUpAreRefused) {
   const statistics::State state = state_of(counted());
-  const bool only_one_cell = rigs == 0 && worlds == 0 && conditions == 0;
+  const bool only_one_cell = machines == 0 && worlds == 0 && conditions == 0;
   for (std::size_t i = 0; i < state.whole.size(); ++i) {
     constexpr std::size_t number_of_trials = 2;
     if (only_one_cell && i == number_of_trials) continue;

@@ -24,11 +24,11 @@ goal: {band: 2, within: 0.1, moves: 0.9}
                                "test.yaml");
 }
 
-trial::MoveOutcome move_with(double settling_time) {
+trial::MoveOutcome move_with(double arrival_time) {
   trial::MoveOutcome move;
   move.outcome = trial::Outcome::zero_count;
-  move.arrival_time = settling_time;
-  for (trial::BandOutcome& band : move.bands) band.settling_time = settling_time;
+  move.arrival_time = arrival_time;
+  for (trial::BandOutcome& band : move.bands) band.settling_time = arrival_time;
   return move;
 }
 
@@ -43,8 +43,8 @@ TEST(MoveEvent, AGoalIsMissedAfterItsTimeOrNeverReached) {
 TEST(MoveEvent, AMeasureIsComparedWithTheLimit) {
   const study::Study study = study_with_goal();
   for (const auto& [text, at_limit, above] :
-       {std::tuple{"settling_time > 0.2", false, true}, std::tuple{"settling_time>=0.2", true, true},
-        std::tuple{" settling_time < 0.2 ", false, false}, std::tuple{"settling_time ≤ 0.2", true, false}}) {
+       {std::tuple{"arrival_time > 0.2", false, true}, std::tuple{"arrival_time>=0.2", true, true},
+        std::tuple{" arrival_time < 0.2 ", false, false}, std::tuple{"arrival_time ≤ 0.2", true, false}}) {
     const MoveEvent event = parse_event(study, text);
     EXPECT_EQ(happens(event, move_with(0.2)), at_limit) << text;
     EXPECT_EQ(happens(event, move_with(0.3)), above) << text;
@@ -60,8 +60,8 @@ TEST(MoveEvent, TheScoreGrowsTowardsTheEvent) {
   const auto score = [&](const char* text, double time) {
     return score_of(MoveScore::event, parse_event(study, text), move_with(time));
   };
-  EXPECT_LT(score("settling_time > 0.2", 0.1), score("settling_time > 0.2", 0.15));
-  EXPECT_GT(score("settling_time < 0.2", 0.25), score("settling_time < 0.2", 0.3));
+  EXPECT_LT(score("arrival_time > 0.2", 0.1), score("arrival_time > 0.2", 0.15));
+  EXPECT_GT(score("arrival_time < 0.2", 0.25), score("arrival_time < 0.2", 0.3));
   EXPECT_LT(score_of(MoveScore::event, missed_question(study), move_with(0.05)),
             score_of(MoveScore::event, missed_question(study), move_with(0.09)));
 }
@@ -69,9 +69,10 @@ TEST(MoveEvent, TheScoreGrowsTowardsTheEvent) {
 TEST(MoveEvent, SaysWhatIsWrongWithAText) {
   const study::Study study = study_with_goal();
   for (const auto& [text, expected] :
-       {std::pair{"settling_time", "compares nothing"}, std::pair{"settling_time = 1", "compares nothing"},
-        std::pair{"settling_time > soon", "no number"},
-        std::pair{"settling_tine > 1", "did you mean 'settling_time'?"},
+       {std::pair{"arrival_time", "compares nothing"}, std::pair{"arrival_time = 1", "compares nothing"},
+        std::pair{"arrival_time > soon", "no number"},
+        std::pair{"arival_time > 1", "did you mean 'arrival_time'?"},
+        std::pair{"settling_time > 1", "may mean two measures, arrival_time"},
         std::pair{"band_settling_time[7] > 1", "names no measure"}}) {
     try {
       parse_event(study, text);

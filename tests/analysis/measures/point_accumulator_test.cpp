@@ -14,12 +14,12 @@
 namespace zerocount::measures {
 namespace {
 
-trial::MoveOutcome move_that(trial::Outcome outcome, double settling_time) {
+trial::MoveOutcome move_that(trial::Outcome outcome, double arrival_time) {
   trial::MoveOutcome move;
   move.outcome = outcome;
-  move.arrived = std::isfinite(settling_time);
+  move.arrived = std::isfinite(arrival_time);
   move.stable = move.arrived && outcome <= trial::Outcome::one_count;
-  move.arrival_time = settling_time;
+  move.arrival_time = arrival_time;
   return move;
 }
 
@@ -149,16 +149,16 @@ TEST(PointStatistics, FinalSettlingTimesAreOfAllMovesToo) {
   EXPECT_NEAR(final.mean, 30.5 / 2000.0, 1e-15);
 }
 
-TEST(PointStatistics, LimitsOnRigsAreOfTheSlowestMove) {
-  PointAccumulator on_rigs({.shape = {.rigs = 100}}), plain;
+TEST(PointStatistics, LimitsOnMachinesAreOfTheSlowestMove) {
+  PointAccumulator on_machines({.shape = {.machines = 100}}), plain;
   for (int trial = 0; trial < 100; ++trial) {
     const trial::TrialOutcome moves{
         {move_that(trial::Outcome::zero_count, 0.5), move_that(trial::Outcome::zero_count, 0.01)}};
-    on_rigs.add(moves, {});
+    on_machines.add(moves, {});
     plain.add(moves, {});
   }
   EXPECT_EQ(plain.statistics().settles_within[0].within, 0.5);
-  EXPECT_EQ(on_rigs.statistics().settles_within[0].within, 0.5);
+  EXPECT_EQ(on_machines.statistics().settles_within[0].within, 0.5);
 }
 
 TEST(PointStatistics, QuantilesOfSettlingTimesAreOfAllMovesAndTheRestOfThoseThatArrived) {

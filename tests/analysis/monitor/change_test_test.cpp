@@ -242,21 +242,20 @@ TEST(Groups, AreTakenWhereTheyAreComplete) {
     machine.update(log);
     return std::pair(machine.values(), machine.continued());
   };
-  const std::string before = "day,settling_time\nMon,1\nMon,2\nTue,3\n";
-  EXPECT_EQ(values(before, "day,settling_time\nWed,1\nWed,2\n"), std::pair(0L, 0L));
-  EXPECT_EQ(values(before, "day,settling_time\nWed,1\nWed,2\nThu,1\n"), std::pair(1L, 0L));
-  EXPECT_EQ(values(before, "day,settling_time\nTue,1\nTue,2\nWed,1\nThu,1\n"), std::pair(1L, 2L));
-  EXPECT_EQ(values(before, "day,settling_time\nMon,1\nTue,1\nMon,1\n"), std::pair(2L, 0L))
-      << "of other weeks";
+  const std::string before = "day,arrival_time\nMon,1\nMon,2\nTue,3\n";
+  EXPECT_EQ(values(before, "day,arrival_time\nWed,1\nWed,2\n"), std::pair(0L, 0L));
+  EXPECT_EQ(values(before, "day,arrival_time\nWed,1\nWed,2\nThu,1\n"), std::pair(1L, 0L));
+  EXPECT_EQ(values(before, "day,arrival_time\nTue,1\nTue,2\nWed,1\nThu,1\n"), std::pair(1L, 2L));
+  EXPECT_EQ(values(before, "day,arrival_time\nMon,1\nTue,1\nMon,1\n"), std::pair(2L, 0L)) << "of other weeks";
 }
 
 TEST(Groups, NeedTheirColumn) {
   const auto message = [](const std::string& text, ExitCode code) {
     return refusal_by([&] { log_of(text, "moves.csv", "day"); }, code);
   };
-  EXPECT_EQ(message("shift,settling_time\n1,2\n", ExitCode::bad_input),
-            "moves.csv:1: has no column 'day' (--group); expected one of shift, settling_time");
-  EXPECT_EQ(message("day,settling_time\n1,2\n,2\n", ExitCode::bad_data),
+  EXPECT_EQ(message("shift,arrival_time\n1,2\n", ExitCode::bad_input),
+            "moves.csv:1: has no column 'day' (--group); expected one of shift, arrival_time");
+  EXPECT_EQ(message("day,arrival_time\n1,2\n,2\n", ExitCode::bad_data),
             "moves.csv:3: day is empty; expected the group of the move");
 }
 

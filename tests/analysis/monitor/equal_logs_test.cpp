@@ -24,7 +24,7 @@ LoggedMoves random_run(std::uint32_t number, int moves) {
 }
 
 std::string plain(const LoggedMoves& run) {
-  std::string text = "settling_time,final_error\n";
+  std::string text = "arrival_time,final_error\n";
   for (std::size_t i = 0; i < run.times.size(); ++i)
     text += fmt::format("{},{}\n", run.times[i], run.errors[i]);
   return text;
@@ -32,7 +32,7 @@ std::string plain(const LoggedMoves& run) {
 
 /// The same moves in ms, in other columns and with decimal commas.
 std::string otherwise(const LoggedMoves& run) {
-  std::string text = "\xEF\xBB\xBF# machine 7\r\nserial;final_error;settling_time [ms]\r\n";
+  std::string text = "\xEF\xBB\xBF# machine 7\r\nserial;final_error;arrival_time [ms]\r\n";
   for (std::size_t i = 0; i < run.times.size(); ++i) {
     std::string time = fmt::format("{:.12e}", 1e3 * run.times[i]);
     std::ranges::replace(time, '.', ',');
@@ -84,7 +84,7 @@ TEST(EqualLogs, OfFewValuesAreEqualIfTheyHaveTheSameLength) {
   const std::string five = "outcome\n0\n0\n1\n0\n0\n";
   EXPECT_EQ(equal_moves_of(five, five), 5);
   EXPECT_EQ(equal_moves_of(five, five + "0\n0\n"), 0);
-  EXPECT_EQ(equal_moves_of("settling_time\n0.1\n", "settling_time\n0.1\n0.2\n"), 0);
+  EXPECT_EQ(equal_moves_of("arrival_time\n0.1\n", "arrival_time\n0.1\n0.2\n"), 0);
   EXPECT_EQ(equal_moves_of(five, "overshoot\n0\n0\n1\n0\n0\n"), 0) << "no measure in common";
 }
 

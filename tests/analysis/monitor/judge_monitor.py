@@ -105,7 +105,7 @@ def write_log(path, columns):
 def main():
     program = sys.argv[1]
     generator = np.random.default_rng(20261127)
-    kinds = {"settling_time": "continuous", "jerk_count": "tied", "stable": "binary"}
+    kinds = {"arrival_time": "continuous", "jerk_count": "tied", "stable": "binary"}
     alarms = 0
     with tempfile.TemporaryDirectory() as folder:
         for case in range(24):

@@ -61,7 +61,7 @@ std::vector<double> times(std::uint32_t number, std::int64_t moves, std::int64_t
   return values;
 }
 
-const std::string head = "settling_time";
+const std::string head = "arrival_time";
 
 std::string log_of_times(const std::vector<double>& values) {
   return log_text(head, values);
@@ -119,9 +119,9 @@ TEST(MachineMonitor, SaysTheSameOfAMonotoneTransform) {
 
 TEST(MachineMonitor, SaysTheSameInOtherUnits) {
   std::vector<double> before = times(1, 200);
-  std::string in_ms = "settling_time [ms]\n";
+  std::string in_ms = "arrival_time [ms]\n";
   for (const double value : before) in_ms += fmt::format("{}\n", 1e3 * value);
-  const std::string after = log_text("settling_time [s]", times(2, 400, 200, 0.8));
+  const std::string after = log_text("arrival_time [s]", times(2, 400, 200, 0.8));
   const Said said = said_of(log_of_times(before), after);
   EXPECT_EQ(said_of(in_ms, after).alarm_at, said.alarm_at);
 }
@@ -129,7 +129,7 @@ TEST(MachineMonitor, SaysTheSameInOtherUnits) {
 TEST(MachineMonitor, SeesFewerGoodMovesAndMovesThatNeverSettle) {
   random::NumberSource numbers = numbers_of("qualities", 0);
   const auto log = [&](int moves, double good) {
-    std::string text = "outcome,settling_time\n";
+    std::string text = "outcome,arrival_time\n";
     for (int i = 0; i < moves; ++i) {
       const bool is_good = numbers.uniform() < good;
       text += fmt::format("{},{}\n", is_good ? "zero_count" : "one_count",
@@ -166,7 +166,7 @@ TEST(MachineMonitor, SaysTheSameWhileTheLogGrows) {
 // Each of K measures has the alarm at K/alarm, however they depend on each other.
 TEST(MachineMonitor, SharesTheFalseAlarmsAmongTheMeasures) {
   const auto log = [](const std::vector<double>& values, bool twice) {
-    std::string text = twice ? "settling_time,final_settling_time\n" : "settling_time\n";
+    std::string text = twice ? "arrival_time,final_settling_time\n" : "arrival_time\n";
     for (const double value : values)
       text += twice ? fmt::format("{},{}\n", value, 2.0) : fmt::format("{}\n", value);
     return text;
@@ -235,15 +235,14 @@ TEST(MachineMonitor, RefusesWhatCannotBeCompared) {
                           const MonitorSettings& settings, ExitCode code = ExitCode::bad_input) {
     return refusal_by([&] { said_of(before, after, settings); }, code);
   };
-  EXPECT_EQ(
-      message("overshoot\n1\n", "settling_time\n1\n", {}),
-      "moves.csv: no measure to compare: it has settling_time, and baseline.csv has overshoot; expected "
-      "columns named alike");
+  EXPECT_EQ(message("overshoot\n1\n", "arrival_time\n1\n", {}),
+            "moves.csv: no measure to compare: it has arrival_time, and baseline.csv has overshoot; expected "
+            "columns named alike");
   EXPECT_EQ(message("overshoot\n1\n", "overshoot\n1\n", {.measures = {"stable"}}),
             "--measure stable: moves.csv has no such measure");
   EXPECT_EQ(message("stable\n1\n", "Stable,overshoot\n1,1\n", {.measures = {"stable"}}),
             "--measure stable: moves.csv has no such measure; its column 'Stable' looks like it");
-  EXPECT_TRUE(says(message("overshoot\n1\n", "settling_time,Overshoot\n1,1\n", {}), "no measure to compare",
+  EXPECT_TRUE(says(message("overshoot\n1\n", "arrival_time,Overshoot\n1,1\n", {}), "no measure to compare",
                    "the column 'Overshoot' of moves.csv looks like overshoot"));
   EXPECT_TRUE(says(message("creep\n1e-6\n", "creep\n1e-6\n", {}), "no measure to compare",
                    "creep is compared only where --measure names it"));
@@ -267,13 +266,13 @@ using Names = std::vector<std::string>;
 
 TEST(MachineMonitor, NamesEachMeasureOfTheBaselineThatTheMovesLack) {
   using enum monitor::WhyUnwatched;
-  const std::string before = "settling_time,overshoot,jerk_count\n0.1,1,0\n0.2,2,0\n";
-  EXPECT_EQ(unwatched(before, "settling_time,overshoot\n0.1,1\n", missing), Names{"jerk_count"});
-  for (const std::string head : {"Settling_Time", "SETTLING_TIME [ms]", "settling time", "SettlingTime",
-                                 "settling_time_ms", "setling_time"})
+  const std::string before = "arrival_time,overshoot,jerk_count\n0.1,1,0\n0.2,2,0\n";
+  EXPECT_EQ(unwatched(before, "arrival_time,overshoot\n0.1,1\n", missing), Names{"jerk_count"});
+  for (const std::string head :
+       {"Arrival_Time", "ARRIVAL_TIME [ms]", "arrival time", "ArrivalTime", "arrival_time_ms", "arival_time"})
     EXPECT_EQ(unwatched(before, "overshoot,jerk_count," + head + "\n1,0,0.1\n", missing),
-              Names{"settling_time " + head});
-  EXPECT_EQ(unwatched(before, "overshoot,jerk_count,day\n1,0,0.1\n", missing), Names{"settling_time"});
+              Names{"arrival_time " + head});
+  EXPECT_EQ(unwatched(before, "overshoot,jerk_count,day\n1,0,0.1\n", missing), Names{"arrival_time"});
   EXPECT_EQ(unwatched("band_settling_time[1],overshoot\n0.1,1\n", "band_settling_time[2],overshoot\n0.1,1\n",
                       missing),
             Names{"band_settling_time[1] band_settling_time[2]"});
@@ -284,10 +283,10 @@ TEST(MachineMonitor, NamesEachMeasureOfTheBaselineThatTheMovesLack) {
 
 TEST(MachineMonitor, NamesMeasuresThatTheBaselineLacks) {
   using enum monitor::WhyUnwatched;
-  const std::string after = "settling_time,overshoot\n0.1,1\n";
-  EXPECT_EQ(unwatched("Settling_Time,overshoot\n0.1,1\n", after, not_in_baseline),
-            Names{"settling_time Settling_Time"});
-  EXPECT_EQ(unwatched("overshoot\n1\n", after, not_in_baseline), Names{"settling_time"});
+  const std::string after = "arrival_time,overshoot\n0.1,1\n";
+  EXPECT_EQ(unwatched("Arrival_Time,overshoot\n0.1,1\n", after, not_in_baseline),
+            Names{"arrival_time Arrival_Time"});
+  EXPECT_EQ(unwatched("overshoot\n1\n", after, not_in_baseline), Names{"arrival_time"});
   const std::string grows = "creep,overshoot\n1e-6,1\n";
   EXPECT_EQ(unwatched(grows, grows, accumulates), Names{"creep"});
 }
@@ -333,7 +332,7 @@ struct Program {
 };
 
 std::string log_of_program(const Program& program, int moves, random::NumberSource& numbers,
-                           const std::string& head = "move,target,settling_time,holding_torque") {
+                           const std::string& head = "move,target,arrival_time,holding_torque") {
   std::string text = head + "\n";
   double before = 0.0;
   for (int i = 0; i < moves; ++i) {
@@ -358,8 +357,8 @@ std::string log_of_program(const Program& program, int moves, random::NumberSour
 
 // Friction that rises holds the rotor with more torque in both directions.
 TEST(Likes, TakeSignedMeasuresInTheDirectionOfTheMove) {
-  for (const char* const head : {"move,target,settling_time,holding_torque",
-                                 "move,settling_time,holding_torque", "target,settling_time,holding_torque"})
+  for (const char* const head : {"move,target,arrival_time,holding_torque",
+                                 "move,arrival_time,holding_torque", "target,arrival_time,holding_torque"})
     for (const bool mirrored : {false, true}) {
       random::NumberSource numbers = numbers_of("directions", 1);
       Program program;
@@ -401,7 +400,7 @@ TEST(Likes, AreNotAChangeWhereTheMixtureChanges) {
       return text;
     };
     false_alarms +=
-        watched(before, relabelled(after), {.alarm = 0.05, .measures = {"settling_time"}}).state().alarm !=
+        watched(before, relabelled(after), {.alarm = 0.05, .measures = {"arrival_time"}}).state().alarm !=
                 nullptr
             ? 1
             : 0;
@@ -410,7 +409,7 @@ TEST(Likes, AreNotAChangeWhereTheMixtureChanges) {
       return text;
     };
     without_labels +=
-        watched(unlabelled(before), unlabelled(after), {.measures = {"settling_time"}}).state().alarm !=
+        watched(unlabelled(before), unlabelled(after), {.measures = {"arrival_time"}}).state().alarm !=
                 nullptr
             ? 1
             : 0;
@@ -460,9 +459,9 @@ TEST(Likes, AreToldByNumbersOfACycleAndNotByThoseOfALog) {
   const auto by = [](const std::string& before, const std::string& after) {
     return watched(before, after).likes().by();
   };
-  std::string counted = "move,settling_time\n";
+  std::string counted = "move,arrival_time\n";
   std::string cycles = counted;
-  std::string random_targets = "target,settling_time\n";
+  std::string random_targets = "target,arrival_time\n";
   for (int i = 0; i < 100; ++i) {
     counted += fmt::format("{},{}\n", i, 0.1 + 0.001 * (i % 7));
     cycles += fmt::format("{},{}\n", i % 4, 0.1 + 0.001 * (i % 7));
@@ -475,8 +474,8 @@ TEST(Likes, AreToldByNumbersOfACycleAndNotByThoseOfALog) {
 }
 
 TEST(Likes, KnowTargetsInOtherUnits) {
-  std::string in_mm = "target [mm],settling_time\n";
-  std::string in_m = "target [m],settling_time\n";
+  std::string in_mm = "target [mm],arrival_time\n";
+  std::string in_m = "target [m],arrival_time\n";
   for (int i = 0; i < 60; ++i) {
     in_mm += fmt::format("{},0.05\n", i % 2 == 0 ? 0.3 : -0.7);
     in_m += fmt::format("{},0.05\n", i % 2 == 0 ? 0.0003 : -0.0007);
@@ -520,11 +519,11 @@ Change change_to_see(const monitor::MonitoredMeasure& measure, const Values& val
 
 TEST(ChangeToSee, IsAPartOfTheMedianOrOfAProportion) {
   const Directions both{Direction::higher, Direction::lower};
-  const Change time = change_to_see(measure("settling_time"), Values{0.04, 0.05, 0.06}, {});
+  const Change time = change_to_see(measure("arrival_time"), Values{0.04, 0.05, 0.06}, {});
   EXPECT_NEAR(time.size, 0.01, 1e-15);
   EXPECT_EQ(time.directions, both);
-  EXPECT_NEAR(change_to_see(measure("settling_time"), Values{0.05}, 0.5).size, 0.025, 1e-15);
-  const Change large = change_to_see(measure("settling_time"), Values{0.04, 0.05, 0.06}, 1.5);
+  EXPECT_NEAR(change_to_see(measure("arrival_time"), Values{0.05}, 0.5).size, 0.025, 1e-15);
+  const Change large = change_to_see(measure("arrival_time"), Values{0.04, 0.05, 0.06}, 1.5);
   EXPECT_NEAR(large.size, 0.075, 1e-15);
   EXPECT_EQ(large.directions, Directions{Direction::higher}) << "no time is negative";
   const Change good = change_to_see(measure("outcome"), Values{1.0, 1.0, 1.0, 0.0}, {});
@@ -535,8 +534,7 @@ TEST(ChangeToSee, IsAPartOfTheMedianOrOfAProportion) {
 
 TEST(ChangeToSee, IsNotAskedOfWhatHasNoScale) {
   EXPECT_TRUE(change_to_see(measure("holding_torque"), Values{-1.0, 1.0, 2.0}, {}).directions.empty());
-  EXPECT_TRUE(
-      change_to_see(measure("settling_time"), Values{1.0, HUGE_VAL, HUGE_VAL}, {}).directions.empty());
+  EXPECT_TRUE(change_to_see(measure("arrival_time"), Values{1.0, HUGE_VAL, HUGE_VAL}, {}).directions.empty());
   EXPECT_TRUE(change_to_see(measure("jerk_count"), Values{0.0, 0.0, 3.0}, {}).directions.empty());
   EXPECT_FALSE(change_to_see(measure("holding_torque"), Values{1.0, 1.0, 2.0}, {}).directions.empty());
 }
@@ -544,7 +542,7 @@ TEST(ChangeToSee, IsNotAskedOfWhatHasNoScale) {
 // Of a move to a far target a fifth is more than of one to a near target.
 TEST(ChangeToSee, IsAPartOfTheMedianOfEachClass) {
   const std::vector<Values> classes{{0.02, 0.02, 0.03}, {0.2}, {HUGE_VAL}};
-  const monitor::ChangeToSee to_see = monitor::change_to_see(measure("settling_time"), classes, {});
+  const monitor::ChangeToSee to_see = monitor::change_to_see(measure("arrival_time"), classes, {});
   ASSERT_EQ(to_see.sizes.size(), 3);
   EXPECT_NEAR(to_see.sizes[0], 0.004, 1e-15);
   EXPECT_NEAR(to_see.sizes[1], 0.04, 1e-15);
@@ -553,7 +551,7 @@ TEST(ChangeToSee, IsAPartOfTheMedianOfEachClass) {
 }
 
 std::optional<std::int64_t> asked(const Values& baseline, Direction direction, double size,
-                                  double alarm = 1000.0, std::string_view name = "settling_time",
+                                  double alarm = 1000.0, std::string_view name = "arrival_time",
                                   ChangeForm form = ChangeForm::shift) {
   const monitor::MonitoredMeasure of = measure(name);
   const std::vector<Values> classes{baseline};
@@ -590,7 +588,7 @@ TEST(ValuesToSee, IsWhatRealSequencesTake) {
   for (const Moves kind : {Moves::lognormal, Moves::binary}) {
     const Values baseline = sorted_values(kind, 500, 3);
     const double size = kind == Moves::binary ? 0.1 : 0.01;
-    const std::string_view name = kind == Moves::binary ? "stable" : "settling_time";
+    const std::string_view name = kind == Moves::binary ? "stable" : "arrival_time";
     const std::int64_t values = asked(baseline, Direction::lower, size, 1000.0, name).value();
     int seen = 0;
     constexpr int sequences = 200;
@@ -617,9 +615,9 @@ TEST(ValuesToSee, AreMoreForAFactorOfASkewedMeasureThanForAShift) {
   const double size = 0.8 * baseline[200];
   const std::int64_t shifted = asked(baseline, Direction::higher, size).value();
   const std::int64_t multiplied =
-      asked(baseline, Direction::higher, size, 1000.0, "settling_time", ChangeForm::factor).value();
+      asked(baseline, Direction::higher, size, 1000.0, "arrival_time", ChangeForm::factor).value();
   EXPECT_GT(multiplied, 2 * shifted);
-  EXPECT_EQ(monitor::forms_of(measure("settling_time")).size(), 2);
+  EXPECT_EQ(monitor::forms_of(measure("arrival_time")).size(), 2);
   EXPECT_EQ(monitor::forms_of(measure("stable")).size(), 1) << "a proportion is changed by an amount";
 }
 
@@ -655,7 +653,7 @@ struct Trap {
 
 /// Number of moves after which a machine without an alarm is called unchanged; nothing if it takes too many.
 std::optional<std::int64_t> promised_after(const Values& baseline, double change, std::uint64_t seed) {
-  const monitor::MonitoredMeasure of = measure("settling_time");
+  const monitor::MonitoredMeasure of = measure("arrival_time");
   const std::vector<Values> classes{baseline};
   const monitor::ChangeToSee to_see = monitor::change_to_see(of, classes, change);
   std::int64_t promised = 0;

@@ -24,7 +24,7 @@ std::string refusal(std::string_view text) {
 TEST(MoveLog, ReadsMeasuresByNameWithBandsUnitsAndMissingValues) {
   const monitor::MoveLog log = log_of(
       "# axis 3\n"
-      "move,settling_time [ms],band_settling_time[1] [s],band_exits[2],outcome,stable,holding_torque (mN "
+      "move,arrival_time [ms],band_settling_time[1] [s],band_exits[2],outcome,stable,holding_torque (mN "
       "m)\r\n"
       "1,50,0.04,2,zero_count,yes,-2\r\n"
       "2,,NaN,0,1,0,1.5e1\r\n"
@@ -32,7 +32,7 @@ TEST(MoveLog, ReadsMeasuresByNameWithBandsUnitsAndMissingValues) {
       "3,+75.5,inf,1,\"off_target\",True,NA\r\n");
   EXPECT_EQ(log.moves, 3);
   EXPECT_EQ(log.others(), std::vector<std::string>{"move"});
-  EXPECT_EQ(log.find("settling_time")->values, (Values{0.05, never, 0.0755}));
+  EXPECT_EQ(log.find("arrival_time")->values, (Values{0.05, never, 0.0755}));
   EXPECT_EQ(log.find("band_settling_time[1]")->values, (Values{0.04, never, never}));
   EXPECT_EQ(log.find("band_exits[2]")->values, (Values{2.0, 0.0, 1.0}));
   EXPECT_EQ(log.find("outcome")->values, (Values{1.0, 0.0, 0.0})) << "whether it is zero_count";
@@ -45,10 +45,10 @@ TEST(MoveLog, ReadsMeasuresByNameWithBandsUnitsAndMissingValues) {
 // smaller fraction of its time at zero.
 TEST(MoveLog, RanksEmptyCellsByWhatTheyMean) {
   const monitor::MoveLog log = log_of(
-      "settling_time,rest_error_rms,zero_fraction,arrival,oscillation_amplitude,jerk_agreement\n"
+      "arrival_time,rest_error_rms,zero_fraction,arrival,oscillation_amplitude,jerk_agreement\n"
       "0.05,0.3,0.9,7,4,0.5\n,,,-1,,\n");
   for (const auto& [measure, missing] :
-       {std::pair{"settling_time", never}, std::pair{"rest_error_rms", never},
+       {std::pair{"arrival_time", never}, std::pair{"rest_error_rms", never},
         std::pair{"zero_fraction", -never}, std::pair{"arrival", never},
         std::pair{"oscillation_amplitude", -never}, std::pair{"jerk_agreement", -never}}) {
     const monitor::Moves::Column& column = *log.find(measure);
@@ -61,28 +61,28 @@ TEST(MoveLog, RanksEmptyCellsByWhatTheyMean) {
 }
 
 TEST(MoveLog, TakesMagnitudesOfErrorsAndDecimalCommas) {
-  const monitor::MoveLog log = log_of("final_error;settling_time\n-3;0,05\n2;0,06\n");
+  const monitor::MoveLog log = log_of("final_error;arrival_time\n-3;0,05\n2;0,06\n");
   EXPECT_EQ(log.find("final_error")->values, (Values{3.0, 2.0}));
-  EXPECT_EQ(log.find("settling_time")->values, (Values{0.05, 0.06}));
+  EXPECT_EQ(log.find("arrival_time")->values, (Values{0.05, 0.06}));
 }
 
 // A machine that stopped settling writes empty fields until the end of its log.
 TEST(MoveLog, ReadsEachBlankLineOfOneColumnAsAMoveThatNeverSettled) {
-  const auto values = [](std::string_view text) { return log_of(text).find("settling_time")->values; };
-  EXPECT_EQ(values("settling_time\n0.1\n\n0.2\n\"\"\n0.3"), (Values{0.1, never, 0.2, never, 0.3}));
-  EXPECT_EQ(values("settling_time\n0.1\n\n\n"), (Values{0.1, never, never}));
-  EXPECT_EQ(values("settling_time\n\n\n\n"), (Values{never, never, never}));
-  EXPECT_EQ(values("settling_time [ms]\r\n100\r\n\r\n  \r\n\t\r\n"), (Values{0.1, never, never, never}));
-  EXPECT_EQ(values("\n# axis 3\n\nsettling_time\n# first shift\n\n# second shift\n0.1\n"),
+  const auto values = [](std::string_view text) { return log_of(text).find("arrival_time")->values; };
+  EXPECT_EQ(values("arrival_time\n0.1\n\n0.2\n\"\"\n0.3"), (Values{0.1, never, 0.2, never, 0.3}));
+  EXPECT_EQ(values("arrival_time\n0.1\n\n\n"), (Values{0.1, never, never}));
+  EXPECT_EQ(values("arrival_time\n\n\n\n"), (Values{never, never, never}));
+  EXPECT_EQ(values("arrival_time [ms]\r\n100\r\n\r\n  \r\n\t\r\n"), (Values{0.1, never, never, never}));
+  EXPECT_EQ(values("\n# axis 3\n\narrival_time\n# first shift\n\n# second shift\n0.1\n"),
             (Values{never, 0.1}))
       << "before the header, and in comments, there are no rows";
 }
 
 TEST(MoveLog, TakesTheLineFeedThatEndsTheLastRowForNoRow) {
   for (const char* const end : {"", "\n", "\r\n", "\n ", "\r\n\r"})
-    EXPECT_EQ(log_of(std::string("settling_time\n0.1") + end).moves, 1) << ::testing::PrintToString(end);
-  EXPECT_EQ(log_of("settling_time\n").moves, 0);
-  EXPECT_EQ(log_of("settling_time").moves, 0);
+    EXPECT_EQ(log_of(std::string("arrival_time\n0.1") + end).moves, 1) << ::testing::PrintToString(end);
+  EXPECT_EQ(log_of("arrival_time\n").moves, 0);
+  EXPECT_EQ(log_of("arrival_time").moves, 0);
 }
 
 // A measure that always has a value cannot be empty.
@@ -95,24 +95,24 @@ TEST(MoveLog, RefusesABlankLineOfOneColumnThatCannotBeEmpty) {
 TEST(MoveLog, HasTheSameMovesWithOneColumnAsWithSeveral) {
   random::NumberSource numbers = numbers_of("empty rows", 1);
   for (int log = 0; log < 50; ++log) {
-    std::string one = "settling_time\n";
-    std::string two = "settling_time,overshoot\n";
+    std::string one = "arrival_time\n";
+    std::string two = "arrival_time,overshoot\n";
     for (int row = 0; row < 20; ++row) {
       const std::string cell = numbers.uniform() < 0.5 ? "" : fmt::format("{}", numbers.uniform());
       one += cell + "\n";
       two += cell + ",0\n";
     }
-    EXPECT_EQ(log_of(one).find("settling_time")->values, log_of(two).find("settling_time")->values) << one;
+    EXPECT_EQ(log_of(one).find("arrival_time")->values, log_of(two).find("arrival_time")->values) << one;
   }
 }
 
 TEST(MoveLog, ReadsLinesOfSeparatorsAsMovesThatNeverSettled) {
   for (const char separator : {'\t', ';', ','}) {
-    std::string text = "settling_time,final_settling_time\n0.1,0.2\n,\n , \n  \n\n0.3,0.4\n";
+    std::string text = "arrival_time,final_settling_time\n0.1,0.2\n,\n , \n  \n\n0.3,0.4\n";
     std::ranges::replace(text, ',', separator);
-    EXPECT_EQ(log_of(text).find("settling_time")->values, (Values{0.1, never, never, 0.3})) << separator;
+    EXPECT_EQ(log_of(text).find("arrival_time")->values, (Values{0.1, never, never, 0.3})) << separator;
   }
-  EXPECT_EQ(log_of("settling_time,final_settling_time\n\t\n1,2\n").moves, 1);
+  EXPECT_EQ(log_of("arrival_time,final_settling_time\n\t\n1,2\n").moves, 1);
 }
 
 TEST(MoveLog, NamesBandsAndTolerancesAsTheProgramDoes) {
@@ -138,48 +138,46 @@ TEST(MisspeltMeasure, IsTheOneWithTheSameLetters) {
   EXPECT_EQ(monitor::misspelt_measure("Band Settling Time 12"), "band_settling_time[12]");
   for (const std::string other : {"day", "t", "", "time", "12", "settling"})
     EXPECT_FALSE(monitor::misspelt_measure(other)) << other;
-  const std::string long_name = std::string(100, 'x') + "_settling_time";
-  EXPECT_EQ(monitor::resembling_column("settling_time", std::vector<std::string>{long_name}), long_name);
-  EXPECT_EQ(monitor::resembling_column(long_name, std::vector<std::string>{"t", "settling_time"}),
-            "settling_time");
+  const std::string long_name = std::string(100, 'x') + "_arrival_time";
+  EXPECT_EQ(monitor::resembling_column("arrival_time", std::vector<std::string>{long_name}), long_name);
+  EXPECT_EQ(monitor::resembling_column(long_name, std::vector<std::string>{"t", "arrival_time"}),
+            "arrival_time");
   EXPECT_FALSE(
-      monitor::resembling_column("settling_time", std::vector<std::string>{"day", "t", "", "x [mm]"}));
+      monitor::resembling_column("arrival_time", std::vector<std::string>{"day", "t", "", "x [mm]"}));
 }
 
 TEST(MoveLog, ReadsPiecesAsTheyGrow) {
-  for (const std::string text :
-       {"t,settling_time\n1,0.1\n2,\n\n3,0.3\n4,\n", "settling_time\n0.1\n\n0.3\n\n"})
+  for (const std::string text : {"t,arrival_time\n1,0.1\n2,\n\n3,0.3\n4,\n", "arrival_time\n0.1\n\n0.3\n\n"})
     for (std::size_t size = 1; size < text.size(); ++size) {
       monitor::MoveLog log("moves.csv");
       std::size_t read = 0;
       for (std::size_t end = size; end < text.size() + size; end += size)
         read += log.read(std::string_view(text).substr(0, std::min(end, text.size())).substr(read));
-      EXPECT_EQ(log.find("settling_time")->values, (Values{0.1, never, 0.3, never})) << size;
+      EXPECT_EQ(log.find("arrival_time")->values, (Values{0.1, never, 0.3, never})) << size;
     }
 }
 
 TEST(MoveLog, NamesThePlaceOfWhatItCannotRead) {
   EXPECT_EQ(
       refusal(""),
-      "2 moves.csv: is empty; expected a header with names of measures, such as settling_time, and a row "
+      "2 moves.csv: is empty; expected a header with names of measures, such as arrival_time, and a row "
       "for each move");
   EXPECT_TRUE(says(refusal("time,position\n1,2\n"), "2 moves.csv:1: no column is named like a measure"));
-  EXPECT_TRUE(
-      says(refusal("Day,Settling-Time [ms]\n1,2\n"), "'Settling-Time [ms]' looks like settling_time"));
-  EXPECT_EQ(refusal("settling_time,settling_time [ms]\n1,2\n"),
-            "2 moves.csv:1: two columns are named 'settling_time'");
-  EXPECT_EQ(refusal("move,settling_time,move\n0,1,0\n"), "2 moves.csv:1: two columns are named 'move'");
-  EXPECT_EQ(refusal("t,settling_time,t\n0,1,0\n"), "") << "other columns are not read";
-  EXPECT_TRUE(says(refusal("settling_time [N]\n1\n"), "2 moves.csv:1: settling_time is in 'N'"));
+  EXPECT_TRUE(says(refusal("Day,Arrival-Time [ms]\n1,2\n"), "'Arrival-Time [ms]' looks like arrival_time"));
+  EXPECT_EQ(refusal("arrival_time,arrival_time [ms]\n1,2\n"),
+            "2 moves.csv:1: two columns are named 'arrival_time'");
+  EXPECT_EQ(refusal("move,arrival_time,move\n0,1,0\n"), "2 moves.csv:1: two columns are named 'move'");
+  EXPECT_EQ(refusal("t,arrival_time,t\n0,1,0\n"), "") << "other columns are not read";
+  EXPECT_TRUE(says(refusal("arrival_time [N]\n1\n"), "2 moves.csv:1: arrival_time is in 'N'"));
   EXPECT_TRUE(says(refusal("overshoot [%]\n1\n"), "2 moves.csv:1: overshoot is in '%'"));
   EXPECT_EQ(refusal("overshoot [count],jerk_count [1],zero_fraction [%]\n1,2,3\n"), "");
-  EXPECT_TRUE(says(refusal("settling_time\r0.1\r0.2\r"), "2 moves.csv:1: a carriage return"));
-  EXPECT_EQ(refusal("t,settling_time\n1,0.1\n2\n"),
+  EXPECT_TRUE(says(refusal("arrival_time\r0.1\r0.2\r"), "2 moves.csv:1: a carriage return"));
+  EXPECT_EQ(refusal("t,arrival_time\n1,0.1\n2\n"),
             "4 moves.csv:3: a row of 1 cells; expected 2, as the header has");
-  EXPECT_EQ(refusal("t,settling_time\n1,-0.1\n"),
-            "4 moves.csv:2: settling_time: '-0.1'; expected a finite time, not negative, or NaN");
-  EXPECT_EQ(refusal("t,settling_time\n1,soon\n"),
-            "4 moves.csv:2: settling_time: 'soon'; expected a finite time, not negative, or NaN");
+  EXPECT_EQ(refusal("t,arrival_time\n1,-0.1\n"),
+            "4 moves.csv:2: arrival_time: '-0.1'; expected a finite time, not negative, or NaN");
+  EXPECT_EQ(refusal("t,arrival_time\n1,soon\n"),
+            "4 moves.csv:2: arrival_time: 'soon'; expected a finite time, not negative, or NaN");
   EXPECT_EQ(refusal("t,stable\n1,\n"), "4 moves.csv:2: stable: ''; expected 0 or 1");
   EXPECT_TRUE(says(refusal("t,outcome\n1,9\n"), "expected one of zero_count, one_count"));
 }

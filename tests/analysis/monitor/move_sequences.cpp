@@ -93,7 +93,7 @@ std::vector<double> times_of_days(const Days& days, std::int64_t count, double f
 }
 
 std::string log_of_days(const std::vector<double>& times, std::int64_t moves, std::int64_t first) {
-  std::string text = "settling_time,day\n";
+  std::string text = "arrival_time,day\n";
   for (std::size_t i = 0; i < times.size(); ++i)
     text += fmt::format("{},{}\n", times[i], first + static_cast<std::int64_t>(i) / moves);
   return text;

@@ -54,7 +54,7 @@ struct Days {
 /// The settling times of so many days, move after move.
 std::vector<double> times_of_days(const Days& days, std::int64_t count, double factor,
                                   random::NumberSource& numbers);
-/// A log with the columns `settling_time` and `day`, the first of them with this number.
+/// A log with the columns `arrival_time` and `day`, the first of them with this number.
 std::string log_of_days(const std::vector<double>& times, std::int64_t moves, std::int64_t first);
 
 /// The monitor after all moves of sequence `number` of days.

@@ -23,7 +23,7 @@ class MatFiles : public ::testing::Test {
             .write("write.py",
                    "import sys, numpy, scipy.io\n"
                    "t = numpy.arange(5.0)\n"
-                   "data = {'t': t, 'rig': {'i': t.astype('i2'), 'deep': {'x': t.astype('f4')}},\n"
+                   "data = {'t': t, 'machine': {'i': t.astype('i2'), 'deep': {'x': t.astype('f4')}},\n"
                    "  'all': numpy.arange(15.0).reshape(5, 3), 'rows': numpy.arange(15).reshape(3, 5),\n"
                    "  'word': 'a machine', 'wave': 1j * t, 'cells': numpy.array([t, 'x'], dtype=object)}\n"
                    "for name in 'plain', 'packed':\n"
@@ -53,14 +53,15 @@ TEST_F(MatFiles, AreReadAsThoseOfVersion73) {
   const std::vector<double> numbers{0, 1, 2, 3, 4};
   for (const char* name : {"plain.mat", "packed.mat"}) {
     const DatasetFile file(folder_ / name);
-    for (const char* column : {"/t", "t", "/rig/i", "rig/deep/x", "/rows#1"})
+    for (const char* column : {"/t", "t", "/machine/i", "machine/deep/x", "/rows#1"})
       EXPECT_EQ(file.numbers(column), numbers) << name << column;
     EXPECT_EQ(file.numbers("/all#2"), (std::vector<double>{1, 4, 7, 10, 13})) << name;
     EXPECT_EQ(file.numbers("/rows#2"), (std::vector<double>{5, 6, 7, 8, 9})) << name;
-    for (const char* column : {"/none", "/rig", "/word", "/wave", "/cells", "/all", "/all#4"})
+    for (const char* column : {"/none", "/machine", "/word", "/wave", "/cells", "/all", "/all#4"})
       EXPECT_FALSE(file.has(column)) << name << column;
     // The last dimension comes first, as in HDF5.
-    EXPECT_EQ(file.columns_text(), "/all (3×5), /rig/deep/x (5×1), /rig/i (5×1), /rows (5×3), /t (5×1)");
+    EXPECT_EQ(file.columns_text(),
+              "/all (3×5), /machine/deep/x (5×1), /machine/i (5×1), /rows (5×3), /t (5×1)");
   }
 }
 

@@ -70,9 +70,9 @@ function tuning() {
 name: ${JSON.stringify("tuned " + hostile)}
 seed: 7
 trials: 100
-rigs: 50
+machines: 50
 command: {targets: [29], hold: 0.2}
-friction: {k1: {lognormal: {median: 130, cv: 0.2}, per: rig}}
+friction: {k1: {lognormal: {median: 130, cv: 0.2}, per: machine}}
 goal: {band: 1, within: 0.1, moves: 0.9}
 tune: {free: {controller.ki: {log: [5.0e-6, 1.0e-3]}, controller.kp: [0, 5.0e-3]}}
 `);
@@ -306,12 +306,12 @@ try {
        await checkHover(opened, "stability-map", "success rate");
        await checkHover(opened, "settling-time", "by (s)");
      }},
-    {write: () => report("stage", shipped("two-step-stage", 320, {rigs: 40})), always: checkDiagram, once: async opened => {
+    {write: () => report("stage", shipped("two-step-stage", 320, {machines: 40})), always: checkDiagram, once: async opened => {
       await onOneScreen(opened);
       await checkPrint(opened, join(screenshots, "stage.pdf"), 4);
     }},
     ...paper.map(([name, trials]) => ({write: () => report(name, shipped(name, trials)), always: opened => has(opened, name)})),
-    {write: () => report("ages", shipped("million-cycles", 160, {rigs: 10})), always: opened => has(opened, "ages", "lives")},
+    {write: () => report("ages", shipped("million-cycles", 160, {machines: 10})), always: opened => has(opened, "ages", "lives")},
     {write: () => report("worlds", shipped("unknown-friction", 60, {worlds: 3})), always: opened => has(opened, "worlds", "world-rate-1")},
     {write: () => report("parameters", shipped("which-parameters", 90)), always: async ({page, name}) =>
       expect(await page.locator("[id^=figure-sensitivity]").count() > 0, `${name}: there is a figure of sensitivities`)},

@@ -106,7 +106,7 @@ TEST_F(Report, TheSettlingCurvesAreDistributionFunctionsInTheirBands) {
   const double half_width = std::sqrt(std::log(2.0 / 0.05) / (2.0 * 40.0));
   std::map<std::string, std::vector<double>> times;
   const std::vector<std::string> labels = labels_in_figures(file);
-  const std::vector<double> all = file.measure("settling_time", file.rows());
+  const std::vector<double> all = file.measure("arrival_time", file.rows());
   for (std::size_t row = 0; row < all.size(); ++row) times[labels[row / 40]].push_back(all[row]);
   const std::vector<double> at = column(data, "time");
   const std::vector<double> proportion = column(data, "share");

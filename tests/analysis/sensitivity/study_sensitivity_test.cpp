@@ -155,9 +155,9 @@ TEST(StudySensitivity, AnIndexOfAMillionthDoesNotMatter) {
   EXPECT_FALSE(says(influential, "friction.k1")) << creep.conclusion;
 }
 
-/// `trials` on 40 rigs, which differ in all three factors.
-std::string manifest_of_rigs(std::int64_t trials, int seed) {
-  std::string text = manifest(fmt::format("rigs: 40\n"));
+/// `trials` on 40 machines, which differ in all three factors.
+std::string manifest_of_machines(std::int64_t trials, int seed) {
+  std::string text = manifest(fmt::format("machines: 40\n"));
   const auto replace = [&](const std::string& old, const std::string& now) {
     text.replace(text.find(old), old.size(), now);
   };
@@ -167,13 +167,13 @@ std::string manifest_of_rigs(std::int64_t trials, int seed) {
   return text;
 }
 
-// More trials on the same rigs show nothing more of what differs between rigs.
-TEST(StudySensitivity, OfRigsIsThatOfTheirFirstTrials) {
+// More trials on the same machines show nothing more of what differs between machines.
+TEST(StudySensitivity, OfMachinesIsThatOfTheirFirstTrials) {
   for (const int seed : {1, 2, 3}) {
     const OutputSensitivity many =
-        MadeUpStudy(manifest_of_rigs(800, seed), both_in_upper_half).about("success");
+        MadeUpStudy(manifest_of_machines(800, seed), both_in_upper_half).about("success");
     const OutputSensitivity first =
-        MadeUpStudy(manifest_of_rigs(40, seed), both_in_upper_half).about("success");
+        MadeUpStudy(manifest_of_machines(40, seed), both_in_upper_half).about("success");
     EXPECT_EQ(many.trials, 40);
     EXPECT_EQ(many.mean, first.mean);
     ASSERT_EQ(many.factors.size(), first.factors.size());
@@ -192,14 +192,14 @@ TEST(StudySensitivity, OfRigsIsThatOfTheirFirstTrials) {
   }
 }
 
-// An output by which rigs differ for another reason: taken for independent, 20 trials of every rig show an
-// influence of factors that have none.
-TEST(StudySensitivity, ARigsOwnTraitIsNotTakenForTheInfluenceOfAnother) {
+// An output by which machines differ for another reason: taken for independent, 20 trials of every machine
+// show an influence of factors that have none.
+TEST(StudySensitivity, AMachinesOwnTraitIsNotTakenForTheInfluenceOfAnother) {
   int alarms = 0;
   constexpr int studies = 25;
   for (int seed = 1; seed <= studies; ++seed) {
     const OutputSensitivity success =
-        MadeUpStudy(manifest_of_rigs(800, seed), [](std::span<const double> inputs) {
+        MadeUpStudy(manifest_of_machines(800, seed), [](std::span<const double> inputs) {
           return std::vector{move_with(true), move_with(inputs[k1] > 1.5)};
         }).about("success");
     alarms += factor(success, "friction.alpha").matters;
@@ -215,7 +215,7 @@ TEST(StudySensitivity, WhatDoesNotVaryIsLeftOutAndNamed) {
 }
 
 TEST(StudySensitivity, AMoveThatNeverArrivesCountsWithItsDuration) {
-  const OutputSensitivity settling = MadeUpStudy(manifest(), both_in_upper_half).about("settling_time");
+  const OutputSensitivity settling = MadeUpStudy(manifest(), both_in_upper_half).about("arrival_time");
   EXPECT_NEAR(settling.mean, 0.25 * 0.01 + 0.75 * 0.1, 0.005);
   EXPECT_TRUE(encloses(factor(settling, "friction.k2").total, 2.0 / 3.0));
   const bool said = std::any_of(settling.notes.begin(), settling.notes.end(), [](const std::string& note) {
@@ -283,7 +283,7 @@ TEST(StudySensitivity, EveryOutputOfEveryPointCanBeAsked) {
   }
   const StudySensitivity usual = study.ask();
   ASSERT_EQ(usual.points[0].outputs.size(), 2u);
-  EXPECT_EQ(usual.points[0].outputs[1].output, "settling_time");
+  EXPECT_EQ(usual.points[0].outputs[1].output, "arrival_time");
 }
 
 TEST(StudySensitivity, OfALargeStudyTheFirstTrialsAreUsed) {
@@ -349,7 +349,7 @@ TEST(StudySensitivity, AnswersWithTheNumbersOfTheFactors) {
   EXPECT_EQ(first["total"].get<double>(), strongest.total.value);
   EXPECT_EQ(first["total_low"].get<double>(), strongest.total.low);
   const auto& settling = json["points"][0]["outputs"][1]["factors"][0];
-  EXPECT_TRUE(settling["log_odds"].is_null()) << "settling_time is no yes or no";
+  EXPECT_TRUE(settling["log_odds"].is_null()) << "arrival_time is no yes or no";
 
   const std::string csv = document::csv(answer);
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 2 * 2 * 3);

@@ -7,9 +7,9 @@
 namespace zerocount::testing {
 namespace {
 
-class BristleRig {
+class BristleMachine {
  public:
-  BristleRig(const BristleAxis& axis, const DwellLoop& loop, std::mt19937_64& random)
+  BristleMachine(const BristleAxis& axis, const DwellLoop& loop, std::mt19937_64& random)
       : axis_(axis), loop_(loop), random_(random) {
     series_.name = "dwells.csv";
     series_.linear = true;
@@ -74,7 +74,7 @@ double least_jerk(double from, double to, double part) {
 }  // namespace
 
 records::RawSeries dwell_record(const BristleAxis& axis, const DwellLoop& loop, std::mt19937_64& random) {
-  BristleRig rig(axis, loop, random);
+  BristleMachine machine(axis, loop, random);
   const double rate = 2.0 * std::numbers::pi * loop.bandwidth;
   const double proportional = 0.6 * axis.mass * rate * rate;
   const double derivative = 1.6 * axis.mass * rate;
@@ -84,20 +84,21 @@ records::RawSeries dwell_record(const BristleAxis& axis, const DwellLoop& loop, 
   const auto samples = static_cast<int>((loop.move + loop.dwell) / loop.sample_time);
   for (int move = 0; move < loop.moves; ++move) {
     for (int k = 0; k < samples; ++k) {
-      const double reading = rig.read();
+      const double reading = machine.read();
       const double reference = least_jerk(target_of(move - 1, loop.amplitude),
                                           target_of(move, loop.amplitude), k * loop.sample_time / loop.move);
       const double error = reference - reading;
       sum += integral * loop.sample_time * error;
-      rig.act(reading, sum + proportional * error + derivative * (error - error_before) / loop.sample_time);
+      machine.act(reading,
+                  sum + proportional * error + derivative * (error - error_before) / loop.sample_time);
       error_before = error;
     }
   }
-  return std::move(rig).series();
+  return std::move(machine).series();
 }
 
 records::RawSeries pulsed_record(const BristleAxis& axis, const DwellLoop& loop, std::mt19937_64& random) {
-  BristleRig rig(axis, loop, random);
+  BristleMachine machine(axis, loop, random);
   const auto samples = static_cast<int>((loop.move + loop.dwell) / loop.sample_time);
   std::uniform_real_distribution<double> strength(2.0, 6.0);
   for (int move = 0; move < loop.moves; ++move) {
@@ -105,10 +106,10 @@ records::RawSeries pulsed_record(const BristleAxis& axis, const DwellLoop& loop,
     for (int k = 0; k < samples; ++k) {
       const double t = k * loop.sample_time;
       const double ramp = 0.8 * axis.coulomb * std::sin(2.0 * std::numbers::pi * t / loop.dwell);
-      rig.act(rig.read(), axis.offset + (t < 0.5 * loop.move ? pulse : t < loop.move ? 0.0 : ramp));
+      machine.act(machine.read(), axis.offset + (t < 0.5 * loop.move ? pulse : t < loop.move ? 0.0 : ramp));
     }
   }
-  return std::move(rig).series();
+  return std::move(machine).series();
 }
 
 }  // namespace zerocount::testing

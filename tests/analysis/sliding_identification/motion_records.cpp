@@ -26,9 +26,9 @@ plant::Plant plant_of(const SlidingAxis& axis) {
 }
 
 /// The axis with its sensor and the forces that the record does not show.
-class Rig {
+class Machine {
  public:
-  Rig(const SlidingAxis& axis, const AxisLoop& loop, std::mt19937_64& random)
+  Machine(const SlidingAxis& axis, const AxisLoop& loop, std::mt19937_64& random)
       : axis_(axis), loop_(loop), random_(random), plant_(plant_of(axis)) {
     series_.name = "motion.csv";
     series_.linear = !axis.rotary;
@@ -89,34 +89,34 @@ std::vector<Cruise> emps_lap() {
 
 records::RawSeries closed_loop_record(const SlidingAxis& axis, const AxisLoop& loop,
                                       const std::vector<Cruise>& lap, int laps, std::mt19937_64& random) {
-  Rig rig(axis, loop, random);
+  Machine machine(axis, loop, random);
   double target = 0.0;
   double before = 0.0;
   double smooth_before = 0.0;
   for (const double velocity : reference_velocity(lap, laps, loop.sample_time)) {
-    const double reading = rig.read();
+    const double reading = machine.read();
     const double smooth = 0.5 * (reading + before);
     const double speed = (smooth - smooth_before) / loop.sample_time;
     const double voltage = loop.velocity_gain * (loop.position_gain * (target - reading) - speed);
-    rig.act(loop.gain * std::clamp(voltage, -loop.voltage_limit, loop.voltage_limit));
+    machine.act(loop.gain * std::clamp(voltage, -loop.voltage_limit, loop.voltage_limit));
     before = reading;
     smooth_before = smooth;
     target += velocity * loop.sample_time;
   }
-  return std::move(rig).series();
+  return std::move(machine).series();
 }
 
 records::RawSeries open_loop_record(const SlidingAxis& axis, const AxisLoop& loop, double duration,
                                     std::mt19937_64& random) {
-  Rig rig(axis, loop, random);
+  Machine machine(axis, loop, random);
   const auto samples = static_cast<int>(duration / loop.sample_time);
   for (int k = 0; k < samples; ++k) {
-    rig.read();
+    machine.read();
     const double t = loop.sample_time * k;
-    rig.act(axis.offset + 2.0 * axis.breakaway * std::sin(2.0 * std::numbers::pi * 0.8 * t) +
-            0.8 * axis.breakaway * std::sin(2.0 * std::numbers::pi * 2.1 * t));
+    machine.act(axis.offset + 2.0 * axis.breakaway * std::sin(2.0 * std::numbers::pi * 0.8 * t) +
+                0.8 * axis.breakaway * std::sin(2.0 * std::numbers::pi * 2.1 * t));
   }
-  return std::move(rig).series();
+  return std::move(machine).series();
 }
 
 }  // namespace zerocount::testing

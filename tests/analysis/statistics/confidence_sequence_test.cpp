@@ -103,20 +103,20 @@ TEST(AnytimeBounds, CoverHoweverOftenOneLooks) {
   }
 }
 
-// Each look is after a whole round of the rigs, whose probabilities of success differ: the bounds are those
-// of their mean.
-TEST(AnytimeBounds, CoverTheMeanOverTheRigsHoweverOftenOneLooks) {
+// Each look is after a whole round of the machines, whose probabilities of success differ: the bounds are
+// those of their mean.
+TEST(AnytimeBounds, CoverTheMeanOverTheMachinesHoweverOftenOneLooks) {
   constexpr int studies = 400;
   std::mt19937_64 engine(18);
   int covered = 0;
   for (int study = 0; study < studies; ++study) {
-    std::vector<double> rigs(20);
-    for (double& p : rigs) p = std::sqrt(std::uniform_real_distribution<double>()(engine));
-    const double mean = std::accumulate(rigs.begin(), rigs.end(), 0.0) / 20.0;
+    std::vector<double> machines(20);
+    for (double& p : machines) p = std::sqrt(std::uniform_real_distribution<double>()(engine));
+    const double mean = std::accumulate(machines.begin(), machines.end(), 0.0) / 20.0;
     std::int64_t successes = 0;
     bool always = true, narrow = false;
     for (std::int64_t trials = 20; always && !narrow; trials += 20) {
-      for (const double p : rigs) successes += std::bernoulli_distribution(p)(engine);
+      for (const double p : machines) successes += std::bernoulli_distribution(p)(engine);
       const statistics::ConfidenceInterval bounds =
           statistics::confidence_sequence_bounds(successes, trials, 0.95);
       always = bounds.low <= mean && mean <= bounds.high;

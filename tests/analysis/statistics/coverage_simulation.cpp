@@ -19,12 +19,12 @@ constexpr double hold = 1.0;
 constexpr double median_time = 0.06;
 constexpr double alike = 0.5;  // probability that a trial decides once for all of its moves
 
-/// The law of the zero moves of rigs.
+/// The law of the zero moves of machines.
 class SuccessLaw {
  public:
   explicit SuccessLaw(const Population& population)
       : mean_(population.success_mean),
-        weak_rigs_(population.weak_rigs),
+        weak_machines_(population.weak_machines),
         weak_success_(population.weak_success) {
     if (population.success_sd == 0.0) return;
     const double size = mean_ * (1.0 - mean_) / (population.success_sd * population.success_sd) - 1.0;
@@ -33,17 +33,19 @@ class SuccessLaw {
   }
   template <class Random>
   double draw(Random& random) const {
-    if (weak_rigs_ > 0.0) return std::bernoulli_distribution(weak_rigs_)(random) ? weak_success_ : 1.0;
+    if (weak_machines_ > 0.0)
+      return std::bernoulli_distribution(weak_machines_)(random) ? weak_success_ : 1.0;
     return a_ > 0.0 ? boost::random::beta_distribution<double>(a_, b_)(random) : mean_;
   }
-  /// Probability that a trial of a rig with q succeeds.
+  /// Probability that a trial of a machine with q succeeds.
   static double of_trial(double q, std::int64_t moves) {
     return alike * q + (1.0 - alike) * std::pow(q, static_cast<double>(moves));
   }
-  /// Mean over rigs.
+  /// Mean over machines.
   template <class Function>
-  double mean_over_rigs(Function function) const {
-    if (weak_rigs_ > 0.0) return weak_rigs_ * function(weak_success_) + (1.0 - weak_rigs_) * function(1.0);
+  double mean_over_machines(Function function) const {
+    if (weak_machines_ > 0.0)
+      return weak_machines_ * function(weak_success_) + (1.0 - weak_machines_) * function(1.0);
     if (a_ == 0.0) return function(mean_);
     constexpr int nodes = 4000;
     const boost::math::beta_distribution<double> beta(a_, b_);
@@ -51,24 +53,24 @@ class SuccessLaw {
     for (int i = 0; i < nodes; ++i) sum += function(boost::math::quantile(beta, (i + 0.5) / nodes));
     return sum / nodes;
   }
-  /// Proportion of rigs with q ≥ bound.
-  double rigs_at_least(double bound) const {
+  /// Proportion of machines with q ≥ bound.
+  double machines_at_least(double bound) const {
     if (bound <= 0.0) return 1.0;
-    if (weak_rigs_ > 0.0) return bound <= weak_success_ ? 1.0 : 1.0 - weak_rigs_;
+    if (weak_machines_ > 0.0) return bound <= weak_success_ ? 1.0 : 1.0 - weak_machines_;
     if (a_ == 0.0) return mean_ >= bound ? 1.0 : 0.0;
     return boost::math::cdf(
         boost::math::complement(boost::math::beta_distribution<double>(a_, b_), std::min(bound, 1.0)));
   }
 
  private:
-  double mean_, weak_rigs_, weak_success_, a_{0.0}, b_{0.0};
+  double mean_, weak_machines_, weak_success_, a_{0.0}, b_{0.0};
 };
 
-/// The law of the settling times of all moves of all rigs.
+/// The law of the settling times of all moves of all machines.
 class TimeLaw {
  public:
   explicit TimeLaw(const Population& population)
-      : spread_(std::sqrt(population.rig_effect * population.rig_effect +
+      : spread_(std::sqrt(population.machine_effect * population.machine_effect +
                           population.trial_effect * population.trial_effect +
                           population.move_effect * population.move_effect)) {}
   double within(double time) const {
@@ -104,19 +106,19 @@ struct Truth {
 Truth truth_of(const Population& population, const Sample& sample) {
   const SuccessLaw success(population);
   const TimeLaw times(population);
-  const double of_rig =
-      sample.rigs > 0 ? static_cast<double>(sample.trials) / static_cast<double>(sample.rigs) : 1.0;
-  return {success.mean_over_rigs([&](double q) { return SuccessLaw::of_trial(q, sample.moves); }),
-          success.mean_over_rigs(
-              [&](double q) { return std::pow(SuccessLaw::of_trial(q, sample.moves), of_rig); }),
+  const double of_machine =
+      sample.machines > 0 ? static_cast<double>(sample.trials) / static_cast<double>(sample.machines) : 1.0;
+  return {success.mean_over_machines([&](double q) { return SuccessLaw::of_trial(q, sample.moves); }),
+          success.mean_over_machines(
+              [&](double q) { return std::pow(SuccessLaw::of_trial(q, sample.moves), of_machine); }),
           times.mean_of_arrived(),
           times.quantile(0.5),
           times.quantile(0.95),
           population.jerks};
 }
 
-/// One rig of the population.
-struct SimulatedRig {
+/// One machine of the population.
+struct SimulatedMachine {
   double q{0.0};
   double time_factor{1.0};
   double jerk_factor{1.0};
@@ -127,23 +129,25 @@ class Simulation {
   Simulation(const Population& population, std::uint64_t seed)
       : population_(population), success_(population), random_(seed) {}
 
-  SimulatedRig rig() {
-    SimulatedRig rig{success_.draw(random_), std::exp(population_.rig_effect * normal_(random_)), 1.0};
+  SimulatedMachine machine() {
+    SimulatedMachine machine{success_.draw(random_), std::exp(population_.machine_effect * normal_(random_)),
+                             1.0};
     if (population_.jerk_sd > 0.0) {
       const double shape = 1.0 / (population_.jerk_sd * population_.jerk_sd);
-      rig.jerk_factor = std::gamma_distribution<double>(shape, 1.0 / shape)(random_);
+      machine.jerk_factor = std::gamma_distribution<double>(shape, 1.0 / shape)(random_);
     }
-    return rig;
+    return machine;
   }
 
-  trial::TrialOutcome trial(const SimulatedRig& rig, std::int64_t moves) {
+  trial::TrialOutcome trial(const SimulatedMachine& machine, std::int64_t moves) {
     trial::TrialOutcome trial;
     const bool decided_once = uniform_(random_) < alike;
-    const bool all_zero = uniform_(random_) < rig.q;
-    const double time = median_time * rig.time_factor * std::exp(population_.trial_effect * normal_(random_));
+    const bool all_zero = uniform_(random_) < machine.q;
+    const double time =
+        median_time * machine.time_factor * std::exp(population_.trial_effect * normal_(random_));
     for (std::int64_t i = 0; i < moves; ++i) {
       trial::MoveOutcome move;
-      const bool zero = decided_once ? all_zero : uniform_(random_) < rig.q;
+      const bool zero = decided_once ? all_zero : uniform_(random_) < machine.q;
       move.outcome = zero ? trial::Outcome::zero_count : trial::Outcome::one_count;
       move.stable = zero;
       const double settled = time * std::exp(population_.move_effect * normal_(random_));
@@ -152,7 +156,7 @@ class Simulation {
       move.final_position = 0.0;
       trial.moves.push_back(move);
     }
-    const double factor = rig.jerk_factor * std::gamma_distribution<double>(2.0, 0.5)(random_);
+    const double factor = machine.jerk_factor * std::gamma_distribution<double>(2.0, 0.5)(random_);
     trial.moves[0].jerk_count = std::poisson_distribution<std::int64_t>(population_.jerks * factor)(random_);
     return trial;
   }
@@ -221,17 +225,18 @@ std::vector<Coverage> coverage_of(const Population& population, const Sample& sa
   Simulation simulation(population, seed);
   Counter counter;
   for (std::int64_t repetition = 0; repetition < repetitions; ++repetition) {
-    std::vector<SimulatedRig> rigs;
-    for (std::int64_t rig = 0; rig < std::max<std::int64_t>(sample.rigs, 1); ++rig)
-      rigs.push_back(simulation.rig());
-    measures::PointAccumulator clustered({.shape = {.rigs = sample.rigs}});
+    std::vector<SimulatedMachine> machines;
+    for (std::int64_t machine = 0; machine < std::max<std::int64_t>(sample.machines, 1); ++machine)
+      machines.push_back(simulation.machine());
+    measures::PointAccumulator clustered({.shape = {.machines = sample.machines}});
     measures::PointAccumulator trials;
     measures::PointAccumulator moves;
     statistics::Moments times, jerks;
     for (std::int64_t i = 0; i < sample.trials; ++i) {
-      const SimulatedRig rig =
-          sample.rigs > 0 ? rigs[static_cast<std::size_t>(i % sample.rigs)] : simulation.rig();
-      const trial::TrialOutcome trial = simulation.trial(rig, sample.moves);
+      const SimulatedMachine machine = sample.machines > 0
+                                           ? machines[static_cast<std::size_t>(i % sample.machines)]
+                                           : simulation.machine();
+      const trial::TrialOutcome trial = simulation.trial(machine, sample.moves);
       add_to(clustered, trial);
       add_to(trials, trial);
       add_moves_to(moves, trial);
@@ -259,11 +264,11 @@ std::vector<Coverage> coverage_of(const Population& population, const Sample& sa
                   is_inside(of_moves.of(&trial::MoveOutcome::arrival_time).p95, truth.p95));
     counter.count("jerk mean", is_inside(found.of(&trial::MoveOutcome::jerk_count).mean_bounds, truth.jerks),
                   is_inside(statistics::student_t(jerks), truth.jerks));
-    if (sample.rigs == 0) continue;
+    if (sample.machines == 0) continue;
     counter.count("machines without failure",
-                  is_inside(found.rigs.without_failure_bounds, truth.without_failure));
-    const double bound = found.rigs.tolerance.zero_at_least;
-    counter.count("tolerance", std::isnan(bound) || success.rigs_at_least(bound) >= 0.9);
+                  is_inside(found.machines.without_failure_bounds, truth.without_failure));
+    const double bound = found.machines.tolerance.zero_at_least;
+    counter.count("tolerance", std::isnan(bound) || success.machines_at_least(bound) >= 0.9);
   }
   return counter.found();
 }

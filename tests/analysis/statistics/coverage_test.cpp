@@ -34,21 +34,21 @@ std::map<std::string, Coverage> expect_cover(const std::vector<Population>& popu
 constexpr std::int64_t few = 40;
 constexpr std::int64_t many = 120;
 
-std::vector<Population> populations_of_rigs() {
+std::vector<Population> populations_of_machines() {
   std::vector<Population> populations;
   for (const double sd : {0.0, 0.1, 0.3}) {
     populations.push_back({.success_mean = sd < 0.2 ? 0.9 : 0.7,
                            .success_sd = sd,
-                           .rig_effect = 2.0 * sd,
+                           .machine_effect = 2.0 * sd,
                            .trial_effect = 0.4,
                            .jerk_sd = 2.0 * sd});
   }
   return populations;
 }
 
-void expect_bounds_where_rigs_differ(std::int64_t repetitions) {
+void expect_bounds_where_machines_differ(std::int64_t repetitions) {
   const auto found =
-      expect_cover(populations_of_rigs(), {.rigs = 50, .trials = 500, .moves = 1}, repetitions);
+      expect_cover(populations_of_machines(), {.machines = 50, .trials = 500, .moves = 1}, repetitions);
   const auto plainly = [&](const char* bound) {
     return static_cast<double>(found.at(bound).plainly) / static_cast<double>(found.at(bound).repetitions);
   };
@@ -57,9 +57,9 @@ void expect_bounds_where_rigs_differ(std::int64_t repetitions) {
   EXPECT_LT(plainly("settling mean"), 0.9);
 }
 
-void expect_bounds_where_rigs_and_moves_differ(std::int64_t repetitions) {
+void expect_bounds_where_machines_and_moves_differ(std::int64_t repetitions) {
   const auto found =
-      expect_cover(populations_of_rigs(), {.rigs = 50, .trials = 250, .moves = 10}, repetitions);
+      expect_cover(populations_of_machines(), {.machines = 50, .trials = 250, .moves = 10}, repetitions);
   for (const char* bound : {"settling mean", "settling median", "settling p95"})
     EXPECT_LT(found.at(bound).plainly, 0.8 * static_cast<double>(found.at(bound).repetitions)) << bound;
 }
@@ -78,12 +78,12 @@ void expect_bounds_of_one_move(std::int64_t repetitions) {
 }
 
 // Few studies do not show that plain bounds fail here.
-TEST(Coverage, BoundsHoldWhereRigsDiffer) {
-  expect_bounds_where_rigs_differ(many);
+TEST(Coverage, BoundsHoldWhereMachinesDiffer) {
+  expect_bounds_where_machines_differ(many);
 }
 
-TEST(Coverage, BoundsHoldWhereRigsAndTrialsOfSeveralMovesDiffer) {
-  expect_bounds_where_rigs_and_moves_differ(few);
+TEST(Coverage, BoundsHoldWhereMachinesAndTrialsOfSeveralMovesDiffer) {
+  expect_bounds_where_machines_and_moves_differ(few);
 }
 
 TEST(Coverage, BoundsHoldWhereTrialsOfSeveralMovesDiffer) {
@@ -95,7 +95,7 @@ TEST(Coverage, BoundsHoldForTrialsOfOneMove) {
 }
 
 TEST(Coverage, DISABLED_BoundsHoldInManyStudies) {
-  expect_bounds_where_rigs_and_moves_differ(many);
+  expect_bounds_where_machines_and_moves_differ(many);
   expect_bounds_where_moves_differ(many);
   expect_bounds_of_one_move(many);
 }

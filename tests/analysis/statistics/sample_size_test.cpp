@@ -1,6 +1,6 @@
 #include "analysis/statistics/sample_size.hpp"
 
-#include "analysis/statistics/clusters/rig_statistics.hpp"
+#include "analysis/statistics/clusters/machine_statistics.hpp"
 #include "analysis/statistics/mean_bounds.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "core/failure/failure.hpp"
@@ -130,39 +130,41 @@ TEST(SampleSize, WhatNoNumberOfTrialsCanShowIsRefused) {
   EXPECT_THROW(trials_for_halfwidth(0.1, 1.0, 0.5), Failure);
 }
 
-TEST(RigPlan, WithOneTrialARigIsThatOfIndependentTrials) {
+TEST(MachinePlan, WithOneTrialAMachineIsThatOfIndependentTrials) {
   for (const double sd : {0.01, 0.2}) {
-    EXPECT_NEAR(static_cast<double>(rigs_for_halfwidth(0.05, 0.95, 0.8, sd, 1)),
+    EXPECT_NEAR(static_cast<double>(machines_for_halfwidth(0.05, 0.95, 0.8, sd, 1)),
                 static_cast<double>(trials_for_halfwidth(0.05, 0.95, 0.8)), 2.0);
   }
 }
 
-TEST(RigPlan, ManyTrialsLeaveWhatDiffersBetweenRigs) {
+TEST(MachinePlan, ManyTrialsLeaveWhatDiffersBetweenMachines) {
   // ±z·s/√R; Student's t, Clopper–Pearson and the limit by the number of machines take a little more.
-  const auto rigs = static_cast<double>(rigs_for_halfwidth(0.05, 0.95, 0.8, 0.2, 100'000));
-  EXPECT_NEAR(rigs, std::pow(1.96 * 0.2 / 0.05, 2), 0.12 * rigs);
+  const auto machines = static_cast<double>(machines_for_halfwidth(0.05, 0.95, 0.8, 0.2, 100'000));
+  EXPECT_NEAR(machines, std::pow(1.96 * 0.2 / 0.05, 2), 0.12 * machines);
   // Machines that differ less may hide some that always fail, which limits the lower bound to p·α^(1/R).
-  const auto alike = static_cast<double>(rigs_for_halfwidth(0.02, 0.95, 0.8, 0.1, 100'000));
+  const auto alike = static_cast<double>(machines_for_halfwidth(0.02, 0.95, 0.8, 0.1, 100'000));
   const double below = 0.8 * (1.0 - std::pow(0.025, 1.0 / alike));
   EXPECT_NEAR(0.5 * (below + 1.96 * 0.1 / std::sqrt(alike)), 0.02, 0.0005);
-  EXPECT_GT(rigs_for_halfwidth(0.02, 0.95, 0.8, 0.1, 10), rigs_for_halfwidth(0.02, 0.95, 0.8, 0.1, 100));
-  EXPECT_THROW(rigs_for_halfwidth(0.02, 0.95, 0.9, 0.31, 10), Failure);  // s² > p(1 − p)
-  EXPECT_THROW(rigs_for_halfwidth(0.6, 0.95, 0.9, 0.1, 10), Failure);
+  EXPECT_GT(machines_for_halfwidth(0.02, 0.95, 0.8, 0.1, 10),
+            machines_for_halfwidth(0.02, 0.95, 0.8, 0.1, 100));
+  EXPECT_THROW(machines_for_halfwidth(0.02, 0.95, 0.9, 0.31, 10), Failure);  // s² > p(1 − p)
+  EXPECT_THROW(machines_for_halfwidth(0.6, 0.95, 0.9, 0.1, 10), Failure);
 }
 
-TEST(RigPlan, ToleranceIsShownWithSoManyTrialsAndNotWithFewer) {
-  const auto shown = [](std::int64_t rigs, std::int64_t trials) {
-    const RigTrials flawless{trials, trials, trials, trials};
-    return rig_tolerance(std::vector<RigTrials>(static_cast<std::size_t>(rigs), flawless), 0.9, 0.95)
+TEST(MachinePlan, ToleranceIsShownWithSoManyTrialsAndNotWithFewer) {
+  const auto shown = [](std::int64_t machines, std::int64_t trials) {
+    const MachineTrials flawless{trials, trials, trials, trials};
+    return machine_tolerance(std::vector<MachineTrials>(static_cast<std::size_t>(machines), flawless), 0.9,
+                             0.95)
         .zero_at_least;
   };
-  for (const std::int64_t rigs : {29, 40, 100, 250}) {
-    const RigPlan plan = plan_tolerance(0.9, 0.97, 0.95, rigs);
-    EXPECT_EQ(plan.rigs, rigs);
-    EXPECT_GE(shown(rigs, plan.trials_per_rig), 0.97 * (1.0 - 1e-12));
-    EXPECT_LT(shown(rigs, plan.trials_per_rig - 1), 0.97);
+  for (const std::int64_t machines : {29, 40, 100, 250}) {
+    const MachinePlan plan = plan_tolerance(0.9, 0.97, 0.95, machines);
+    EXPECT_EQ(plan.machines, machines);
+    EXPECT_GE(shown(machines, plan.trials_per_machine), 0.97 * (1.0 - 1e-12));
+    EXPECT_LT(shown(machines, plan.trials_per_machine - 1), 0.97);
   }
-  EXPECT_GE(plan_tolerance(0.9, 0.97, 0.95).rigs, 29);
+  EXPECT_GE(plan_tolerance(0.9, 0.97, 0.95).machines, 29);
   EXPECT_THROW(plan_tolerance(0.9, 0.97, 0.95, 28), Failure);
 }
 

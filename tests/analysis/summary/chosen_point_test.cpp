@@ -28,16 +28,17 @@ trial::MoveOutcome move_that(bool succeeds) {
   return move;
 }
 
-/// Rigs of which each succeeds with a probability of its own, less `worse`; the same draws at every call.
-measures::PointSummary on_rigs(std::uint64_t seed, double worse, std::int64_t rigs) {
+/// Machines of which each succeeds with a probability of its own, less `worse`; the same draws at every call.
+measures::PointSummary on_machines(std::uint64_t seed, double worse, std::int64_t machines) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> uniform;
-  measures::PointAccumulator point({.shape = {.rigs = rigs}});
+  measures::PointAccumulator point({.shape = {.machines = machines}});
   std::vector<double> probability;
-  for (std::int64_t rig = 0; rig < rigs; ++rig) probability.push_back(0.3 + 0.6 * uniform(random) - worse);
-  for (std::int64_t trial = 0; trial < 20 * rigs; ++trial) {
+  for (std::int64_t machine = 0; machine < machines; ++machine)
+    probability.push_back(0.3 + 0.6 * uniform(random) - worse);
+  for (std::int64_t trial = 0; trial < 20 * machines; ++trial) {
     const double drawn = uniform(random);
-    point.add({{move_that(drawn < probability[static_cast<std::size_t>(trial % rigs)])}}, {});
+    point.add({{move_that(drawn < probability[static_cast<std::size_t>(trial % machines)])}}, {});
   }
   return point.statistics();
 }
@@ -80,14 +81,15 @@ TEST(ChosenPoint, AtTheEndOfASweepSaysWhatMayLieBeyond) {
 }
 
 // Of two equally good points, 5 % of studies show the one that looks worse to be so. The machines of both are
-// the same, and so a small difference is shown on few rigs. Of 15 % in place of 5 % it sees 98 %.
+// the same, and so a small difference is shown on few machines. Of 15 % in place of 5 % it sees 98 %.
 TEST(ChosenPoint, ShowsOthersToBeWorseAtItsConfidence) {
   constexpr int rounds = 200;
   int wrong = 0, found = 0;
   for (int round = 0; round < rounds; ++round) {
-    std::vector<measures::PointSummary> equal{on_rigs(2 * round, 0.0, 30), on_rigs(2 * round + 1, 0.0, 30)};
+    std::vector<measures::PointSummary> equal{on_machines(2 * round, 0.0, 30),
+                                              on_machines(2 * round + 1, 0.0, 30)};
     wrong += choose_point(swept_study(std::move(equal)), 0).as_good.empty() ? 1 : 0;
-    std::vector<measures::PointSummary> paired{on_rigs(round, 0.0, 30), on_rigs(round, 0.05, 30)};
+    std::vector<measures::PointSummary> paired{on_machines(round, 0.0, 30), on_machines(round, 0.05, 30)};
     found += choose_point(swept_study(std::move(paired)), 0).as_good.empty() ? 1 : 0;
   }
   EXPECT_LE(wrong, 0.05 * rounds + 3.0 * 3.1);  // three standard errors
@@ -121,7 +123,7 @@ TEST(ShownPoints, AreSortedSelectedAndCountedByTheirValues) {
   EXPECT_EQ(selected_points(study, {.top = 2}), (Points{1, 2}));
   EXPECT_EQ(selected_points(study, {.sort = "point", .top = 1}), Points{0});
   EXPECT_EQ(selected_points(study, {.sort = "best", .where = {"zero_count<90"}, .top = 1}), Points{2});
-  EXPECT_EQ(selected_points(study, {.sort = "settling_time.p95"}), (Points{0, 1, 2, 3}));  // all are NaN
+  EXPECT_EQ(selected_points(study, {.sort = "arrival_time.p95"}), (Points{0, 1, 2, 3}));  // all are NaN
   EXPECT_EQ(selected_points(study, {.where = {"ki != 1"}}), (Points{1, 2, 3}));
   EXPECT_EQ(selected_points(study, {.where = {"zero_count == 90"}}), Points{1});
   EXPECT_THROW(selected_points(study, {.sort = "kp"}), Failure);

@@ -27,7 +27,7 @@ struct ObservedTrials {
     manifest += draws.chance(0.5) ? "goal: {band: 3, within: 0.1, moves: 0.8}\n"
                                   : "goals: {first: {band: 3, within: 0.1, moves: 0.8, \"on\": [0]},"
                                     " second: {band: 3, within: 0.15, moves: 0.8, \"on\": [1]}}\n";
-    if (draws.chance(0.5)) manifest += "rigs: 6\n";
+    if (draws.chance(0.5)) manifest += "machines: 6\n";
     study = manifest::parse_study(manifest, "test.yaml");
     const double reliable = draws.uniform(0.3, 0.95);
     for (std::int64_t trial = 0; trial < study.trials; ++trial) {
@@ -68,17 +68,17 @@ TEST_EACH_SEED(ObservedTrials, AreComparedWithTrialsAllOfWhoseMovesMeetTheGoals)
   const study::ObservedCounts counts{draws.integer(0, 6), 6};
   const ObservedComparison found = compare_observed(question, summary(), counts);
   std::int64_t simulated = 0;
-  std::vector<std::int64_t> of_machines(static_cast<std::size_t>(study.rigs), 0);
+  std::vector<std::int64_t> of_machines(static_cast<std::size_t>(study.machines), 0);
   for (std::size_t trial = 0; trial < trials.size(); ++trial) {
     if (!succeeds(trials[trial])) continue;
     ++simulated;
-    if (study.rigs > 0) ++of_machines[trial % of_machines.size()];
+    if (study.machines > 0) ++of_machines[trial % of_machines.size()];
   }
   EXPECT_EQ(found.simulated.successes, simulated);
   EXPECT_EQ(found.simulated.trials, 60);
   const statistics::Successes observed{counts.successes, counts.of};
-  const statistics::ObservedTest expected = study.rigs > 0
-                                                ? statistics::rig_rank_test(observed, of_machines, 10)
+  const statistics::ObservedTest expected = study.machines > 0
+                                                ? statistics::machine_rank_test(observed, of_machines, 10)
                                                 : statistics::fisher_test(observed, {simulated, 60});
   ASSERT_TRUE(found.test);
   EXPECT_DOUBLE_EQ(found.test->p, expected.p);
@@ -86,7 +86,7 @@ TEST_EACH_SEED(ObservedTrials, AreComparedWithTrialsAllOfWhoseMovesMeetTheGoals)
 
 TEST_EACH_SEED(ObservedTrials, AreComparedWithZeroCountsWithoutAGoal) {
   study.goals.clear();
-  study.rigs = 0;
+  study.machines = 0;
   for (std::vector<trial::MoveOutcome>& moves : trials)
     if (draws.chance(0.4))
       for (trial::MoveOutcome& move : moves) move.outcome = trial::Outcome::zero_count;

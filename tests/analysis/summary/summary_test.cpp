@@ -95,7 +95,7 @@ TEST(SummaryJson, HasTheKeysOfTheContract) {
   EXPECT_EQ(point["axes"]["case"], "a");
   EXPECT_EQ(point["axes"]["controller.ki"], 3.85e-5);
   EXPECT_EQ(point["trials"], 40);
-  EXPECT_EQ(point["settling_time"]["n"], 40);
+  EXPECT_EQ(point["arrival_time"]["n"], 40);
   EXPECT_EQ(point["jerk_agreement"], 0.5);
   EXPECT_NEAR(point["success_rate_low"].get<double>(), std::pow(0.025, 1.0 / 40.0),
               1e-12);  // Clopper–Pearson
@@ -117,11 +117,11 @@ TEST(SummaryJson, WhatIsNotDefinedIsNull) {
   const nlohmann::ordered_json json = summary_json(two_cases());
   const auto& lost = json["points"][1];
   EXPECT_EQ(lost["success_rate"], 0.0);
-  EXPECT_TRUE(lost["settling_time"]["median"].is_null());
+  EXPECT_TRUE(lost["arrival_time"]["median"].is_null());
   EXPECT_TRUE(lost["jerk_agreement"].is_null());
   EXPECT_TRUE(lost["axes"]["controller.ki"].is_null());
   EXPECT_TRUE(lost["observed"].is_null());
-  EXPECT_EQ(json["points"][0]["settling_time"]["p95_high"], nullptr);  // 40 trials are too few
+  EXPECT_EQ(json["points"][0]["arrival_time"]["p95_high"], nullptr);  // 40 trials are too few
 }
 
 TEST(SummaryJson, NumbersReadBackToTheSameDouble) {
@@ -213,19 +213,19 @@ TEST(SummaryTable, NamesTheDesignAndWhatItMeansForTheBounds) {
   EXPECT_EQ(summary_json(summary)["design"], "sobol");
 }
 
-TEST(SummaryTable, HasRigsWhereTrialsShareThem) {
+TEST(SummaryTable, HasMachinesWhereTrialsShareThem) {
   StudySummary summary = two_cases();
-  EXPECT_FALSE(summary_json(summary)["points"][0].contains("rigs"));
-  summary.features.rigs = true;
-  summary.points[0].rigs.n = 20;
-  summary.points[0].rigs.without_failure = 0.5;
+  EXPECT_FALSE(summary_json(summary)["points"][0].contains("machines"));
+  summary.features.machines = true;
+  summary.points[0].machines.n = 20;
+  summary.points[0].machines.without_failure = 0.5;
   const std::string table = summary_text(summary);
   EXPECT_NE(table.find("machines w/o failure"), std::string::npos);
   EXPECT_NE(table.find("50.0 %"), std::string::npos) << table;
   EXPECT_NE(table.find("design: monte_carlo, 20 machines: bounds are of all machines"), std::string::npos)
       << table;
-  const auto rigs = summary_json(summary)["points"][0]["rigs"];
-  EXPECT_EQ(rigs["without_failure"], 0.5);
+  const auto machines = summary_json(summary)["points"][0]["machines"];
+  EXPECT_EQ(machines["without_failure"], 0.5);
 }
 
 TEST(SummaryTable, ShowsTheValuesOfAGridInPlaceOfItsLabels) {

@@ -82,7 +82,7 @@ TEST(AssuranceSection, TellsTheSameInEveryForm) {
     EXPECT_EQ(assurance["success_at_least"], points[i].claim.success_at_least);
     EXPECT_NE(
         csv.find(fmt::format(",{},{},{},", points[i].claim.success_at_least, points[i].claim.failure_at_most,
-                             assurance["settling_time"][0]["within"].get<double>())),
+                             assurance["arrival_time"][0]["within"].get<double>())),
         std::string::npos);
     const std::string text = testing::summary_text(study, {.points = {static_cast<std::int64_t>(i)}});
     const std::string bound = text::percent_at_least(points[i].claim.success_at_least);
@@ -126,33 +126,34 @@ TEST(AssuranceSection, TrialsThatWereStoppedByTheirOutcomesClaimLess) {
     EXPECT_TRUE(std::isnan(limit.within));
 }
 
-TEST(AssuranceSection, TellsOfRigsWhereTrialsShareThem) {
-  measures::PointAccumulator on_rigs({.shape = {.rigs = 40}}), stopped({.shape = {.rigs = 40}});
+TEST(AssuranceSection, TellsOfMachinesWhereTrialsShareThem) {
+  measures::PointAccumulator on_machines({.shape = {.machines = 40}}), stopped({.shape = {.machines = 40}});
   for (int trial = 0; trial < 4000; ++trial) {
-    const bool failed = trial % 40 == 3;  // one rig always does
-    on_rigs.add({{failed ? never_arrived() : arrived_after(0.05)}}, {});
+    const bool failed = trial % 40 == 3;  // one machine always does
+    on_machines.add({{failed ? never_arrived() : arrived_after(0.05)}}, {});
     stopped.add({{failed ? never_arrived() : arrived_after(0.05)}}, {});
   }
-  const std::vector<measures::PointSummary> points{on_rigs.statistics()};
+  const std::vector<measures::PointSummary> points{on_machines.statistics()};
   const measures::PointSummary& point = points.front();
-  EXPECT_EQ(point.rigs.n, 40);
-  EXPECT_NEAR(point.rigs.without_failure, 39.0 / 40.0, 1e-15);
+  EXPECT_EQ(point.machines.n, 40);
+  EXPECT_NEAR(point.machines.without_failure, 39.0 / 40.0, 1e-15);
   EXPECT_NEAR(point.success_rate().value, 39.0 / 40.0, 1e-15);
   EXPECT_LT(point.success_rate().clopper_pearson.low, 0.9);  // of 4000 independent trials 0.97
   StudySummary study = swept_study(points);
-  study.features.rigs = true;
+  study.features.machines = true;
   const std::string text = testing::summary_text(study);
   EXPECT_NE(text.find("90 % of machines ≥"), std::string::npos) << text;
-  EXPECT_NE(text.find(text::percent_at_least(point.rigs.tolerance.zero_at_least)), std::string::npos) << text;
+  EXPECT_NE(text.find(text::percent_at_least(point.machines.tolerance.zero_at_least)), std::string::npos)
+      << text;
   const nlohmann::ordered_json assurance = testing::summary_json(study)["points"][0]["assurance"];
   const auto statement = assurance["statement"].get<std::string>();
   EXPECT_NE(statement.find("of trials on all machines succeed"), std::string::npos) << statement;
   EXPECT_NE(statement.find("(100 failures in 4000 trials on 40 machines)"), std::string::npos) << statement;
-  EXPECT_EQ(assurance["rigs"]["content"], 0.9);
-  EXPECT_EQ(assurance["rigs"]["zero_at_least"], point.rigs.tolerance.zero_at_least);
+  EXPECT_EQ(assurance["machines"]["content"], 0.9);
+  EXPECT_EQ(assurance["machines"]["zero_at_least"], point.machines.tolerance.zero_at_least);
   const measures::PointSummary decided = stopped.statistics({.stopped_by_outcomes = true});
   EXPECT_LE(decided.claim.success_at_least, point.claim.success_at_least);
-  EXPECT_EQ(decided.rigs.tolerance.min_rigs, 0);
+  EXPECT_EQ(decided.machines.tolerance.min_machines, 0);
 }
 
 TEST(AssuranceSection, AConfidenceThatIsNoneIsRefused) {

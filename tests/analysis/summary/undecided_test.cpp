@@ -39,7 +39,8 @@ TEST(TimeToZero, IsThatOfAnExponentialDecay) {
   }
 }
 
-// The rig of the paper with gains at which no move arrives within the hold: the advice decides most of them.
+// The machine of the paper with gains at which no move arrives within the hold: the advice decides most of
+// them.
 TEST(TimeToZero, DecidesMostMovesOfASlowLoop) {
   for (const double ki : {2.0e-7, 5.0e-7, 1.0e-6}) {
     int off_target = 0, decided = 0;

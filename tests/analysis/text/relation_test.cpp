@@ -38,7 +38,7 @@ TEST(Relation, IsDividedAtTheFirstSign) {
   ASSERT_TRUE(relation);
   EXPECT_EQ(relation->name, "label");
   EXPECT_EQ(relation->limit, "a>=b");
-  EXPECT_FALSE(parse_relation("settling_time 0.5"));
+  EXPECT_FALSE(parse_relation("arrival_time 0.5"));
   EXPECT_FALSE(parse_relation(""));
   EXPECT_EQ(parse_relation(">")->name, "");
   EXPECT_EQ(parse_relation(">")->limit, "");

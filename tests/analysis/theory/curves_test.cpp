@@ -191,7 +191,7 @@ const std::string head =
     "zerocount: 1\nname: curves\nseed: 3\ntrials: 40\n"
     "command: {targets: [5], hold: 0.1}\n";
 
-/// (6) and (7) written out for the paper's rig: k_ID = c·(k + kp/Δx)/J·Δx·T/2.
+/// (6) and (7) written out for the paper's machine: k_ID = c·(k + kp/Δx)/J·Δx·T/2.
 double bound(double stiffness, double kp, double inertia = 5.54e-4) {
   const double dx = 2.0 * std::numbers::pi / 1620000.0;
   return 0.2 * (stiffness + kp / dx) / inertia * dx / 2000.0 / 2.0;
@@ -336,7 +336,8 @@ TEST(PointTheory, TellsThatNoGainStabilisesALoop) {
 // A rotor that stays the same from point to point is searched once.
 TEST(PointTheory, RotorsKnownFromThePointBeforeChangeNothing) {
   const study::Study study = manifest::parse_study(
-      "zerocount: 1\nname: axis\nseed: 1\nrigs: 5\ntrials: 5\ncommand: {targets: [1], hold: 1}\nsweep:\n  "
+      "zerocount: 1\nname: axis\nseed: 1\nmachines: 5\ntrials: 5\ncommand: {targets: [1], hold: 1}\nsweep:\n "
+      " "
       "cases:\n"
       "    a: {friction.k1: {profile: {mean: 110, cv: 0.1, correlation_length: 0.3}}}\n"
       "    b: {friction.k1: {profile: {mean: 110, cv: 0.1, correlation_length: 0.3}}, controller.ki: "

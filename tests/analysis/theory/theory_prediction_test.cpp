@@ -6,7 +6,7 @@
 #include "core/plant/plant.hpp"
 #include "core/theory/margins.hpp"
 #include "core/theory/stability.hpp"
-#include "core/trial/rig.hpp"
+#include "core/trial/machine.hpp"
 #include "core/trial/trial.hpp"
 #include "tests/core/loop/random_blocks.hpp"
 #include "tests/core/theory/frozen_loops.hpp"
@@ -15,44 +15,44 @@
 namespace zerocount::theory {
 namespace {
 
-trial::TrialParameters paper_rig(double ki) {
+trial::TrialParameters paper_machine(double ki) {
   trial::TrialParameters
-      parameters;  // the defaults are the paper's rig: bounds 3.85e-5 and 3.01e-4 N m/count
+      parameters;  // the defaults are the paper's machine: bounds 3.85e-5 and 3.01e-4 N m/count
   parameters.controller.ki = ki;
   return parameters;
 }
 
 TEST(TheoryPrediction, GainsOfThePaper) {
-  const TrialPrediction below = predict(paper_rig(3.85e-5));
+  const TrialPrediction below = predict(paper_machine(3.85e-5));
   EXPECT_TRUE(below.stable);
   EXPECT_FALSE(below.unstable);
-  const TrialPrediction between = predict(paper_rig(2.08e-4));
+  const TrialPrediction between = predict(paper_machine(2.08e-4));
   EXPECT_FALSE(between.stable);
   EXPECT_FALSE(between.unstable);
-  const TrialPrediction above = predict(paper_rig(3.1e-4));
+  const TrialPrediction above = predict(paper_machine(3.1e-4));
   EXPECT_FALSE(above.stable);
   EXPECT_TRUE(above.unstable);
 }
 
 TEST(TheoryPrediction, ProportionalGainMakesAnIntegralGainStable) {
-  trial::TrialParameters parameters = paper_rig(9.4e-5);
+  trial::TrialParameters parameters = paper_machine(9.4e-5);
   EXPECT_FALSE(predict(parameters).stable);
   parameters.controller.kp = 6.21e-4;
   EXPECT_TRUE(predict(parameters).stable);
 }
 
 TEST(TheoryPrediction, WithoutIntegralOrOnABoundNothingIsPromised) {
-  EXPECT_FALSE(predict(paper_rig(0.0)).stable);
-  EXPECT_FALSE(predict(paper_rig(0.0)).unstable);
-  EXPECT_TRUE(predict(paper_rig(-1e-6)).unstable);
-  const IntegralGainBounds bounds = predict(paper_rig(1e-5)).bounds;
-  EXPECT_FALSE(predict(paper_rig(bounds.stable_below)).stable);
-  EXPECT_FALSE(predict(paper_rig(bounds.unstable_above)).unstable);
+  EXPECT_FALSE(predict(paper_machine(0.0)).stable);
+  EXPECT_FALSE(predict(paper_machine(0.0)).unstable);
+  EXPECT_TRUE(predict(paper_machine(-1e-6)).unstable);
+  const IntegralGainBounds bounds = predict(paper_machine(1e-5)).bounds;
+  EXPECT_FALSE(predict(paper_machine(bounds.stable_below)).stable);
+  EXPECT_FALSE(predict(paper_machine(bounds.unstable_above)).unstable);
 }
 
 TEST(TheoryPrediction, ATrialIsGovernedByTheStiffnessWhereItStarts) {
   // k1 = 110 + 50·cos θ: 160 at 0, 60 at π. The bound of (6) is in proportion to k1.
-  trial::TrialParameters parameters = paper_rig(3.85e-5);
+  trial::TrialParameters parameters = paper_machine(3.85e-5);
   const friction::Profile profile{friction::Marginal::normal, 110.0, 50.0, {0.0, 1.0}, {0.0, 0.0}};
   parameters.friction.profiled.push_back(
       {&friction::FrictionParameters::k1, std::make_shared<friction::Profile>(profile)});
@@ -65,7 +65,7 @@ TEST(TheoryPrediction, ATrialIsGovernedByTheStiffnessWhereItStarts) {
 }
 
 TEST(TheoryPrediction, TheCriteriaAreNotAboutOpenLoopsAndFrictionWithoutASpring) {
-  trial::TrialParameters coulomb = paper_rig(3e-5), air = coulomb, open_loop = coulomb, spring = coulomb;
+  trial::TrialParameters coulomb = paper_machine(3e-5), air = coulomb, open_loop = coulomb, spring = coulomb;
   coulomb.friction.model = friction::FrictionModel::coulomb;
   air.friction.model = friction::FrictionModel::none;
   open_loop.command.torque.levels = {0.1};
@@ -87,9 +87,9 @@ TEST(TheoryPrediction, TheCriteriaAreNotAboutOpenLoopsAndFrictionWithoutASpring)
 TEST(TheoryPrediction, VerdictIsThatOfAllTrialsOrUndecidedWithItsShares) {
   PointPrediction stable, unstable, mixed, rare;
   for (int i = 0; i < 10; ++i) {
-    stable.add(predict(paper_rig(3e-5)));
-    unstable.add(predict(paper_rig(4e-4)));
-    mixed.add(predict(paper_rig(i < 3 ? 3e-5 : i < 5 ? 4e-4 : 1e-4)));
+    stable.add(predict(paper_machine(3e-5)));
+    unstable.add(predict(paper_machine(4e-4)));
+    mixed.add(predict(paper_machine(i < 3 ? 3e-5 : i < 5 ? 4e-4 : 1e-4)));
   }
   rare = {100000, 99999, 0};
   EXPECT_EQ(verdict(stable), "stable");

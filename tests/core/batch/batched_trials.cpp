@@ -43,7 +43,7 @@ void compare(Differences& d, const trial::MoveOutcome& a, const trial::MoveOutco
   d.expect_same("saturated", std::int64_t{a.saturated}, std::int64_t{b.saturated});
   d.expect_same("stopped", std::int64_t{a.stopped}, std::int64_t{b.stopped});
   d.expect_same("arrival", a.arrival, b.arrival);
-  d.expect_same("settling_time", a.arrival_time, b.arrival_time);
+  d.expect_same("arrival_time", a.arrival_time, b.arrival_time);
   d.expect_same("final_settling_time", a.final_settling_time, b.final_settling_time);
   d.expect_same("zero_fraction", a.zero_fraction, b.zero_fraction);
   d.expect_same("oscillation_amplitude", a.oscillation_amplitude, b.oscillation_amplitude);

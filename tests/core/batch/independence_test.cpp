@@ -14,8 +14,8 @@ constexpr TrialKind kinds[] = {TrialKind::calm,         TrialKind::ringing,     
                                TrialKind::remembering,  TrialKind::coulomb,          TrialKind::amplified,
                                TrialKind::loaded};
 
-/// Trials that have little in common: calm and ringing ones, creep, slides, other rigs, and some that lanes
-/// do not run.
+/// Trials that have little in common: calm and ringing ones, creep, slides, other machines, and some that
+/// lanes do not run.
 std::vector<trial::TrialParameters> different_trials() {
   std::vector<trial::TrialParameters> trials = bench_trials("bench-transient", 0, 60);
   const auto append = [&trials](const std::vector<trial::TrialParameters>& more) {
@@ -87,7 +87,7 @@ TEST_F(BatchIndependence, OfThereBeingOthers) {
   }
 }
 
-/// Beside the same trial in all other lanes, and beside rigs that are nothing like it.
+/// Beside the same trial in all other lanes, and beside machines that are nothing like it.
 TEST_F(BatchIndependence, OfWhoTheOthersAre) {
   for (std::size_t i = 0; i < trials.size(); i += 11) {
     std::vector<trial::TrialParameters> twins(40, trials[i]);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/plant/plant.hpp"
-#include "core/trial/rig.hpp"
+#include "core/trial/machine.hpp"
 #include "core/trial/trial.hpp"
 
 namespace zerocount::testing {

@@ -29,7 +29,7 @@ inline constexpr const char* block_kind_names[block_kinds] = {
     "none",     "deadband", "zone",           "leak", "derivative", "filters", "feedforward",
     "observer", "cascade",  "error deadband", "hold", "standstill", "all"};
 
-/// Blocks with which a loop about the paper's rig often stays within the converter's range.
+/// Blocks with which a loop about the paper's machine often stays within the converter's range.
 class RandomBlocks {
  public:
   explicit RandomBlocks(std::uint64_t seed) : random_(seed) {}

@@ -4,12 +4,12 @@
 
 #include "core/plant/plant.hpp"
 
-/// Scales of the paper's rig, and a plant under a constant torque, for the tests of this folder.
+/// Scales of the paper's machine, and a plant under a constant torque, for the tests of this folder.
 namespace zerocount::testing {
 
 inline constexpr double count = 2.0 * std::numbers::pi / 1620000;  ///< of the fine encoder, rad
 inline constexpr double sample = 5e-4;                             ///< s
-inline constexpr motion::MotionTolerance rig_tolerance{1e-10 * count};
+inline constexpr motion::MotionTolerance machine_tolerance{1e-10 * count};
 
 /// Where the state of the contact is looked at, with or without creep.
 using PreslidingPlant = plant::PlantWith<friction::PreslidingFriction>;

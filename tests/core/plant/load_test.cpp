@@ -4,7 +4,7 @@
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include "core/theory/linear_loop.hpp"
-#include "core/trial/rig.hpp"
+#include "core/trial/machine.hpp"
 #include "tests/core/plant/held_plant.hpp"
 #include "tests/support/test.hpp"
 
@@ -41,7 +41,7 @@ TEST(PlantWithALoad, MovesOnALinearSpringAsTheMatrixExponentialSays) {
           theory::hold_plant(friction.uniform.k1, parameters.presliding_damping, parameters, 1.0, sample, {});
       ASSERT_EQ(held.A.rows(), 4);
       Eigen::Vector4d state = Eigen::Vector4d::Zero();
-      Plant plant(parameters, friction, {}, rig_tolerance);
+      Plant plant(parameters, friction, {}, machine_tolerance);
       for (int k = 0; k < 200; ++k) {
         const double u = torque(random);
         plant.advance(motion::constant_torque(u), sample);
@@ -76,8 +76,8 @@ TEST(PlantWithALoad, IsOneMassWhereTheCouplingIsStiff) {
   motion::PlantParameters one;
   one.inertia = 8.54e-4;
   const auto difference = [&](double stiffness) {
-    PreslidingPlant two(loaded(3e-4, stiffness, 1.0), {}, {}, rig_tolerance);
-    PreslidingPlant whole(one, {}, {}, rig_tolerance);
+    PreslidingPlant two(loaded(3e-4, stiffness, 1.0), {}, {}, machine_tolerance);
+    PreslidingPlant whole(one, {}, {}, machine_tolerance);
     double largest = 0.0;
     for (int k = 0; k < 60; ++k) {
       const double torque = k % 20 < 10 ? 0.4 : -0.4;
@@ -97,7 +97,7 @@ TEST(PlantWithALoad, IsOneMassWhereTheCouplingIsStiff) {
 TEST(PlantWithALoad, StartsFromRestTowardsAVaryingTorque) {
   const auto places = [](double last, double side) {
     std::vector<double> thetas;
-    PreslidingPlant plant(loaded(3e-4, 2000.0, 0.05), {}, {.history = {last * side}}, rig_tolerance);
+    PreslidingPlant plant(loaded(3e-4, 2000.0, 0.05), {}, {.history = {last * side}}, machine_tolerance);
     motion::TorqueCourse torque{0.0, 0.05 * side, 2000.0};
     for (int k = 0; k < 20; ++k) {
       plant.advance(torque, sample);
@@ -129,7 +129,7 @@ friction::FrictionAlongRotor of_model(friction::FrictionModel model) {
 // A free rotor, a gap that the load crosses many times, and an error of the gear: nothing dissipates.
 TEST(CouplingWithAGap, ConservesEnergy) {
   const motion::PlantParameters parameters = with_gap(2e-4);
-  Plant plant(parameters, of_model(friction::FrictionModel::none), {.velocity = 0.2}, rig_tolerance);
+  Plant plant(parameters, of_model(friction::FrictionModel::none), {.velocity = 0.2}, machine_tolerance);
   const motion::LoadSide side{.error = {{1e-4, 40.0, 0.3}, {2e-5, 900.0, 1.0}}, .twist = 3e-5};
   plant.start_load(side);
   const auto energy = [&] {
@@ -150,7 +150,7 @@ TEST(CouplingWithAGap, ConservesEnergy) {
 }
 
 TEST(CouplingWithAGap, LeavesAFreeLoadItsVelocity) {
-  Plant plant(with_gap(1e-2), of_model(friction::FrictionModel::none), {.velocity = 0.1}, rig_tolerance);
+  Plant plant(with_gap(1e-2), of_model(friction::FrictionModel::none), {.velocity = 0.1}, machine_tolerance);
   for (int k = 0; k < 10; ++k) {
     hold(plant, 1e-3, sample);
     const PlantReading reading = plant.read();
@@ -165,7 +165,7 @@ TEST(CouplingWithAGap, LeavesAFreeLoadItsVelocity) {
 TEST(CouplingWithAGap, WindsUpUnderAConstantTorque) {
   const double gap = 2e-4, torque = 0.05, inertia = 3e-4, stiffness = 2000.0;
   for (const bool at_edge : {true, false}) {
-    Plant plant(with_gap(gap), of_model(friction::FrictionModel::coulomb), {}, rig_tolerance);
+    Plant plant(with_gap(gap), of_model(friction::FrictionModel::coulomb), {}, machine_tolerance);
     plant.start_load({.disturbance = {torque}, .twist = at_edge ? -0.5 * gap : 0.0});
     const double fall = at_edge ? 0.0 : std::sqrt(gap * inertia / torque);
     const double velocity = torque / inertia * fall;
@@ -189,8 +189,8 @@ TEST(CouplingWithAGap, StartsWhereErrorAndGapPutTheLoad) {
   p.initial.gap = 0.25;
   p.initial.position = 0.7;
   p.load_side.error = {{.amplitude = 1e-4, .periods = 50.0, .phase = 0.2}};
-  trial::Rig<Plant> rig(p);
-  EXPECT_NEAR(rig.read(0).load_theta, 1e-4 * std::sin(50.0 * 0.7 + 0.2) - 0.25 * 3e-4, 1e-17);
+  trial::Machine<Plant> machine(p);
+  EXPECT_NEAR(machine.read(0).load_theta, 1e-4 * std::sin(50.0 * 0.7 + 0.2) - 0.25 * 3e-4, 1e-17);
 }
 
 }  // namespace

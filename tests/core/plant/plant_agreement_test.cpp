@@ -24,12 +24,12 @@ void PrintTo(const Family& family, std::ostream* out) {
   *out << family.name;
 }
 
-/// Random intervals of torque for one rig.
+/// Random intervals of torque for one machine.
 class RandomDrive {
  public:
-  RandomDrive(Draws& draws, const trial::TrialParameters& rig, Drive drive)
-      : draws_(draws), drive_(drive), period_(1.0 / rig.controller.sample_rate) {
-    const double breakaway = friction::friction_at(rig.friction, rig.initial.position).breakaway;
+  RandomDrive(Draws& draws, const trial::TrialParameters& machine, Drive drive)
+      : draws_(draws), drive_(drive), period_(1.0 / machine.controller.sample_rate) {
+    const double breakaway = friction::friction_at(machine.friction, machine.initial.position).breakaway;
     largest_ = breakaway * (draws.chance(0.3) ? draws.log_uniform(0.03, 1.0) : draws.uniform(1.0, 3.0));
     wandering_ = draws.chance(0.5);
     course_.rate = drive == Drive::held ? 0.0 : draws.log_uniform(0.05, 100.0) / period_;
@@ -76,17 +76,17 @@ motion::PlantStart start_of(const trial::TrialParameters& p) {
 }
 
 void compare_motion(const Family& family, std::uint64_t index, Differences& worst) {
-  const trial::TrialParameters rig = random_trial(family.kind, 5000 + index);
+  const trial::TrialParameters machine = random_trial(family.kind, 5000 + index);
   const std::string name = fmt::format("{} {}", family.name, index);
-  const double count = 2.0 * std::numbers::pi / rig.encoder.fine;
-  const motion::PlantStart start = start_of(rig);
-  plant::Plant plant(rig.plant, rig.friction, start, {1e-11 * count});
-  OdeintMotion judge(rig, start.history);
+  const double count = 2.0 * std::numbers::pi / machine.encoder.fine;
+  const motion::PlantStart start = start_of(machine);
+  plant::Plant plant(machine.plant, machine.friction, start, {1e-11 * count});
+  OdeintMotion judge(machine, start.history);
   ASSERT_EQ(plant.theta(), 0.0) << name;
   ASSERT_EQ(plant.sliding(), judge.sliding()) << name;
   ASSERT_EQ(plant.read().depth, judge.depth()) << name;
   Draws draws(77 + index);
-  RandomDrive drive(draws, rig, family.drive);
+  RandomDrive drive(draws, machine, family.drive);
   double travel = 0.0;
   for (int k = 0; k < 80; ++k) {
     const auto [course, duration] = drive.next();
@@ -135,8 +135,8 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(Family{"presliding", TrialKind::breaking_away, Drive::held},
                       Family{"presliding_amplified", TrialKind::breaking_away, Drive::amplified},
                       Family{"presliding_with_jumps", TrialKind::calm, Drive::amplified_with_jumps},
-                      Family{"other_rigs_amplified", TrialKind::unlike_the_paper, Drive::amplified},
-                      Family{"other_rigs_with_jumps", TrialKind::unlike_the_paper,
+                      Family{"other_machines_amplified", TrialKind::unlike_the_paper, Drive::amplified},
+                      Family{"other_machines_with_jumps", TrialKind::unlike_the_paper,
                              Drive::amplified_with_jumps},
                       Family{"spring", TrialKind::spring_alone, Drive::held},
                       Family{"spring_amplified", TrialKind::spring_alone, Drive::amplified},

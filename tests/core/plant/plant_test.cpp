@@ -16,7 +16,7 @@ friction::FrictionAlongRotor without_creep(friction::FrictionParameters friction
 }
 
 TEST(PlantAtConstantTorque, EndsOnTheUnloadingLoopsAndStays) {
-  PreslidingPlant plant({}, without_creep(), {}, rig_tolerance);
+  PreslidingPlant plant({}, without_creep(), {}, machine_tolerance);
   for (int k = 0; k < 2000; ++k) hold(plant, 0.02, sample);
   const double theta = plant.theta();
   const std::size_t depth = plant.spring().depth();
@@ -30,8 +30,8 @@ TEST(PlantAtConstantTorque, EndsOnTheUnloadingLoopsAndStays) {
 TEST(Plant, OppositeTorqueGivesTheOppositeMotionBitForBit) {
   std::mt19937 random(22);
   std::normal_distribution<double> torque(0.0, 0.4);
-  PreslidingPlant plant({}, {{}, {}}, {.preload = 0.05}, rig_tolerance);
-  PreslidingPlant mirror({}, {{}, {}}, {.preload = -0.05}, rig_tolerance);
+  PreslidingPlant plant({}, {{}, {}}, {.preload = 0.05}, machine_tolerance);
+  PreslidingPlant mirror({}, {{}, {}}, {.preload = -0.05}, machine_tolerance);
   for (int k = 0; k < 3000; ++k) {
     const double u = torque(random);
     hold(plant, u, sample);
@@ -43,7 +43,7 @@ TEST(Plant, OppositeTorqueGivesTheOppositeMotionBitForBit) {
 }
 
 TEST(PlantThroughBreakawayAndReStick, StartsANewContactWithTheTorqueOfTheOld) {
-  PreslidingPlant plant({}, {{}, {}}, {}, rig_tolerance);
+  PreslidingPlant plant({}, {{}, {}}, {}, machine_tolerance);
   while (!plant.sliding()) hold(plant, 0.4, 1e-6);
   const double torque = plant.spring().torque();
   const double hook_torque = torque + 0.2 * plant.omega();
@@ -65,7 +65,7 @@ TEST(PlantOnAProfile, TakesTheParametersWhereItSticks) {
   friction::FrictionAlongRotor friction;
   friction.profiled.push_back({&friction::FrictionParameters::k1, profile});
   const double start = 1.25;
-  PreslidingPlant plant({}, friction, {.position = start}, rig_tolerance);
+  PreslidingPlant plant({}, friction, {.position = start}, machine_tolerance);
   EXPECT_DOUBLE_EQ(plant.contact().k1, 100.0 + 20.0 * (std::cos(start) + 0.5 * std::sin(start)));
   const double before = plant.contact().k1;
   for (int k = 0; k < 100; ++k) hold(plant, 0.45, sample);
@@ -80,7 +80,7 @@ TEST(PlantOnAProfile, TakesTheParametersWhereItSticks) {
 TEST(Plant, GivesUpLoudlyOnAMotionItCannotFollow) {
   motion::PlantParameters rotor;
   rotor.inertia = 1e-200;
-  PreslidingPlant plant(rotor, {{}, {}}, {}, rig_tolerance);
+  PreslidingPlant plant(rotor, {{}, {}}, {}, machine_tolerance);
   hold(plant, 0.1, sample);
   EXPECT_FALSE(plant.finite());
 }
@@ -99,7 +99,7 @@ void expect_next_contact_at_each_re_stick() {
       {&friction::FrictionParameters::breakaway, [](std::uint64_t contact) {
          return 0.2 + 0.2 * friction::contact_uniform({.key = {1, 2}, .stream = 3}, 17, contact);
        }});
-  PlantWith<Law> plant({}, friction, {}, rig_tolerance);
+  PlantWith<Law> plant({}, friction, {}, machine_tolerance);
   EXPECT_EQ(plant.contact().breakaway, friction::FrictionParameters{}.breakaway);
   for (int contact = 1; contact <= 20; ++contact) {
     slide_once(plant, contact % 2 == 0 ? 0.5 : -0.5);
@@ -124,10 +124,10 @@ constexpr double breakaway = 0.3;  // N m, of FrictionParameters
 
 TEST(PlantWithVelocity, BreaksAwayAtOnceWhereTheDamperOvercomesTheHook) {
   for (const double side : {1.0, -1.0}) {
-    PreslidingPlant holding({}, {}, {.velocity = side * 0.99 * breakaway / damping}, rig_tolerance);
+    PreslidingPlant holding({}, {}, {.velocity = side * 0.99 * breakaway / damping}, machine_tolerance);
     hold(holding, 0.0, 1e-7);
     EXPECT_FALSE(holding.sliding());
-    PreslidingPlant sliding({}, {}, {.velocity = side * 1.01 * breakaway / damping}, rig_tolerance);
+    PreslidingPlant sliding({}, {}, {.velocity = side * 1.01 * breakaway / damping}, machine_tolerance);
     EXPECT_FALSE(sliding.sliding());
     hold(sliding, 0.0, 1e-7);
     EXPECT_TRUE(sliding.sliding());
@@ -139,8 +139,9 @@ TEST(PlantWithVelocity, BreaksAwayAtOnceWhereTheDamperOvercomesTheHook) {
 // that remembers no more than one that begins with nothing.
 TEST(PlantWithVelocity, BreaksAwayFromAPreloadAsFromNone) {
   for (const double preload : {0.11, -0.11, 0.17, -0.17, 0.23}) {
-    PreslidingPlant one({}, {}, {.velocity = 1.2 * breakaway / damping}, rig_tolerance);
-    PreslidingPlant other({}, {}, {.preload = preload, .velocity = 1.2 * breakaway / damping}, rig_tolerance);
+    PreslidingPlant one({}, {}, {.velocity = 1.2 * breakaway / damping}, machine_tolerance);
+    PreslidingPlant other({}, {}, {.preload = preload, .velocity = 1.2 * breakaway / damping},
+                          machine_tolerance);
     for (int k = 0; k < 60; ++k) {
       hold(one, -0.05, sample);
       hold(other, -0.05, sample);
@@ -159,7 +160,7 @@ TEST(PlantArrivingFromSliding, SlidesFromTheStartAndSticksWithTheBreakawayTorque
     motion::PlantStart start;
     start.velocity = side * 0.4;
     start.sliding = true;
-    PreslidingPlant plant({}, {}, start, rig_tolerance);
+    PreslidingPlant plant({}, {}, start, machine_tolerance);
     EXPECT_TRUE(plant.sliding());
     EXPECT_EQ(plant.theta(), 0.0);
     EXPECT_EQ(plant.omega(), start.velocity);
@@ -178,8 +179,8 @@ TEST(PlantArrivingFromSliding, HasNoContactToRemember) {
   full.hardening = 1e-5;
   full.preload = 0.1;
   full.history = {0.05, -0.02};
-  PreslidingPlant one({}, {}, bare, rig_tolerance);
-  PreslidingPlant other({}, {}, full, rig_tolerance);
+  PreslidingPlant one({}, {}, bare, machine_tolerance);
+  PreslidingPlant other({}, {}, full, machine_tolerance);
   for (int k = 0; k < 50; ++k) {
     hold(one, 0.02, sample);
     hold(other, 0.02, sample);
@@ -194,7 +195,8 @@ TEST(PlantArrivingFromSliding, TakesTheBreakawayTorqueOfTheRotorAngle) {
                                std::make_shared<const friction::Profile>(friction::Profile{
                                    friction::Marginal::normal, 0.2, 0.05, {0.0, 1.0}, {0.0, 0.5}})});
   const double angle = 1.25;
-  PreslidingPlant plant({}, friction, {.position = angle, .velocity = 0.3, .sliding = true}, rig_tolerance);
+  PreslidingPlant plant({}, friction, {.position = angle, .velocity = 0.3, .sliding = true},
+                        machine_tolerance);
   const double level = 0.2 + 0.05 * (std::cos(angle) + 0.5 * std::sin(angle));
   EXPECT_DOUBLE_EQ(plant.contact().breakaway, level);
   while (plant.sliding()) hold(plant, 0.0, 1e-7);
@@ -209,7 +211,7 @@ TEST(PlantWithHistory, StandsAtZeroWithoutTorque) {
     start.preload = trial % 3 == 0 ? 0.0 : torque(random);
     start.hardening = trial % 2 == 0 ? 0.0 : 1e-6;
     for (int i = 0; i <= trial; ++i) start.history.push_back(torque(random));
-    PreslidingPlant plant({}, {}, start, rig_tolerance);
+    PreslidingPlant plant({}, {}, start, machine_tolerance);
     EXPECT_EQ(plant.theta(), 0.0);
     EXPECT_NEAR(plant.spring().torque(), 0.0, 1e-15);
     EXPECT_EQ(plant.creep().extension, 0.0);
@@ -222,10 +224,10 @@ TEST(PlantWithHistory, StandsAtZeroWithoutTorque) {
 }
 
 TEST(PlantWithHistory, IsThePreloadedOneWhereThePreloadIsItsOnlyLevel) {
-  PreslidingPlant preloaded({}, {}, {.preload = -0.12}, rig_tolerance);
+  PreslidingPlant preloaded({}, {}, {.preload = -0.12}, machine_tolerance);
   motion::PlantStart start;
   start.history = {-0.12};
-  PreslidingPlant loaded({}, {}, start, rig_tolerance);
+  PreslidingPlant loaded({}, {}, start, machine_tolerance);
   EXPECT_EQ(loaded.spring().depth(), preloaded.spring().depth());
   EXPECT_NEAR(loaded.spring().elongation(), preloaded.spring().elongation(), 1e-19);
   for (int k = 0; k < 200; ++k) {
@@ -240,12 +242,12 @@ TEST(PlantWithHistory, ForgetsWhatALargerTorqueHasWipedOut) {
   plain.history = {0.2, -0.1, 0.06};
   motion::PlantStart full;
   full.history = {0.05, -0.1, 0.03, 0.2, 0.1, 0.15, -0.1, -0.02, -0.06, 0.06, -0.01, 0.02};
-  PreslidingPlant one({}, {}, plain, rig_tolerance);
-  PreslidingPlant other({}, {}, full, rig_tolerance);
+  PreslidingPlant one({}, {}, plain, machine_tolerance);
+  PreslidingPlant other({}, {}, full, machine_tolerance);
   EXPECT_EQ(one.spring().depth(), 3u);
   EXPECT_EQ(other.spring().depth(), 5u);  // and, inside, the last two
   full.history.resize(10);
-  EXPECT_EQ(PreslidingPlant({}, {}, full, rig_tolerance).spring().depth(), 3u);
+  EXPECT_EQ(PreslidingPlant({}, {}, full, machine_tolerance).spring().depth(), 3u);
   for (int k = 0; k < 100; ++k) {
     hold(one, -0.15, sample);
     hold(other, -0.15, sample);
@@ -258,7 +260,7 @@ TEST(PlantWithHistory, HoldsAnyNumberOfReversals) {
   constexpr int reversals = 100000;
   for (int i = 0; i < reversals; ++i)
     start.history.push_back((i % 2 == 0 ? 0.25 : -0.25) * (1.0 - static_cast<double>(i) / reversals));
-  PreslidingPlant plant({}, {}, start, rig_tolerance);
+  PreslidingPlant plant({}, {}, start, machine_tolerance);
   EXPECT_EQ(plant.spring().depth(), static_cast<std::size_t>(reversals));
   EXPECT_NEAR(plant.spring().torque(), 0.0, 1e-15);
   plant.advance({0.0, 0.28, 20.0}, 1.0);
@@ -278,8 +280,8 @@ TEST(PlantWithHistory, MirrorsBitForBit) {
     mirrored.preload = -start.preload;
     mirrored.velocity = -start.velocity;
     for (const double level : start.history) mirrored.history.push_back(-level);
-    PreslidingPlant plant({}, {}, start, rig_tolerance);
-    PreslidingPlant mirror({}, {}, mirrored, rig_tolerance);
+    PreslidingPlant plant({}, {}, start, machine_tolerance);
+    PreslidingPlant mirror({}, {}, mirrored, machine_tolerance);
     for (int k = 0; k < 100; ++k) {
       const motion::TorqueCourse course{torque(random), 3.0 * torque(random), 2000.0};
       plant.advance(course, sample);
@@ -296,8 +298,8 @@ TEST(PlantOnASpringAlone, IsThePreslidingOneWithoutCreepBitForBit) {
   friction::FrictionAlongRotor presliding;
   presliding.uniform.alpha = 0.0;
   const motion::PlantStart start{.hardening = 3e-6, .preload = 0.1, .velocity = 0.2};
-  PreslidingPlant one({}, spring, start, rig_tolerance);
-  PreslidingPlant other({}, presliding, start, rig_tolerance);
+  PreslidingPlant one({}, spring, start, machine_tolerance);
+  PreslidingPlant other({}, presliding, start, machine_tolerance);
   std::mt19937 random(13);
   std::normal_distribution<double> torque(0.0, 0.6);
   for (int k = 0; k < 500; ++k) {
@@ -342,8 +344,8 @@ TEST(PlantUnderAnAmplifier, CanBeFollowedUpToTheHighestBandwidth) {
         friction::FrictionModel::coulomb}) {
     friction::FrictionAlongRotor friction;
     friction.model = model;
-    Plant amplified({}, friction, {}, rig_tolerance);
-    Plant constant({}, friction, {}, rig_tolerance);
+    Plant amplified({}, friction, {}, machine_tolerance);
+    Plant constant({}, friction, {}, machine_tolerance);
     double now = 0.0;
     for (const double u : {0.2, -0.1, 0.45, 0.5, -0.2, 0.1}) {
       amplified.advance({now, u, rate}, sample);
@@ -356,8 +358,8 @@ TEST(PlantUnderAnAmplifier, CanBeFollowedUpToTheHighestBandwidth) {
 }
 
 TEST(PlantUnderAnAmplifier, OppositeTorqueGivesTheOppositeMotionBitForBit) {
-  Plant plant({}, {}, {}, rig_tolerance);
-  Plant mirror({}, {}, {}, rig_tolerance);
+  Plant plant({}, {}, {}, machine_tolerance);
+  Plant mirror({}, {}, {}, machine_tolerance);
   RandomTorques torques(33, 0.4, 1500.0);
   for (int k = 0; k < 3000; ++k) {
     const motion::TorqueCourse course = torques.next();
@@ -374,10 +376,10 @@ TEST(PlantUnderAnAmplifier, OppositeTorqueGivesTheOppositeMotionBitForBit) {
 TEST(PlantUnderAnAmplifier, FollowsATorqueTooSlowToBeNoticedAtOnce) {
   const friction::FrictionParameters friction;
   const motion::PlantParameters rotor;
-  const double promised = rig_tolerance.elongation * (friction.k1 + friction.k2) / friction.k1;
+  const double promised = machine_tolerance.elongation * (friction.k1 + friction.k2) / friction.k1;
   for (const double duration : {sample, 1.0, 200.0}) {  // in one step, or in many
     for (const double rate : {1e-8, 1e-6, 1e-4}) {
-      PreslidingPlant plant(rotor, spring_alone(), {}, rig_tolerance);
+      PreslidingPlant plant(rotor, spring_alone(), {}, machine_tolerance);
       motion::TorqueCourse course{0.0, 0.02, rate};
       const double end = std::min(200.0, 20000 * duration);
       for (double t = 0.0; t < end - 0.5 * duration; t += duration) {
@@ -397,7 +399,7 @@ TEST(PlantUnderAnAmplifier, FollowsATorqueTooSlowToBeNoticedAtOnce) {
 
 TEST(PlantUnderAnAmplifier, RestsOnceTheTorqueHasSettled) {
   for (const double rate : {50.0, 5000.0, 5e5}) {
-    PreslidingPlant plant({}, spring_alone(), {}, rig_tolerance);
+    PreslidingPlant plant({}, spring_alone(), {}, machine_tolerance);
     motion::TorqueCourse course{0.0, 0.02, rate};
     for (int k = 0; k < 4000; ++k) {
       plant.advance(course, sample);

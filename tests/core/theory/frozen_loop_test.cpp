@@ -191,9 +191,9 @@ TEST(SlidingCrossover, IsNotThereWithoutGain) {
   EXPECT_TRUE(std::isnan(sliding_crossover({}, {}, controller).frequency));
 }
 
-// The paper's rig has a pure integral in its fine phase: two integrators in a row, which nothing can hold
+// The paper's machine has a pure integral in its fine phase: two integrators in a row, which nothing can hold
 // while it slides; the coarse phase is there for that.
-TEST(SlidingLoop, OfThePapersRigIsStableInTheCoarsePhaseAlone) {
+TEST(SlidingLoop, OfThePapersMachineIsStableInTheCoarsePhaseAlone) {
   loop::ControllerParameters controller;
   controller.coarse.coarse_beyond = 300.0;
   const loop::ControllerParameters fine = loop::controller_in_phase(controller, loop::ControlPhase::fine);
@@ -221,7 +221,7 @@ constexpr double count_of_paper = 2.0 * std::numbers::pi / 1'620'000;
 constexpr loop::ControlStart wide{
     .integral_range = {-1e300, 1e300}, .resolution = count_of_paper, .velocity_resolution = count_of_paper};
 
-HeldPlant paper_rig(double delay) {
+HeldPlant paper_machine(double delay) {
   return hold_plant(300.0, 0.2, {}, 2.0 * std::numbers::pi / 1'620'000, 5e-4, {1.1, 400.0}, delay);
 }
 
@@ -255,7 +255,7 @@ template <class Chain>
 void expect_growth(const loop::ControllerParameters& parameters) {
   const Chain chain(parameters, wide);
   for (const double delay : {0.0, 0.4, 1.0, 2.7, 3.0}) {
-    const HeldPlant plant = paper_rig(delay);
+    const HeldPlant plant = paper_machine(delay);
     // The phase of the oscillation at the ends of the windows is worth some 1e-5.
     EXPECT_NEAR(spectral_radius(plant, chain.linear()), growth_in_time(Chain(parameters, wide), plant), 5e-5);
     // Every mode of the loop is a root of 1 + L(z).

@@ -5,7 +5,7 @@
 namespace zerocount::theory {
 namespace {
 
-const motion::PlantParameters rig;
+const motion::PlantParameters machine;
 const loop::EncoderParameters paper_encoder;
 
 /// The sampled loop run sample by sample in physical units, the rotor between samples by the closed form of
@@ -93,11 +93,11 @@ double simulated_growth(double stiffness, const motion::PlantParameters& plant,
   return std::pow(late / early, 1.0 / (5 * window));
 }
 
-TEST(SampledStability, BoundOfThePapersRigIsBelowTheContinuousOne) {
+TEST(SampledStability, BoundOfThePapersMachineIsBelowTheContinuousOne) {
   const loop::ControllerParameters controller;
-  const double sampled = sampled_critical_integral_gain(110.0, rig, paper_encoder, controller);
+  const double sampled = sampled_critical_integral_gain(110.0, machine, paper_encoder, controller);
   EXPECT_NEAR(sampled, 3.57e-5, 0.5e-7);
-  EXPECT_LT(sampled, critical_integral_gain(110.0, rig, paper_encoder, controller));
+  EXPECT_LT(sampled, critical_integral_gain(110.0, machine, paper_encoder, controller));
 }
 
 TEST(SampledStability, ApproachesTheContinuousBoundAtHighSampleRates) {
@@ -106,9 +106,9 @@ TEST(SampledStability, ApproachesTheContinuousBoundAtHighSampleRates) {
   double last_gap = 1.0;
   for (const double rate : {4e3, 16e3, 64e3, 256e3}) {
     controller.sample_rate = rate;
-    const double continuous = critical_integral_gain(110.0, rig, paper_encoder, controller);
+    const double continuous = critical_integral_gain(110.0, machine, paper_encoder, controller);
     const double gap =
-        1.0 - sampled_critical_integral_gain(110.0, rig, paper_encoder, controller) / continuous;
+        1.0 - sampled_critical_integral_gain(110.0, machine, paper_encoder, controller) / continuous;
     EXPECT_GT(gap, 0.0);
     EXPECT_LT(gap, 0.3 * last_gap);  // the hold's delay of half a sample: an error of first order in T
     last_gap = gap;
@@ -122,7 +122,7 @@ TEST(SampledStability, LinearLoopDecaysBelowTheBoundAndGrowsAboveIt) {
   int judged = 0;
   for (int i = 0; i < 40; ++i) {
     const double stiffness = 250.0 * factor(random);
-    motion::PlantParameters plant = rig;
+    motion::PlantParameters plant = machine;
     plant.inertia *= factor(random);
     plant.presliding_damping *= factor(random);
     loop::ControllerParameters controller;
@@ -157,12 +157,12 @@ TEST(SampledCriticalIntegralGain, BringsAPoleToTheUnitCircleAndNoSmallerGainDoes
     controller.kd = i % 3 == 0 ? 0.0 : 1e-3 * part(random);
     controller.delay = i % 4 == 0 ? 30.0 * part(random) : 2.0 * part(random);
     const LinearDrive drive{1.0, i % 2 == 0 ? 0.0 : 300.0};
-    const double bound = sampled_critical_integral_gain(stiffness, rig, paper_encoder, controller, drive);
+    const double bound = sampled_critical_integral_gain(stiffness, machine, paper_encoder, controller, drive);
     if (bound == 0.0) continue;
     ++judged;
     const auto radius = [&](double ki) {
       controller.ki = ki;
-      return sampled_spectral_radius(stiffness, rig, paper_encoder, controller, drive);
+      return sampled_spectral_radius(stiffness, machine, paper_encoder, controller, drive);
     };
     EXPECT_NEAR(radius(bound), 1.0, 1e-9) << i;
     for (const double less : {1e-3, 0.1, 0.5, 0.9, 0.999}) EXPECT_LT(radius(less * bound), 1.0) << i;
@@ -177,9 +177,9 @@ TEST(SampledStability, SpectralRadiusIsTheGrowthOfTheLinearLoop) {
     controller.kp = 1e-4;
     controller.kd = 1e-4;
     for (const LinearDrive& drive : {LinearDrive{}, LinearDrive{1.1, 150.0}}) {
-      controller.ki = 1.02 * sampled_critical_integral_gain(300.0, rig, paper_encoder, controller, drive);
-      EXPECT_NEAR(simulated_growth(300.0, rig, controller, drive),
-                  sampled_spectral_radius(300.0, rig, paper_encoder, controller, drive), 2e-6);
+      controller.ki = 1.02 * sampled_critical_integral_gain(300.0, machine, paper_encoder, controller, drive);
+      EXPECT_NEAR(simulated_growth(300.0, machine, controller, drive),
+                  sampled_spectral_radius(300.0, machine, paper_encoder, controller, drive), 2e-6);
     }
   }
 }
@@ -189,7 +189,7 @@ TEST(SampledStability, DelayLowersTheBound) {
   double last = 1.0;
   for (int delay = 0; delay < 5; ++delay) {
     controller.delay = delay;
-    const double bound = sampled_critical_integral_gain(110.0, rig, paper_encoder, controller);
+    const double bound = sampled_critical_integral_gain(110.0, machine, paper_encoder, controller);
     EXPECT_LT(bound, last);
     EXPECT_GT(bound, 0.0);
     last = bound;
@@ -198,14 +198,14 @@ TEST(SampledStability, DelayLowersTheBound) {
 
 TEST(SampledStability, TheDrivesGainIsPartOfTheLoops) {
   const loop::ControllerParameters controller;
-  EXPECT_NEAR(sampled_critical_integral_gain(110.0, rig, paper_encoder, controller, {1.5, 0.0}),
-              sampled_critical_integral_gain(110.0, rig, paper_encoder, controller) / 1.5, 1e-12);
+  EXPECT_NEAR(sampled_critical_integral_gain(110.0, machine, paper_encoder, controller, {1.5, 0.0}),
+              sampled_critical_integral_gain(110.0, machine, paper_encoder, controller) / 1.5, 1e-12);
 }
 
 TEST(SampledStability, NoIntegralGainIsStableWhereTheLoopWithoutIntegralIsNot) {
   loop::ControllerParameters controller;
   controller.kp = 1.0;  // N m/count: far beyond what half a sample of delay allows
-  EXPECT_EQ(sampled_critical_integral_gain(110.0, rig, paper_encoder, controller), 0.0);
+  EXPECT_EQ(sampled_critical_integral_gain(110.0, machine, paper_encoder, controller), 0.0);
 }
 
 // A slow integral control: T·(k·Δx + kp)/(2·ki), to the first order in T/τ and in what the rotor itself
@@ -218,7 +218,7 @@ TEST(SlowestTimeConstant, OfASlowIntegralIsInProportionToTheStiffness) {
       controller.ki = 5e-8;
       const double expected = (stiffness * loop::fine_resolution(paper_encoder) + kp) /
                               (2.0 * controller.ki * controller.sample_rate);
-      EXPECT_NEAR(slowest_time_constant(stiffness, rig, paper_encoder, controller), expected,
+      EXPECT_NEAR(slowest_time_constant(stiffness, machine, paper_encoder, controller), expected,
                   0.02 * expected);
     }
   }
@@ -228,8 +228,8 @@ TEST(SlowestTimeConstant, IsThatOfTheDecayInTime) {
   for (const double ki : {3e-7, 1e-6, 5e-6}) {
     loop::ControllerParameters controller;
     controller.ki = ki;
-    LinearLoop loop(110.0, rig, controller, {});
-    const double tau = slowest_time_constant(110.0, rig, paper_encoder, controller);
+    LinearLoop loop(110.0, machine, controller, {});
+    const double tau = slowest_time_constant(110.0, machine, paper_encoder, controller);
     const int samples = static_cast<int>(tau * controller.sample_rate) + 1;
     const auto largest_over = [&](int size) {
       double largest = 0.0;
@@ -269,13 +269,13 @@ TEST(SlowestTimeConstant, IsThatOfAModeThatOscillatesToo) {
 
 TEST(SlowestTimeConstant, IsInfiniteBeyondTheBound) {
   loop::ControllerParameters controller;
-  const double bound = sampled_critical_integral_gain(110.0, rig, paper_encoder, controller);
+  const double bound = sampled_critical_integral_gain(110.0, machine, paper_encoder, controller);
   controller.ki = 1.001 * bound;
-  EXPECT_TRUE(std::isinf(slowest_time_constant(110.0, rig, paper_encoder, controller)));
+  EXPECT_TRUE(std::isinf(slowest_time_constant(110.0, machine, paper_encoder, controller)));
   controller.ki = 0.9 * bound;
-  EXPECT_TRUE(std::isfinite(slowest_time_constant(110.0, rig, paper_encoder, controller)));
+  EXPECT_TRUE(std::isfinite(slowest_time_constant(110.0, machine, paper_encoder, controller)));
   controller.ki = 0.0;
-  EXPECT_TRUE(std::isfinite(slowest_time_constant(110.0, rig, paper_encoder, controller)));
+  EXPECT_TRUE(std::isfinite(slowest_time_constant(110.0, machine, paper_encoder, controller)));
 }
 
 TEST(SampledCriticalIntegralGain, OfAFreeRotorWithoutKpIsZero) {

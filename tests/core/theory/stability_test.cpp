@@ -12,7 +12,7 @@
 namespace zerocount::theory {
 namespace {
 
-// The defaults of these structs are the paper's rig.
+// The defaults of these structs are the paper's machine.
 const motion::PlantParameters plant;
 const friction::FrictionParameters contact;
 const loop::EncoderParameters encoder;
@@ -79,7 +79,7 @@ TEST(Gains, SampledControllerApproachesTheContinuousOneOnAMovingError) {
   EXPECT_NEAR(sampled, continuous, 1e-4);
 }
 
-TEST(Criteria, BoundsOfThePapersRig) {
+TEST(Criteria, BoundsOfThePapersMachine) {
   const IntegralGainBounds bounds = integral_gain_bounds(plant, contact, encoder, integral_only);
   expect_as_printed(bounds.stable_below, 3.85e-5, 1e-7);
   expect_as_printed(bounds.unstable_above, 3.01e-4, 1e-6);
@@ -115,7 +115,7 @@ TEST(Criteria, CriticalGainPutsThePolesOfTheContinuousLoopOnTheImaginaryAxis) {
   }
 }
 
-TEST(Rules, DacStepOfThePapersRig) {
+TEST(Rules, DacStepOfThePapersMachine) {
   expect_as_printed(dac_resolution_bound(contact.k1, encoder), 4.27e-4, 1e-6);
   EXPECT_LT(loop::DacParameters{}.resolution, dac_resolution_bound(contact.k1, encoder));
 }
@@ -126,7 +126,7 @@ TEST(Rules, DacStepWithTheCoarseEncoderFedBack) {
                    18.75 * dac_resolution_bound(contact.k1, encoder));
 }
 
-TEST(Rules, NaturalFrequencyAndSampleRateOfThePapersRig) {
+TEST(Rules, NaturalFrequencyAndSampleRateOfThePapersMachine) {
   expect_as_printed(natural_frequency(contact.k1 + contact.k2, plant), 198.0, 1.0);
   EXPECT_NEAR(advised_sample_rate(plant, contact), 1983.0, 1.0);
   EXPECT_GT(integral_only.sample_rate, advised_sample_rate(plant, contact));
@@ -175,7 +175,7 @@ TEST(Rules, NoAngleHasALowerStiffnessThanTheLowest) {
 
 // A slow integral control: the time that it takes to its target, against closed forms and trials.
 
-trial::TrialParameters slow_rig(double ki, double kp = 0.0) {
+trial::TrialParameters slow_machine(double ki, double kp = 0.0) {
   trial::TrialParameters p;
   p.controller.ki = ki;
   p.controller.kp = kp;
@@ -185,7 +185,7 @@ trial::TrialParameters slow_rig(double ki, double kp = 0.0) {
 TEST(SlowApproach, HasTheTimeConstantOfTheSampledLoop) {
   for (const double kp : {0.0, 3.0e-4, 2.0e-3}) {
     for (const double stiffness : {110.0, 400.0, 860.0}) {
-      const trial::TrialParameters p = slow_rig(1.0e-7, kp);
+      const trial::TrialParameters p = slow_machine(1.0e-7, kp);
       const double sampled = slowest_time_constant(stiffness, p.plant, p.encoder, p.controller);
       EXPECT_NEAR(slow_time_constant(stiffness, p.encoder, p.controller), sampled, 0.01 * sampled)
           << kp << " " << stiffness;
@@ -194,7 +194,7 @@ TEST(SlowApproach, HasTheTimeConstantOfTheSampledLoop) {
 }
 
 TEST(SlowApproach, IsAnExponentialWhereTheSpringDoesNotSoften) {
-  const trial::TrialParameters p = slow_rig(1.0e-6);
+  const trial::TrialParameters p = slow_machine(1.0e-6);
   friction::FrictionParameters contact;
   const auto exponential = [&](double stiffness, double step) {
     return slow_time_constant(stiffness, p.encoder, p.controller) * std::log(2.0 * step);
@@ -214,11 +214,11 @@ TEST(SlowApproach, IsAnExponentialWhereTheSpringDoesNotSoften) {
   }
 }
 
-// Moves of the paper's rig that reverse the motion, as the formula supposes.
+// Moves of the paper's machine that reverse the motion, as the formula supposes.
 TEST(SlowApproach, TellsWhenTrialsArrive) {
   for (const double ki : {2.0e-7, 1.0e-6}) {
     for (const std::int64_t step : {2, 5, 12, 30}) {
-      trial::TrialParameters p = slow_rig(ki);
+      trial::TrialParameters p = slow_machine(ki);
       p.friction.uniform.alpha = 0.0;
       const double expected = slow_arrival_time(step, p.friction.uniform, p.encoder, p.controller);
       p.command.targets = {60, 60 - step};
@@ -231,14 +231,14 @@ TEST(SlowApproach, TellsWhenTrialsArrive) {
 }
 
 TEST(ChatterTime, IsThatOfTheIntegralThatTakesOverFromTheProportionalGain) {
-  const trial::TrialParameters p = slow_rig(1.0e-6, 1.0e-3);
+  const trial::TrialParameters p = slow_machine(1.0e-6, 1.0e-3);
   const friction::FrictionParameters& contact = p.friction.uniform;
   const double decay = 1.0e-3 / (2.0 * 1.0e-6 * 2000.0);
-  const double frequency = 198.3;  // Hz, of the paper's rig
+  const double frequency = 198.3;  // Hz, of the paper's machine
   EXPECT_NEAR(chatter_time(p.plant, contact, p.controller, 0.05), decay * std::log(frequency * 0.05),
               1e-3 * decay);
   EXPECT_EQ(chatter_time(p.plant, contact, p.controller, 0.001), 0.0);
-  EXPECT_EQ(chatter_time(p.plant, contact, slow_rig(1.0e-6).controller, 0.05), 0.0);
+  EXPECT_EQ(chatter_time(p.plant, contact, slow_machine(1.0e-6).controller, 0.05), 0.0);
 }
 
 // The shortest move under bounded torque, against closed forms and a stepwise integration.

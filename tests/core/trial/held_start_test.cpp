@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/trial/rig.hpp"
+#include "core/trial/machine.hpp"
 #include "core/trial/trial.hpp"
 #include "tests/support/draws.hpp"
 #include "tests/support/each_seed.hpp"

@@ -45,28 +45,28 @@ def sobol_first_dimension(index):
     return int(format(gray, "064b")[::-1], 2)
 
 
-def rotor(seed, name, rig, correlation_length, harmonics):
-    """Cosine and sine coefficients of a profile of this rig."""
+def rotor(seed, name, machine, correlation_length, harmonics):
+    """Cosine and sine coefficients of a profile of this machine."""
     variances = [1.0] + [2 * math.exp(-((m * correlation_length / 2) ** 2)) for m in range(1, harmonics)]
     normal = statistics.NormalDist().inv_cdf
     coefficients = {}
     for draw, part in ((2, "cosine"), (3, "sine")):
         coefficients[part] = [
-            0.0 if part == "sine" and m == 0 else math.sqrt(variance / sum(variances)) * normal(uniform(bits(seed, name, m + rig * 2**32, draw, 0)))
+            0.0 if part == "sine" and m == 0 else math.sqrt(variance / sum(variances)) * normal(uniform(bits(seed, name, m + machine * 2**32, draw, 0)))
             for m, variance in enumerate(variances)
         ]
     return coefficients
 
 
-def judge_rigs():
-    """What is drawn for a rig, the study, a trial and a contact."""
-    answers = json.loads(subprocess.check_output([sys.argv[1], "rig_draws"]))
+def judge_machines():
+    """What is drawn for a machine, the study, a trial and a contact."""
+    answers = json.loads(subprocess.check_output([sys.argv[1], "machine_draws"]))
     for a in answers:
         seed, trial, stream = a["seed"], a["trial"], a["stream"]
-        rig = trial % a["rigs"]
+        machine = trial % a["machines"]
         wanted = {
-            "friction.k1.profile.mean": bits(seed, "friction.k1.profile.mean", rig, 0, 0),
-            "friction.k2": bits(seed, "friction.k2", rig, 0, 0),
+            "friction.k1.profile.mean": bits(seed, "friction.k1.profile.mean", machine, 0, 0),
+            "friction.k2": bits(seed, "friction.k2", machine, 0, 0),
             "friction.beta": bits(seed, "friction.beta", 0, 0, 0),
             "initial.position": bits(seed, "initial.position", trial, 0, stream),
         }
@@ -77,14 +77,14 @@ def judge_rigs():
         contacts += [uniform(bits_in_trial(seed, "friction.lambda/contacts", trial, k, stream)) for k in (1, 2, 3)]
         if a["friction.lambda"] != [(1.0 + u) - 1.0 for u in contacts]:
             sys.exit(f"{a}: the contacts should have {contacts}")
-        judged = rotor(seed, "friction.k1", rig, a["correlation_length"], len(a["cosine"]))
+        judged = rotor(seed, "friction.k1", machine, a["correlation_length"], len(a["cosine"]))
         for part in ("cosine", "sine"):
             worst = max(abs(x - y) for x, y in zip(a[part], judged[part], strict=True))
             if worst > 1e-12:
                 sys.exit(f"{a}: {part} differs by {worst}")
     if len(answers) < 8 or len({a["friction.k2"] for a in answers}) < 3:
-        sys.exit(f"only {len(answers)} trials on rigs were compared")
-    print(f"{len(answers)} trials on rigs agree")
+        sys.exit(f"only {len(answers)} trials on machines were compared")
+    print(f"{len(answers)} trials on machines agree")
 
 
 def main():
@@ -132,7 +132,7 @@ def main():
     # A fixed answer, so that the definition cannot drift in both places at once.
     assert key_of(20020721, "initial.history/levels") == (0xD21635AD, 0x895827FC)
     print(f"the keys of {len(answers)} trials agree")
-    judge_rigs()
+    judge_machines()
 
 
 main()

@@ -129,9 +129,9 @@ TEST(Guides, AManifestHasTheMeasuredSpringInEachOfItsMachines) {
       axis.spring = spring;
       const std::string text = guide_manifest(guide, axis);
       const study::Study study = manifest::parse_study(text, "guide.yaml");
-      for (std::int64_t rig = 0; rig < study.rigs; ++rig) {
+      for (std::int64_t machine = 0; machine < study.machines; ++machine) {
         const friction::FrictionParameters contact =
-            friction::friction_at(study::study_trial(study, 0, rig).parameters.friction, 0.0);
+            friction::friction_at(study::study_trial(study, 0, machine).parameters.friction, 0.0);
         const auto torque = [&](double travel) { return 0.5 * friction::branch_law(contact, 2.0 * travel); };
         EXPECT_NEAR(torque(spring.travel) / spring.breakaway, 1.0, 1e-12);
         EXPECT_NEAR(torque(spring.secant_travel) / (spring.secant_stiffness * spring.secant_travel), 1.0,

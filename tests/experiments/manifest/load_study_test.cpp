@@ -160,10 +160,9 @@ TEST_F(AllTrialsFile, ThatIsMissingOrADirectoryIsBadInput) {
   EXPECT_TRUE(says(failure_of(folder, ExitCode::bad_input), "this is a directory"));
 }
 
-TEST_F(AllTrialsFile, OfAHundredMegabytesIsRefusedUnread) {
+TEST_F(AllTrialsFile, OfTwoMegabytesIsTooLarge) {
   const auto path = folder / "huge.yaml";
-  std::ofstream(path) << "x";
-  std::filesystem::resize_file(path, 100'000'000);
+  std::ofstream(path) << std::string(2'000'000, 'x');
   EXPECT_EQ(failure_of(path, ExitCode::bad_input),
             path.string() + ":1:1: manifest: the file is too large; expected at most 1048576 bytes");
 }

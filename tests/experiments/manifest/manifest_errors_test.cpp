@@ -101,21 +101,22 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"encoder: {fine: 0}", "6:17: encoder.fine | from 1 to 1000000000000"},
         Case{"retain: {trials: [10]}", "6:19: retain.trials.0 | from 0 to 9"},
         Case{"retain: {trials: [1, 1]}", "6:22: retain.trials.1 | duplicate"},
-        Case{"rigs: 1", "6:7: rigs | from 2 to 4294967296"},
-        Case{"rigs: 4", "4:9: trials | cannot be divided equally"},
-        Case{"friction: {k1: {uniform: [1, 2], per: rig}}", "6:39: friction.k1.per | has no machines"},
+        Case{"machines: 1", "6:11: machines | from 2 to 4294967296"},
+        Case{"machines: 4", "4:9: trials | cannot be divided equally"},
+        Case{"friction: {k1: {uniform: [1, 2], per: machine}}", "6:39: friction.k1.per | has no machines"},
         Case{"friction: {k1: {uniform: [1, 2], per: move}}", "6:39: friction.k1.per | 'move'"},
         Case{"friction: {k1: {per: trial}}", "6:16: friction.k1 | map with 1 keys"},
         Case{"plant: {inertia: {uniform: [1, 2], per: contact}}", "6:41: plant.inertia.per | only friction"},
         Case{"friction: {k1: {profile: {mean: 110, cv: 0.1, correlation_length: 1}, per: trial}}",
-             "6:76: friction.k1.per | study or rig"},
+             "6:76: friction.k1.per | study or machine"},
         Case{"friction: {k1: {profile: {mean: 110, cv: 0.1, correlation_length: 1}, per: contact}}",
-             "6:76: friction.k1.per | study or rig"},
-        Case{"friction: {k1: {profile: {mean: {uniform: [1, 2], per: rig}, cv: 0.1, correlation_length: 1}}}",
+             "6:76: friction.k1.per | study or machine"},
+        Case{"friction: {k1: {profile: {mean: {uniform: [1, 2], per: machine}, cv: 0.1, correlation_length: "
+             "1}}}",
              "6:33: friction.k1.profile.mean | per beside profile"},
         Case{"friction: {k1: {profile: {mean: {normal: {mean: 1, sd: 1}}, cv: 0.1, correlation_length: 1}}}",
              "6:33: friction.k1.profile.mean | not all positive"},
-        Case{"rigs: 20", "4:9: trials | cannot be divided equally"}));
+        Case{"machines: 20", "4:9: trials | cannot be divided equally"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Distributions, SixthLine,

@@ -52,12 +52,12 @@ TEST(MeasuredCreep, ActsAsTheConstantsOfTheLawThatFollow) {
 }
 
 TEST(MeasuredCreep, IsDrawnAtEveryLevelAndRecordedWithWhatFollows) {
-  for (const std::string level : {"study", "world", "rig", "trial"}) {
+  for (const std::string level : {"study", "world", "machine", "trial"}) {
     const study::Study study =
         study_of(with_creep("torque: 0.015, extension: {lognormal: {median: 1.0e-5, cv: 0.5}, per: " + level +
                                 "}, rate: {log_uniform: [0.1, 2], per: " + level +
                                 "}, exponent: {interval: [1.5, 2.5]}",
-                            "worlds: 2\nrigs: 4\n"),
+                            "worlds: 2\nmachines: 4\n"),
                  {"trials=24"});
     std::set<double> lambdas;
     for (std::int64_t i = 0; i < study.trials; ++i) {
@@ -69,16 +69,16 @@ TEST(MeasuredCreep, IsDrawnAtEveryLevelAndRecordedWithWhatFollows) {
                   std::pow(0.015, contact.n), 1e-14 * std::pow(0.015, contact.n));
       lambdas.insert(contact.lambda);
     }
-    EXPECT_EQ(lambdas.size(), level == "trial" ? 24u : level == "rig" ? 4u : 2u) << level;
-    const auto rig_column = std::ranges::find(study.columns.shared[study::Grouping::rig], "friction.lambda",
-                                              &study::InputColumn::name);
-    EXPECT_EQ(rig_column != study.columns.shared[study::Grouping::rig].end(), level == "rig");
-    if (level == "rig") {
+    EXPECT_EQ(lambdas.size(), level == "trial" ? 24u : level == "machine" ? 4u : 2u) << level;
+    const auto machine_column = std::ranges::find(study.columns.shared[study::Grouping::machine],
+                                                  "friction.lambda", &study::InputColumn::name);
+    EXPECT_EQ(machine_column != study.columns.shared[study::Grouping::machine].end(), level == "machine");
+    if (level == "machine") {
       const auto column =
-          static_cast<std::size_t>(rig_column - study.columns.shared[study::Grouping::rig].begin());
-      for (std::int64_t rig = 0; rig < 4; ++rig)
-        EXPECT_EQ(study::group_inputs(study, study::Grouping::rig, rig)[column],
-                  contact_of(study, 0, rig).lambda);
+          static_cast<std::size_t>(machine_column - study.columns.shared[study::Grouping::machine].begin());
+      for (std::int64_t machine = 0; machine < 4; ++machine)
+        EXPECT_EQ(study::group_inputs(study, study::Grouping::machine, machine)[column],
+                  contact_of(study, 0, machine).lambda);
     }
   }
 }
@@ -191,13 +191,13 @@ void expect_as_measured(const study::Study& study, std::int64_t index, bool seca
 }
 
 TEST(MeasuredSpringOfStudy, IsDrawnAtEveryLevelByEitherGroup) {
-  for (const std::string level : {"world", "rig", "trial"}) {
+  for (const std::string level : {"world", "machine", "trial"}) {
     const auto spread = [&](double low, double high) {
       return fmt::format("{{uniform: [{}, {}], per: {}}}", low, high, level);
     };
     const std::string common = "final_stiffness: " + spread(90, 120) + ", breakaway: " + spread(0.29, 0.31) +
                                ", breakaway_travel: " + spread(1.9e-3, 2.1e-3);
-    const std::string worlds = "worlds: 2\nrigs: 4\n";
+    const std::string worlds = "worlds: 2\nmachines: 4\n";
     const study::Study initial = study_of(
         with_spring("initial_stiffness: " + spread(600, 900) + ", " + common, worlds), {"trials=16"});
     const study::Study secant =
@@ -210,7 +210,7 @@ TEST(MeasuredSpringOfStudy, IsDrawnAtEveryLevelByEitherGroup) {
       expect_as_measured(secant, i, true);
       betas.insert(spring_of(initial, 0, i).beta);
     }
-    EXPECT_EQ(betas.size(), level == "trial" ? 16u : level == "rig" ? 4u : 2u) << level;
+    EXPECT_EQ(betas.size(), level == "trial" ? 16u : level == "machine" ? 4u : 2u) << level;
   }
 }
 
@@ -275,7 +275,7 @@ TEST(MeasuredSpringOfStudy, RefusesWhatNoMachineHasWithItsNumbers) {
       has_faults(refusal("secant_stiffness: 1000, secant_travel: 2.0e-4, final_stiffness: 110" + rest),
                  "6:41: friction.measured.secant_stiffness | = 0.398 N m | breakaway = 0.3 N m"));
   EXPECT_TRUE(has_faults(
-      refusal("initial_stiffness: 860, final_stiffness: {uniform: [100, 200]}" + rest, "rigs: 2\n"),
+      refusal("initial_stiffness: 860, final_stiffness: {uniform: [100, 200]}" + rest, "machines: 2\n"),
       "6:64: friction.measured.final_stiffness | machine | is not below"));
   EXPECT_TRUE(has_faults(
       refusal("initial_stiffness: 860, final_stiffness: {lognormal: {median: 110, cv: 0.1}, per: contact}" +

@@ -8,8 +8,8 @@ namespace {
 
 const std::vector<std::string> designs_with_worlds{"monte_carlo", "latin_hypercube", "sobol"};
 
-/// With these values of k1, k2 and beta. Of the others inertia and alpha are drawn for each rig, if there are
-/// rigs, and the position for each trial.
+/// With these values of k1, k2 and beta. Of the others inertia and alpha are drawn for each machine, if there
+/// are machines, and the position for each trial.
 std::string machines_with(const std::string& k1, const std::string& k2, const std::string& beta) {
   return minimal_manifest(
       "plant: {inertia: {uniform: [5.0e-4, 6.0e-4]}}\n"
@@ -28,12 +28,12 @@ std::string machines_in_worlds() {
 const std::vector<std::string> values_of_worlds{"friction.k1", "friction.k2", "friction.beta"};
 const std::vector<std::string> other_values{"plant.inertia", "friction.alpha", "initial.position"};
 
-/// @param worlds 0: none @param rigs likewise
-study::Study study_with_worlds(const std::string& text, const std::string& design, int worlds, int rigs,
+/// @param worlds 0: none @param machines likewise
+study::Study study_with_worlds(const std::string& text, const std::string& design, int worlds, int machines,
                                int trials, const std::vector<std::string>& more = {}) {
   std::vector<std::string> overrides{"design=" + design, fmt::format("trials={}", trials)};
   if (worlds > 0) overrides.push_back(fmt::format("worlds={}", worlds));
-  if (rigs > 0) overrides.push_back(fmt::format("rigs={}", rigs));
+  if (machines > 0) overrides.push_back(fmt::format("machines={}", machines));
   overrides.insert(overrides.end(), more.begin(), more.end());
   return study_of(text, overrides);
 }
@@ -48,16 +48,16 @@ std::vector<double> inputs_named(const study::Study& study, const std::vector<st
 
 TEST(Worlds, ShareTheirValuesAmongAllTrialsAndPoints) {
   for (const std::string& design : designs_with_worlds) {
-    for (const int rigs : {0, 30}) {
+    for (const int machines : {0, 30}) {
       for (const std::string independent : {"false", "true"}) {
-        const study::Study study = study_with_worlds(machines_in_worlds(), design, 10, rigs, 60,
+        const study::Study study = study_with_worlds(machines_in_worlds(), design, 10, machines, 60,
                                                      {"independent_points=" + independent});
         std::set<std::vector<double>> different;
         for (std::int64_t trial = 0; trial < study.trials; ++trial) {
           EXPECT_EQ(study::group_of(study, study::Grouping::world, trial), trial % 10);
-          if (rigs > 0) {
+          if (machines > 0) {
             EXPECT_EQ(study::group_of(study, study::Grouping::world, trial),
-                      study::group_of(study, study::Grouping::rig, trial) % 10);
+                      study::group_of(study, study::Grouping::machine, trial) % 10);
           }
           const std::vector<double> of_world = study::group_inputs(study, study::Grouping::world, trial % 10);
           for (std::int64_t point = 0; point < study::point_count(study); ++point)
@@ -96,9 +96,9 @@ TEST(Worlds, HaveAStratumOfEveryValueEachWhateverTheDesign) {
   for (const std::string& design : designs_with_worlds) {
     for (const int worlds : {2, 7, 30, 64}) {
       for (int seed = 1; seed <= 5; ++seed) {
-        for (const int rigs : {0, 2 * worlds}) {
-          const study::Study study = study_with_worlds(machines_in_worlds(), design, worlds, rigs, 4 * worlds,
-                                                       {fmt::format("seed={}", seed)});
+        for (const int machines : {0, 2 * worlds}) {
+          const study::Study study = study_with_worlds(machines_in_worlds(), design, worlds, machines,
+                                                       4 * worlds, {fmt::format("seed={}", seed)});
           std::array<std::set<int>, 3> strata;
           for (std::int64_t world = 0; world < worlds; ++world) {
             const std::vector<double> values = study::group_inputs(study, study::Grouping::world, world);
@@ -120,17 +120,17 @@ TEST(Worlds, HaveAStratumOfEveryValueEachWhateverTheDesign) {
 // The order of a Sobol sequence has to change, so that its trials do not depend on the world.
 TEST(Worlds, ChangeNoOtherDraws) {
   for (const std::string design : {"monte_carlo", "latin_hypercube"}) {
-    for (const int rigs : {0, 30}) {
+    for (const int machines : {0, 30}) {
       for (const std::string independent : {"false", "true"}) {
         const std::vector<std::string> points{"independent_points=" + independent};
-        const study::Study with = study_with_worlds(machines_in_worlds(), design, 10, rigs, 60, points);
+        const study::Study with = study_with_worlds(machines_in_worlds(), design, 10, machines, 60, points);
         const study::Study without =
-            study_with_worlds(machines_with("110", "750", "2.0e5"), design, 0, rigs, 60, points);
+            study_with_worlds(machines_with("110", "750", "2.0e5"), design, 0, machines, 60, points);
         for (std::int64_t trial = 0; trial < 60; ++trial) {
           for (std::int64_t point = 0; point < 2; ++point) {
             EXPECT_EQ(inputs_named(with, other_values, point, trial),
                       inputs_named(without, other_values, point, trial))
-                << design << ", machines " << rigs << ", trial " << trial;
+                << design << ", machines " << machines << ", trial " << trial;
           }
         }
       }
@@ -147,8 +147,8 @@ TEST(Worlds, HaveMachinesAndMovesOfTheWholeRange) {
   constexpr int worlds = 16;
   constexpr int of_each = 128;
   for (const std::string& design : designs_with_worlds) {
-    for (const int rigs : {0, worlds * of_each}) {
-      const study::Study study = study_with_worlds(text, design, worlds, rigs, worlds * of_each);
+    for (const int machines : {0, worlds * of_each}) {
+      const study::Study study = study_with_worlds(text, design, worlds, machines, worlds * of_each);
       std::array<std::set<std::pair<std::int64_t, int>>, 2> parts;
       for (std::int64_t trial = 0; trial < study.trials; ++trial) {
         const std::vector<double> values = inputs_named(study, {"friction.k1", "friction.k2"}, 0, trial);
@@ -156,8 +156,8 @@ TEST(Worlds, HaveMachinesAndMovesOfTheWholeRange) {
         parts[0].emplace(world, stratum((values[0] - 90.0) / 40.0, 8));
         parts[1].emplace(world, stratum((values[1] - 600.0) / 300.0, 8));
       }
-      EXPECT_EQ(parts[0].size(), 8U * worlds) << design << ", machines " << rigs;
-      EXPECT_EQ(parts[1].size(), 8U * worlds) << design << ", machines " << rigs;
+      EXPECT_EQ(parts[0].size(), 8U * worlds) << design << ", machines " << machines;
+      EXPECT_EQ(parts[1].size(), 8U * worlds) << design << ", machines " << machines;
     }
   }
 }
@@ -234,8 +234,8 @@ INSTANTIATE_TEST_SUITE_P(
                       "7:33: friction.k1.profile.mean | an interval is drawn for each world"},
         WorldsRefusal{"worlds: 5\nfriction: {k1: {profile: {mean: 110, cv: 0.1, correlation_length: 0.2}, "
                       "per: world}}",
-                      "7:78: friction.k1.per | belongs to a rotor | study or rig"},
-        WorldsRefusal{"rigs: 5\nworlds: 2\nfriction: {k1: {interval: [90, 130]}}",
+                      "7:78: friction.k1.per | belongs to a rotor | study or machine"},
+        WorldsRefusal{"machines: 5\nworlds: 2\nfriction: {k1: {interval: [90, 130]}}",
                       "7:9: worlds | 5 machines cannot be divided equally among 2 worlds | 4 or 6 machines"},
         WorldsRefusal{"worlds: 11\nfriction: {k1: {interval: [90, 130]}}",
                       "6:9: worlds | only 10 trials | at most 10"},

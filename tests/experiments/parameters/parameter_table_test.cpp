@@ -21,7 +21,7 @@ TEST(ParameterTable, DefaultsAreThoseOfThisVersionOfResultsFiles) {
       << defaults;
 }
 
-TEST(ParameterTable, DefaultsAreTheRigOfThePaper) {
+TEST(ParameterTable, DefaultsAreTheMachineOfThePaper) {
   const std::map<std::string_view, double> paper{{"plant.inertia", 5.54e-4},
                                                  {"plant.presliding_damping", 0.2},
                                                  {"friction.k1", 110},

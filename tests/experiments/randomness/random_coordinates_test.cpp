@@ -10,10 +10,10 @@
 namespace zerocount::randomness {
 namespace {
 
-constexpr const char* on_rigs = R"(zerocount: 1
-name: rigs
+constexpr const char* on_machines = R"(zerocount: 1
+name: machines
 seed: 5
-rigs: 100
+machines: 100
 trials: 200
 friction:
   k1: {profile: {mean: {lognormal: {median: 110, cv: 0.1}}, cv: 0.1, correlation_length: 0.2}}
@@ -42,8 +42,8 @@ double input_of(const study::Study& study, const study::StudyTrial& trial, std::
   return 0.0;
 }
 
-TEST(RandomCoordinates, AreWhatIsDrawnForRigsAndTrials) {
-  const study::Study study = study_of(on_rigs);
+TEST(RandomCoordinates, AreWhatIsDrawnForMachinesAndTrials) {
+  const study::Study study = study_of(on_machines);
   std::vector<std::string> names;
   std::vector<std::string> of_machine;
   for (const RandomCoordinate& one : random_coordinates(study, 0)) {
@@ -58,7 +58,7 @@ TEST(RandomCoordinates, AreWhatIsDrawnForRigsAndTrials) {
 }
 
 TEST(RandomCoordinates, DecideTheQuantiles) {
-  const study::Study study = study_of(on_rigs);
+  const study::Study study = study_of(on_machines);
   const std::vector<RandomCoordinate> coordinates = random_coordinates(study, 0);
   std::mt19937_64 numbers(3);
   for (std::int64_t number = 0; number < 20; ++number) {
@@ -82,7 +82,7 @@ TEST(RandomCoordinates, DecideTheQuantiles) {
 
 // Whatever the field at the start is, far from it the field keeps its distribution.
 TEST(RandomCoordinates, AProfileStaysARandomField) {
-  const study::Study study = study_of(on_rigs);
+  const study::Study study = study_of(on_machines);
   const std::vector<RandomCoordinate> coordinates = random_coordinates(study, 0);
   std::mt19937_64 numbers(4);
   constexpr int trials = 4000;
@@ -159,7 +159,7 @@ TEST(RandomCoordinates, RowsOfJointDrawsAreOneCoordinate) {
 
 // The number of a trial decides what the coordinates do not: noise, later contacts, the rest of the rotor.
 TEST(RandomCoordinates, TheNumberDecidesTheOtherRandomNumbers) {
-  const study::Study study = study_of(on_rigs);
+  const study::Study study = study_of(on_machines);
   const std::vector<RandomCoordinate> coordinates = random_coordinates(study, 0);
   const std::vector<double> z(coordinates.size(), 0.3);
   const study::StudyTrial one = study::study_trial(study, 0, 0, draws_at(study, coordinates, z, 7));
@@ -182,7 +182,7 @@ using ::testing::Pointwise;
 constexpr const char* correlated = R"(zerocount: 1
 name: variables
 seed: 5
-rigs: 50
+machines: 50
 trials: 100
 correlation: [[friction.k1, friction.k2, 0.6]]
 friction:

@@ -454,7 +454,7 @@ INSTANTIATE_TEST_SUITE_P(
                   "7:18: verdict.dwell | less than one sample\n"
                   "7:32: verdict.window | less than one sample"}));
 
-// Paper's rig: 2π/1 620 000 rad a count. From 0 to 1° = 4500 counts = 0.01745 rad: with 2 rad/s and 100
+// Paper's machine: 2π/1 620 000 rad a count. From 0 to 1° = 4500 counts = 0.01745 rad: with 2 rad/s and 100
 // rad/s² the velocity stays below its limit, and the travel takes 2√(0.01745/100) = 0.0264222 s.
 INSTANTIATE_TEST_SUITE_P(
     Travel, ValueRules,

@@ -137,8 +137,10 @@ TEST(PluginParameters, AreSweptAndOverridden) {
             (std::vector<double>{4, 7}));
 }
 
-TEST(PluginParameters, AreDrawnForRigsAndInEveryDesign) {
-  EXPECT_EQ(study_with_plugin(own, {"rigs=5", "trials=10"}).columns.shared[study::Grouping::rig].size(), 1u);
+TEST(PluginParameters, AreDrawnForMachinesAndInEveryDesign) {
+  EXPECT_EQ(
+      study_with_plugin(own, {"machines=5", "trials=10"}).columns.shared[study::Grouping::machine].size(),
+      1u);
   EXPECT_EQ(study_with_plugin(own, {"design=saltelli", "trials=9"}).factors,
             std::vector<std::string>{"controller.parameters.gain"});
   const study::Study sobol = study_with_plugin(own, {"design=sobol", "trials=8"});
@@ -261,9 +263,9 @@ TEST(Lists, ValuesAreDrawnByTheirNames) {
   EXPECT_EQ(trial.parameters.controller.blocks.filters[3].b[2], trial.inputs[1]);
 }
 
-TEST(Lists, WithRigsTheirValuesBelongToTheRig) {
-  const study::Study study = study_of(minimal_manifest(filters), {"rigs=5", "trials=10"});
-  ASSERT_EQ(study.columns.shared[study::Grouping::rig].size(), 2u);
+TEST(Lists, WithMachinesTheirValuesBelongToTheMachine) {
+  const study::Study study = study_of(minimal_manifest(filters), {"machines=5", "trials=10"});
+  ASSERT_EQ(study.columns.shared[study::Grouping::machine].size(), 2u);
   EXPECT_EQ(study::study_trial(study, 0, 2).inputs, study::study_trial(study, 0, 7).inputs);
   EXPECT_NE(study::study_trial(study, 0, 2).inputs, study::study_trial(study, 0, 3).inputs);
 }

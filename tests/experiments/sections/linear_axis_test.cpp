@@ -36,7 +36,7 @@ TEST(LinearAxis, HasItsUnitsAndTheLengthOfACount) {
   EXPECT_EQ(loop::fine_per_coarse(trial.parameters.encoder), 1.0);
 }
 
-TEST(LinearAxis, IsAskedForAllThatTheRotaryRigsDefaultsSayNothingOf) {
+TEST(LinearAxis, IsAskedForAllThatTheRotaryMachinesDefaultsSayNothingOf) {
   const std::string refusal = refusal_of(minimal_manifest("axis: linear\ncontroller: {units: si}\n"));
   EXPECT_TRUE(says(refusal,
                    "plant.inertia: the key is missing, and its default, 0.000554 kg m^2, has another unit; "

@@ -380,7 +380,7 @@ INSTANTIATE_TEST_SUITE_P(
                            "correlation: [[friction.k1, friction.k2, 0.5]]",
                            "7:29: correlation.0.1 | cannot be correlated"},
         CorrelationRefusal{
-            "rigs: 2\nfriction: {k1: {uniform: [90, 130]}}\ninitial: {position: {uniform: [0, 6]}}\n"
+            "machines: 2\nfriction: {k1: {uniform: [90, 130]}}\ninitial: {position: {uniform: [0, 6]}}\n"
             "correlation: [[friction.k1, initial.position, 0.5]]",
             "9:14: correlation | per"},
         CorrelationRefusal{

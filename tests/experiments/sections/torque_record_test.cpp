@@ -260,23 +260,23 @@ TEST_P(EvenDesigns, UseEveryRowEquallyOften) {
 
 INSTANTIATE_TEST_SUITE_P(Samples, EvenDesigns, testing::Values("latin_hypercube", "sobol"));
 
-TEST(Samples, BelongToTheRigsWithRigs) {
+TEST(Samples, BelongToTheMachinesWithMachines) {
   const RandomTable table(30, 8);
   const study::Study study =
-      manifest::parse_study(minimal_manifest("samples: p.csv\n"), "m.yaml", {"trials=40", "rigs=10"},
+      manifest::parse_study(minimal_manifest("samples: p.csv\n"), "m.yaml", {"trials=40", "machines=10"},
                             known_companions(nullptr, table.text));
-  EXPECT_EQ(study.samples->level, study::DrawLevel::rig);
+  EXPECT_EQ(study.samples->level, study::DrawLevel::machine);
   for (std::int64_t trial = 10; trial < 40; ++trial)
     EXPECT_EQ(inputs_of(study, trial), inputs_of(study, trial % 10));
-  for (std::int64_t rig = 0; rig < 10; ++rig)
-    EXPECT_EQ(study::group_inputs(study, study::Grouping::rig, rig), inputs_of(study, rig));
+  for (std::int64_t machine = 0; machine < 10; ++machine)
+    EXPECT_EQ(study::group_inputs(study, study::Grouping::machine, machine), inputs_of(study, machine));
 }
 
-TEST(Samples, CanBeDrawnForEveryTrialWithRigs) {
+TEST(Samples, CanBeDrawnForEveryTrialWithMachines) {
   const RandomTable table(1000, 8);
   const study::Study study =
       manifest::parse_study(minimal_manifest("samples: {file: p.csv, per: trial}\n"), "m.yaml",
-                            {"trials=40", "rigs=10"}, known_companions(nullptr, table.text));
+                            {"trials=40", "machines=10"}, known_companions(nullptr, table.text));
   EXPECT_GT(counts_of(study).size(), 30U);
 }
 
@@ -327,10 +327,10 @@ INSTANTIATE_TEST_SUITE_P(
                        "p.csv:1:1: friction.k1 | the column"},
         SamplesRefusal{"friction.k1\n100\n", "sweep: {grid: {friction.k1: [90, 100]}}\nsamples: p.csv",
                        "p.csv:1:1: friction.k1 | the column"},
-        SamplesRefusal{"friction.k1,initial.position\n100,1\n", "rigs: 2\nsamples: p.csv",
-                       "7:10: samples | per: rig"},
-        SamplesRefusal{"friction.k1\n100\n", "samples: {per: rig}", "6:10: samples.file | missing"},
-        SamplesRefusal{"friction.k1\n100\n", "samples: {file: p.csv, per: rig}",
+        SamplesRefusal{"friction.k1,initial.position\n100,1\n", "machines: 2\nsamples: p.csv",
+                       "7:10: samples | per: machine"},
+        SamplesRefusal{"friction.k1\n100\n", "samples: {per: machine}", "6:10: samples.file | missing"},
+        SamplesRefusal{"friction.k1\n100\n", "samples: {file: p.csv, per: machine}",
                        "6:29: friction.k1.per | has no machines"},
         SamplesRefusal{"friction.k1\n100\n", "samples: 5", "6:10: samples | truth value"},
         SamplesRefusal{"friction.k1\n100\n101\n",

@@ -78,7 +78,7 @@ const std::string command_of_ages =
     "encoder: {fine_errors: {noise: 0.1}}\n";
 
 struct Shape {
-  int rigs{2}, conditions{0}, ages{1}, worlds{0}, each{1};
+  int machines{2}, conditions{0}, ages{1}, worlds{0}, each{1};
   std::string design{};
 
   int of_age() const { return std::max(conditions, 1); }
@@ -87,8 +87,8 @@ struct Shape {
 std::string manifest_of_shape(const Shape& shape, const std::vector<AgedValue>& values,
                               const std::optional<std::vector<double>>& ages) {
   std::string text =
-      fmt::format("zerocount: 1\nname: aged\nseed: 11\ndesign: {}\nrigs: {}\ntrials: {}\n", shape.design,
-                  shape.rigs, shape.rigs * shape.of_age() * shape.each * (ages ? shape.ages : 1));
+      fmt::format("zerocount: 1\nname: aged\nseed: 11\ndesign: {}\nmachines: {}\ntrials: {}\n", shape.design,
+                  shape.machines, shape.machines * shape.of_age() * shape.each * (ages ? shape.ages : 1));
   if (shape.worlds > 0) text += fmt::format("worlds: {}\n", shape.worlds);
   if (shape.conditions > 0) {
     text += "conditions: {";
@@ -106,7 +106,7 @@ class RandomShapes {
 
   Shape shape() {
     const std::vector<std::string> designs{"monte_carlo", "latin_hypercube", "sobol"};
-    Shape shape{.rigs = 2 * number(1, 4), .conditions = number(0, 3), .ages = number(1, 4)};
+    Shape shape{.machines = 2 * number(1, 4), .conditions = number(0, 3), .ages = number(1, 4)};
     shape.worlds = number(0, 1) == 1 ? 2 : 0;
     shape.each = number(1, 3);
     shape.design = designs[static_cast<std::size_t>(number(0, 2))];
@@ -149,9 +149,9 @@ double rate_of(const AgedValue& value, const Study& study, const StudyTrial& tri
 // A table by a grouping counts every trial once, and as many in each of its groups.
 TEST(Groupings, DivideTheTrialsEquallyAndIndependently) {
   constexpr std::int64_t trials = 240;
-  for (const std::int64_t rigs : {1, 4}) {
-    const TrialTurns turns{.rigs = rigs, .conditions = 6, .worlds = 2, .ages = 2};
-    const std::vector<std::int64_t> sizes{rigs, 2, 3, 2};
+  for (const std::int64_t machines : {1, 4}) {
+    const TrialTurns turns{.machines = machines, .conditions = 6, .worlds = 2, .ages = 2};
+    const std::vector<std::int64_t> sizes{machines, 2, 3, 2};
     for (const GroupingTraits& of : groupings) {
       std::vector<std::int64_t> counted(
           static_cast<std::size_t>(sizes.at(static_cast<std::size_t>(of.grouping))));
@@ -160,10 +160,10 @@ TEST(Groupings, DivideTheTrialsEquallyAndIndependently) {
       EXPECT_EQ(counted, std::vector<std::int64_t>(counted.size(), trials / std::ssize(counted))) << of.name;
     }
     for (std::int64_t i = 0; i < trials; ++i) {
-      // The conditions of an age are together. What a rig bears in turn leaves its draw as it is.
+      // The conditions of an age are together. What a machine bears in turn leaves its draw as it is.
       EXPECT_EQ(turns.group_of(Grouping::condition, i) + 3 * turns.group_of(Grouping::age, i),
                 turns.condition_of(i));
-      for (const Grouping of_draw : {Grouping::rig, Grouping::world})
+      for (const Grouping of_draw : {Grouping::machine, Grouping::world})
         EXPECT_EQ(turns.group_of(of_draw, turns.trial_of(turns.draw_of(i), 0)), turns.group_of(of_draw, i));
     }
   }
@@ -179,9 +179,9 @@ TEST(Ages, AreBorneInTurnsOnTheDrawsOfTheStudyWithoutThem) {
     const Study study = study_of(manifest_of_shape(shape, values, ages));
     const Study without = study_of(manifest_of_shape(shape, values, std::nullopt));
     ASSERT_EQ(std::ssize(study.conditions), shape.of_age() * shape.ages);
-    std::vector<double> rates(static_cast<std::size_t>(shape.rigs) * values.size(), 0.0);
+    std::vector<double> rates(static_cast<std::size_t>(shape.machines) * values.size(), 0.0);
     for (std::int64_t i = 0; i < study.trials; ++i) {
-      const std::int64_t r = shape.rigs;
+      const std::int64_t r = shape.machines;
       const std::int64_t c = i / r % shape.of_age();
       const std::int64_t a = i / (r * shape.of_age()) % shape.ages;
       const std::int64_t j = i % r + r * (i / (r * shape.of_age() * shape.ages));
@@ -218,9 +218,9 @@ TEST(Ages, AreBorneInTurnsOnTheDrawsOfTheStudyWithoutThem) {
           EXPECT_NEAR(input_of(study, trial, mean), input_of(without, young, mean) * law_at(value, rate, age),
                       1e-10);
         }
-        double& of_rig = rates[static_cast<std::size_t>(i % r) * values.size() + v];
-        if (i < r) of_rig = rate;
-        EXPECT_EQ(of_rig, rate);  // drawn for each rig
+        double& of_machine = rates[static_cast<std::size_t>(i % r) * values.size() + v];
+        if (i < r) of_machine = rate;
+        EXPECT_EQ(of_machine, rate);  // drawn for each machine
       }
     }
   }
@@ -228,9 +228,9 @@ TEST(Ages, AreBorneInTurnsOnTheDrawsOfTheStudyWithoutThem) {
 
 // The parameters of a trial have the values that its inputs say, whatever the engine.
 TEST(Ages, ActInTheParametersOfTrials) {
-  const Study study = study_of(manifest_of_shape({.rigs = 2, .ages = 2, .each = 1, .design = "monte_carlo"},
-                                                 {aged_pool()[1], aged_pool()[3], aged_pool()[6]},
-                                                 std::vector<double>{0.0, 5e5}));
+  const Study study = study_of(
+      manifest_of_shape({.machines = 2, .ages = 2, .each = 1, .design = "monte_carlo"},
+                        {aged_pool()[1], aged_pool()[3], aged_pool()[6]}, std::vector<double>{0.0, 5e5}));
   for (std::int64_t i = 0; i < study.trials; ++i) {
     const StudyTrial trial = study_trial(study, 0, i);
     EXPECT_EQ(trial.parameters.plant.inertia, input_of(study, trial, "plant.inertia"));
@@ -253,11 +253,11 @@ TEST(Ages, LetParametersFollowFromMeasuredValuesAtTheAge) {
       "scale: "
       "10}}, breakaway: 0.3, breakaway_travel: 1.0e-3}}\n";
   const Study study = study_of(
-      "zerocount: 1\nname: m\nseed: 1\nrigs: 2\ntrials: 4\n"
+      "zerocount: 1\nname: m\nseed: 1\nmachines: 2\ntrials: 4\n"
       "ages: {at: [0, 10]}\n" +
       aged + command_of_ages);
   const Study at_80 = study_of(
-      "zerocount: 1\nname: m\nseed: 1\nrigs: 2\ntrials: 2\nfriction: {measured: {initial_stiffness: 900, "
+      "zerocount: 1\nname: m\nseed: 1\nmachines: 2\ntrials: 2\nfriction: {measured: {initial_stiffness: 900, "
       "final_stiffness: 80, breakaway: 0.3, breakaway_travel: 1.0e-3}}\n" +
       command_of_ages);
   const StudyTrial old = study_trial(study, 0, 2);
@@ -269,7 +269,7 @@ TEST(Ages, LetParametersFollowFromMeasuredValuesAtTheAge) {
 }
 
 TEST(Ages, ChangeWhatIsDrawnForEachContact) {
-  const std::string head = "zerocount: 1\nname: c\nseed: 1\nrigs: 2\n" + command_of_ages;
+  const std::string head = "zerocount: 1\nname: c\nseed: 1\nmachines: 2\n" + command_of_ages;
   const Study study =
       study_of(head +
                "trials: 4\nages: {at: [0, 10]}\nfriction: {k2: {uniform: [600, 900], per: contact, aging: "
@@ -285,7 +285,7 @@ TEST(Ages, ChangeWhatIsDrawnForEachContact) {
 // Overrides of conditions and values of a sweep without `aging` change with age as their parameter does.
 TEST(Ages, AreInheritedByOverridesAndSweptValues) {
   const std::string text =
-      "zerocount: 1\nname: o\nseed: 3\nrigs: 2\ntrials: 12\nages: {at: [0, 10]}\n"
+      "zerocount: 1\nname: o\nseed: 3\nmachines: 2\ntrials: 12\nages: {at: [0, 10]}\n"
       "friction: {k2: {value: 700, aging: {linear: -0.1, scale: 10}}}\n"
       "conditions: {a: {}, b: {friction.k2: 500}, c: {friction.k2: {value: 400, aging: {linear: 0.1, scale: "
       "10}}}}\n" +
@@ -297,7 +297,7 @@ TEST(Ages, AreInheritedByOverridesAndSweptValues) {
                 expected[static_cast<std::size_t>(i / 2)], 1e-10);
   }
   const std::string swept =
-      "zerocount: 1\nname: o\nseed: 3\nrigs: 2\ntrials: 4\nages: {at: [0, 10]}\n"
+      "zerocount: 1\nname: o\nseed: 3\nmachines: 2\ntrials: 4\nages: {at: [0, 10]}\n"
       "sweep: {cases: {steel: {friction.k2: {value: 700, aging: {linear: -0.1, scale: 10}}}, "
       "ceramic: {friction.k2: 600}}}\n" +
       command_of_ages;
@@ -309,7 +309,7 @@ TEST(Ages, AreInheritedByOverridesAndSweptValues) {
 
 TEST(Ages, AreKeptByOverridesOfTheCommandLine) {
   const std::string text =
-      "zerocount: 1\nname: o\nseed: 3\nrigs: 2\ntrials: 4\nages: {at: [0, 10]}\n"
+      "zerocount: 1\nname: o\nseed: 3\nmachines: 2\ntrials: 4\nages: {at: [0, 10]}\n"
       "friction: {k2: {value: 700, aging: {linear: -0.1, scale: 10}}}\n" +
       command_of_ages;
   const auto at_ten = [&](const std::string& override) {
@@ -332,21 +332,22 @@ TEST(Ages, LeaveAStudyOfItsOwnAtEachTurn) {
         study_of(manifest_of_shape(shape, random.values(shape.worlds > 0), random.ages(shape.ages)));
     for (std::int64_t turn = 0; turn < condition_count(study); ++turn) {
       const Study alone = under_condition(study, turn);
-      EXPECT_EQ(alone.trials, shape.rigs * shape.each);
+      EXPECT_EQ(alone.trials, shape.machines * shape.each);
       for (std::int64_t j = 0; j < alone.trials; ++j) {
         const std::int64_t i = turns_of(study).trial_of(j, turn);
         EXPECT_EQ(fmt::format("{}", fmt::join(study_trial(alone, 0, j).inputs, " ")),
                   fmt::format("{}", fmt::join(study_trial(study, 0, i).inputs, " ")));
       }
     }
-    for (std::int64_t rig = 0; rig < study.rigs; ++rig)
-      EXPECT_NO_THROW(group_inputs(study, Grouping::rig, rig));
+    for (std::int64_t machine = 0; machine < study.machines; ++machine)
+      EXPECT_NO_THROW(group_inputs(study, Grouping::machine, machine));
   }
 }
 
 TEST(Ages, AreNamedInFewDigits) {
   const Study study = study_of(
-      "zerocount: 1\nname: named\nseed: 3\nrigs: 2\ntrials: 12\nages: {at: [0, 100000, 1234567], unit: km}\n"
+      "zerocount: 1\nname: named\nseed: 3\nmachines: 2\ntrials: 12\nages: {at: [0, 100000, 1234567], unit: "
+      "km}\n"
       "conditions: {b: {friction.k2: {value: 400, aging: {linear: 0.1, scale: 1.0e+7}}}, a: {}}\n" +
       command_of_ages);
   EXPECT_EQ(study.conditions, (std::vector<std::string>{"b, 0 km", "a, 0 km", "b, 100000 km", "a, 100000 km",
@@ -358,7 +359,8 @@ TEST(Ages, AreNamedInFewDigits) {
 }
 
 std::string refusal_with(const std::string& more, const std::string& ages = "ages: {at: [0, 10]}\n") {
-  return refusal_of("zerocount: 1\nname: f\nseed: 3\nrigs: 2\ntrials: 12\n" + ages + more + command_of_ages);
+  return refusal_of("zerocount: 1\nname: f\nseed: 3\nmachines: 2\ntrials: 12\n" + ages + more +
+                    command_of_ages);
 }
 
 TEST(Ages, FaultsAreReportedWithTheirPlaceAndWhatWouldDo) {
@@ -367,7 +369,7 @@ TEST(Ages, FaultsAreReportedWithTheirPlaceAndWhatWouldDo) {
   const std::vector<std::pair<std::string, std::string>> faults{
       {refusal_with(k2, ""), "6:36: friction.k2.aging: the study has no ages; expected the key ages"},
       {refusal_of("zerocount: 1\nname: f\nseed: 3\ntrials: 12\nages: {at: [0, 10]}\n" + k2 + command_of_ages),
-       "5:7: ages: only machines have ages: the study has none; expected the key rigs"},
+       "5:7: ages: only machines have ages: the study has none; expected the key machines"},
       {refusal_with(k2, "ages: {at: [0, 10, 10]}\n"), "ages.at.2: 10 is not above 10"},
       {refusal_with(k2, "ages: {at: []}\n"), "ages.at: the list is empty; expected a rising list"},
       {refusal_with(k2, "ages: {at: [-1, 10]}\n"), "ages.at.0: "},
@@ -391,11 +393,11 @@ TEST(Ages, FaultsAreReportedWithTheirPlaceAndWhatWouldDo) {
        "k2.aging.lineer: unknown key, nearest known: linear"},
       {refusal_with("friction: {k2: {value: 700, aging: {linear: 1, scale: 0}}}\n"), "k2.aging.scale: "},
       {refusal_with("friction: {k2: {value: 700}}\n"), "value is for a number that changes with age"},
-      {refusal_with("friction: {k2: {value: 700, per: rig, aging: {linear: 1, scale: 2}}}\n"),
+      {refusal_with("friction: {k2: {value: 700, per: machine, aging: {linear: 1, scale: 2}}}\n"),
        "k2.per: a number is not drawn"},
       {refusal_with(
            "friction: {k2: {value: 700, aging: {linear: {uniform: [0, 1], per: trial}, scale: 2}}}\n"),
-       "a rate of aging belongs to a machine; expected per: rig, world or study"},
+       "a rate of aging belongs to a machine; expected per: machine, world or study"},
       {refusal_with(
            "friction: {k2: {value: 700, aging: {linear: {value: 1, aging: {linear: 1, scale: 2}}, scale: "
            "2}}}\n"),
@@ -442,8 +444,8 @@ TEST(Ages, AreHeldAgainstTheEndsOfWhatIsDrawn) {
 }
 
 TEST(Ages, WithoutAnythingThatChangesAreWarnedOf) {
-  const Study study = study_of("zerocount: 1\nname: f\nseed: 3\nrigs: 2\ntrials: 12\nages: {at: [0, 10]}\n" +
-                               command_of_ages);
+  const Study study = study_of(
+      "zerocount: 1\nname: f\nseed: 3\nmachines: 2\ntrials: 12\nages: {at: [0, 10]}\n" + command_of_ages);
   ASSERT_FALSE(study.warnings.empty());
   EXPECT_TRUE(says(study.warnings.back(), "ages: the ages are all alike"));
 }
@@ -451,7 +453,7 @@ TEST(Ages, WithoutAnythingThatChangesAreWarnedOf) {
 // The manifest of a point and condition keeps the law of the section for a value that replaces the section's.
 TEST(Ages, StandInTheManifestOfAPoint) {
   const Study study = study_of(
-      "zerocount: 1\nname: p\nseed: 3\nrigs: 2\ntrials: 4\nages: {at: [0, 10]}\n"
+      "zerocount: 1\nname: p\nseed: 3\nmachines: 2\ntrials: 4\nages: {at: [0, 10]}\n"
       "friction: {k2: {value: 700, aging: {linear: -0.1, scale: 10}}}\n"
       "sweep: {grid: {controller.ki: [1.0e-5, 2.0e-5], friction.k2: [500, 600], friction.k2.aging: [-0.1, "
       "-0.2]}}\n" +

@@ -101,7 +101,7 @@ TEST(Conditions, ATrialIsThatOfTheStudyWithTheOverrides) {
   std::uint64_t state = 1;
   int seed = 0;
   for (const std::string design : {"monte_carlo", "latin_hypercube", "sobol"}) {
-    for (const int rigs : {0, 4}) {
+    for (const int machines : {0, 4}) {
       for (const int worlds : {0, 2}) {
         for (const int conditions : {1, 2, 3}) {
           std::vector<std::vector<std::size_t>> overrides;
@@ -112,7 +112,7 @@ TEST(Conditions, ATrialIsThatOfTheStudyWithTheOverrides) {
           }
           std::vector<std::string> settings{"design=" + design, fmt::format("seed={}", ++seed),
                                             fmt::format("independent_points={}", seed % 2 == 0)};
-          if (rigs > 0) settings.push_back(fmt::format("rigs={}", rigs));
+          if (machines > 0) settings.push_back(fmt::format("machines={}", machines));
           if (worlds > 0) {
             settings.push_back(fmt::format("worlds={}", worlds));
             settings.emplace_back("plant.presliding_damping={interval: [0.1, 0.3]}");
@@ -129,7 +129,7 @@ TEST(Conditions, ATrialIsThatOfTheStudyWithTheOverrides) {
             EXPECT_EQ(part.trials, other.trials);
             std::set<std::int64_t> draws;
             for (std::int64_t i = 0; i < study.trials; ++i) {
-              const std::int64_t r = rigs > 0 ? rigs : 1;
+              const std::int64_t r = machines > 0 ? machines : 1;
               if (i / r % conditions != c) continue;
               const std::int64_t j = i % r + r * (i / (r * conditions));
               draws.insert(j);
@@ -162,7 +162,7 @@ TEST(Conditions, ATrialIsThatOfTheStudyWithTheOverrides) {
   }
 }
 
-/// The values of a rig, or of a world, by the names of their columns.
+/// The values of a machine, or of a world, by the names of their columns.
 std::map<std::string, double> values_of(const std::vector<InputColumn>& columns,
                                         const std::vector<double>& values) {
   std::map<std::string, double> by_name;
@@ -172,14 +172,14 @@ std::map<std::string, double> values_of(const std::vector<InputColumn>& columns,
 }
 
 // What is overridden stands once for each condition, and all else once.
-TEST(Conditions, TellWhatEachRigAndWorldHasUnderThem) {
+TEST(Conditions, TellWhatEachMachineAndWorldHasUnderThem) {
   const std::string machine =
       "friction: {k1: {uniform: [90, 130]}, k2: {uniform: [600, 900]}, lambda: 5}\n"
       "encoder: {fine: 1000000}\n"
       "plant: {inertia: {uniform: [5.0e-4, 6.0e-4], per: world}, "
       "sliding_damping: {uniform: [0.1, 0.2], per: world}}\n";
   const std::string text =
-      "zerocount: 1\nname: c\nseed: 5\nworlds: 3\nrigs: 6\ntrials: 36\n" + machine +
+      "zerocount: 1\nname: c\nseed: 5\nworlds: 3\nmachines: 6\ntrials: 36\n" + machine +
       "command: {targets: [4], hold: 0.1}\ninitial: {position: {uniform: [0, 6]}}\n"
       "conditions: {bare: {}, loaded: {plant.inertia: {uniform: [7.0e-4, 8.0e-4]}, friction.k2: 321, "
       "friction.lambda: {uniform: [2, 4]}}}\n";
@@ -188,28 +188,28 @@ TEST(Conditions, TellWhatEachRigAndWorldHasUnderThem) {
     const Study part = under_condition(study, c);
     const std::string place = "@" + study.conditions[static_cast<std::size_t>(c)];
     const std::set<std::string> overridden{"friction.k2", "friction.lambda", "plant.inertia"};
-    for (std::int64_t rig = 0; rig < study.rigs; ++rig) {
-      const StudyTrial trial = study_trial(study, 0, turns_of(study).trial_of(rig, c));
-      const std::int64_t world = rig % study.worlds;
-      const auto of_rig =
-          values_of(study.columns.shared[Grouping::rig], group_inputs(study, Grouping::rig, rig));
+    for (std::int64_t machine = 0; machine < study.machines; ++machine) {
+      const StudyTrial trial = study_trial(study, 0, turns_of(study).trial_of(machine, c));
+      const std::int64_t world = machine % study.worlds;
+      const auto of_machine =
+          values_of(study.columns.shared[Grouping::machine], group_inputs(study, Grouping::machine, machine));
       const auto of_world =
           values_of(study.columns.shared[Grouping::world], group_inputs(study, Grouping::world, world));
-      const auto rig_of_part =
-          values_of(part.columns.shared[Grouping::rig], group_inputs(part, Grouping::rig, rig));
+      const auto machine_of_part =
+          values_of(part.columns.shared[Grouping::machine], group_inputs(part, Grouping::machine, machine));
       const auto world_of_part =
           values_of(part.columns.shared[Grouping::world], group_inputs(part, Grouping::world, world));
-      EXPECT_EQ(of_rig.size(), 5U);  // k1, k2 and lambda under both conditions
+      EXPECT_EQ(of_machine.size(), 5U);  // k1, k2 and lambda under both conditions
       EXPECT_EQ(of_world.size(), 3U);
-      EXPECT_EQ(rig_of_part.size(), 3U);
+      EXPECT_EQ(machine_of_part.size(), 3U);
       EXPECT_EQ(world_of_part.size(), 2U);
       for (std::size_t i = 0; i < trial.inputs.size(); ++i) {
         const std::string name = study.columns.inputs[i].name;
         if (name == "initial.position") continue;
         const bool is_of_world = name.starts_with("plant.");
         const std::string in_file = overridden.contains(name) ? name + place : name;
-        EXPECT_EQ((is_of_world ? of_world : of_rig).at(in_file), trial.inputs[i]) << in_file;
-        EXPECT_EQ((is_of_world ? world_of_part : rig_of_part).at(name), trial.inputs[i]) << name;
+        EXPECT_EQ((is_of_world ? of_world : of_machine).at(in_file), trial.inputs[i]) << in_file;
+        EXPECT_EQ((is_of_world ? world_of_part : machine_of_part).at(name), trial.inputs[i]) << name;
       }
     }
   }
@@ -217,7 +217,7 @@ TEST(Conditions, TellWhatEachRigAndWorldHasUnderThem) {
 
 TEST(Conditions, HaveWhatTheyOverrideInTheColumnsOfTrials) {
   const Study study = study_of(
-      manifest_with("conditions: {a: {}, b: {plant.inertia: 7.0e-4, friction.k2: 100}}\n"), {"rigs=4"});
+      manifest_with("conditions: {a: {}, b: {plant.inertia: 7.0e-4, friction.k2: 100}}\n"), {"machines=4"});
   const std::size_t inertia = column_of(study, "plant.inertia");
   for (std::int64_t i = 0; i < study.trials; ++i) {
     const StudyTrial trial = study_trial(study, 0, i);
@@ -229,8 +229,8 @@ TEST(Conditions, HaveWhatTheyOverrideInTheColumnsOfTrials) {
 TEST(Conditions, AreExtendedByMoreTrials) {
   for (const std::string design : {"monte_carlo", "sobol"}) {
     const std::string text = manifest_with("conditions: {a: {}, b: {friction.k2: {uniform: [1, 2]}}}\n");
-    const Study few = study_of(text, {"rigs=4", "design=" + design});
-    const Study many = study_of(text, {"rigs=4", "design=" + design, "trials=240"});
+    const Study few = study_of(text, {"machines=4", "design=" + design});
+    const Study many = study_of(text, {"machines=4", "design=" + design, "trials=240"});
     for (std::int64_t i = 0; i < few.trials; ++i)
       EXPECT_EQ(study_trial(few, 0, i).inputs, study_trial(many, 0, i).inputs) << design;
   }
@@ -268,7 +268,7 @@ TEST(Conditions, FaultsAreReportedWithTheirPlaceAndWhatWouldDo) {
       {of("{a: {friction.lambda: {uniform: [1, 2], per: study}}}"),
        "friction.lambda is drawn per trial: an override is drawn as often as its parameter; expected per: "
        "trial"},
-      {of("{a: {}, b: {}, c: {}}", {"rigs=5", "trials=100"}),
+      {of("{a: {}, b: {}, c: {}}", {"machines=5", "trials=100"}),
        "100 trials cannot be divided equally among 5 machines under each of 3 conditions; expected a "
        "multiple of "
        "15, such as 90 or 105"},

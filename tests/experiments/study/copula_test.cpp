@@ -20,7 +20,7 @@ const std::string three_uniform =
 const std::string two_pairs =
     "correlation: [[friction.k2, friction.k1, 0.6], [friction.k1, friction.beta, -0.5]]\n";
 
-/// Uniform numbers of the three parameters, each [trial or rig].
+/// Uniform numbers of the three parameters, each [trial or machine].
 std::vector<std::vector<double>> uniforms(const Study& study, std::int64_t count) {
   std::vector<std::vector<double>> numbers(3);
   for (std::int64_t i = 0; i < count; ++i) {
@@ -74,15 +74,15 @@ TEST(Copula, HasTheStatedCorrelationsAndKeepsTheDistributions) {
   }
 }
 
-TEST(Copula, IsThatOfRigsWhereTheParametersAreDrawnPerRig) {
-  constexpr std::int64_t rigs = 4000;
-  const Study study = study_of(minimal_manifest(three_uniform + two_pairs), {"rigs=4000", "trials=8000"});
-  const std::vector<std::vector<double>> u = uniforms(study, rigs);
-  EXPECT_NEAR(correlation_of_scores(u[0], u[1]), 0.6, 4.0 / std::sqrt(double(rigs)));
-  for (const std::int64_t rig : {0, 17, 3999}) {
-    const StudyTrial first = study_trial(study, 0, rig);
-    EXPECT_EQ(first.inputs, study_trial(study, 0, rig + rigs).inputs);
-    EXPECT_EQ(first.inputs, group_inputs(study, Grouping::rig, rig));
+TEST(Copula, IsThatOfMachinesWhereTheParametersAreDrawnPerMachine) {
+  constexpr std::int64_t machines = 4000;
+  const Study study = study_of(minimal_manifest(three_uniform + two_pairs), {"machines=4000", "trials=8000"});
+  const std::vector<std::vector<double>> u = uniforms(study, machines);
+  EXPECT_NEAR(correlation_of_scores(u[0], u[1]), 0.6, 4.0 / std::sqrt(double(machines)));
+  for (const std::int64_t machine : {0, 17, 3999}) {
+    const StudyTrial first = study_trial(study, 0, machine);
+    EXPECT_EQ(first.inputs, study_trial(study, 0, machine + machines).inputs);
+    EXPECT_EQ(first.inputs, group_inputs(study, Grouping::machine, machine));
   }
 }
 

@@ -92,6 +92,18 @@ TEST(PointLimits, AreTheSupportAndKnowWhetherItHasZero) {
   EXPECT_TRUE(limits_of_velocity("{integers: [-1, 1]}").can_be_zero);
 }
 
+// A list of values need not be in their order.
+TEST(PointLimits, AChoiceHasItsLowestAndHighestValueAndItsMedian) {
+  const Study study = study_of(minimal_manifest("friction: {k1: {choice: [500, 50, 90, 600, 70]}}\n"));
+  const std::size_t slot =
+      slots_named(study.plan->table, std::vector<std::string_view>{"friction.k1"}).front();
+  EXPECT_EQ(extremes_of(*study.plan, slot, 0), (std::pair{50.0, 600.0}));
+  const ValueLimits limits = limits_of_slot(*study.plan, slot, 0);
+  EXPECT_EQ(limits.low, 50.0);
+  EXPECT_EQ(limits.high, 600.0);
+  EXPECT_EQ(limits.typical, 90.0);
+}
+
 }  // namespace
 }  // namespace zerocount::study
 

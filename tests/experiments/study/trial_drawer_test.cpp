@@ -116,7 +116,7 @@ std::string random_spreads(testing::Draws& draws) {
 /// Machines of worlds that bear conditions and age, with profiles, values that differ from contact to
 /// contact, correlated values, and targets in SI units that tolerances need unrounded.
 const std::string aging_machines =
-    "zerocount: 1\nname: machines\nseed: 5\nrigs: 4\nworlds: 2\ntrials: 48\n"
+    "zerocount: 1\nname: machines\nseed: 5\nmachines: 4\nworlds: 2\ntrials: 48\n"
     "ages: {at: [0, 10], unit: h}\n"
     "conditions: {a: {}, b: {friction.k2: {uniform: [500, 600]}, controller.delay: {uniform: [0.5, 1.5]}}}\n"
     "plant: {inertia: {uniform: [5.0e-4, 6.0e-4]}, presliding_damping: {uniform: [0.1, 0.3]}}\n"

@@ -9,7 +9,7 @@ namespace {
 
 using namespace std::string_literals;
 
-const std::string table = "settling_time [ms],overshoot\n41.5,0\n43.5,1\n40.25,0\n";
+const std::string table = "arrival_time [ms],overshoot\n41.5,0\n43.5,1\n40.25,0\n";
 
 /// The text in units of so many bytes, as UTF-16 and UTF-32 have it. Its letters are ASCII.
 std::string widened(const std::string& text, std::size_t bytes, bool big_endian) {

@@ -168,7 +168,7 @@ TEST(ChunkFilters, RandomDigitsTakeLittleMoreThanTheirOwnSize) {
   for (int round = 0; round < 10; ++round) EXPECT_LE(ratio_of(draws_with_period(elements, draws)), 0.88);
 }
 
-// Each design point, or each trial of a rig, has the same draws.
+// Each design point, or each trial of a machine, has the same draws.
 TEST(ChunkFilters, RepeatedDrawsAreCompressed) {
   Draws draws(20260106);
   for (const std::size_t period : {100U, 1000U, 2000U, 4096U, 5000U, 8192U}) {

@@ -69,7 +69,7 @@ std::string type_name(hdf5::Element element) {
 
 TEST(Documentation, DescribesEveryGroupAndMeasureOfAFileAndNoOther) {
   const TemporaryFolder directory;
-  const TemporaryFolder directory_with_rigs;
+  const TemporaryFolder directory_with_machines;
   const TemporaryFolder directory_with_companions;
   const TemporaryFolder directory_with_worlds;
   study::Study with_companions = sample_study();
@@ -105,12 +105,12 @@ TEST(Documentation, DescribesEveryGroupAndMeasureOfAFileAndNoOther) {
     }
   };
   for_each_dataset(write_sample_file(directory.path(), sample_study()), look_up);
-  for_each_dataset(write_sample_file(directory_with_rigs.path(), sample_study_with_rigs()), look_up);
+  for_each_dataset(write_sample_file(directory_with_machines.path(), sample_study_with_machines()), look_up);
   for_each_dataset(write_sample_file(directory_with_companions.path(), with_companions), look_up);
   study::Study in_worlds = sample_study_in_worlds();
   in_worlds.conditions = in_worlds.condition_names = {"empty", "loaded"};
   in_worlds.ages.at = {0.0, 1.0};
-  in_worlds.rigs = 10;
+  in_worlds.machines = 10;
   in_worlds.features.position_error = true;
   in_worlds.features.tolerances = {{1.0e-6}, 1};
   for_each_dataset(write_file_in_worlds(directory_with_worlds.path(), in_worlds), look_up);
@@ -131,7 +131,7 @@ TEST(Documentation, DescribesEveryAttributeOfTheRootAndNoOther) {
 
 /// Everything whose order numbers results.
 constexpr std::string_view with_every_order =
-    "zerocount: 1\nname: ordered\nseed: 1\nrigs: 2\ntrials: 12\n"
+    "zerocount: 1\nname: ordered\nseed: 1\nmachines: 2\ntrials: 12\n"
     "plant: {inertia: 8.0e-4}\ncontroller: {ki: 1.0e-5}\ncommand: {targets: [7, 0], hold: 0.3}\n"
     "conditions: {empty: {}, loaded: {plant.inertia: 9.0e-4}, heavy: {plant.inertia: 1.0e-3}}\n"
     "goals: {first: {band: 1, within: 0.1, moves: 0.9, on: [0]}, second: {band: 0, within: 0.1, moves: 0.9},"

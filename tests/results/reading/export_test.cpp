@@ -55,7 +55,7 @@ TEST_F(Export, PointsHaveTheirAxesAndStatistics) {
   const auto rows = read_table(out / "points.csv");
   ASSERT_EQ(rows.size(), 4U);
   EXPECT_EQ(rows[0], (std::vector<std::string>{"point", "label", "controller.ki [N m/count]", "case",
-                                               "trials", "settling_time_mean [s]"}));
+                                               "trials", "arrival_time_mean [s]"}));
   EXPECT_EQ(rows[1][2], "nan");
   EXPECT_EQ(rows[3][0], "2");
   EXPECT_EQ(rows[3][1], study.points.labels[2]);
@@ -180,7 +180,7 @@ TEST(CsvFile, QuotesWhatNeedsQuotes) {
 }
 
 TEST(Csv, AColumnHasItsUnitInBrackets) {
-  EXPECT_EQ(reading::head_with_unit("settling_time", "s"), "settling_time [s]");
+  EXPECT_EQ(reading::head_with_unit("arrival_time", "s"), "arrival_time [s]");
   EXPECT_EQ(reading::head_with_unit("friction.k1", "N m/rad"), "friction.k1 [N m/rad]");
   EXPECT_EQ(reading::head_with_unit("success_rate", "1"), "success_rate");
   EXPECT_EQ(reading::head_with_unit("case", ""), "case");
@@ -201,9 +201,10 @@ TEST(Python, OpensAFileWithH5pyXarrayAndNetcdf) {
   expect_python_opens(write_sample_file(directory.path(), sample_study()), directory / "output");
 }
 
-TEST(Python, OpensAFileWithRigs) {
+TEST(Python, OpensAFileWithMachines) {
   const TemporaryFolder directory;
-  expect_python_opens(write_sample_file(directory.path(), sample_study_with_rigs()), directory / "output");
+  expect_python_opens(write_sample_file(directory.path(), sample_study_with_machines()),
+                      directory / "output");
 }
 
 TEST(Python, OpensAFileWhoseTablesAreEmpty) {

@@ -23,9 +23,9 @@ sizes = {
     "/jerk": {"jerk": jerks},
     "/trace": {"record": records},
     "/profile/friction.k1": {"theta": 4096},
-    "/profile/friction.k2": {"rig": 8, "theta": 64},
-    "/rig": {"point": None, "rig": 8},
-    "/rig/input": {"rig": 8},
+    "/profile/friction.k2": {"machine": 8, "theta": 64},
+    "/machine": {"point": None, "machine": 8},
+    "/machine/input": {"machine": 8},
 }
 
 
@@ -92,6 +92,6 @@ with h5py.File(path) as opened:
     for used_engine in ("h5netcdf", "netcdf4"):
         check_xarray(opened, used_engine)
 with netCDF4.Dataset(path) as opened:
-    assert opened["outcome/settling_time"].dimensions == ("trial", "move")
+    assert opened["outcome/arrival_time"].dimensions == ("trial", "move")
     assert opened["trial/trial"].dimensions == ("trial",)
 print("opened")

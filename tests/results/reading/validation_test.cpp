@@ -77,7 +77,7 @@ TEST_F(SoundValues, AreAskedOfEveryMeasure) {
   for (const char* flag : {"arrived", "stable"})
     expect_refused(std::string("outcome/") + flag, 41, std::uint8_t{7}, "row 41: it is 7; expected 0 or 1");
   for (const double time : {infinity, -infinity, -0.5})
-    expect_refused("outcome/settling_time", 7, time, "trial 7, move 0: it is ");
+    expect_refused("outcome/arrival_time", 7, time, "trial 7, move 0: it is ");
   expect_refused("outcome/travel_time", 7, -0.5, "trial 7, move 0: it is -0.5; expected a finite time");
   expect_refused("outcome/arrival", 7, std::int64_t{-2}, "trial 7, move 0: it is -2; expected a sample");
   for (const char* count :
@@ -93,7 +93,7 @@ TEST_F(SoundValues, AreAskedOfEveryMeasure) {
 
 TEST_F(SoundValues, AMoveThatArrivedHasASettlingTime) {
   const std::int64_t arrived = trial_with("arrived", 1.0);
-  const fs::path path = forged("outcome/settling_time", arrived, not_a_number);
+  const fs::path path = forged("outcome/arrival_time", arrived, not_a_number);
   expect_failure(ExitCode::bad_data, "/outcome/arrived", [&] { read_all(path); });
 }
 
@@ -103,7 +103,7 @@ TEST_F(SoundValues, AreAskedOfOneMeasureAlone) {
     file.measure("outcome", {40, 2});
   });
   EXPECT_NO_THROW(file.measure("outcome", {42, 2}));
-  EXPECT_NO_THROW(file.measure("settling_time", file.rows()));
+  EXPECT_NO_THROW(file.measure("arrival_time", file.rows()));
 }
 
 TEST_F(SoundValues, RowsHaveTheNumbersOfTheirPlaces) {
@@ -123,21 +123,22 @@ TEST_F(SoundValues, AreAskedOfJerks) {
   expect_refused("jerk/direction", 3, std::int32_t{2}, "row 3: it is 2; expected -1, 0 or 1");
 }
 
-TEST_F(SoundValues, AreAskedOfTheCountsOfRigs) {
+TEST_F(SoundValues, AreAskedOfTheCountsOfMachines) {
   fs::remove(original);
-  original = write_sample_file(directory.path(), sample_study_with_rigs(2, 40, 2));  // 8 rigs
+  original = write_sample_file(directory.path(), sample_study_with_machines(2, 40, 2));  // 8 machines
   const auto expect_counts_refused = [&](const std::string& dataset, std::int64_t row, std::int64_t value,
                                          const std::string& words) {
     const fs::path path = forged(dataset, row, value);
-    expect_failure(ExitCode::bad_data, words, [&] { reading::AllTrialsFile(path).groups("rig"); });
+    expect_failure(ExitCode::bad_data, words, [&] { reading::AllTrialsFile(path).groups("machine"); });
   };
-  expect_counts_refused("rig/trials", 0, 4,
-                        "/rig/trials: row 0: impossible counts of rig 0; expected 5 trials, or 0 of all");
-  expect_counts_refused("rig/trials", 1, 0,
-                        "row 1: impossible counts of rig 0; expected 5 trials, or 0 of all");
-  expect_counts_refused("rig/success", 1, 6,
-                        "/rig/success: row 1: impossible counts of rig 0; expected 5 trials");
-  expect_counts_refused("rig/success", 1, -1, "row 1: impossible counts of rig 0; expected 5 trials");
+  expect_counts_refused(
+      "machine/trials", 0, 4,
+      "/machine/trials: row 0: impossible counts of machine 0; expected 5 trials, or 0 of all");
+  expect_counts_refused("machine/trials", 1, 0,
+                        "row 1: impossible counts of machine 0; expected 5 trials, or 0 of all");
+  expect_counts_refused("machine/success", 1, 6,
+                        "/machine/success: row 1: impossible counts of machine 0; expected 5 trials");
+  expect_counts_refused("machine/success", 1, -1, "row 1: impossible counts of machine 0; expected 5 trials");
 }
 
 TEST_F(SoundValues, JerksOfATrialAreInTheirOrder) {
@@ -189,10 +190,10 @@ TEST_F(DamagedFile, OfAnotherFormatIsSaidToBe) {
 
 TEST_F(DamagedFile, OfAnotherVersionIsSaidToBe) {
   replace_attribute(copy("newer.h5"), "format_version", layout::format_version + 1);
-  expect_bad(directory / "newer.h5", "wrote it in format version 5, newer than the 4");
+  expect_bad(directory / "newer.h5", "wrote it in format version 6, newer than the 5");
   replace_attribute(copy("older.h5"), "format_version", 3);
   expect_bad(directory / "older.h5",
-             "wrote it in format version 3, and this program reads version 4; run its manifest again");
+             "wrote it in format version 3, and this program reads version 5; run its manifest again");
 }
 
 TEST_F(DamagedFile, ThatWasNeverFinishedIsSaidToBe) {
@@ -257,7 +258,7 @@ TEST_F(DamagedFile, ThatAnotherProgramChangedIsRefused) {
 TEST_F(DamagedFile, WithOneFlippedBitOfAColumnFailsItsChecksums) {
   const std::string bytes = read_bytes(original);
   for (const char* column :
-       {"/outcome/settling_time", "/trial/input/friction.k1", "/jerk/onset", "/point/controller.ki",
+       {"/outcome/arrival_time", "/trial/input/friction.k1", "/jerk/onset", "/point/controller.ki",
         "/level/torque_max", "/profile/friction.k1/value", "/trace/theta"}) {
     const fs::path path = directory / "flipped.h5";
     std::string damaged = bytes;

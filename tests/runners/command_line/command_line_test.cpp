@@ -16,12 +16,13 @@ class CommandLine : public ProgramTest {};
 TEST_F(CommandLine, HelpGoesToStandardOutput) {
   const ProgramResult help = program({"--help"});
   EXPECT_EQ(help.code, 0);
-  for (const char* verb : {"check", "run", "summary", "trace", "merge", "export", "parameters", "schema"}) {
-    EXPECT_TRUE(says(help.out, verb)) << verb;
-    const ProgramResult more = program({verb, "--help"});
-    EXPECT_EQ(more.code, 0) << verb;
-    EXPECT_TRUE(says(more.out, "usage: zerocount " + std::string(verb))) << verb;
-    EXPECT_EQ(program({"help", verb}).out, more.out);
+  for (const char* command :
+       {"check", "run", "summary", "trace", "merge", "export", "parameters", "schema"}) {
+    EXPECT_TRUE(says(help.out, command)) << command;
+    const ProgramResult more = program({command, "--help"});
+    EXPECT_EQ(more.code, 0) << command;
+    EXPECT_TRUE(says(more.out, "usage: zerocount " + std::string(command))) << command;
+    EXPECT_EQ(program({"help", command}).out, more.out);
   }
   EXPECT_EQ(program({"--version"}).code, 0);
 }
@@ -93,7 +94,7 @@ TEST_F(CommandLine, ManifestErrorsAreAllReportedWithTheirPlace) {
 }
 
 TEST_F(CommandLine, CheckPrintsThePlanAndTheCriteria) {
-  folder_.write("study.yaml", "zerocount: 1\nname: rig\nseed: 1\ntrials: 10\ncommand: {targets: [5]}\n");
+  folder_.write("study.yaml", "zerocount: 1\nname: machine\nseed: 1\ntrials: 10\ncommand: {targets: [5]}\n");
   const ProgramResult result = program({"check", "study.yaml"});
   EXPECT_EQ(result.code, 0) << result.err;
   for (const char* text : {"1 design point × 10 trials", "3.85e-05", "3.01e-04", "3.57e-05", "198"}) {
@@ -103,7 +104,7 @@ TEST_F(CommandLine, CheckPrintsThePlanAndTheCriteria) {
 }
 
 TEST_F(CommandLine, CheckSaysNothingOfBoundsWhereTheTheoryIsNotAboutTheLoop) {
-  const std::string head = "zerocount: 1\nname: rig\nseed: 1\ntrials: 10\n";
+  const std::string head = "zerocount: 1\nname: machine\nseed: 1\ntrials: 10\n";
   folder_.write("open.yaml", head + "command: {torque: {levels: [0.1], through: exact}}\n");
   folder_.write("models.yaml", head + "command: {targets: [5]}\n" +
                                    "sweep: {grid: {friction.model: [coulomb, none, spring]}}\n");
@@ -124,7 +125,7 @@ TEST_F(CommandLine, CheckSaysNothingOfBoundsWhereTheTheoryIsNotAboutTheLoop) {
 // One count of the coarse encoder is 18.75 of the fine one: k1·Δx is 0.008 N m, not 4.27e-4.
 TEST_F(CommandLine, CheckTakesTheCountThatIsFedBackForTheRuleOfTheDac) {
   folder_.write("coarse.yaml",
-                "zerocount: 1\nname: rig\nseed: 1\ntrials: 1\ncommand: {targets: [5]}\n"
+                "zerocount: 1\nname: machine\nseed: 1\ntrials: 1\ncommand: {targets: [5]}\n"
                 "controller: {encoder: coarse}\ndac: {resolution: 5.0e-4}\n");
   const auto theory =
       nlohmann::json::parse(program({"check", "coarse.yaml", "--format", "json"}).out)["theory"][0];
@@ -135,8 +136,8 @@ TEST_F(CommandLine, CheckTakesTheCountThatIsFedBackForTheRuleOfTheDac) {
 
 // The loop of a published simulation.
 TEST_F(CommandLine, CheckTellsWhetherTheLongestMoveHuntsWhateverTheLaw) {
-  folder_.write("rig.yaml",
-                "zerocount: 1\nname: rig\naxis: linear\nseed: 1\ntrials: 1\n"
+  folder_.write("machine.yaml",
+                "zerocount: 1\nname: machine\naxis: linear\nseed: 1\ntrials: 1\n"
                 "plant: {inertia: 1, presliding_damping: 0, sliding_damping: 0.4}\n"
                 "friction: {model: lugre, sigma0: 1.0e+5, sigma1: 316, breakaway: 1.5, coulomb_ratio: 0.67, "
                 "stribeck_velocity: 0.001}\n"
@@ -144,7 +145,8 @@ TEST_F(CommandLine, CheckTellsWhetherTheLongestMoveHuntsWhateverTheLaw) {
                 "controller: {units: si, sample_rate: 1000, kp: 3, ki: 4, kd: 6}\n"
                 "command: {targets: [10000000], hold: 200}\n");
   for (const char* law : {"lugre", "coulomb"}) {
-    const std::string out = program({"check", "rig.yaml", "--set", std::string("friction.model=") + law}).out;
+    const std::string out =
+        program({"check", "machine.yaml", "--set", std::string("friction.model=") + law}).out;
     EXPECT_TRUE(std::regex_search(out, std::regex("hunting of trial 0: +amplitude 6\\.\\d+e\\+05 counts, "
                                                   "period 2[345]\\.")))
         << out;
@@ -153,7 +155,7 @@ TEST_F(CommandLine, CheckTellsWhetherTheLongestMoveHuntsWhateverTheLaw) {
 
 TEST_F(CommandLine, CheckHasARowPerPointAndSaysOnceWhatIsTheSameAtAll) {
   folder_.write("sweep.yaml",
-                "zerocount: 1\nname: rig\nseed: 1\ntrials: 3\ncommand: {targets: [5]}\n"
+                "zerocount: 1\nname: machine\nseed: 1\ntrials: 3\ncommand: {targets: [5]}\n"
                 "sweep: {grid: {controller.ki: [1.0e-5, 2.0e-5, 3.0e-5]}}\n");
   const std::string out = program({"check", "sweep.yaml"}).out;
   EXPECT_EQ(out.find("natural frequency"), out.rfind("natural frequency: ")) << out;
@@ -164,7 +166,7 @@ TEST_F(CommandLine, CheckHasARowPerPointAndSaysOnceWhatIsTheSameAtAll) {
 
 TEST_F(CommandLine, APointIsNamedByItsNumberItsLabelOrTheLabelThatTablesShow) {
   folder_.write("grid.yaml",
-                "zerocount: 1\nname: rig\nseed: 1\ntrials: 2\ncommand: {targets: [5], hold: 0.1}\n"
+                "zerocount: 1\nname: machine\nseed: 1\ntrials: 2\ncommand: {targets: [5], hold: 0.1}\n"
                 "sweep: {grid: {controller.ki: [1.0e-5, 2.0e-5], controller.kp: [0, 1.0e-4]}}\n");
   ASSERT_EQ(program({"run", "grid.yaml", "-q", "-o", "grid.h5"}).code, 0);
   const auto best_with = [&](const std::string& point) {
@@ -179,33 +181,33 @@ TEST_F(CommandLine, APointIsNamedByItsNumberItsLabelOrTheLabelThatTablesShow) {
 
 // At a k1 that is the same in all trials the sampled loop may still be stable in some trials only.
 TEST_F(CommandLine, CheckJudgesTheSampledLoopOfEachTrial) {
-  folder_.write("rig.yaml",
-                "zerocount: 1\nname: rig\nseed: 1\ntrials: 20\ncommand: {targets: [5]}\n"
+  folder_.write("machine.yaml",
+                "zerocount: 1\nname: machine\nseed: 1\ntrials: 20\ncommand: {targets: [5]}\n"
                 "plant: {presliding_damping: {uniform: [0.1, 0.4]}}\n");
-  const std::string out = program({"check", "rig.yaml"}).out;
+  const std::string out = program({"check", "machine.yaml"}).out;
   EXPECT_TRUE(std::regex_search(out, std::regex("sampled loop: +unstable in some trials\n"))) << out;
   EXPECT_TRUE(std::regex_search(out, std::regex("\nat k1 +unstable in some trials "))) << out;
 }
 
 TEST_F(CommandLine, CheckCallsALoopThatNothingReturnsMarginal) {
-  folder_.write("rig.yaml",
-                "zerocount: 1\nname: rig\nseed: 1\ntrials: 2\ncommand: {targets: [5]}\n"
+  folder_.write("machine.yaml",
+                "zerocount: 1\nname: machine\nseed: 1\ntrials: 2\ncommand: {targets: [5]}\n"
                 "controller: {ki: 0}\n");
-  const std::string out = program({"check", "rig.yaml"}).out;
+  const std::string out = program({"check", "machine.yaml"}).out;
   EXPECT_TRUE(std::regex_search(
       out, std::regex("while sliding +marginal: a motion neither grows nor dies out within the hold")))
       << out;
 }
 
 TEST_F(CommandLine, CheckTellsTheCriteriaFromTheSampledLoop) {
-  const std::string head = "zerocount: 1\nname: rig\nseed: 1\ntrials: 10\ncommand: {targets: [5]}\n";
-  folder_.write("rig.yaml", head + "friction: {k1: 110}\n");
-  const std::string between = program({"check", "rig.yaml", "--set", "controller.ki=3.8e-5"}).out;
+  const std::string head = "zerocount: 1\nname: machine\nseed: 1\ntrials: 10\ncommand: {targets: [5]}\n";
+  folder_.write("machine.yaml", head + "friction: {k1: 110}\n");
+  const std::string between = program({"check", "machine.yaml", "--set", "controller.ki=3.8e-5"}).out;
   const std::string criteria = "by \\(6\\) and \\(7\\): +stable\nsampled loop: +";
   EXPECT_TRUE(std::regex_search(between, std::regex(criteria + "unstable\n"))) << between;
-  const std::string low = program({"check", "rig.yaml", "--set", "controller.ki=1e-5"}).out;
+  const std::string low = program({"check", "machine.yaml", "--set", "controller.ki=1e-5"}).out;
   EXPECT_TRUE(std::regex_search(low, std::regex(criteria + "stable\n"))) << low;
-  const std::string none = program({"check", "rig.yaml", "--set", "controller.ki=0"}).out;
+  const std::string none = program({"check", "machine.yaml", "--set", "controller.ki=0"}).out;
   EXPECT_TRUE(std::regex_search(none, std::regex("integral: +none: the error stays"))) << none;
   EXPECT_TRUE(says(none, "slowest time constant")) << "the spring rings without an integral too";
 }
@@ -287,7 +289,7 @@ const command_line::OptionSpec& option_of(const command_line::CommandSpec& spec,
   return *found;
 }
 
-// Each verb says of which question an option is; elsewhere the option would have no effect.
+// Each command says of which question an option is; elsewhere the option would have no effect.
 TEST(OptionsWithoutEffect, AreErrorsOfEveryVerb) {
   int conditions = 0;
   for (const commands::Command& command : program::commands()) {

@@ -180,7 +180,7 @@ TEST_F(SeparateFiles, EveryOptionThatNamesAFileSaysSo) {
 }
 
 TEST_F(SeparateFiles, DifferentFilesAndAStandardStreamPass) {
-  const command_line::CommandSpec spec{"verb",
+  const command_line::CommandSpec spec{"command",
                                        "FILE",
                                        {command_line::written_file({"output,o", "FILE", ""}),
                                         command_line::written_file({"plot", "FILE", ""}),

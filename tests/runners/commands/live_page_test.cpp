@@ -13,9 +13,9 @@ constexpr const char* tunable = R"(zerocount: 1
 name: tuned
 seed: 7
 trials: 100
-rigs: 50
+machines: 50
 command: {targets: [29], hold: 0.2}
-friction: {k1: {lognormal: {median: 130, cv: 0.2}, per: rig}}
+friction: {k1: {lognormal: {median: 130, cv: 0.2}, per: machine}}
 goal: {band: 1, within: 0.1, moves: 0.9}
 tune: {free: {controller.ki: {log: [5.0e-6, 1.0e-3]}, controller.kp: [0, 5.0e-3]}}
 )";
@@ -125,15 +125,15 @@ TEST_F(LivePage, SaysWhichErrorEndedTheWork) {
 TEST_F(LivePage, IsRefusedBeforeTheWorkWhereItCannotBeWritten) {
   folder_.write("a.yaml", std::string(tunable));
   folder_.write("there.html", "somebody's");
-  for (const char* const verb : {"run", "tune"}) {
+  for (const char* const command : {"run", "tune"}) {
     const auto code = [&](const std::vector<std::string>& more) {
-      std::vector<std::string> words{verb, "a.yaml", "-o", "a.h5"};
+      std::vector<std::string> words{command, "a.yaml", "-o", "a.h5"};
       words.insert(words.end(), more.begin(), more.end());
       return program(words).code;
     };
     for (const char* const page : {"page.txt", "-", ".", "there.html", "a.yaml"})
-      EXPECT_EQ(code({"--watch", page}), 2) << verb << page;
-    EXPECT_EQ(code({"--watch", "none/page.html"}), 5) << verb;
+      EXPECT_EQ(code({"--watch", page}), 2) << command << page;
+    EXPECT_EQ(code({"--watch", "none/page.html"}), 5) << command;
   }
   EXPECT_EQ(program({"run", "a.yaml", "-o", "one.html", "--watch", "one.html"}).code, 2);
   EXPECT_EQ(program({"run", "a.yaml", "-o", "a.h5", "--shard", "1/2", "--watch", "page.html"}).code, 2);

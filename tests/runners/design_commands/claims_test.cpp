@@ -29,8 +29,8 @@ class Claims : public ProgramTest {
   static std::string study(const std::vector<Condition>& conditions, int trials, const std::string& more,
                            const std::string& command = "{targets: [29, 0, 5], hold: 0.1}") {
     std::string text = fmt::format(
-        "zerocount: 1\nname: axis\nseed: 7\nrigs: 40\ntrials: {}\ncommand: {}\n"
-        "friction: {{k1: {{lognormal: {{median: 130, cv: 0.2}}, per: rig}}}}\n"
+        "zerocount: 1\nname: axis\nseed: 7\nmachines: 40\ntrials: {}\ncommand: {}\n"
+        "friction: {{k1: {{lognormal: {{median: 130, cv: 0.2}}, per: machine}}}}\n"
         "initial: {{encoder_phase: {{uniform: [0, 1]}}}}\n",
         trials * static_cast<int>(conditions.size()), command);
     const Condition& in_sections = conditions.front();
@@ -76,7 +76,8 @@ TEST_F(Claims, OfATuningAreThoseOfPlainRunsAtTheTunedValues) {
     };
     const Json& proof = tuned["proof"];
     set("trials", std::to_string(proof["trials"].get<int>() / 2));
-    for (const char* const key : {"rigs", "seed"}) set(key, proof[key].dump());
+    set("machines", proof["machine_count"].dump());
+    set("seed", proof["seed"].dump());
     for (const auto& [name, value] : tuned["gains"].items()) set(name, value.dump());
     ASSERT_EQ(program(words).code, 0);
     const Json alone = answer({"summary", "alone.h5"})["points"][0]["goals"];
@@ -111,7 +112,7 @@ TEST_F(Claims, TuningForAllConditionsIsNotWorseThanTuningForOne) {
       "goal: {band: 1, within: 0.06, moves: 0.9, limits: {overshoot: 14}}\n" + std::string(three_gains);
   const auto status_at = [&](const Json& gains) {
     std::vector<std::string> words{"run",   "both.yaml", "-o",    "at.h5",       "--force", "--quiet",
-                                   "--set", "seed=99",   "--set", "trials=3200", "--set",   "rigs=800"};
+                                   "--set", "seed=99",   "--set", "trials=3200", "--set",   "machines=800"};
     for (const auto& [name, value] : gains.items())
       words.insert(words.end(), {"--set", name + "=" + value.dump()});
     EXPECT_EQ(program(words).code, 0);
@@ -197,7 +198,7 @@ TEST_F(Claims, OfTheWorstMachineIsThatOfItsWorstCondition) {
   // The trial that is named is one under the named condition.
   const int trial = both["trial"];
   EXPECT_EQ(both["condition"], two_conditions[static_cast<std::size_t>(trial / 40 % 2)].name);
-  EXPECT_EQ(both["rig"], trial % 40);
+  EXPECT_EQ(both["machine"], trial % 40);
 }
 
 // Of several goals it is named which one the worst machine meets the least often, as its manifest shows.

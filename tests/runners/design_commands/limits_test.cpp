@@ -252,7 +252,7 @@ verdict: {dwell: 0.01, window: 0.05, motion: true, rest_band: 1, bands: [3]}
        "{band: 14, within: 0.19, moves: 0.9, limits: {true_error: 2.4, rest_error_rms: 2}}"},
       {"{band: 3, within: 0.19, moves: 0.9, limits: {following_error_peak: 6}}",
        "{band: 14, within: 0.19, moves: 0.9, limits: {following_error_peak: 24}}"},
-      {"{band: 3, within: 0.19, moves: 0.9, limits: {settling_time: 0.1}}",
+      {"{band: 3, within: 0.19, moves: 0.9, limits: {arrival_time: 0.1}}",
        "{band: 14, within: 0.19, moves: 0.9, limits: {\"band_entry_time[2]\": 0.1}}"},
       {"{band: 3, within: 0.19, moves: 0.9, limits: {final_settling_time: 0.12}}",
        "{band: 14, within: 0.19, moves: 0.9, limits: {\"band_settling_time[2]\": 0.12}}"},
@@ -462,11 +462,11 @@ TEST_F(Limits, HaveTheSameCausesForEverySeed) {
 name: rare-causes
 seed: 1
 trials: 2
-rigs: 2
+machines: 2
 friction: {alpha: {choice: [0, 0, 0, 0, 0.5]}, model: presliding}
 encoder: {coarse_errors: {noise: 0.5}}
 amplifier: {bandwidth: 0}
-controller: {ki: 2.0e-5, delay: {choice: [0, 0, 0, 2], per: rig}, missed: {uniform: [0, 0.01]}}
+controller: {ki: 2.0e-5, delay: {choice: [0, 0, 0, 2], per: machine}, missed: {uniform: [0, 0.01]}}
 disturbance: {ripple: [{amplitude: {choice: [0, 0, 0, 1.0e-3]}, periods: 40}]}
 command: {targets: [10], hold: 0.2}
 goal: {band: 1, within: 0.1, moves: 0.9}

@@ -30,7 +30,7 @@ constexpr const char* on_rotors =
     "zerocount: 1\n"
     "name: rotors\n"
     "seed: 12\n"
-    "rigs: 100\n"
+    "machines: 100\n"
     "trials: 100\n"
     "friction:\n"
     "  k1: {profile: {mean: {lognormal: {median: 110, cv: 0.1}}, cv: 0.1, correlation_length: 0.2}}\n"
@@ -101,11 +101,11 @@ TEST_F(Rare, AnUnfinishedEstimateGoesOn) {
   for (const char* key : {"probability", "low", "high", "trials", "status"})
     EXPECT_EQ(rest[key], whole[key]) << key;
   expect_refused({"rare", "spring.yaml", "-o", "whole.h5", "--set", "seed=9"}, "--force to replace it");
-  expect_refused({"rare", "spring.yaml", "-o", "whole.h5", "--event", "settling_time > 0.1"},
+  expect_refused({"rare", "spring.yaml", "-o", "whole.h5", "--event", "arrival_time > 0.1"},
                  "--force to replace it");
 }
 
-// The event that is the missed goal has the same trials and the same answer. Other verbs say that its file
+// The event that is the missed goal has the same trials and the same answer. Other commands say that its file
 // holds no study.
 TEST_F(Rare, AnEventIsAskedByAMeasure) {
   folder_.write("spring.yaml", spring(1e-4));
@@ -114,8 +114,8 @@ TEST_F(Rare, AnEventIsAskedByAMeasure) {
       answer_to({"rare", "spring.yaml", "-o", "event.h5", "--event", "band_settling_time[0] > 0.8"});
   EXPECT_EQ(goal["probability"], event["probability"]);
   EXPECT_EQ(event["event"], "band_settling_time[0] > 0.8");
-  for (const char* verb : {"summary", "judge", "sensitivity"})
-    expect_refused({verb, "goal.h5"}, "an estimate of 'zerocount rare'", 4);
+  for (const char* command : {"summary", "judge", "sensitivity"})
+    expect_refused({command, "goal.h5"}, "an estimate of 'zerocount rare'", 4);
 }
 
 // Nothing leads to an event that does not exist.

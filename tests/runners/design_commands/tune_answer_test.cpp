@@ -123,7 +123,7 @@ TEST(TuneAnswer, SaysWhatTheMovesOfOneMachineOfTheProofCannotShow) {
   const study::Study study = manifest::parse_study(R"(zerocount: 1
 name: axis
 seed: 1
-rigs: 10
+machines: 10
 trials: 400
 command: {targets: [9, 0], hold: 0.1}
 conditions: {empty: {}, loaded: {plant.inertia: 8.0e-4}}

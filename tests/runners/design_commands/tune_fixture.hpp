@@ -12,10 +12,10 @@ inline constexpr std::string_view axis = R"(zerocount: 1
 name: axis
 seed: 7
 trials: 200
-rigs: 100   # machines
+machines: 100   # machines
 command: {targets: [29], hold: 0.3}
 friction:
-  k1: {lognormal: {median: 130, cv: 0.2}, per: rig}
+  k1: {lognormal: {median: 130, cv: 0.2}, per: machine}
 initial: {encoder_phase: {uniform: [0, 1]}}
 controller: {ki: 3.85e-5, delay: 1}
 )";

@@ -16,7 +16,7 @@ TEST_F(Tune, ProvesTheGainsThatItFinds) {
   const Json answer = Json::parse(result.out);
   EXPECT_EQ(answer["status"], "met");
   EXPECT_GE(answer["proof"]["rate_low"], 0.95);
-  EXPECT_GE(answer["proof"]["rigs"], 500);
+  EXPECT_GE(answer["proof"]["machine_count"], 500);
   EXPECT_GE(answer["margins"]["gain"], 6.0);
   EXPECT_GE(answer["margins"]["phase"], 30.0);
   EXPECT_GE(answer["margins"]["delay"], 0.5);
@@ -38,7 +38,7 @@ TEST_F(Tune, ProvesTheGainsThatItFinds) {
 
   // The user's manifest with the tuned values.
   const std::string tuned = folder_.read("tuned.yaml");
-  EXPECT_TRUE(says(tuned, "seed: 7\ntrials: 200\nrigs: 100   # machines\n"));
+  EXPECT_TRUE(says(tuned, "seed: 7\ntrials: 200\nmachines: 100   # machines\n"));
   // Its controller is that of the proof, whose heading has the margins of other machines.
   const auto written = [&](const std::vector<std::string>& of) {
     std::vector<std::string> words{"controller"};
@@ -278,7 +278,7 @@ TEST_F(Tune, OfANarrowRangeOfGoodValuesNeverSaysThatItIsUnreachable) {
   folder_.write("axis.yaml", R"(zerocount: 1
 name: needle
 seed: 1
-rigs: 100
+machines: 100
 trials: 100
 plant: {inertia: 8.0e-4, presliding_damping: 0}
 friction: {model: none}

@@ -30,17 +30,18 @@ class Worst : public ProgramTest {
     return result.code == 0 ? Json::parse(result.out) : Json();
   }
 
-  /// Proportion of the moves of a rig that meet the goal, where `worst.yaml` runs.
-  double replayed(std::int64_t rig) {
+  /// Proportion of the moves of a machine that meet the goal, where `worst.yaml` runs.
+  double replayed(std::int64_t machine) {
     const ProgramResult run = program({"run", "worst.yaml", "-o", "worst.h5", "--force", "--quiet"});
     EXPECT_EQ(run.code, 0) << run.err;
     EXPECT_FALSE(says(run.err, "worlds")) << "nothing differs between worlds: " << run.err;
     const reading::AllTrialsFile file(folder_.path() / "worst.h5");
     const study::Study study = layout::recorded_study(file.header(), "worst.h5");
     trials::Replicates units = trials::replicates_of(study, 0);
-    if (study.rigs == 0) units = {1, study.trials, 0};
+    if (study.machines == 0) units = {1, study.trials, 0};
     const auto results = tuning::results_in(file, study, units);
-    return met_proportion(results[static_cast<std::size_t>(study.rigs == 0 ? 0 : rig)].claims.front());
+    return met_proportion(
+        results[static_cast<std::size_t>(study.machines == 0 ? 0 : machine)].claims.front());
   }
 };
 
@@ -50,8 +51,8 @@ TEST_F(Worst, IsRepeatedByItsManifest) {
       "friction.k1,friction.k2,initial.preload\n100,700,0.05\n100,900,-0.05\n140,700,0.1\n90,500,0\n");
   const std::string goal = "goal: {band: 0, within: 0.045, moves: 0.9}\n";
   const std::string machines =
-      "goal: {band: 0, within: 0.045, moves: 0.9, machines: 0.8}\nrigs: 6\ntrials: 24\n";
-  const std::string k1_per_rig = "friction: {k1: {lognormal: {median: 130, cv: 0.2}, per: rig}";
+      "goal: {band: 0, within: 0.045, moves: 0.9, machines: 0.8}\nmachines: 6\ntrials: 24\n";
+  const std::string k1_per_machine = "friction: {k1: {lognormal: {median: 130, cv: 0.2}, per: machine}";
   struct Case {
     const char* what;
     std::string more;
@@ -59,14 +60,15 @@ TEST_F(Worst, IsRepeatedByItsManifest) {
   };
   const std::vector<Case> cases{
       {"rows",
-       goal + "rigs: 6\ntrials: 24\nsamples: {file: machines.csv, per: rig}\nfriction: {alpha: {uniform: "
+       goal + "machines: 6\ntrials: 24\nsamples: {file: machines.csv, per: machine}\nfriction: {alpha: "
+              "{uniform: "
               "[0.1, 1]}}\n",
        {"--set", "initial={encoder_phase: {uniform: [0, 1]}}"}},
-      {"worlds", machines + "worlds: 3\n" + k1_per_rig + ", n: {uniform: [1.5, 2.5], per: world}}\n"},
+      {"worlds", machines + "worlds: 3\n" + k1_per_machine + ", n: {uniform: [1.5, 2.5], per: world}}\n"},
       {"a profile", goal + "trials: 24\nfriction: {k1: {profile: {mean: {uniform: [100, 140]}, cv: 0.2, "
                            "correlation_length: 1}}, "
                            "k2: {uniform: [500, 900]}}\ndesign: latin_hypercube\n"},
-      {"contacts", machines + k1_per_rig + ", breakaway: {uniform: [0.25, 0.35], per: contact}}\n"},
+      {"contacts", machines + k1_per_machine + ", breakaway: {uniform: [0.25, 0.35], per: contact}}\n"},
       {"correlation",
        goal + "trials: 30\ndesign: sobol\nfriction: {k1: {uniform: [90, 150]}, k2: {uniform: [500, 900]}}\n"
               "correlation: [[friction.k1, friction.k2, 0.6], [friction.k2, initial.preload, 0.3]]\n"},
@@ -85,7 +87,7 @@ TEST_F(Worst, IsRepeatedByItsManifest) {
     const Json found = worst(std::string(common_part) + one.more, one.words);
     ASSERT_FALSE(found.is_null()) << one.what;
     const Json box = found["box"];
-    EXPECT_DOUBLE_EQ(replayed(box["rig"]), box["met"]) << one.what;
+    EXPECT_DOUBLE_EQ(replayed(box["machine"]), box["met"]) << one.what;
     EXPECT_EQ(program({"trace", "worst.yaml", "--trial", box["trial"].dump()}).code, 0) << one.what;
   }
 }
@@ -106,10 +108,11 @@ TEST_F(Worst, HasTheProfileOfTheStudyInEveryDesign) {
 
 // The search begins at the machines of the study: what it finds is at least as bad, by the same trials.
 TEST_F(Worst, IsAtLeastAsBadAsTheWorstMachineOfTheStudy) {
-  const std::string machines = std::string(common_part) +
-                               "goal: {band: 0, within: 0.05, moves: 0.9}\nrigs: 30\ntrials: 60\nfriction: "
-                               "{k1: {lognormal: {median: 130, cv: 0.4}, per: rig}, beta: {log_uniform: "
-                               "[3.0e+4, 3.0e+5], per: rig}}\n";
+  const std::string machines =
+      std::string(common_part) +
+      "goal: {band: 0, within: 0.05, moves: 0.9}\nmachines: 30\ntrials: 60\nfriction: "
+      "{k1: {lognormal: {median: 130, cv: 0.4}, per: machine}, beta: {log_uniform: "
+      "[3.0e+4, 3.0e+5], per: machine}}\n";
   const Json found = worst(machines);
   EXPECT_LE(found["box"]["met"], found["again"]["met"]) << found;
   EXPECT_EQ(found["box"]["moves"], found["again"]["moves"]);
@@ -131,7 +134,7 @@ TEST_F(Worst, SaysWhereItIsLikelyToo) {
 TEST_F(Worst, IsAMachineWhereMeasuredValuesBelongTogether) {
   const std::string manifest =
       std::string(common_part) +
-      "rigs: 8\ntrials: 16\ngoal: {band: 1, within: 0.05, moves: 0.9}\n"
+      "machines: 8\ntrials: 16\ngoal: {band: 1, within: 0.05, moves: 0.9}\n"
       "friction: {measured: {initial_stiffness: 1500, final_stiffness: {log_uniform: "
       "[20, 800]}, breakaway: {log_uniform: [0.2, 2.4]}, breakaway_travel: 2.0e-3}}\n"
       "correlation: [[friction.measured.final_stiffness, friction.measured.breakaway, "
@@ -139,20 +142,20 @@ TEST_F(Worst, IsAMachineWhereMeasuredValuesBelongTogether) {
   const Json found = worst(manifest);
   EXPECT_EQ(program({"check", "worst.yaml"}).code, 0) << found;
   folder_.write("independent.yaml", manifest.substr(0, manifest.find("correlation")));
-  const ProgramResult run =
-      program({"run", "independent.yaml", "-o", "independent.h5", "--set", "rigs=80", "--set", "trials=80"});
+  const ProgramResult run = program(
+      {"run", "independent.yaml", "-o", "independent.h5", "--set", "machines=80", "--set", "trials=80"});
   EXPECT_EQ(run.code, 2) << run.err;
   EXPECT_TRUE(says(run.err, "friction.measured.final_stiffness: machine "));
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "independent.h5"));
 }
 
-// Rows that are drawn for each trial do not belong to a machine with rigs, and a results file has no place of
-// their table.
+// Rows that are drawn for each trial do not belong to a machine with machines, and a results file has no
+// place of their table.
 TEST_F(Worst, IsToldWhereNoManifestCanBeWritten) {
   folder_.write("rows.csv", "initial.preload,initial.velocity\n0,0\n0.1,0\n0.05,0\n");
   const std::string manifest =
-      "zerocount: 1\nname: rows\nseed: 3\nrigs: 4\ntrials: 8\nsamples: {file: rows.csv, per: trial}\n"
-      "friction: {k1: {uniform: [90, 150], per: rig}}\ncommand: {targets: [12], hold: 0.09}\n"
+      "zerocount: 1\nname: rows\nseed: 3\nmachines: 4\ntrials: 8\nsamples: {file: rows.csv, per: trial}\n"
+      "friction: {k1: {uniform: [90, 150], per: machine}}\ncommand: {targets: [12], hold: 0.09}\n"
       "goal: {band: 0, within: 0.05, moves: 0.9}\n";
   const Json found = worst(manifest);
   EXPECT_DOUBLE_EQ(replayed(0), found["box"]["met"]);
@@ -164,7 +167,7 @@ TEST_F(Worst, IsToldWhereNoManifestCanBeWritten) {
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "w.yaml"));
 }
 
-constexpr std::string_view aging_axis = R"(rigs: 8
+constexpr std::string_view aging_axis = R"(machines: 8
 trials: 32
 ages: {at: [0, 1.0e+6]}
 conditions: {warm: {}, cold: {plant.presliding_damping: 0.3}}
@@ -232,7 +235,7 @@ TEST_F(WorstOfAxis, IsTheMachineWithTheFewestGoodMoves) {
   const ProgramResult set = program({"worst", "out.h5", "--set", "controller.delay=0"});
   EXPECT_EQ(set.code, 2);
   EXPECT_TRUE(says(set.err, "changes a manifest"));
-  EXPECT_LT(of_manifest["rig"], 100);
+  EXPECT_LT(of_manifest["machine"], 100);
   EXPECT_GT(of_manifest["inputs"]["friction.k1"], 0.0);
 }
 

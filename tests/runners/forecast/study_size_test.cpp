@@ -37,7 +37,7 @@ std::vector<std::string> manifests() {
   std::string records = "retain: {trials: [0";
   for (int trial = 1; trial < 60; ++trial) records += ", " + std::to_string(trial);
   all.push_back(small_manifest(500, records + "]}\n"));
-  all.push_back(small_manifest(800, "rigs: 50\n"));
+  all.push_back(small_manifest(800, "machines: 50\n"));
   return all;
 }
 
@@ -58,13 +58,13 @@ TEST(StudySize, IsAboutWhatTheFilesTake) {
   }
 }
 
-// Many more rigs than trials are tried beforehand. Shards are written by the clock, and not judged.
+// Many more machines than trials are tried beforehand. Shards are written by the clock, and not judged.
 TEST(StudySize, OfSumsIsAboutWhatTheFileTakes) {
   for (const std::string& manifest :
-       {small_manifest(1500, "keep: statistics\n"), small_manifest(800, "rigs: 50\nkeep: failures\n"),
-        small_manifest(6000, "rigs: 3000\nkeep: statistics\n"), small_manifest(5000, "keep: failures\n"),
+       {small_manifest(1500, "keep: statistics\n"), small_manifest(800, "machines: 50\nkeep: failures\n"),
+        small_manifest(6000, "machines: 3000\nkeep: statistics\n"), small_manifest(5000, "keep: failures\n"),
         small_manifest(6000,
-                       "rigs: 60\nworlds: 6\nkeep: statistics\nconditions: {light: {}, heavy: "
+                       "machines: 60\nworlds: 6\nkeep: statistics\nconditions: {light: {}, heavy: "
                        "{plant.inertia: 1.0e-3}}\n")}) {
     const TemporaryFolder folder;
     folder.write("study.yaml", manifest);
@@ -98,9 +98,9 @@ TEST(StudySize, IsAboutTheMemoryThatARunTakes) {
   expect_memory_of_run(small_manifest(12000));
 }
 
-// The sums of as many rigs as trials take more than anything else.
-TEST(StudySize, IsAboutTheMemoryThatRigsTake) {
-  expect_memory_of_run(small_manifest(20000, "rigs: 20000\nkeep: statistics\n"));
+// The sums of as many machines as trials take more than anything else.
+TEST(StudySize, IsAboutTheMemoryThatMachinesTake) {
+  expect_memory_of_run(small_manifest(20000, "machines: 20000\nkeep: statistics\n"));
 }
 
 /// Traces of 8000 trials of 1000 samples.
@@ -203,10 +203,10 @@ TEST(StoredColumn, OfRandomNumbersIsEstimatedWithinATenth) {
 TEST(StoredColumn, ThatRepeatsItselfIsEstimatedWithinATenth) {
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
-  std::vector<double> of_rigs(500);
-  for (double& value : of_rigs) value = uniform(random);
-  expect_estimate<double>("rigs", column_of<double>([&](std::size_t i) { return of_rigs[i % 500]; }), 0.0,
-                          [](std::int64_t i) { return i % 500; });
+  std::vector<double> of_machines(500);
+  for (double& value : of_machines) value = uniform(random);
+  expect_estimate<double>("machines", column_of<double>([&](std::size_t i) { return of_machines[i % 500]; }),
+                          0.0, [](std::int64_t i) { return i % 500; });
   std::vector<double> of_points;
   for (std::size_t i = 0; i < count; ++i)
     of_points.push_back(i >= 20 && uniform(random) < 0.5 ? of_points[i - 20] : uniform(random));

@@ -182,7 +182,7 @@ class RoundTrip : public ProgramTest {
     }
     folder_.write(
         "study.yaml",
-        fmt::format("zerocount: 1\nname: study\nseed: 1\nrigs: 100\ntrials: {}\n"
+        fmt::format("zerocount: 1\nname: study\nseed: 1\nmachines: 100\ntrials: {}\n"
                     "samples: posterior.csv\nencoder: {{fine: 1620000, fine_errors: {{noise: {}}}}}\n"
                     "controller: {{units: si, sample_rate: 2000, delay: 1, kp: {}, ki: {}}}\n"
                     "command: {{targets: [{{integers: [1, 30]}}], hold: {}}}\n"

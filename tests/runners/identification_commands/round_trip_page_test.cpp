@@ -82,13 +82,13 @@ class RoundTripPage : public ::testing::Test {
     return nlohmann::json::parse(summary.out)["points"][0]["zero_count"];
   }
 
-  /// "succeed in A to B of their 40": the successes of the central 95 % of the simulated rigs at the
+  /// "succeed in A to B of their 40": the successes of the central 95 % of the simulated machines at the
   /// point.
   std::string predicted_range(std::size_t point) {
-    const std::optional<reading::StoredGroups> rigs =
-        reading::AllTrialsFile(folder_ / "predicted.h5").groups("rig");
-    const auto count = static_cast<std::ptrdiff_t>(rigs.value().count);
-    std::vector<std::int64_t> successes = rigs->success;
+    const std::optional<reading::StoredGroups> machines =
+        reading::AllTrialsFile(folder_ / "predicted.h5").groups("machine");
+    const auto count = static_cast<std::ptrdiff_t>(machines.value().count);
+    std::vector<std::int64_t> successes = machines->success;
     successes = {successes.begin() + static_cast<std::ptrdiff_t>(point) * count,
                  successes.begin() + static_cast<std::ptrdiff_t>(point + 1) * count};
     std::ranges::sort(successes);

@@ -205,7 +205,7 @@ TEST(BuiltInLaw, WholeRunsAreEqualToTheBit) {
   const reading::AllTrialsFile b(folder / "b.h5", reading::Require::complete);
   EXPECT_EQ(b.header().engine, study::Engine::reference);
   for (const char* measure :
-       {"outcome", "settling_time", "final_position", "holding_torque", "jerk_count", "creep"}) {
+       {"outcome", "arrival_time", "final_position", "holding_torque", "jerk_count", "creep"}) {
     const std::vector<double> one = a.measure(measure, a.rows());
     const std::vector<double> other = b.measure(measure, b.rows());
     ASSERT_EQ(one.size(), 48u);
@@ -234,9 +234,9 @@ class BadPlugin : public ::testing::TestWithParam<Fault> {};
 TEST_P(BadPlugin, IsRefused) {
   const TemporaryFolder folder;
   folder.write("study.yaml", plugin_manifest(faulty_controller(GetParam().number)));
-  for (const std::string verb : {"check", "trace"}) {
-    const ProgramResult result = zerocount_program({verb, "study.yaml"}, folder.path());
-    EXPECT_EQ(result.code, 2) << verb;
+  for (const std::string command : {"check", "trace"}) {
+    const ProgramResult result = zerocount_program({command, "study.yaml"}, folder.path());
+    EXPECT_EQ(result.code, 2) << command;
     EXPECT_TRUE(says(result.err, "study.yaml:5:22: controller.plugin: ", GetParam().message));
   }
 }

@@ -7,7 +7,7 @@ namespace {
 
 class Accept : public ProgramTest {
  protected:
-  void SetUp() override { run_study("rigs: 40\ngoal: {band: 1, within: 0.03, moves: 0.9}\n"); }
+  void SetUp() override { run_study("machines: 40\ngoal: {band: 1, within: 0.03, moves: 0.9}\n"); }
 
   void run_study(const std::string& more) {
     folder_.write("study.yaml", R"(zerocount: 1
@@ -66,7 +66,7 @@ TEST_F(Accept, CountsBlankLinesOfALogOfOneColumnAsMissedMoves) {
 }
 
 TEST_F(Accept, CountsFromTheEndOfTheProfilesInTheLog) {
-  run_study("rigs: 40\ngoal: {band: 1, after_profile: 0.03, moves: 0.9}\n");
+  run_study("machines: 40\ngoal: {band: 1, after_profile: 0.03, moves: 0.9}\n");
   std::ofstream(folder_.path() / "log.csv")
       << "band_settling_time[1] [ms],travel_time [ms]\n49,20\n51,20\n29,0\n,20\n";
   const Json judged = json_of({"accept", "study.h5", "log.csv", "--these"});
@@ -92,7 +92,7 @@ TEST_F(Accept, JudgesTheClaimOnAllMachines) {
 }
 
 TEST_F(Accept, JudgesAGoalOnMachinesByTheirNumber) {
-  run_study("rigs: 40\ngoal: {band: 1, within: 0.03, moves: 0.9, machines: 0.95}\n");
+  run_study("machines: 40\ngoal: {band: 1, within: 0.03, moves: 0.9, machines: 0.95}\n");
   std::vector<std::string> logs;
   for (int i = 0; i < 10; ++i) {
     logs.push_back(fmt::format("{}.csv", i));
@@ -112,7 +112,7 @@ TEST_F(Accept, CorrectsForTheNumberOfGoals) {
   write_log("worse.csv", 60, 6);
   EXPECT_EQ(accepted({"worse.csv"}, 1)["goals"][0]["agreement"], "differs");
   run_study(
-      "rigs: 40\ngoals: {one: {band: 1, within: 0.03, moves: 0.8}, other: {band: 1, within: 0.03, moves: "
+      "machines: 40\ngoals: {one: {band: 1, within: 0.03, moves: 0.8}, other: {band: 1, within: 0.03, moves: "
       "0.85}}\n");
   const Json two = accepted({"worse.csv"}, 3);
   EXPECT_LT(two["goals"][0]["p_value"].get<double>(), 0.05);
@@ -152,7 +152,7 @@ TEST_F(Accept, RefusesWhatItCannotJudge) {
   EXPECT_TRUE(says(message({"good.csv", "./good.csv"}), "is given twice"));
   run_study("goal: {band: 1, within: 0.03, moves: 0.9}\n");
   EXPECT_TRUE(says(message({"good.csv"}), "no trials share a machine"));
-  run_study("rigs: 40\n");
+  run_study("machines: 40\n");
   EXPECT_TRUE(says(message({"good.csv"}), "its manifest has no goal"));
 }
 
@@ -196,7 +196,7 @@ TEST_F(Accept, NamesTheColumnThatLooksLikeTheMissingOne) {
 
 TEST_F(Accept, AsksForTheConditionAndTheAge) {
   run_study(
-      "rigs: 40\ngoal: {band: 1, within: 0.03, moves: 0.9}\nages: {at: [0, 100000]}\n"
+      "machines: 40\ngoal: {band: 1, within: 0.03, moves: 0.9}\nages: {at: [0, 100000]}\n"
       "conditions: {empty: {}, loaded: {controller.ki: 8.0e-6}}\n");
   write_log("good.csv", 100, 0);
   EXPECT_NE(program({"accept", "study.h5", "good.csv"}).code, 0);
@@ -212,7 +212,7 @@ TEST_F(Accept, AsksForTheConditionAndTheAge) {
 
 // The unit of a column may be that of another kind of axis.
 TEST_F(Accept, ChecksUnits) {
-  run_study("rigs: 40\ngoal: {band: 1, within: 0.03, moves: 0.9, limits: {holding_torque: 1}}\n");
+  run_study("machines: 40\ngoal: {band: 1, within: 0.03, moves: 0.9, limits: {holding_torque: 1}}\n");
   folder_.write("force.csv", "band_settling_time[1] [ms],holding_torque [N]\n12,0.1\n");
   const ProgramResult force = program({"accept", "study.h5", "force.csv"});
   EXPECT_EQ(force.code, 2);
@@ -226,7 +226,7 @@ TEST_F(Accept, ChecksUnits) {
 }
 
 TEST_F(Accept, JudgesAGoalOnSomeMovesByTheirNumbers) {
-  run_study("rigs: 40\ngoals: {first: {on: [0], band: 1, within: 0.03, moves: 0.9}}\n");
+  run_study("machines: 40\ngoals: {first: {on: [0], band: 1, within: 0.03, moves: 0.9}}\n");
   folder_.write("unnumbered.csv", "band_settling_time[1]\n0.01\n");
   EXPECT_TRUE(says(refusal({"accept", "study.h5", "unnumbered.csv"}), "expected a column 'move'"));
   folder_.write("beyond.csv", "move,band_settling_time[1]\n0,0.01\n7,0.01\n");
@@ -236,7 +236,7 @@ TEST_F(Accept, JudgesAGoalOnSomeMovesByTheirNumbers) {
 name: two
 seed: 5
 trials: 400
-rigs: 40
+machines: 40
 controller: {ki: 4.0e-5, sample_rate: 2000}
 friction: {k1: {uniform: [70, 150]}, alpha: 0.5}
 command: {targets: [{integers: [3, 9]}, 0], hold: 0.1}
@@ -260,7 +260,7 @@ goals: {back: {on: [1], band: 1, within: 0.03, moves: 0.9}}
 // Machines of an unknown world differ where they are like those of none.
 TEST_F(Accept, ComparesWithEachWorld) {
   run_study(
-      "rigs: 160\nworlds: 4\nplant: {inertia: {uniform: [4.0e-4, 9.0e-4], per: world}}\n"
+      "machines: 160\nworlds: 4\nplant: {inertia: {uniform: [4.0e-4, 9.0e-4], per: world}}\n"
       "goal: {band: 1, within: 0.03, moves: 0.9}\n");
   write_log("good.csv", 100, 0);
   write_log("bad.csv", 100, 80);
@@ -279,7 +279,7 @@ TEST_F(Accept, HasTheValuesOfTheStandard) {
 name: iso
 seed: 5
 trials: 80
-rigs: 40
+machines: 40
 controller: {ki: 4.0e-5, sample_rate: 2000}
 friction: {k1: {uniform: [70, 150]}, alpha: 0.5}
 command: {sequence: {targets: [-20, 5, 20], overrun: 5, cycles: 3}, hold: 0.1}

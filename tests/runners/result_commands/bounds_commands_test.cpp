@@ -46,8 +46,8 @@ TEST_F(BoundsCommands, SummaryHasTheBoundsOfTheConfidenceAskedFor) {
     EXPECT_EQ(usual["points"][i]["success_rate_low"].get<double>(),
               statistics::clopper_pearson(zero, 40).low);
   }
-  const Json& settling = wide["points"][0]["settling_time"];
-  const Json& usual_settling = usual["points"][0]["settling_time"];
+  const Json& settling = wide["points"][0]["arrival_time"];
+  const Json& usual_settling = usual["points"][0]["arrival_time"];
   EXPECT_LE(settling["median_low"], usual_settling["median_low"]);
   EXPECT_LT(settling["mean_low"], usual_settling["mean_low"]);
   EXPECT_GT(settling["mean_high"], usual_settling["mean_high"]);
@@ -83,10 +83,10 @@ TEST_F(BoundsCommands, EachPointHasItsToleranceStatement) {
     EXPECT_TRUE(std::regex_search(table, std::regex(row))) << row << table;
     EXPECT_NEAR(point["assurance"]["failure_at_most"].get<double>(),
                 1.0 - point["assurance"]["success_at_least"].get<double>(), 1e-12);
-    EXPECT_EQ(point["assurance"]["settling_time"].size(), 3U);
+    EXPECT_EQ(point["assurance"]["arrival_time"].size(), 3U);
   }
   const std::string csv = run({"summary", "study.h5", "--format", "csv"}).out;
-  EXPECT_TRUE(says(csv, ",settling_time_mean_low,",
+  EXPECT_TRUE(says(csv, ",arrival_time_mean_low,",
                    ",success_at_least,failure_at_most,settling_within_95,settling_within_99,"
                    "settling_within_99_9\n"));
 }
@@ -98,10 +98,10 @@ TEST_F(BoundsCommands, PlanSimulatesAPilotForTheTrialsThatShowEquivalence) {
   const Json strong = json({"plan", "--margin", "success_rate=0.05", "--power", "0.95", "study.yaml"});
   EXPECT_GT(strong["trials"], weak["trials"]);
   const Json both =
-      json({"plan", "--margin", "success_rate=0.05", "--margin", "settling_time=5%", "study.yaml"});
+      json({"plan", "--margin", "success_rate=0.05", "--margin", "arrival_time=5%", "study.yaml"});
   EXPECT_GE(both["trials"], weak["trials"]);
   for (const Json& one : both["measures"]) {
-    if (one["measure"] != "settling_time") continue;
+    if (one["measure"] != "arrival_time") continue;
     EXPECT_NEAR(one["margin"], 0.05 * one["value"].get<double>(), 1e-12);
   }
 }
@@ -164,8 +164,8 @@ TEST_F(BoundsCommands, RefuseWhatTheyCannotUse) {
       {"plan", "--margin", "success_rate=0.02"},
       {"plan", "--margin", "success_rate=2", "study.yaml"},
       {"plan", "--margin", "speed=2", "study.yaml"},
-      {"plan", "--margin", "settling_time=x%", "study.yaml"},
-      {"plan", "--margin", "settling_time=5%", "study.yaml", "--success", "0.9"},
+      {"plan", "--margin", "arrival_time=x%", "study.yaml"},
+      {"plan", "--margin", "arrival_time=5%", "study.yaml", "--success", "0.9"},
       {"plan", "--success", "0.9", "--set", "trials=3"},
       {"jerks"},
       {"jerks", "study.h5", "--point", "2"},
@@ -196,13 +196,13 @@ TEST_F(SensitivityCommand, SaysWhatDrivesTheTrialsOfASaltelliDesign) {
   EXPECT_EQ(table.code, 0) << table.err;
   EXPECT_TRUE(says(table.out, "command.targets.0"));
   const ProgramResult found =
-      program({"sensitivity", "study.h5", "--point", "0", "--output", "settling_time", "--format", "json"});
+      program({"sensitivity", "study.h5", "--point", "0", "--output", "arrival_time", "--format", "json"});
   ASSERT_EQ(found.code, 0) << found.err;
   const auto json = nlohmann::json::parse(found.out);
   EXPECT_TRUE(json["design_is_saltelli"].get<bool>());
   ASSERT_EQ(json["points"].size(), 1u);
   const auto& output = json["points"][0]["outputs"][0];
-  EXPECT_EQ(output["output"], "settling_time");
+  EXPECT_EQ(output["output"], "arrival_time");
   // The four factors, and the profile by its value at the start.
   EXPECT_EQ(output["factors"].size(), 5u);
   EXPECT_EQ(output["factors"][0]["name"], "command.targets.0") << "a longer way takes longer";

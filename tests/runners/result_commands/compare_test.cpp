@@ -34,13 +34,13 @@ class Compare : public ProgramTest {
   }
 };
 
-// Without rigs there are no machines to count: the moves are judged.
-TEST_F(Compare, AGoalOnMachinesIsJudgedByMovesWhereTheOtherStudyHasNoRigs) {
+// Without machines there are no machines to count: the moves are judged.
+TEST_F(Compare, AGoalOnMachinesIsJudgedByMovesWhereTheOtherStudyHasNoMachines) {
   const std::string goal = "goal: {band: 1, within: 0.03, moves: 0.9";
-  study("rigs", gains("3.5e-5", 60) + goal + ", machines: 0.8}\nrigs: 30\n", {"--force"});
+  study("machines", gains("3.5e-5", 60) + goal + ", machines: 0.8}\nmachines: 30\n", {"--force"});
   study("alone", gains("3.5e-5", 60) + goal + "}\n", {"--force"});
   for (const ProgramResult& result :
-       {program({"compare", "rigs.h5", "alone.h5"}), program({"compare", "alone.h5", "rigs.h5"})}) {
+       {program({"compare", "machines.h5", "alone.h5"}), program({"compare", "alone.h5", "machines.h5"})}) {
     EXPECT_TRUE(result.code == 0 || result.code == 1 || result.code == 3) << result.code << result.err;
     EXPECT_TRUE(says(result.out, "goal_rate"));
     EXPECT_FALSE(says(result.out, "goal_machines"));
@@ -94,17 +94,17 @@ TEST_F(Compare, JudgesAStudyWithAGoalByThatAndNothingElse) {
 
 // The verdict of the goal is that of judge, the quantile of a band that of the stored statistics.
 TEST_F(Compare, RequiresTheGoalAndTimesOfErrorBands) {
-  for (const std::string rigs : {"", "rigs: 100\n"}) {
+  for (const std::string machines : {"", "machines: 100\n"}) {
     using Case = std::pair<std::string, int>;
     for (const auto& [goal, code] :
          {Case{"within: 0.05, moves: 0.5", 0}, Case{"within: 0.004, moves: 0.9", 1},
           Case{"within: 0.05, moves: 0.999", 3}}) {
-      study("a", gains("3.5e-5", 300) + rigs + "goal: {band: 1, " + goal + "}\n", {"--force"});
+      study("a", gains("3.5e-5", 300) + machines + "goal: {band: 1, " + goal + "}\n", {"--force"});
       folder_.write("gate.yaml", "require: goal\n");
       const ProgramResult result =
           program({"compare", "a.h5", "a.h5", "--margins", "gate.yaml", "--format", "json"});
       const ProgramResult judged = program({"judge", "a.h5", "--point", "low", "--format", "json"});
-      EXPECT_EQ(result.code, judged.code == code ? code : -1) << goal << rigs << result.out << judged.out;
+      EXPECT_EQ(result.code, judged.code == code ? code : -1) << goal << machines << result.out << judged.out;
       const auto requirement = nlohmann::json::parse(result.out)["points"][0]["requirements"][0];
       EXPECT_EQ(requirement["value"], nlohmann::json::parse(judged.out)["rate"]);
       EXPECT_EQ(requirement["bounds"][0], nlohmann::json::parse(judged.out)["rate_low"]);

@@ -1,5 +1,5 @@
-// Conditions in the verbs on results: what a verb says of a study under a condition is what it says of the
-// study whose manifest has the overrides of the condition in its sections.
+// Conditions in the commands on results: what a command says of a study under a condition is what it says of
+// the study whose manifest has the overrides of the condition in its sections.
 
 #include "results/reading/all_trials_file.hpp"
 #include "tests/runners/program.hpp"
@@ -20,15 +20,15 @@ struct Kind {
 };
 
 const std::vector<Kind> kinds_with_conditions{
-    {"rigs",
-     "rigs: 24\nsweep: {grid: {controller.ki: [4.0e-5, 8.0e-5]}}\n"
+    {"machines",
+     "machines: 24\nsweep: {grid: {controller.ki: [4.0e-5, 8.0e-5]}}\n"
      "command: {targets: [20, 5], hold: 0.06}\n",
      48,
      "goals:\n"
      "  large: {\"on\": [0], band: 1, within: 0.03, moves: 0.9}\n"
      "  small: {\"on\": [1], band: 1, within: 0.02, moves: 0.6, machines: 0.5}\n"},
     {"plain", "design: latin_hypercube\ncommand: {targets: [{integers: [1, 20]}], hold: 0.1}\n", 120, ""},
-    {"worlds", "worlds: 5\nrigs: 10\ncommand: {targets: [12], hold: 0.1}\n", 50,
+    {"worlds", "worlds: 5\nmachines: 10\ncommand: {targets: [12], hold: 0.1}\n", 50,
      "goal: {band: 0, within: 0.03, moves: 0.7}\n"}};
 
 std::string manifest_of(const Kind& kind, int trials, const std::string& inertia, const std::string& k2,
@@ -156,7 +156,7 @@ TEST_F(ConditionsOfResults, HaveTheMarginsAndRequirementsOfTheirPointAndGoal) {
                 "margins: {goal_rate: 0.2, \"goal_rate[small]\": 0.3}\nrequire: [goal]\n"
                 "points: {controller.ki=8e-05: {goal_rate: 0.4}}\n");
   const json points =
-      said({"compare", "rigs-both.h5", "rigs-both-new.h5", "--margins", "gate.yaml"}).at("points");
+      said({"compare", "machines-both.h5", "machines-both-new.h5", "--margins", "gate.yaml"}).at("points");
   ASSERT_EQ(points.size(), 4U);
   for (const json& point : points) {
     const bool second = point.at("label").get<std::string>().starts_with("controller.ki=8e-05");
@@ -174,36 +174,37 @@ TEST_F(ConditionsOfResults, HaveTheMarginsAndRequirementsOfTheirPointAndGoal) {
   }
   folder->write("unknown.yaml", "margins: {\"goal_rate[medium]\": 0.3}\n");
   const ProgramResult unknown = zerocount_program(
-      {"compare", "rigs-both.h5", "rigs-both-new.h5", "--margins", "unknown.yaml"}, folder->path());
+      {"compare", "machines-both.h5", "machines-both-new.h5", "--margins", "unknown.yaml"}, folder->path());
   EXPECT_EQ(unknown.code, 2);
   EXPECT_TRUE(says(unknown.err, "'goal_rate[medium]'; expected one of its goals: large, small"));
 }
 
 TEST_F(ConditionsOfResults, HaveSensitivitiesAndJerksOfTheirOwn) {
   for (const Kind& kind : kinds_with_conditions) {
-    for (const std::string verb : {"sensitivity", "jerks"}) {
-      const json both = said({verb, file_of(kind, "both") + ".h5"}).at("points");
+    for (const std::string command : {"sensitivity", "jerks"}) {
+      const json both = said({command, file_of(kind, "both") + ".h5"}).at("points");
       for (const std::string& condition : names_of_conditions) {
-        const json alone = said({verb, file_of(kind, condition) + ".h5"}).at("points");
+        const json alone = said({command, file_of(kind, condition) + ".h5"}).at("points");
         const std::set<std::string> others{"label", "condition"};
-        EXPECT_EQ(without(under(both, condition), others), without(alone, others)) << verb << kind.name;
+        EXPECT_EQ(without(under(both, condition), others), without(alone, others)) << command << kind.name;
       }
     }
   }
 }
 
 TEST_F(ConditionsOfResults, AreNamedByVerdictsAndPlans) {
-  EXPECT_TRUE(says(run({"judge", "rigs-both.h5"}), ": the goal 'large' is missed under condition loaded\n"))
-      << run({"judge", "rigs-both.h5"});
+  EXPECT_TRUE(
+      says(run({"judge", "machines-both.h5"}), ": the goal 'large' is missed under condition loaded\n"))
+      << run({"judge", "machines-both.h5"});
   const std::string one_goal = said({"judge", "worlds-both.h5"}).at("headline");
   EXPECT_TRUE(says(one_goal, " under condition "));
-  EXPECT_TRUE(says(run({"plan", "rigs-both.yaml"}), "under the conditions empty, loaded together"));
+  EXPECT_TRUE(says(run({"plan", "machines-both.yaml"}), "under the conditions empty, loaded together"));
 }
 
 TEST_F(ConditionsOfResults, ArePlannedLikeStudiesOfTheirOwn) {
   for (const Kind& kind : kinds_with_conditions) {
     const auto planned = [&](const std::string& study) {
-      return said({"plan", file_of(kind, study) + ".yaml", "--margin", "settling_time=20%", "--margin",
+      return said({"plan", file_of(kind, study) + ".yaml", "--margin", "arrival_time=20%", "--margin",
                    "success_rate=0.2"});
     };
     const json both = planned("both");
@@ -222,7 +223,7 @@ TEST_F(ConditionsOfResults, ArePlannedLikeStudiesOfTheirOwn) {
     }
     EXPECT_EQ(both.at("measures").size(), found);
     ASSERT_TRUE(both.at("trials").is_number());
-    EXPECT_EQ(both.at("trials").get<std::int64_t>() % (2 * (kind.name == "rigs" ? 24 : 1)), 0);
+    EXPECT_EQ(both.at("trials").get<std::int64_t>() % (2 * (kind.name == "machines" ? 24 : 1)), 0);
     for (const json& one : both.at("measures")) EXPECT_LE(one.at("trials"), both.at("trials")) << one;
   }
 }
@@ -231,19 +232,20 @@ TEST_F(ConditionsOfResults, ArePlannedLikeStudiesOfTheirOwn) {
 TEST_F(ConditionsOfResults, AreNamedWhereTheyCannotBePlanned) {
   folder->write("never.yaml", manifest_of(kinds_with_conditions[1], 240, "5.54e-4", "",
                                           "conditions: {empty: {}, loaded: {controller.ki: 0}}\n"));
-  const json plan = said({"plan", "never.yaml", "--margin", "settling_time=20%"});
+  const json plan = said({"plan", "never.yaml", "--margin", "arrival_time=20%"});
   ASSERT_EQ(plan.at("unplanned").size(), 1U);
   EXPECT_EQ(plan.at("unplanned")[0].at("condition"), "loaded");
-  EXPECT_TRUE(says(run({"plan", "never.yaml", "--margin", "settling_time=20%"}), "Not planned: "));
+  EXPECT_TRUE(says(run({"plan", "never.yaml", "--margin", "arrival_time=20%"}), "Not planned: "));
 }
 
-TEST_F(ConditionsOfResults, GiveThePlanThePilotWhoseRigsDifferMost) {
+TEST_F(ConditionsOfResults, GiveThePlanThePilotWhoseMachinesDifferMost) {
   double largest = 0.0;
   for (const std::string& condition : names_of_conditions) {
-    const json alone = said({"plan", "--halfwidth", "0.05", "rigs-" + condition + ".h5"}).at("halfwidth");
-    largest = std::max(largest, alone.at("rig_sd").get<double>());
+    const json alone = said({"plan", "--halfwidth", "0.05", "machines-" + condition + ".h5"}).at("halfwidth");
+    largest = std::max(largest, alone.at("machine_sd").get<double>());
   }
-  EXPECT_EQ(said({"plan", "--halfwidth", "0.05", "rigs-both.h5"}).at("halfwidth").at("rig_sd"), largest);
+  EXPECT_EQ(said({"plan", "--halfwidth", "0.05", "machines-both.h5"}).at("halfwidth").at("machine_sd"),
+            largest);
 }
 
 TEST_F(ConditionsOfResults, HaveSeriesOfTheirOwn) {
@@ -280,7 +282,7 @@ TEST_F(ConditionsOfResults, HaveCurvesOfTheirOwnInTheReport) {
       return data.at(data.contains("steps") ? "steps" : "points");
     };
     std::vector<std::string> figures{"success"};
-    if (kind.name == "rigs") figures.emplace_back("settled");
+    if (kind.name == "machines") figures.emplace_back("settled");
     for (const std::string& figure : figures) {
       const json both = drawn("both", figure);
       for (const std::string& condition : names_of_conditions) {

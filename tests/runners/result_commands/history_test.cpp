@@ -44,7 +44,7 @@ TEST_F(HistoryCommand, HasTheValuesAndBoundsOfTheSummary) {
         EXPECT_EQ(value.at("value_high"), point.at("success_rate_high"));
         ++compared;
       }
-      if (series.at("measure") == "settling_time" || series.at("measure") == "jerk_count") {
+      if (series.at("measure") == "arrival_time" || series.at("measure") == "jerk_count") {
         const json& statistics = point.at(series.at("measure").get<std::string>());
         EXPECT_EQ(value.at("value"), statistics.at("mean"));
         EXPECT_EQ(value.at("value_low"), statistics.at("mean_low"));
@@ -64,7 +64,7 @@ TEST_F(HistoryCommand, AddsAFileOnceAndItsComparison) {
   EXPECT_EQ(program({"history", "add", "second.h5", "--compare", "compared.json"}).code, 0);
   for (const json& series : series_shown()) {
     ASSERT_EQ(series.at("runs").size(), 1U);
-    const bool settling = series.at("measure") == "settling_time";  // may have too few values to be judged
+    const bool settling = series.at("measure") == "arrival_time";  // may have too few values to be judged
     if (settling) continue;
     EXPECT_EQ(series.at("runs")[0].at("comparison").at("verdict"), "equivalent");
   }
@@ -171,10 +171,10 @@ TEST_F(HistoryCommand, RefusesWhatItCannotUse) {
 
 // The answers of monitor to a growing log are a series of each measure, which changed where its p says so.
 TEST_F(HistoryCommand, TakesAnswersOfMonitor) {
-  std::string before = "settling_time [ms]\n";
+  std::string before = "arrival_time [ms]\n";
   for (int i = 0; i < 300; ++i) before += fmt::format("{}\n", 40 + (7 * i) % 11);
   folder_.write("before.csv", before);
-  std::string moves = "settling_time [ms]\n";
+  std::string moves = "arrival_time [ms]\n";
   for (int week = 0; week < 4; ++week) {
     for (int i = 0; i < 100; ++i) moves += fmt::format("{}\n", (week < 2 ? 40 : 52) + (7 * i) % 11);
     folder_.write("moves.csv", moves);
@@ -188,7 +188,7 @@ TEST_F(HistoryCommand, TakesAnswersOfMonitor) {
   ASSERT_EQ(series.size(), 1u);
   EXPECT_EQ(series[0].at("study"), "monitor of before.csv");
   EXPECT_EQ(series[0].at("point"), "moves.csv");
-  EXPECT_EQ(series[0].at("measure"), "settling_time");
+  EXPECT_EQ(series[0].at("measure"), "arrival_time");
   ASSERT_EQ(series[0].at("runs").size(), 4u);
   folder_.write("other.json", "{\"answer\": \"judge\"}");
   EXPECT_EQ(program({"history", "add", "other.json"}).code, 2);

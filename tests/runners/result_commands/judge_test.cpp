@@ -44,7 +44,7 @@ TEST_F(Judge, SaturationIsNamedWhereTheMovesThatMissSaturate) {
 /// moves meet the goal under "empty", and the faster the loop the more under "shaken".
 std::string shaken_axis(int machines, const std::string& more = "") {
   return fmt::format(
-      "zerocount: 1\nname: shelf\nseed: 4\nrigs: {}\ntrials: {}\n"
+      "zerocount: 1\nname: shelf\nseed: 4\nmachines: {}\ntrials: {}\n"
       "plant: {{inertia: {{uniform: [1.8e-4, 2.2e-4]}}, presliding_damping: 2.0e-3}}\n"
       "friction: {{model: none}}\nencoder: {{fine: 100000}}\ndac: {{bits: 18, range: 4}}\n"
       "controller: {{sample_rate: 4000, delay: 1, structure: cascade, cascade: {{kv: 40, kp: 0.03, ki: "
@@ -96,19 +96,19 @@ TEST_F(Judge, TheBestPointIsThatOfTheRatesForAnyNumberOfMachines) {
 }
 
 TEST_F(Judge, StatisticsDoNotDependOnWhatTheFileKeeps) {
-  const std::string more = "rigs: 8\ngoal: {band: 3, within: 0.1, moves: 0.6, machines: 0.5}\n";
+  const std::string more = "machines: 8\ngoal: {band: 3, within: 0.1, moves: 0.6, machines: 0.5}\n";
   run_study(more);
   run_study(more + "keep: statistics\n", 40, "sums.h5");
-  for (const char* verb : {"summary", "judge"}) {
-    Json kept = json_of({verb, "out.h5"}), sums = json_of({verb, "sums.h5"});
-    EXPECT_EQ(kept, sums) << verb;
+  for (const char* command : {"summary", "judge"}) {
+    Json kept = json_of({command, "out.h5"}), sums = json_of({command, "sums.h5"});
+    EXPECT_EQ(kept, sums) << command;
     EXPECT_FALSE(kept.is_discarded());
   }
   const Json point = json_of({"summary", "sums.h5"})["points"][0];
   ASSERT_EQ(point["bands"].size(), 3U);
   EXPECT_EQ(point["bands"][2]["band"], 3);
   EXPECT_EQ(point["bands"][0]["settling_time"]["median"], point["final_settling_time"]["median"]);
-  EXPECT_EQ(point["bands"][0]["entry_time"]["p95"], point["settling_time"]["p95"]);
+  EXPECT_EQ(point["bands"][0]["entry_time"]["p95"], point["arrival_time"]["p95"]);
   EXPECT_EQ(point["bands"][0]["exits"]["total"], point["jerk_count"]["total"]);
 }
 
@@ -127,7 +127,7 @@ struct ProfiledMoves {
   }
   std::string manifest(const std::string& targets, const std::string& goal) const {
     return fmt::format(
-        "zerocount: 1\nname: profiled\nseed: 3\ntrials: 60\nrigs: 6\n"
+        "zerocount: 1\nname: profiled\nseed: 3\ntrials: 60\nmachines: 6\n"
         "friction: {{k1: {{uniform: [70, 150]}}, alpha: 0.5}}\ncontroller: {{sample_rate: 2000, ki: "
         "4.0e-5}}\n"
         "command: {{targets: {}, hold: 0.4, profile: {{shape: trapezoidal, velocity_limit: {}, "
@@ -181,7 +181,7 @@ TEST_F(Judge, OfTwoMassesSaysWhichItIsAndShowsTheLoad) {
   const auto run = [&](const std::string& encoder, const std::string& of) {
     folder_.write(
         "joint.yaml",
-        "zerocount: 1\nname: joint\nseed: 7\ntrials: 60\nrigs: 20\n"
+        "zerocount: 1\nname: joint\nseed: 7\ntrials: 60\nmachines: 20\n"
         "plant: {inertia: 0.5, sliding_damping: 1, load: {inertia: {uniform: [0.5, 2]}, stiffness: "
         "2.0e+4, damping: 5, encoder: " +
             encoder +
@@ -282,7 +282,7 @@ TEST_F(Judge, PlansTheStudyThatDecidesTheGoal) {
     EXPECT_TRUE(says(refusal({"plan", operand}), "its manifest has no goal"));
 }
 
-// A goal is the question of its study: every verb speaks of it first, and of success where there is none.
+// A goal is the question of its study: every command speaks of it first, and of success where there is none.
 
 constexpr double within = 0.03;
 
@@ -292,7 +292,7 @@ std::string manifest_with(const std::string& goal) {
 name: question
 seed: 7
 trials: 48
-rigs: 12
+machines: 12
 worlds: 4
 friction:
   k1: {lognormal: {median: 110, cv: 0.3}}
@@ -323,7 +323,7 @@ class QuestionOfAStudy : public ::testing::Test {
   static ProgramResult run(const std::vector<std::string>& words) {
     return zerocount_program(words, folder->path());
   }
-  /// What a verb says of the study NAME, which stands for @ in its words.
+  /// What a command says of the study NAME, which stands for @ in its words.
   static ProgramResult say(std::vector<std::string> words, const std::string& name) {
     for (std::string& word : words) {
       if (const std::size_t at = word.find('@'); at != std::string::npos) word.replace(at, 1, name);
@@ -358,7 +358,7 @@ const std::vector<Answer> answers{
     {{"status", "@-begun.h5"}, {"moves in goal", "the goal is"}, {"zero-count"}},
     {{"sensitivity", "@.h5", "--point", "0"},
      {"all moves met the goal", "goal_settling_time (s)"},
-     {"all moves ended at zero counts", "settling_time (s)"}},
+     {"all moves ended at zero counts", "arrival_time (s)"}},
     {{"compare", "@.h5", "--points", "0", "1"},
      {"goal_rate", "goal_machines"},
      {"success_rate", "jerk_count"}},
@@ -386,32 +386,32 @@ std::size_t first_of(const std::string& text, const std::vector<std::string>& wo
   return first;
 }
 
-TEST_F(QuestionOfAStudy, IsWhatEveryVerbSpeaksOfFirst) {
+TEST_F(QuestionOfAStudy, IsWhatEveryCommandSpeaksOfFirst) {
   const std::vector<std::string> words_of_success{"zero-count", "zero count", "success", "succeed",
                                                   "failure"};
   for (const Answer& answer : answers) {
-    const std::string verb = fmt::format("{} {}", answer.words[0], answer.words[1]);
+    const std::string command = fmt::format("{} {}", answer.words[0], answer.words[1]);
     const ProgramResult of_goal = say(answer.words, "goal");
-    EXPECT_LE(of_goal.code, 3) << verb << of_goal.err;
-    EXPECT_NE(of_goal.code, 2) << verb << of_goal.err;
+    EXPECT_LE(of_goal.code, 3) << command << of_goal.err;
+    EXPECT_NE(of_goal.code, 2) << command << of_goal.err;
     for (const std::string& said : answer.of_goal)
-      EXPECT_TRUE(says(of_goal.out, said)) << verb << ": " << said << "\n" << of_goal.out.substr(0, 2000);
-    EXPECT_LT(first_of(of_goal.out, {"goal"}), first_of(of_goal.out, words_of_success)) << verb;
+      EXPECT_TRUE(says(of_goal.out, said)) << command << ": " << said << "\n" << of_goal.out.substr(0, 2000);
+    EXPECT_LT(first_of(of_goal.out, {"goal"}), first_of(of_goal.out, words_of_success)) << command;
     const ProgramResult of_success = say(answer.words, "success");
-    EXPECT_EQ(of_success.code == 2, answer.of_success.empty()) << verb << of_success.err;
+    EXPECT_EQ(of_success.code == 2, answer.of_success.empty()) << command << of_success.err;
     if (answer.of_success.empty()) {
-      EXPECT_TRUE(says(of_success.err, "no goal")) << verb;
+      EXPECT_TRUE(says(of_success.err, "no goal")) << command;
     }
     for (const std::string& said : answer.of_success)
-      EXPECT_TRUE(says(of_success.out, said)) << verb << ": " << said << "\n"
+      EXPECT_TRUE(says(of_success.out, said)) << command << ": " << said << "\n"
                                               << of_success.out.substr(0, 2000);
     EXPECT_EQ(first_of(of_success.out, {"the goal", "in goal", "goal_"}), std::string::npos)
-        << verb << "\n"
+        << command << "\n"
         << of_success.out.substr(0, 2000);
   }
 }
 
-TEST_F(QuestionOfAStudy, DecidesWhichTrialsAndRigsFailed) {
+TEST_F(QuestionOfAStudy, DecidesWhichTrialsAndMachinesFailed) {
   for (const std::string name : {"goal", "success"}) {
     const reading::AllTrialsFile file(folder->path() / (name + ".h5"));
     const report::ReportedStudy reported = report::reported_study(file);
@@ -423,17 +423,17 @@ TEST_F(QuestionOfAStudy, DecidesWhichTrialsAndRigsFailed) {
                             : move.outcome != trial::Outcome::zero_count;
     };
     std::map<std::int64_t, std::int64_t> failed;  // [trial] of its moves
-    std::array<bool, 12> rig_failed{};
+    std::array<bool, 12> machine_failed{};
     for (std::size_t i = 0; i < moves.size(); ++i) {
       if (!fails(moves[i])) continue;
       ++failed[static_cast<std::int64_t>(i / 2)];
-      rig_failed[i / 2 % 12] = true;
+      machine_failed[i / 2 % 12] = true;
     }
     ASSERT_FALSE(failed.empty()) << name;
-    const goal::RigsWithoutFailure rigs = goal::rigs_without_failure(
+    const goal::MachinesWithoutFailure machines = goal::machines_without_failure(
         reported.summary.question, reported.summary.points[static_cast<std::size_t>(point)]);
-    EXPECT_EQ(rigs.of, 12);
-    EXPECT_EQ(rigs.rigs, std::ranges::count(rig_failed, false)) << name;
+    EXPECT_EQ(machines.of, 12);
+    EXPECT_EQ(machines.machines, std::ranges::count(machine_failed, false)) << name;
     const std::int64_t most =
         std::ranges::max_element(failed, {}, [](const auto& one) { return one.second; })->second;
     const std::vector<report::SampleTrial> shown = report::sample_trials(reported);

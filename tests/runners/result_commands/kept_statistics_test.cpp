@@ -54,7 +54,7 @@ TEST_P(StatisticsOfStudies, AreThoseOfARunThatKeepsItsTrials) {
   EXPECT_TRUE(summary("kept.h5", "table") == summary("full.h5", "table"));
   export_tables("full.h5", "full");
   export_tables("kept.h5", "kept");
-  for (const char* table : {"points.csv", "profiles.csv", "rigs.csv", "rig_counts.csv", "levels.csv"})
+  for (const char* table : {"points.csv", "profiles.csv", "machines.csv", "machine_counts.csv", "levels.csv"})
     EXPECT_TRUE(text_of(std::string("kept/") + table) == text_of(std::string("full/") + table)) << table;
   EXPECT_FALSE(fs::exists(at("kept/trials.csv")));
 }
@@ -89,8 +89,8 @@ const std::string torques =
 INSTANTIATE_TEST_SUITE_P(All, StatisticsOfStudies,
                          ::testing::Values(StudyText{"jerks",
                                                      small_manifest(90, "design: latin_hypercube\n")},
-                                           StudyText{"rigs", small_manifest(90, "rigs: 30\n")},
-                                           StudyText{"rigs_in_open_loop", torques + "rigs: 9\n"}),
+                                           StudyText{"machines", small_manifest(90, "machines: 30\n")},
+                                           StudyText{"machines_in_open_loop", torques + "machines: 9\n"}),
                          [](const auto& tested) { return tested.param.name; });
 
 TEST_F(KeptStatistics, OfARunThatWasInterruptedAreTheSame) {

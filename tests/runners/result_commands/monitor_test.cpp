@@ -12,7 +12,7 @@ constexpr const char* study = R"(zerocount: 1
 name: monitored
 seed: 5
 trials: 200
-rigs: 10
+machines: 10
 controller: {ki: 4.0e-5, sample_rate: 2000}
 friction: {k1: {uniform: [70, 150]}, alpha: 0.5}
 command: {targets: [{integers: [5, 30]}, {integers: [-30, -5]}], hold: 0.2}
@@ -23,7 +23,7 @@ class Monitor : public ProgramTest {
   /// A log of times that repeat 0.041 … 0.050 in a fixed order, times a factor.
   void write_log(const std::string& name, int moves, double factor = 1.0, bool append = false) {
     std::ofstream file(folder_.path() / name, append ? std::ios::app : std::ios::trunc);
-    if (!append) file << "settling_time [ms]\n";
+    if (!append) file << "arrival_time [ms]\n";
     for (int i = 0; i < moves; ++i) file << fmt::format("{}\n", factor * (41.0 + (7 * i + i / 10) % 10));
   }
   void run_study(const std::string& more = "") {
@@ -48,7 +48,7 @@ TEST_F(Monitor, AnswersWithItsFieldsAndExitCodes) {
     EXPECT_TRUE(none[key].is_null()) << key;
   const Json slower = json_of({"monitor", "before.csv", "slower.csv"}, 1);
   EXPECT_EQ(slower["status"], "changed");
-  EXPECT_EQ(slower["measure"], "settling_time");
+  EXPECT_EQ(slower["measure"], "arrival_time");
   EXPECT_EQ(slower["direction"], "higher");
   EXPECT_NEAR(slower["since"].get<double>(), 61.0, 10.0);
   EXPECT_GT(slower["alarm_at"], 60);
@@ -60,11 +60,12 @@ TEST_F(Monitor, AnswersWithItsFieldsAndExitCodes) {
 TEST_F(Monitor, TakesAResultsFileAsTheBaseline) {
   run_study();
   ASSERT_EQ(program({"export", "study.h5", "-o", "tables"}).code, 0);
-  const Json same = json_of({"monitor", "study.h5", "tables/outcomes.csv", "--measure", "settling_time"}, 0);
+  const Json same = json_of({"monitor", "study.h5", "tables/outcomes.csv", "--measure", "arrival_time"}, 0);
   EXPECT_EQ(same["baseline_moves"], 400);
   EXPECT_EQ(same["baseline_machines"], 10);
   EXPECT_EQ(same["measures"][0]["baseline"], same["measures"][0]["moves"]);
-  EXPECT_EQ(json_of({"monitor", "study.h5", "tables/outcomes.csv", "--rig", "3"}, 3)["baseline_moves"], 40);
+  EXPECT_EQ(json_of({"monitor", "study.h5", "tables/outcomes.csv", "--machine", "3"}, 3)["baseline_moves"],
+            40);
   const std::string text = program({"monitor", "study.h5", "tables/outcomes.csv"}).out;
   EXPECT_TRUE(says(text, "an alarm can mean that the model is wrong"));
 }
@@ -72,21 +73,21 @@ TEST_F(Monitor, TakesAResultsFileAsTheBaseline) {
 // A machine that never settles any more writes nothing but line feeds.
 TEST_F(Monitor, SeesMovesThatNeverSettleInALogOfOneColumn) {
   write_log("before.csv", 200);
-  folder_.write("never.csv", "settling_time\n" + std::string(100, '\n'));
+  folder_.write("never.csv", "arrival_time\n" + std::string(100, '\n'));
   const Json never = json_of({"monitor", "before.csv", "never.csv"}, 1);
   EXPECT_EQ(never["moves"], 100);
   EXPECT_EQ(never["direction"], "higher");
 }
 
 TEST_F(Monitor, NamesTheMeasuresThatItCallsUnchanged) {
-  std::string text = "settling_time,overshoot,jerk_count\n";
+  std::string text = "arrival_time,overshoot,jerk_count\n";
   for (int i = 0; i < 300; ++i)
     text += fmt::format("{},{},0\n", 0.041 + 0.001 * ((7 * i + i / 10) % 10), 10 + (3 * i + i / 7) % 5);
   folder_.write("before.csv", text);
   const std::string said = program({"monitor", "before.csv", "before.csv"}).out;
   EXPECT_TRUE(says(said,
                    "a change of 20 % of the baseline's median (added to each value, or as a factor of it) "
-                   "would have been seen with 90 % in settling_time, overshoot"))
+                   "would have been seen with 90 % in arrival_time, overshoot"))
       << said;
   EXPECT_TRUE(says(said, "a proportion cannot change so much: jerk_count")) << said;
 }
@@ -99,14 +100,14 @@ TEST_F(Monitor, NamesTheMeasuresThatItDoesNotJudge) {
       text += fmt::format("{},{}\n", 0.041 + 0.001 * ((7 * i + i / 10) % 10), 10 + (3 * i + i / 7) % 5);
     return text;
   };
-  folder_.write("before.csv", log("settling_time,overshoot"));
-  folder_.write("renamed.csv", log("settling_time,Over_Shoot"));
-  folder_.write("missing.csv", log("settling_time,day"));
-  folder_.write("other.csv", log("Settling_Time,jerk_count"));
+  folder_.write("before.csv", log("arrival_time,overshoot"));
+  folder_.write("renamed.csv", log("arrival_time,Over_Shoot"));
+  folder_.write("missing.csv", log("arrival_time,day"));
+  folder_.write("other.csv", log("Arrival_Time,jerk_count"));
   const std::vector<std::string> renamed{"monitor", "before.csv", "renamed.csv"};
   const std::string said = program(renamed).out;
   EXPECT_TRUE(
-      says(said, "would have been seen with 90 % in settling_time; not judged: overshoot",
+      says(said, "would have been seen with 90 % in arrival_time; not judged: overshoot",
            "not judged, because renamed.csv has no such column: overshoot (its column 'Over_Shoot' looks "
            "like it)"))
       << said;
@@ -118,7 +119,7 @@ TEST_F(Monitor, NamesTheMeasuresThatItDoesNotJudge) {
   EXPECT_EQ(missing["not_judged"],
             Json::parse(R"([{"measure": "overshoot", "why": "missing", "near": null}])"));
   EXPECT_TRUE(says(refusal({"monitor", "before.csv", "other.csv"}), "no measure to compare",
-                   "the column 'Settling_Time' of other.csv looks like settling_time"));
+                   "the column 'Arrival_Time' of other.csv looks like arrival_time"));
   EXPECT_TRUE(json_of({"monitor", "before.csv", "before.csv"}, 0)["not_judged"].empty());
   EXPECT_TRUE(says(program({"monitor", "renamed.csv", "renamed.csv"}).out,
                    "columns that are not compared: Over_Shoot (looks like overshoot)"));
@@ -153,7 +154,9 @@ TEST_F(Monitor, SaysWhatALogIsThatIsNotText) {
     EXPECT_TRUE(says(refusal({"check", name}), wanted, what));
     EXPECT_TRUE(says(refusal({"summary", name}, 4), "it is not in the HDF5 format, but", what));
   }
-  folder_.write("marked.csv", "\xEF\xBB\xBFsettling_time [ms]\n41\n43\n");
+  folder_.write("marked.csv",
+                "\xEF\xBB\xBF"
+                "arrival_time [ms]\n41\n43\n");
   EXPECT_EQ(json_of({"monitor", "moves.csv", "marked.csv"}, 3)["moves"], 2);
 }
 
@@ -251,7 +254,7 @@ TEST_F(Monitor, FollowsUntilItIsInterrupted) {
 }
 
 TEST_F(Monitor, ComparesGroupsAndSaysThatNeighboursAreAlike) {
-  std::string text = "day,settling_time\n";
+  std::string text = "day,arrival_time\n";
   for (int i = 0; i < 240; ++i)
     text += fmt::format("{},{}\n", i / 12, 0.05 + 0.001 * ((7 * (i / 12)) % 5) + 0.0005 * ((11 * i) % 7));
   folder_.write("before.csv", text);
@@ -282,15 +285,14 @@ command: {targets: [2, -60], hold: 0.2}
   ASSERT_EQ(program({"run", "study.yaml", "-o", "study.h5", "-q"}).code, 0);
   ASSERT_EQ(program({"export", "study.h5", "-o", "tables"}).code, 0);
   const Json by_move =
-      json_of({"monitor", "study.h5", "tables/outcomes.csv", "--measure", "settling_time"}, 0);
+      json_of({"monitor", "study.h5", "tables/outcomes.csv", "--measure", "arrival_time"}, 0);
   EXPECT_EQ(by_move["alike"], "move");
   EXPECT_EQ(by_move["unlike"], 0);
   ASSERT_EQ(by_move["likes"].size(), 2) << by_move;
   EXPECT_EQ(by_move["likes"][0]["baseline"], by_move["likes"][0]["median"]);
   EXPECT_TRUE(by_move["measures"][0]["baseline"].is_null());
   // One count is 2π/1620000 rad.
-  folder_.write("moves.csv",
-                "target [rad],settling_time\n7.757e-06,0.05\n-2.3271e-04,0.05\n7.757e-05,0.05\n");
+  folder_.write("moves.csv", "target [rad],arrival_time\n7.757e-06,0.05\n-2.3271e-04,0.05\n7.757e-05,0.05\n");
   const Json by_target = json_of({"monitor", "study.h5", "moves.csv"}, 3);
   EXPECT_EQ(by_target["alike"], "target and direction");
   EXPECT_EQ(by_target["values"], 1) << "the first move is from where is not known";
@@ -317,7 +319,7 @@ TEST_F(Monitor, NamesTheParameterThatChanged) {
 name: monitored
 seed: 5
 trials: 400
-rigs: 20
+machines: 20
 controller: {ki: 4.0e-5, sample_rate: 2000}
 friction: {k1: {uniform: [108, 112]}, alpha: 0.5}
 command: {targets: [{integers: [5, 30]}, {integers: [-30, -5]}], hold: 0.2}
@@ -393,7 +395,7 @@ std::string rows(int moves, int value) {
   return text;
 }
 
-const std::string head = "settling_time [ms],overshoot\n";
+const std::string head = "arrival_time [ms],overshoot\n";
 
 class GrowingLogTest : public ::testing::TestWithParam<bool> {
  protected:
@@ -424,12 +426,12 @@ class GrowingLogTest : public ::testing::TestWithParam<bool> {
 TEST_P(GrowingLogTest, RefusesAnotherLog) {
   EXPECT_EQ(refusal(head + rows(5, 41) + rows(60, 40)),
             "4: another log took its place after 30 moves; expected a file that only grows");
-  EXPECT_EQ(refusal("overshoot,settling_time [ms]\n" + rows(60, 1)),
-            "4:1: the line became 'overshoot,settling_time [ms]' while the log was followed; expected "
-            "'settling_time [ms],overshoot', as it was");
-  EXPECT_EQ(refusal("settling_time [s],overshoot\n" + rows(60, 40)),
-            "4:1: the line became 'settling_time [s],overshoot' while the log was followed; expected "
-            "'settling_time [ms],overshoot', as it was");
+  EXPECT_EQ(refusal("overshoot,arrival_time [ms]\n" + rows(60, 1)),
+            "4:1: the line became 'overshoot,arrival_time [ms]' while the log was followed; expected "
+            "'arrival_time [ms],overshoot', as it was");
+  EXPECT_EQ(refusal("arrival_time [s],overshoot\n" + rows(60, 40)),
+            "4:1: the line became 'arrival_time [s],overshoot' while the log was followed; expected "
+            "'arrival_time [ms],overshoot', as it was");
   EXPECT_EQ(refusal(head + rows(5, 40)),
             "4: became shorter while it was followed; expected a file that only grows");
   EXPECT_EQ(refusal(""), "4: became shorter while it was followed; expected a file that only grows");

@@ -128,7 +128,7 @@ TEST_F(Nightly, GoesOnAfterAStudyThatFails) {
   EXPECT_TRUE(says(said_, "other: passed"));
 }
 
-// Real changes of the rig, run and compared: does the gate see them?
+// Real changes of the machine, run and compared: does the gate see them?
 //
 // The study has a gain at criterion (6), one beyond it, and one with a proportional part. Of each change 300
 // trials a point are enough on equal draws.
@@ -224,7 +224,7 @@ comparison::PointTrials some_of(const comparison::PointTrials& all, const std::v
     some.values["success_rate"].push_back(all.values.at("success_rate")[lot[i]]);
     some.values["arrival_rate"].push_back(all.values.at("arrival_rate")[lot[i]]);
     some.values["stable_rate"].push_back(all.values.at("stable_rate")[lot[i]]);
-    some.values["settling_time"].push_back(all.values.at("settling_time")[lot[i]]);
+    some.values["arrival_time"].push_back(all.values.at("arrival_time")[lot[i]]);
     some.values["jerk_count"].push_back(all.values.at("jerk_count")[lot[i]]);
   }
   return some;

@@ -1,4 +1,4 @@
-// Counts on a real rig beside the simulated trials: from the manifest to the summary, the file and the
+// Counts on a real machine beside the simulated trials: from the manifest to the summary, the file and the
 // report.
 #include <regex>
 
@@ -59,12 +59,12 @@ TEST_F(ObservedCounts, AreTestedAgainstTheTrialsOfTheirPoint) {
   EXPECT_TRUE(says(folder_.read("out.html"), points[0]["observed_counts"]["statement"].get<std::string>()));
 }
 
-TEST_F(ObservedCounts, AreOfOneOfTheRigs) {
-  const nlohmann::json points = points_of("rigs: 4\n" + counts_of_both);
+TEST_F(ObservedCounts, AreOfOneOfTheMachines) {
+  const nlohmann::json points = points_of("machines: 4\n" + counts_of_both);
   const nlohmann::json& few = points[0]["observed_counts"];
-  EXPECT_EQ(few["verdict"], "too_few") << few;  // 2/5 is the least p of four rigs
+  EXPECT_EQ(few["verdict"], "too_few") << few;  // 2/5 is the least p of four machines
   EXPECT_GE(few["lowest_p_value"].get<double>(), 0.4);
-  const nlohmann::json short_trials = points_of("rigs: 40\n" + counts_of_both);
+  const nlohmann::json short_trials = points_of("machines: 40\n" + counts_of_both);
   EXPECT_EQ(short_trials[0]["observed_counts"]["verdict"], "untested");
   EXPECT_TRUE(short_trials[0]["observed_counts"]["p_value"].is_null());
 }
@@ -113,9 +113,9 @@ class Confirm : public ProgramTest {
 };
 
 TEST_F(Confirm, IsTheRunOfThatPointWithTheStatedSeed) {
-  for (const char* rigs : {"", "rigs: 5\n"}) {
-    SCOPED_TRACE(rigs);
-    folder_.write("study.yaml", small_manifest(20, std::string(rigs) + "retain: {trials: [7]}\n"));
+  for (const char* machines : {"", "machines: 5\n"}) {
+    SCOPED_TRACE(machines);
+    folder_.write("study.yaml", small_manifest(20, std::string(machines) + "retain: {trials: [7]}\n"));
     ASSERT_EQ(program({"run", "study.yaml", "-o", "out.h5", "--force"}).code, 0);
     const std::string before = folder_.read("out.h5");
     const nlohmann::json confirmed = summary_of("out.h5", {"--confirm", "300"})["confirmation"];
@@ -125,7 +125,7 @@ TEST_F(Confirm, IsTheRunOfThatPointWithTheStatedSeed) {
     std::vector<std::string> words{
         "run",   "study.yaml", "-o", "new.h5", "--force", "--set", "seed=" + confirmed["seed"].dump(),
         "--set", "trials=300"};
-    if (*rigs != '\0') words.insert(words.end(), {"--set", "rigs=300"});
+    if (*machines != '\0') words.insert(words.end(), {"--set", "machines=300"});
     ASSERT_EQ(program(words).code, 0);
     const nlohmann::json point = summary_of("new.h5")["points"][confirmed["point"].get<std::size_t>()];
     EXPECT_EQ(confirmed["zero_count"], point["zero_count"]);
@@ -133,7 +133,7 @@ TEST_F(Confirm, IsTheRunOfThatPointWithTheStatedSeed) {
     EXPECT_NEAR(confirmed["success_rate_low"].get<double>(), point["success_rate_low"].get<double>(), 1e-12);
     EXPECT_NEAR(confirmed["success_rate_high"].get<double>(), point["success_rate_high"].get<double>(),
                 1e-12);
-    EXPECT_EQ(confirmed["one_trial_per_rig"], *rigs != '\0');
+    EXPECT_EQ(confirmed["one_trial_per_machine"], *machines != '\0');
   }
 }
 
@@ -157,12 +157,12 @@ TEST_F(Confirm, IsRefusedWhereItMeansNothing) {
 
 // Every output of a study speaks of the same design point.
 
-/// A small study with a sweep, rigs or not, a goal or not.
+/// A small study with a sweep, machines or not, a goal or not.
 std::string random_manifest(std::mt19937_64& random) {
   std::uniform_real_distribution<double> uniform;
   const auto within = [&](double low, double high) { return low + (high - low) * uniform(random); };
   std::string manifest = fmt::format("zerocount: 1\nname: drawn\nseed: {}\ntrials: 40\n", random() % 100000);
-  if (uniform(random) < 0.5) manifest += "rigs: 10\n";
+  if (uniform(random) < 0.5) manifest += "machines: 10\n";
   manifest +=
       fmt::format("friction: {{k1: {{uniform: [{:.3g}, {:.3g}]}}}}\n", within(60, 90), within(100, 140));
   manifest +=

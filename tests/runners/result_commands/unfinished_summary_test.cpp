@@ -32,7 +32,7 @@ class UnfinishedSummary : public ProgramTest {
 };
 
 TEST_F(UnfinishedSummary, HasTheStatisticsOfTheTrialsThatAreFinished) {
-  for (const char* groups : {"", "rigs: 30\n", "worlds: 7\n"}) {
+  for (const char* groups : {"", "machines: 30\n", "worlds: 7\n"}) {
     SCOPED_TRACE(groups);
     folder_.write("study.yaml", small_manifest(60, groups));
     complete("half.h5", {"--set", "trials=30", "--force"});
@@ -57,9 +57,9 @@ TEST_F(UnfinishedSummary, TakesTrialsThatOthersAreMissingBefore) {
   EXPECT_EQ(summary["points"][1]["trials"], 30);
 }
 
-// Their numbers tell the rig or world of a trial.
-TEST_F(UnfinishedSummary, OfRigsOrWorldsLeavesOutTrialsThatOthersAreMissingBefore) {
-  for (const char* groups : {"rigs: 30\n", "worlds: 7\n"}) {
+// Their numbers tell the machine or world of a trial.
+TEST_F(UnfinishedSummary, OfMachinesOrWorldsLeavesOutTrialsThatOthersAreMissingBefore) {
+  for (const char* groups : {"machines: 30\n", "worlds: 7\n"}) {
     SCOPED_TRACE(groups);
     fs::remove_all(at("out.h5.shards"));
     folder_.write("study.yaml", small_manifest(60, groups));
@@ -73,19 +73,19 @@ TEST_F(UnfinishedSummary, OfRigsOrWorldsLeavesOutTrialsThatOthersAreMissingBefor
   }
 }
 
-TEST_F(UnfinishedSummary, CountsTheRigsThatHaveTrials) {
-  folder_.write("study.yaml", small_manifest(60, "rigs: 60\n"));
+TEST_F(UnfinishedSummary, CountsTheMachinesThatHaveTrials) {
+  folder_.write("study.yaml", small_manifest(60, "machines: 60\n"));
   finish_quarter(1);
   const nlohmann::json point = summary_of("out.h5")["points"][0];
   EXPECT_EQ(point["trials"], 30);
-  EXPECT_EQ(point["rigs"]["n"], 30);
+  EXPECT_EQ(point["machines"]["n"], 30);
   // Each has one trial.
-  EXPECT_EQ(point["rigs"]["without_failure"], point["success_rate"]);
+  EXPECT_EQ(point["machines"]["without_failure"], point["success_rate"]);
 }
 
 TEST_F(UnfinishedSummary, WhereAPointHasNoTrialYetItsRatesAreUnknown) {
   const std::string observed = "observed: {low: {successes: 19, of: 20}, high: {successes: 0, of: 12}}\n";
-  for (const char* more : {"", "rigs: 30\n", "keep: statistics\n"}) {
+  for (const char* more : {"", "machines: 30\n", "keep: statistics\n"}) {
     SCOPED_TRACE(more);
     folder_.write("study.yaml", small_manifest(60, more + observed));
     fs::remove_all(at("out.h5.shards"));
@@ -120,7 +120,7 @@ TEST_F(UnfinishedSummary, IsThereWhileTheRunGoesOnAndAfterItWasInterrupted) {
 
 // The points of a sweep take turns: whoever looks while it runs can compare all of them.
 TEST_F(UnfinishedSummary, OfAnInterruptedSweepComparesAllPointsByNearlyAsManyTrials) {
-  folder_.write("study.yaml", small_manifest(400000, "rigs: 20\nkeep: statistics\n"));
+  folder_.write("study.yaml", small_manifest(400000, "machines: 20\nkeep: statistics\n"));
   const std::vector<std::string> sweep{
       "run",
       "study.yaml",

@@ -136,8 +136,8 @@ TEST_F(WorldStudy, IsComparedOverWorldsWhereTheseDiffer) {
   EXPECT_TRUE(says(same.out, "averages over the worlds"));
 }
 
-// The real rig lives in one of the worlds.
-TEST_F(WorldStudy, IsLikeARealRigIfOneWorldIs) {
+// The real machine lives in one of the worlds.
+TEST_F(WorldStudy, IsLikeARealMachineIfOneWorldIs) {
   const auto verdict_of = [&](const std::string& successes) {
     folder_.write("observed.yaml", std::string(study_in_worlds) + "observed: {all: {successes: " + successes +
                                        ", of: 100}}\n");

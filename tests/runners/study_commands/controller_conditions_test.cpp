@@ -13,7 +13,7 @@ constexpr const char* manifest = R"(
 zerocount: 1
 name: joint
 seed: 1
-rigs: 2
+machines: 2
 trials: 8
 plant: {inertia: 5.0e-4}
 controller: {ki: 3.0e-5, feedforward: {acceleration: 7.0e-4}}

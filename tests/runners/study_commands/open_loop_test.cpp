@@ -279,7 +279,7 @@ Histogram tally_of_study(double ki, int trials) {
   return histogram;
 }
 
-trial::TrialParameters random_rig(std::mt19937_64& random, double ki) {
+trial::TrialParameters random_machine(std::mt19937_64& random, double ki) {
   const auto uniform = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
   };
@@ -298,7 +298,7 @@ Histogram tally_of_judge(double ki, int trials) {
   Histogram histogram;
   for (int i = 0; i < trials; ++i) {
     EventCounts events;
-    const std::vector<trial::SampleRecord> samples = odeint_trial(random_rig(random, ki), &events);
+    const std::vector<trial::SampleRecord> samples = odeint_trial(random_machine(random, ki), &events);
     const auto zero = [](const trial::SampleRecord& s) { return s.error == 0; };
     const auto within_one = [](const trial::SampleRecord& s) { return std::abs(s.error) <= 1; };
     auto arrival = samples.end();

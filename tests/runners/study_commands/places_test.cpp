@@ -9,7 +9,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A verb that writes `output`.
+/// A command that writes `output`.
 struct Writing {
   std::string output;
   std::vector<std::string> arguments;
@@ -47,7 +47,7 @@ class Places : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(Places, NoVerbReplacesWhatExistsWithoutForce) {
+TEST_F(Places, NoCommandReplacesWhatExistsWithoutForce) {
   const std::vector<Writing> writing{
       {"run.h5", {"run", "study.yaml", "-o", "run.h5"}},
       {"merged.h5", {"merge", "part1.h5", "part2.h5", "-o", "merged.h5"}},
@@ -58,22 +58,22 @@ TEST_F(Places, NoVerbReplacesWhatExistsWithoutForce) {
       {"gate.json", {"compare", "all.h5", "all.h5", "--json", "gate.json"}},
       {"gate.xml", {"compare", "all.h5", "all.h5", "--junit", "gate.xml"}},
       {"gate.md", {"compare", "all.h5", "all.h5", "--markdown", "gate.md"}}};
-  for (const Writing& verb : writing) {
-    SCOPED_TRACE(verb.arguments[0] + " to " + verb.output);
-    if (verb.arguments[0] == "export") fs::create_directory(at("tables"));
-    folder_.write(verb.output, "my notes");
-    const ProgramResult refused = program(verb.arguments);
+  for (const Writing& command : writing) {
+    SCOPED_TRACE(command.arguments[0] + " to " + command.output);
+    if (command.arguments[0] == "export") fs::create_directory(at("tables"));
+    folder_.write(command.output, "my notes");
+    const ProgramResult refused = program(command.arguments);
     EXPECT_EQ(refused.code, 2) << refused.err;
     EXPECT_TRUE(says(refused.err, "--force"));
-    EXPECT_EQ(folder_.read(verb.output), "my notes");
+    EXPECT_EQ(folder_.read(command.output), "my notes");
 
-    std::vector<std::string> forced = verb.arguments;
+    std::vector<std::string> forced = command.arguments;
     forced.emplace_back("--force");
     const ProgramResult replaced = program(forced);
     EXPECT_EQ(replaced.code, 0) << replaced.err;
-    EXPECT_NE(folder_.read(verb.output), "my notes");
+    EXPECT_NE(folder_.read(command.output), "my notes");
 
-    const ProgramResult help = program({verb.arguments[0], "--help"});
+    const ProgramResult help = program({command.arguments[0], "--help"});
     EXPECT_TRUE(says(help.out, "is replaced only with --force"));
   }
 }

@@ -58,7 +58,7 @@ TEST_P(EveryProcessor, GivesTheSameTrials) {
 }
 
 INSTANTIATE_TEST_SUITE_P(ShippedStudies, EveryProcessor,
-                         ::testing::Values(ShortStudy{"paper-gains", "60", "rigs=30"},
+                         ::testing::Values(ShortStudy{"paper-gains", "60", "machines=30"},
                                            ShortStudy{"contact-variation", "50"},
                                            ShortStudy{"linear-stage", "40"},
                                            ShortStudy{"friction-models", "20"},

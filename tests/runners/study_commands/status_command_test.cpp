@@ -187,11 +187,11 @@ TEST_F(TimelineOfRun, OfASearchHasItsStagesAndEveryLoop) {
   EXPECT_EQ(program({"tune", "study.yaml", "-o", "other.h5", "--timeline", "tuned.h5"}).code, 2);
 }
 
-// Studies with rigs, from the manifest to the file and back.
+// Studies with machines, from the manifest to the file and back.
 
 // Moves that slide and stick again, on machines that differ.
 const char* const machines =
-    "zerocount: 1\nname: machines\nseed: 5\ntrials: 40\nrigs: 8\n"
+    "zerocount: 1\nname: machines\nseed: 5\ntrials: 40\nmachines: 8\n"
     "friction:\n"
     "  k1: {profile: {mean: {lognormal: {median: 110, cv: 0.2}}, cv: 0.1, correlation_length: 0.3}}\n"
     "  k2: {uniform: [600, 900]}\n"
@@ -202,9 +202,9 @@ const char* const machines =
     "sweep: {grid: {controller.ki: [2.0e-5, 6.0e-5]}}\n"
     "retain: {trials: [3]}\n";
 
-class RigStudy : public ProgramTest {
+class MachineStudy : public ProgramTest {
  protected:
-  RigStudy() { write_bytes(folder_ / "m.yaml", machines); }
+  MachineStudy() { write_bytes(folder_ / "m.yaml", machines); }
 
   void run(std::vector<std::string> more) {
     std::vector<std::string> words{"run", "m.yaml"};
@@ -214,39 +214,39 @@ class RigStudy : public ProgramTest {
   }
 };
 
-TEST_F(RigStudy, CheckSaysHowManyTrialsARigHasAndWhatItIsThatDiffers) {
+TEST_F(MachineStudy, CheckSaysHowManyTrialsAMachineHasAndWhatItIsThatDiffers) {
   const ProgramResult result = program({"check", "m.yaml"});
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_TRUE(says(result.out, " 8, 5 trials of each\n"));
   const auto plan = nlohmann::json::parse(program({"check", "m.yaml", "--format", "json"}).out);
   using Names = std::vector<std::string>;
-  EXPECT_EQ(plan["differ_in_rigs"], (Names{"friction.k1.profile.mean", "friction.k2"}));
+  EXPECT_EQ(plan["differ_in_machines"], (Names{"friction.k1.profile.mean", "friction.k2"}));
   EXPECT_EQ(plan["differ_in_trials"],
             (Names{"friction.k1", "friction.breakaway", "command.targets.0", "initial.position"}));
   EXPECT_EQ(plan["differ_in_contacts"], Names{"friction.breakaway"});
   EXPECT_EQ(plan["same_in_points"], Names{"controller.ki"});
 }
 
-// Of 200 rigs the softest is none of the first 20.
-TEST_F(RigStudy, CheckGivesTheBoundsAtTheSoftestRotorOfAllRigs) {
+// Of 200 machines the softest is none of the first 20.
+TEST_F(MachineStudy, CheckGivesTheBoundsAtTheSoftestRotorOfAllMachines) {
   std::string text = machines;
-  text.replace(text.find("trials: 40\nrigs: 8"), 18, "trials: 200\nrigs: 200");
+  text.replace(text.find("trials: 40\nmachines: 8"), 22, "trials: 200\nmachines: 200");
   write_bytes(folder_ / "m.yaml", text);
   const study::Study study = manifest::load_study(folder_ / "m.yaml");
   double lowest = 1e9;
   std::int64_t softest = 0;
-  for (std::int64_t rig = 0; rig < study.rigs; ++rig) {
-    const std::shared_ptr<const friction::Profile> rotor = study.profiles.at(0).of_rig(rig);
+  for (std::int64_t machine = 0; machine < study.machines; ++machine) {
+    const std::shared_ptr<const friction::Profile> rotor = study.profiles.at(0).of_machine(machine);
     for (int i = 0; i < 4096; ++i) {
       const double k1 = friction::value_at(*rotor, i * study.period / 4096);
       if (k1 >= lowest) continue;
       lowest = k1;
-      softest = rig;
+      softest = machine;
     }
   }
   ASSERT_GE(softest, 20);
 
-  // (6) of an integral control: ki < c·k1/J·Δx·T/2, with the numbers of the paper's rig.
+  // (6) of an integral control: ki < c·k1/J·Δx·T/2, with the numbers of the paper's machine.
   const double bound = 0.2 * lowest / 5.54e-4 * (study.period / 1'620'000) * 0.25e-3;
   const auto theory =
       nlohmann::json::parse(program({"check", "m.yaml", "--format", "json"}).out)["theory"][0];
@@ -255,7 +255,7 @@ TEST_F(RigStudy, CheckGivesTheBoundsAtTheSoftestRotorOfAllRigs) {
   EXPECT_NEAR(theory["lowest_stable_below"].get<double>(), bound, 2e-3 * bound);
 }
 
-TEST_F(RigStudy, TheFileIsTheSameHoweverItWasRun) {
+TEST_F(MachineStudy, TheFileIsTheSameHoweverItWasRun) {
   run({"-o", "once.h5", "--threads", "1"});
   run({"-o", "a.h5", "--shard", "1/2"});
   run({"-o", "b.h5", "--shard", "2/2"});
@@ -269,11 +269,11 @@ TEST_F(RigStudy, TheFileIsTheSameHoweverItWasRun) {
     success[static_cast<std::size_t>(row / trials * 8 + row % trials % 8)] +=
         trial::succeeded(once.outcomes({row, 1}));
   }
-  EXPECT_EQ(once.groups("rig").value().success, success);
-  EXPECT_EQ(once.profiles().at(0).rigs, 8);
+  EXPECT_EQ(once.groups("machine").value().success, success);
+  EXPECT_EQ(once.profiles().at(0).machines, 8);
 }
 
-TEST_F(RigStudy, ATrialIsRunAgainAlone) {
+TEST_F(MachineStudy, ATrialIsRunAgainAlone) {
   run({"-o", "once.h5", "--engine", "reference"});
   std::int64_t slid = 0;
   const reading::AllTrialsFile file(folder_ / "once.h5");
@@ -283,9 +283,9 @@ TEST_F(RigStudy, ATrialIsRunAgainAlone) {
     const ProgramResult result =
         program({"trace", "once.h5", "--point", "1", "--trial", trial, "--format", "json"});
     EXPECT_EQ(result.code, 0) << result.err;
-    const std::string rig =
-        std::string("\"trial\": ") + trial + ", \"rig\": " + std::to_string(std::stoi(trial) % 8);
-    EXPECT_TRUE(says(result.out, rig)) << rig;
+    const std::string machine =
+        std::string("\"trial\": ") + trial + ", \"machine\": " + std::to_string(std::stoi(trial) % 8);
+    EXPECT_TRUE(says(result.out, machine)) << machine;
   }
 }
 
@@ -298,7 +298,7 @@ class Samples : public ProgramTest {
   void SetUp() override {
     std::filesystem::create_directory(folder_ / "studies");
     folder_.write("studies/study.yaml",
-                  "zerocount: 1\nname: sampled\nseed: 4\ntrials: 60\nrigs: 6\n"
+                  "zerocount: 1\nname: sampled\nseed: 4\ntrials: 60\nmachines: 6\n"
                   "command: {targets: [20], hold: 0.05}\nsamples: posterior.csv\n");
     folder_.write("studies/posterior.csv", table_text);
   }

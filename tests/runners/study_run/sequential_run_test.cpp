@@ -149,12 +149,12 @@ TEST_F(SequentialRun, SummarySaysWhereTheGoalWasNotReached) {
   EXPECT_TRUE(says(table.out, "99 % bounds of zero-count, however often one looks", ": not reached"));
 }
 
-// With rigs, how well the mean over these rigs is known decides, and all of them have run equally many trials
-// whenever it is looked at.
-TEST_F(SequentialRun, EndsAfterAWholeRoundOfItsRigs) {
-  const std::string rigs = "rigs: 10\n";
-  folder_.write("study.yaml", stopping_manifest() + rigs);
-  folder_.write("plain.yaml", manifest("") + rigs);
+// With machines, how well the mean over these machines is known decides, and all of them have run equally
+// many trials whenever it is looked at.
+TEST_F(SequentialRun, EndsAfterAWholeRoundOfItsMachines) {
+  const std::string machines = "machines: 10\n";
+  folder_.write("study.yaml", stopping_manifest() + machines);
+  folder_.write("plain.yaml", manifest("") + machines);
   complete("study.yaml", "out.h5");
   const reading::AllTrialsFile file(at("out.h5"));
   const std::int64_t trials = file.header().trials;
@@ -162,9 +162,9 @@ TEST_F(SequentialRun, EndsAfterAWholeRoundOfItsRigs) {
   EXPECT_LT(trials, 2000);
   EXPECT_TRUE(narrow(file, trials));
   EXPECT_FALSE(narrow(file, trials - block));
-  const reading::StoredGroups on_rigs = file.groups("rig").value();
-  ASSERT_EQ(on_rigs.trials.size(), 20U);
-  for (const std::int64_t of_rig : on_rigs.trials) EXPECT_EQ(of_rig, trials / 10);
+  const reading::StoredGroups on_machines = file.groups("machine").value();
+  ASSERT_EQ(on_machines.trials.size(), 20U);
+  for (const std::int64_t of_machine : on_machines.trials) EXPECT_EQ(of_machine, trials / 10);
   complete("plain.yaml", "plain.h5", {"--set", "trials=" + std::to_string(trials)});
   const auto stopped = stored_datasets(at("out.h5"));
   for (const auto& [path, bytes] : stored_datasets(at("plain.h5"))) {
@@ -174,16 +174,16 @@ TEST_F(SequentialRun, EndsAfterAWholeRoundOfItsRigs) {
   }
 }
 
-// What more trials narrowed is the mean over these rigs; of all rigs less is known.
-TEST_F(SequentialRun, SummaryKeepsTheBoundsOfTheseRigsApartFromThoseOfAll) {
-  folder_.write("study.yaml", stopping_manifest() + "rigs: 10\n");
+// What more trials narrowed is the mean over these machines; of all machines less is known.
+TEST_F(SequentialRun, SummaryKeepsTheBoundsOfTheseMachinesApartFromThoseOfAll) {
+  folder_.write("study.yaml", stopping_manifest() + "machines: 10\n");
   complete("study.yaml", "out.h5");
   const ProgramResult result = zerocount_program({"summary", "out.h5", "--format", "json"}, folder_.path());
   ASSERT_EQ(result.code, 0) << result.err;
   const auto points = nlohmann::json::parse(result.out).at("points");
   bool differ = false;
   for (const auto& point : points) {
-    EXPECT_EQ(point.at("stopping").at("of_rigs"), 10);
+    EXPECT_EQ(point.at("stopping").at("of_machines"), 10);
     EXPECT_LE(point.at("stopping").at("halfwidth").get<double>(), halfwidth);
     const double of_all =
         point.at("success_rate_high").get<double>() - point.at("success_rate_low").get<double>();
@@ -248,12 +248,12 @@ TEST_F(ExistingOutput, IsExtendedToWhatARunOfAllItsTrialsGives) {
     return std::uniform_int_distribution<int>(low, high)(random);
   };
   for (const char* design : {"monte_carlo", "sobol", "monte_carlo", "sobol"}) {
-    const int rigs = between(0, 1) == 1 ? between(2, 40) : 1;
-    const int fewer = rigs * between(1, 300 / rigs);
-    const int more = fewer + rigs * between(1, 300 / rigs);
+    const int machines = between(0, 1) == 1 ? between(2, 40) : 1;
+    const int fewer = machines * between(1, 300 / machines);
+    const int more = fewer + machines * between(1, 300 / machines);
     std::string keys = fmt::format("retain: {{trials: [0, {}]}}\n", fewer - 1);
     if (std::string(design) == "sobol") keys += "design: sobol\n";
-    if (rigs > 1) keys += fmt::format("rigs: {}\n", rigs);
+    if (machines > 1) keys += fmt::format("machines: {}\n", machines);
     const std::string name = fmt::format("{}-{}-{}", design, fewer, more);
     SCOPED_TRACE(name + "\n" + keys);
     folder_.write("study.yaml", small_manifest(fewer, keys));
@@ -330,11 +330,12 @@ TEST_F(ExistingOutput, IsRefusedWithWhatDiffers) {
 
 // Trials of one case stood under the name of another.
 TEST_F(ExistingOutput, InAnotherOrderIsNotExtended) {
-  folder_.write("study.yaml",
-                small_manifest(8,
-                               "rigs: 2\ngoals: {wide: {band: 3, within: 0.1, moves: 0.9}, zero: {within: "
-                               "0.1, moves: 0.9}}\nconditions: {light: {}, heavy: {plant.inertia: "
-                               "1.0e-3}}\n"));
+  folder_.write(
+      "study.yaml",
+      small_manifest(8,
+                     "machines: 2\ngoals: {wide: {band: 3, within: 0.1, moves: 0.9}, zero: {within: "
+                     "0.1, moves: 0.9}}\nconditions: {light: {}, heavy: {plant.inertia: "
+                     "1.0e-3}}\n"));
   const std::string swept =
       "sweep={cases: {b: {friction.alpha: 1}, a: {friction.alpha: 2}}, grid: "
       "{controller.kp: [0, 1.0e-4], controller.delay: [1, 2]}}";
@@ -379,7 +380,7 @@ TEST_F(ExistingOutput, OfAnEarlierFormatIsRefused) {
   complete("study.yaml", "out.h5", {});
   replace_attribute(at("out.h5"), "format_version", 3);
   expect_refused(
-      {}, {"out.h5", "wrote it in format version 3, and this program reads version 4; run its manifest"});
+      {}, {"out.h5", "wrote it in format version 3, and this program reads version 5; run its manifest"});
 }
 
 }  // namespace

@@ -83,7 +83,8 @@ TEST_P(TurnsOfRandomSweeps, KeepPointsWithinATurnOfOneAnother) {
   }
 }
 
-// Of each point from its first trial on without gaps: trials of a rig or of a design depend on one another.
+// Of each point from its first trial on without gaps: trials of a machine or of a design depend on one
+// another.
 TEST_P(TurnsOfRandomSweeps, RunTheTrialsOfAPointInTheirOrder) {
   const std::int64_t trials = any(1, 40), points = any(1, 12);
   std::map<std::int64_t, std::int64_t> last;  // [point] row

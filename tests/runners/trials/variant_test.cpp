@@ -18,7 +18,7 @@ const char* const manifests[] = {
     ("zerocount: 1\nname: rotary\nseed: 4\ntrials: 8\ncommand: {targets: [12], hold: 0.2}\n"
      "friction: {k1: {lognormal: {median: 110, cv: 0.2}}}\ncontroller: {ki: 3.85e-5, delay: 1}\n"
      "goal: {band: 1, within: 0.15, moves: 0.9}\n"),
-    ("zerocount: 1\nname: si\nseed: 5\ntrials: 8\nrigs: 4\ncommand: {targets: [500], hold: 0.2}\n"
+    ("zerocount: 1\nname: si\nseed: 5\ntrials: 8\nmachines: 4\ncommand: {targets: [500], hold: 0.2}\n"
      "plant: {presliding_damping: 0.2, sliding_damping: 1.0e-3}\n"
      "friction: {model: lugre, alpha: {uniform: [0.5, 2]}}\n"
      "controller: {units: si, sample_rate: 4000, kp: 3.0, ki: 40, kd: 0.02}\n"
@@ -237,7 +237,7 @@ constexpr const char* whole_life = R"(zerocount: 1
 name: life
 seed: 3
 trials: 96
-rigs: 4
+machines: 4
 design: {}
 ages: {{at: [0, 1.0e+5, 1.0e+6], unit: cycles}}
 conditions: {{warm: {{}}, "very. cold": {{plant.inertia: 8.0e-4, friction.k1: {{uniform: [120, 150]}}}}}}

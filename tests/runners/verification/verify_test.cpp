@@ -13,9 +13,9 @@ namespace {
 namespace fs = std::filesystem;
 using verification::CheckReport;
 
-// Slides and re-sticks, rigs with rotors, jerks, records of samples.
+// Slides and re-sticks, machines with rotors, jerks, records of samples.
 const char* const verified_manifest =
-    "zerocount: 1\nname: verified\nseed: 5\ntrials: 16\nrigs: 4\n"
+    "zerocount: 1\nname: verified\nseed: 5\ntrials: 16\nmachines: 4\n"
     "friction:\n"
     "  k1: {profile: {mean: {lognormal: {median: 110, cv: 0.2}}, cv: 0.1, correlation_length: 0.3}}\n"
     "  k2: {uniform: [600, 900]}\n"
@@ -104,7 +104,7 @@ TEST_F(Verify, NamesTheDatasetOfAnyValueThatWasChanged) {
     // Some contradict another dataset, which is named in their place.
     EXPECT_TRUE(names(dataset) || names(base_name(dataset) + ": recorded ") ||
                 names(base_name(dataset) + "[") || (dataset.starts_with("/jerk/") && names("/jerk/")) ||
-                (dataset.ends_with("settling_time") && names("/outcome/arrived")))
+                (dataset.ends_with("arrival_time") && names("/outcome/arrived")))
         << dataset << "\n"
         << found;
   }

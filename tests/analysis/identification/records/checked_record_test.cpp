@@ -17,7 +17,7 @@ namespace {
 
 constexpr double count_size = 2.0 * std::numbers::pi / 1.62e6;
 
-/// A good series: the paper's rig, loaded and unloaded slowly, with a hold.
+/// A good series: the paper's machine, loaded and unloaded slowly, with a hold.
 fit::RawSeries good_series() {
   TorqueProgramme programme;
   programme.ramp(0.1, 0.4).ramp(-0.1, 0.4).ramp(0.15, 0.4).hold(0.2).ramp(0.0, 0.4);

@@ -66,7 +66,7 @@ TorqueProgramme breaking_away(double rate) {
   return programme.ramp(0.0, 1.0).hold(0.2).ramp(0.05, rate);
 }
 
-/// Random rigs with a random level of sliding friction that break away at 0.1 N m.
+/// Random machines with a random level of sliding friction that break away at 0.1 N m.
 fit::ContactParameters random_breakaway(std::mt19937_64& random) {
   fit::ContactParameters contact = random_contact(random);
   contact.friction.breakaway = 0.1;
@@ -76,8 +76,8 @@ fit::ContactParameters random_breakaway(std::mt19937_64& random) {
 
 constexpr std::array breakaway_rates{0.1, 0.2, 0.4};
 
-void expect_no_cut(std::uint64_t rigs) {
-  for (std::uint64_t set = 0; set < rigs; ++set) {
+void expect_no_cut(std::uint64_t machines) {
+  for (std::uint64_t set = 0; set < machines; ++set) {
     std::mt19937_64 random(set);
     const fit::ContactParameters contact = random_contact(random);
     std::vector<TorqueProgramme> programmes{growing_steps(random)};
@@ -99,7 +99,7 @@ TEST(GrossSliding, NoTestBelowTheBreakawayIsCut) {
   expect_no_cut(12);
 }
 
-TEST(GrossSliding, DISABLED_NoTestOfManyRigsBelowTheBreakawayIsCut) {
+TEST(GrossSliding, DISABLED_NoTestOfManyMachinesBelowTheBreakawayIsCut) {
   expect_no_cut(60);
 }
 

@@ -21,11 +21,11 @@ TEST(Quantity, HasItsUnitInTheSameLine) {
 }
 
 const char* const two_goals =
-    "zerocount: 1\nname: two\nseed: 3\nrigs: 4\ntrials: 16\ncommand: {targets: [3, 30], hold: 0.15}\n"
+    "zerocount: 1\nname: two\nseed: 3\nmachines: 4\ntrials: 16\ncommand: {targets: [3, 30], hold: 0.15}\n"
     "goals: {small: {\"on\": [0], band: 2, within: 0.1, moves: 0.5},\n"
     "  large: {\"on\": [1], band: 1, within: 0.12, moves: 0.6, machines: 0.5, limits: {overshoot: 20}}}\n"
     "conditions: {plain: {}, heavy: {plant.inertia: 8.0e-4}}\n"
-    "friction: {k1: {uniform: [100, 130], per: rig}}\ncontroller: {ki: 2.0e-5, delay: 0}\n"
+    "friction: {k1: {uniform: [100, 130], per: machine}}\ncontroller: {ki: 2.0e-5, delay: 0}\n"
     "verdict: {dwell: 0.02, window: 0.02}\n"
     "tune: {free: {controller.ki: {log: [1.0e-5, 1.0e-4]}}}\n";
 

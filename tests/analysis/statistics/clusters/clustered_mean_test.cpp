@@ -153,9 +153,9 @@ TEST(ClusteredCount, WithoutAnEventHasTheBoundOfOneEventPerCluster) {
               -std::log(0.025) / 300.0, 1e-12);
   EXPECT_NEAR(clustered_count_bounds(totals_of(std::vector<double>(9000, 0.0)), stream).high,
               -std::log(0.025) / 9000.0, 1e-12);  // also of more trials than groups
-  ClusterTotals rigs;                             // 100 rigs of 30 trials are worth 100 trials
-  for (std::int64_t trial = 0; trial < 3000; ++trial) rigs.add(trial % 100, std::vector<double>{0.0});
-  EXPECT_NEAR(clustered_count_bounds(rigs, stream).high, -std::log(0.025) / 100.0, 1e-12);
+  ClusterTotals machines;                         // 100 machines of 30 trials are worth 100 trials
+  for (std::int64_t trial = 0; trial < 3000; ++trial) machines.add(trial % 100, std::vector<double>{0.0});
+  EXPECT_NEAR(clustered_count_bounds(machines, stream).high, -std::log(0.025) / 100.0, 1e-12);
 }
 
 TEST(ClusteredCount, OfFewEventsIsGarwoodsWithStudentsFactor) {

@@ -15,7 +15,7 @@ TEST(ObservedTest, EqualsSciPys) {
   Random random(151);
   constexpr int rounds = 200;
   for (int round = 0; round < rounds; ++round) {
-    // Against all simulated trials, some of them many, and against rigs.
+    // Against all simulated trials, some of them many, and against machines.
     const auto n = static_cast<std::int64_t>(1 + random() % 40);
     const auto k = static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(n + 1));
     const std::int64_t simulated =
@@ -23,11 +23,11 @@ TEST(ObservedTest, EqualsSciPys) {
     const auto successes = static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(simulated + 1));
     cases << fmt::format("{} {} {} {} {}", fisher_test({k, n}, {successes, simulated}).p, k, n, successes,
                          simulated);
-    std::vector<std::int64_t> of_rigs;
-    for (int rig = 0; rig < 5 + round % 60; ++rig)
-      of_rigs.push_back(static_cast<std::int64_t>(random() % 61));
-    cases << fmt::format(" {} 60", rig_rank_test({k, n}, of_rigs, 60).p);
-    for (const std::int64_t each : of_rigs) cases << ' ' << each;
+    std::vector<std::int64_t> of_machines;
+    for (int machine = 0; machine < 5 + round % 60; ++machine)
+      of_machines.push_back(static_cast<std::int64_t>(random() % 61));
+    cases << fmt::format(" {} 60", machine_rank_test({k, n}, of_machines, 60).p);
+    for (const std::int64_t each : of_machines) cases << ' ' << each;
     cases << '\n';
   }
   cases.close();
@@ -71,39 +71,39 @@ TEST(ObservedTest, RaisesFalseAlarmsNoMoreOftenThanItSays) {
   std::cout << "Fisher: " << 100.0 * fisher / rounds << " % false alarms\n";
 }
 
-/// The success probability of a rig: most are good, some are not.
-double of_a_rig(Random& random) {
+/// The success probability of a machine: most are good, some are not.
+double of_a_machine(Random& random) {
   return random() % 5 == 0 ? 0.3 : 0.95;
 }
 
-// The real rig is one more of these rigs. Taken for independent trials of all of them, its own would differ
-// far too often.
-TEST(ObservedTest, ARigIsOneOfThoseThatDiffer) {
+// The real machine is one more of these machines. Taken for independent trials of all of them, its own would
+// differ far too often.
+TEST(ObservedTest, AMachineIsOneOfThoseThatDiffer) {
   Random random(153);
   constexpr int rounds = 3000;
   int ranks = 0, fisher = 0;
   for (int round = 0; round < rounds; ++round) {
-    std::vector<std::int64_t> of_rigs;
+    std::vector<std::int64_t> of_machines;
     std::int64_t all = 0;
-    for (int rig = 0; rig < 100; ++rig) {
-      of_rigs.push_back(std::binomial_distribution<std::int64_t>(20, of_a_rig(random))(random));
-      all += of_rigs.back();
+    for (int machine = 0; machine < 100; ++machine) {
+      of_machines.push_back(std::binomial_distribution<std::int64_t>(20, of_a_machine(random))(random));
+      all += of_machines.back();
     }
-    const std::int64_t real = std::binomial_distribution<std::int64_t>(15, of_a_rig(random))(random);
-    ranks += rig_rank_test({real, 15}, of_rigs, 20).p <= 0.05;
+    const std::int64_t real = std::binomial_distribution<std::int64_t>(15, of_a_machine(random))(random);
+    ranks += machine_rank_test({real, 15}, of_machines, 20).p <= 0.05;
     fisher += fisher_test({real, 15}, {all, 2000}).p <= 0.05;
   }
   EXPECT_LE(ranks, 0.05 * rounds + 3.0 * std::sqrt(0.0475 * rounds));
   EXPECT_GE(fisher, 0.15 * rounds);
-  std::cout << "rank among rigs: " << 100.0 * ranks / rounds << " % false alarms, Fisher on them "
+  std::cout << "rank among machines: " << 100.0 * ranks / rounds << " % false alarms, Fisher on them "
             << 100.0 * fisher / rounds << " %\n";
 }
 
-TEST(ObservedTest, FindsARigThatIsNone) {
-  std::vector<std::int64_t> of_rigs;
-  for (int rig = 0; rig < 100; ++rig) of_rigs.push_back(18 + rig % 3);
-  EXPECT_LE(rig_rank_test({4, 15}, of_rigs, 20).p, 0.02);
-  EXPECT_GT(rig_rank_test({14, 15}, of_rigs, 20).p, 0.3);
+TEST(ObservedTest, FindsAMachineThatIsNone) {
+  std::vector<std::int64_t> of_machines;
+  for (int machine = 0; machine < 100; ++machine) of_machines.push_back(18 + machine % 3);
+  EXPECT_LE(machine_rank_test({4, 15}, of_machines, 20).p, 0.02);
+  EXPECT_GT(machine_rank_test({14, 15}, of_machines, 20).p, 0.3);
   EXPECT_LT(fisher_test({2, 10}, {980, 1000}).p, 1e-6);
 }
 
@@ -111,8 +111,8 @@ TEST(ObservedTest, KnowsWhatItCannotFind) {
   EXPECT_GT(fisher_test({2, 2}, {50, 100}).lowest_p, 0.05);
   EXPECT_LT(fisher_test({2, 2}, {98, 100}).lowest_p, 0.05);
   const std::vector<std::int64_t> few(20, 10);
-  EXPECT_DOUBLE_EQ(rig_rank_test({0, 20}, few, 20).lowest_p, 2.0 / 21.0);
-  EXPECT_THROW(rig_rank_test({1, 21}, few, 20), Failure);
+  EXPECT_DOUBLE_EQ(machine_rank_test({0, 20}, few, 20).lowest_p, 2.0 / 21.0);
+  EXPECT_THROW(machine_rank_test({1, 21}, few, 20), Failure);
   EXPECT_THROW(fisher_test({3, 2}, {1, 2}), Failure);
 }
 

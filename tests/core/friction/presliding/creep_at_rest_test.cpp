@@ -1,5 +1,5 @@
 // Creep at rest in closed form, against the full equations of motion integrated by Boost.odeint in 64-bit
-// mantissas, over random rigs.
+// mantissas, over random machines.
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <boost/numeric/odeint/integrate/integrate_adaptive.hpp>
 #include <boost/numeric/odeint/stepper/generation.hpp>
@@ -60,7 +60,7 @@ Real branch_elongation(const SpringBranch& b, Real torque, Real near) {
   return x;
 }
 
-/// Rigs of every size and damping. Creep is as fast as it may be, or up to 30 times slower.
+/// Machines of every size and damping. Creep is as fast as it may be, or up to 30 times slower.
 /// @param softening whether the spring softens noticeably on the way.
 CreepingRotor random_rotor(Draws& draws, bool softening) {
   constexpr double exponents[] = {1.0, 1.2, 1.5, 2.0, 2.7, 3.0};

@@ -1,7 +1,7 @@
 // The rotor that comes to rest under a constant torque: against Boost.odeint, which follows every oscillation
 // and all of the creep, and in pieces of any length.
 #include "core/plant/plant.hpp"
-#include "core/trial/rig.hpp"
+#include "core/trial/machine.hpp"
 #include "core/trial/trial.hpp"
 #include "tests/support/draws.hpp"
 #include "tests/support/odeint_motion.hpp"
@@ -13,13 +13,14 @@ namespace {
 
 using PreslidingPlant = plant::PlantWith<friction::PreslidingFriction>;
 
-double count_of(const trial::TrialParameters& rig) {
-  return 2.0 * std::numbers::pi / rig.encoder.fine;
+double count_of(const trial::TrialParameters& machine) {
+  return 2.0 * std::numbers::pi / machine.encoder.fine;
 }
 
-/// A rig at the start of a trial, with the tolerances of one.
-PreslidingPlant plant_of(const trial::TrialParameters& rig) {
-  return {rig.plant, rig.friction, trial::plant_start(rig), trial::motion_tolerance(count_of(rig))};
+/// A machine at the start of a trial, with the tolerances of one.
+PreslidingPlant plant_of(const trial::TrialParameters& machine) {
+  return {machine.plant, machine.friction, trial::plant_start(machine),
+          trial::motion_tolerance(count_of(machine))};
 }
 
 struct Hold {
@@ -28,10 +29,10 @@ struct Hold {
 };
 
 /// Torques that the hook withstands, each held until the oscillation has ended.
-std::vector<Hold> random_holds(Draws& draws, const trial::TrialParameters& rig) {
+std::vector<Hold> random_holds(Draws& draws, const trial::TrialParameters& machine) {
   std::vector<Hold> holds;
   holds.reserve(3);
-  const double breakaway = friction::friction_at(rig.friction, rig.initial.position).breakaway;
+  const double breakaway = friction::friction_at(machine.friction, machine.initial.position).breakaway;
   for (int i = 0; i < 3; ++i)
     holds.push_back({0.3 * breakaway * draws.uniform(-1.0, 1.0), draws.uniform(0.2, 0.5)});
   return holds;
@@ -41,8 +42,8 @@ void hold(PreslidingPlant& plant, double torque, double duration) {
   plant.advance(motion::constant_torque(torque), duration);
 }
 
-/// Rigs like the paper's, with creep of every exponent and without.
-trial::TrialParameters rig_number(std::uint64_t index) {
+/// Machines like the paper's, with creep of every exponent and without.
+trial::TrialParameters machine_number(std::uint64_t index) {
   return random_trial(index % 4 == 0 ? TrialKind::spring_alone : TrialKind::calm, 9000 + index);
 }
 
@@ -50,17 +51,18 @@ TEST(PlantAtRest, IsWhereTheFullEquationsHaveIt) {
   double worst = 0.0;
   int rests = 0;
   for (std::uint64_t index = 0; index < 40; ++index) {
-    const trial::TrialParameters rig = rig_number(index);
+    const trial::TrialParameters machine = machine_number(index);
     Draws draws(index);
-    PreslidingPlant plant = plant_of(rig);
-    OdeintMotion judge(rig);
-    for (const Hold& h : random_holds(draws, rig)) {
+    PreslidingPlant plant = plant_of(machine);
+    OdeintMotion judge(machine);
+    for (const Hold& h : random_holds(draws, machine)) {
       for (double left = h.duration; left > 0.0;) {
         const double piece = std::min(left, draws.uniform(0.0, 0.05));
         hold(plant, h.torque, piece);
         judge.advance(h.torque, piece);
         left -= piece;
-        worst = std::max(worst, std::abs(static_cast<double>(plant.theta() - judge.theta())) / count_of(rig));
+        worst =
+            std::max(worst, std::abs(static_cast<double>(plant.theta() - judge.theta())) / count_of(machine));
       }
       rests += plant.come_to_rest(h.torque, false);
     }
@@ -75,19 +77,19 @@ TEST(PlantAtRest, IsWhereTheFullEquationsHaveIt) {
 TEST(PlantAtRest, StaysWithTheFullEquationsForSeconds) {
   double worst = 0.0;
   for (std::uint64_t index = 0; index < 6; ++index) {
-    trial::TrialParameters rig = rig_number(4 * index + 1);
-    rig.friction.uniform.alpha = 0.3 + static_cast<double>(index);
-    rig.initial.preload = rig.initial.hardening = 0.0;
-    PreslidingPlant plant = plant_of(rig);
-    OdeintMotion judge(rig);
+    trial::TrialParameters machine = machine_number(4 * index + 1);
+    machine.friction.uniform.alpha = 0.3 + static_cast<double>(index);
+    machine.initial.preload = machine.initial.hardening = 0.0;
+    PreslidingPlant plant = plant_of(machine);
+    OdeintMotion judge(machine);
     const double torque = 0.012 + 0.002 * static_cast<double>(index);
     double moved = 0.0;
     for (int i = 0; i < 30; ++i) {
       hold(plant, torque, 0.1);
       judge.advance(torque, 0.1);
       const double difference = std::abs(static_cast<double>(plant.theta() - judge.theta()));
-      worst = std::max(worst, difference / count_of(rig));
-      moved = plant.creep().extension / count_of(rig);
+      worst = std::max(worst, difference / count_of(machine));
+      moved = plant.creep().extension / count_of(machine);
     }
     EXPECT_GT(moved, 0.1) << index;
   }
@@ -100,12 +102,12 @@ TEST(PlantAtRest, RemembersTheSameReversalsInPiecesOfAnyLength) {
   int holds = 0;
   std::int64_t deepest = 0;
   for (std::uint64_t index = 0; index < 120; ++index) {
-    const trial::TrialParameters rig = rig_number(1000 + index);
+    const trial::TrialParameters machine = machine_number(1000 + index);
     Draws draws(2000 + index);
-    PreslidingPlant whole = plant_of(rig);
-    PreslidingPlant samples = plant_of(rig);
-    PreslidingPlant pieces = plant_of(rig);
-    for (const Hold& h : random_holds(draws, rig)) {
+    PreslidingPlant whole = plant_of(machine);
+    PreslidingPlant samples = plant_of(machine);
+    PreslidingPlant pieces = plant_of(machine);
+    for (const Hold& h : random_holds(draws, machine)) {
       const int steps = static_cast<int>(h.duration / 5e-4);
       for (PreslidingPlant* plant : {&whole, &samples, &pieces}) plant->forget_deepest();
       hold(whole, h.torque, 5e-4 * steps);
@@ -118,7 +120,7 @@ TEST(PlantAtRest, RemembersTheSameReversalsInPiecesOfAnyLength) {
       for (const PreslidingPlant* plant : {&samples, &pieces}) {
         EXPECT_EQ(plant->spring().depth(), whole.spring().depth()) << index;
         EXPECT_EQ(plant->deepest(), whole.deepest()) << index;
-        EXPECT_NEAR(plant->theta(), whole.theta(), 3e-8 * count_of(rig)) << index;
+        EXPECT_NEAR(plant->theta(), whole.theta(), 3e-8 * count_of(machine)) << index;
       }
       deepest = std::max(deepest, whole.deepest());
       ++holds;
@@ -130,9 +132,9 @@ TEST(PlantAtRest, RemembersTheSameReversalsInPiecesOfAnyLength) {
 
 TEST(PlantAtRest, IsNotWhileItSwings) {
   for (const double alpha : {0.0, 0.5}) {
-    trial::TrialParameters rig;
-    rig.friction.uniform.alpha = alpha;
-    PreslidingPlant plant = plant_of(rig);
+    trial::TrialParameters machine;
+    machine.friction.uniform.alpha = alpha;
+    PreslidingPlant plant = plant_of(machine);
     EXPECT_FALSE(plant.come_to_rest(0.012, false));
     hold(plant, 0.012, 5e-4);
     EXPECT_FALSE(plant.come_to_rest(0.012, false));
@@ -149,24 +151,24 @@ TEST(PlantAtRest, WaitsWhereSwingsMakeCreep) {
   double worst = 0.0;
   for (std::uint64_t index = 0; index < 24; ++index) {
     Draws draws(3000 + index);
-    trial::TrialParameters rig;
-    friction::FrictionParameters& contact = rig.friction.uniform;
+    trial::TrialParameters machine;
+    friction::FrictionParameters& contact = machine.friction.uniform;
     const double stiffest = contact.k1 + contact.k2;
     const double ratio = std::exp(draws.uniform(std::log(0.01), std::log(0.1)));  // of damping
-    rig.plant.presliding_damping = 2.0 * ratio * std::sqrt(stiffest * rig.plant.inertia);
+    machine.plant.presliding_damping = 2.0 * ratio * std::sqrt(stiffest * machine.plant.inertia);
     contact.alpha = std::exp(draws.uniform(std::log(0.1), std::log(10.0)));
     contact.n = index % 3 == 0 ? 1.0 : (index % 3 == 1 ? 2.0 : 2.7);
     const double torque = 0.004 * draws.uniform(0.5, 1.0);
     // Creep of 10 to 3000 counts.
-    const double creep = std::exp(draws.uniform(std::log(10.0), std::log(3000.0))) * count_of(rig);
+    const double creep = std::exp(draws.uniform(std::log(10.0), std::log(3000.0))) * count_of(machine);
     contact.lambda = std::pow(torque, contact.n) / creep;
-    PreslidingPlant plant = plant_of(rig);
-    OdeintMotion judge(rig);
+    PreslidingPlant plant = plant_of(machine);
+    OdeintMotion judge(machine);
     for (int i = 0; i < 60; ++i) {
       hold(plant, torque, 0.01);
       judge.advance(torque, 0.01);
       const double difference = std::abs(static_cast<double>(plant.theta() - judge.theta()));
-      worst = std::max(worst, difference / count_of(rig));
+      worst = std::max(worst, difference / count_of(machine));
     }
   }
   std::cout << "theta within " << worst << " count\n";
@@ -177,10 +179,10 @@ TEST(PlantAtRest, WaitsWhereSwingsMakeCreep) {
 /// the same.
 TEST(PlantAtRest, RemembersASlowUnloading) {
   for (const double direction : {1.0, -1.0}) {
-    trial::TrialParameters rig;
-    rig.encoder.fine = 10000;
-    rig.friction.uniform.alpha = 0.0;
-    PreslidingPlant plant = plant_of(rig);
+    trial::TrialParameters machine;
+    machine.encoder.fine = 10000;
+    machine.friction.uniform.alpha = 0.0;
+    PreslidingPlant plant = plant_of(machine);
     hold(plant, direction * 0.05, 1.0);
     friction::HystereticSpring spring = plant.spring();
     const double before = spring.elongation();
@@ -189,7 +191,7 @@ TEST(PlantAtRest, RemembersASlowUnloading) {
       const double from = way < 0.0 ? 0.05 : 0.05 - 1e-5;
       for (int k = 1; k <= steps; ++k) hold(plant, direction * (from + way * 1e-5 * k / steps), 5e-4);
       spring.move_to_torque(direction * (from + way * 1e-5));
-      EXPECT_NEAR(plant.theta(), spring.elongation(), 1e-7 * count_of(rig));
+      EXPECT_NEAR(plant.theta(), spring.elongation(), 1e-7 * count_of(machine));
     }
     EXPECT_LT(direction * (spring.elongation() - before), -1e-9);
   }
@@ -197,9 +199,9 @@ TEST(PlantAtRest, RemembersASlowUnloading) {
 
 TEST(PlantAtRest, CreepsInOneDirection) {
   for (std::uint64_t index = 0; index < 20; ++index) {
-    trial::TrialParameters rig = rig_number(4 * index + 1);
+    trial::TrialParameters machine = machine_number(4 * index + 1);
     Draws draws(index);
-    PreslidingPlant plant = plant_of(rig);
+    PreslidingPlant plant = plant_of(machine);
     const double torque = 0.02 * draws.uniform(0.3, 1.0) * (index % 2 == 0 ? 1.0 : -1.0);
     hold(plant, torque, 0.5);
     if (!plant.come_to_rest(torque, false)) continue;

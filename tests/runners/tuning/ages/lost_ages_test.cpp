@@ -15,7 +15,7 @@ constexpr const char* life_text = R"(zerocount: 1
 name: life
 seed: 5
 trials: 600
-rigs: 200
+machines: 200
 ages: {at: [0, 1.0e+5, 1.0e+6], unit: cycles}
 command: {targets: [29], hold: 0.3}
 friction:
@@ -33,7 +33,8 @@ study::Study life_study(const std::vector<std::string>& overrides = {}) {
 
 LostAges lost_of(const std::vector<std::string>& overrides = {}) {
   const study::Study study = life_study(overrides);
-  return tuning::lost_ages(study, {study.rigs, std::max<std::int64_t>(study.condition_names.size(), 1)}, {});
+  return tuning::lost_ages(study, {study.machines, std::max<std::int64_t>(study.condition_names.size(), 1)},
+                           {});
 }
 
 /// The largest k1 with which a move meets the goal.
@@ -55,7 +56,7 @@ double true_age(double limit) {
 
 TEST(LostAges, IsTheAgeAtWhichTooManyMachinesLeaveTheLimit) {
   const double truth = true_age(largest_k1());
-  const LostAges found = lost_of({"rigs=4000", "trials=12000"});
+  const LostAges found = lost_of({"machines=4000", "trials=12000"});
   ASSERT_EQ(found.claims.size(), 1U);
   ASSERT_TRUE(found.claims[0].lost);
   EXPECT_NEAR(*found.claims[0].lost / truth, 1.0, 0.15);
@@ -71,7 +72,7 @@ TEST(LostAges, ItsBoundsCoverTheAgeAsOftenAsTheGoalIsConfident) {
   int too_late = 0;
   int too_early = 0;
   for (int seed = 0; seed < populations; ++seed) {
-    const LostAges found = lost_of({fmt::format("seed={}", seed), "rigs=50", "trials=150"});
+    const LostAges found = lost_of({fmt::format("seed={}", seed), "machines=50", "trials=150"});
     too_late += found.claims[0].met_until > truth ? 1 : 0;
     too_early += found.claims[0].missed_from < truth ? 1 : 0;
   }

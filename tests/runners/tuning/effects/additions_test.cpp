@@ -83,10 +83,10 @@ goal: {band: 2, within: 0.03, moves: 0.9}
 constexpr const char* of_claims = R"(zerocount: 1
 name: of-claims
 seed: 7
-rigs: 20
+machines: 20
 trials: 80
 plant: {inertia: 5.54e-4}
-friction: {k1: {lognormal: {median: 130, cv: 0.2}, per: rig}}
+friction: {k1: {lognormal: {median: 130, cv: 0.2}, per: machine}}
 controller: {ki: 3.0e-5, delay: 1}
 command: {targets: [29, 0, 5], hold: 0.1}
 initial: {encoder_phase: {uniform: [0, 1]}}

@@ -1,4 +1,4 @@
-// The values that trials of one rig have in common, and that differ between the rigs of a study.
+// The values that trials of one machine have in common, and that differ between the machines of a study.
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/draws.hpp"
 #include "experiments/study/group_inputs.hpp"
@@ -10,7 +10,7 @@
 namespace zerocount::study {
 namespace {
 
-const std::vector<std::string> designs_with_rigs{"monte_carlo", "latin_hypercube", "sobol"};
+const std::vector<std::string> designs_with_machines{"monte_carlo", "latin_hypercube", "sobol"};
 
 const std::string machines_and_moves =
     "friction:\n"
@@ -21,17 +21,18 @@ const std::string machines_and_moves =
     "  beta: {uniform: [1.0e5, 2.0e5], per: contact}\n"
     "encoder: {fine: {integers: [1000000, 2000000]}}\n"
     "controller: {kp: {uniform: [0, 1.0e-4]}}\n"
-    "initial: {position: {uniform: [0, 6]}, hardening: {uniform: [0, 1.0e-6], per: rig}}\n"
+    "initial: {position: {uniform: [0, 6]}, hardening: {uniform: [0, 1.0e-6], per: machine}}\n"
     "sweep: {grid: {controller.ki: [3.0e-5, 4.0e-5]}}\n";
 
-const std::vector<std::string> of_a_rig{"friction.k1.profile.mean", "friction.k2", "encoder.fine",
-                                        "controller.kp", "initial.hardening"};
+const std::vector<std::string> of_a_machine{"friction.k1.profile.mean", "friction.k2", "encoder.fine",
+                                            "controller.kp", "initial.hardening"};
 const std::vector<std::string> of_a_trial{"friction.lambda", "initial.position", "friction.beta"};
 
-Study rig_study(const std::string& design, int rigs, int trials,
-                const std::string& more = "independent_points=false") {
-  return study_of(minimal_manifest(machines_and_moves),
-                  {"design=" + design, fmt::format("rigs={}", rigs), fmt::format("trials={}", trials), more});
+Study machine_study(const std::string& design, int machines, int trials,
+                    const std::string& more = "independent_points=false") {
+  return study_of(
+      minimal_manifest(machines_and_moves),
+      {"design=" + design, fmt::format("machines={}", machines), fmt::format("trials={}", trials), more});
 }
 
 double input(const Study& study, const std::string& name, std::int64_t index, std::int64_t point = 0) {
@@ -42,10 +43,10 @@ std::vector<double> rotor_of(const Study& study, std::int64_t index, std::int64_
   return study_trial(study, point, index).parameters.friction.profiled.at(0).profile->cosine;
 }
 
-TEST(Rigs, TrialsOfARigShareTheMachineAndNothingElse) {
-  for (const std::string& design : designs_with_rigs) {
-    const Study study = rig_study(design, 30, 150);
-    for (const std::string& name : of_a_rig) {
+TEST(Machines, TrialsOfAMachineShareTheMachineAndNothingElse) {
+  for (const std::string& design : designs_with_machines) {
+    const Study study = machine_study(design, 30, 150);
+    for (const std::string& name : of_a_machine) {
       std::set<double> different;
       for (std::int64_t i = 0; i < 150; ++i) {
         EXPECT_EQ(input(study, name, i), input(study, name, i % 30)) << design << " " << name;
@@ -65,41 +66,41 @@ TEST(Rigs, TrialsOfARigShareTheMachineAndNothingElse) {
   }
 }
 
-TEST(Rigs, WhatARigHasIsListedOnceForIt) {
-  const Study study = rig_study("monte_carlo", 30, 150);
+TEST(Machines, WhatAMachineHasIsListedOnceForIt) {
+  const Study study = machine_study("monte_carlo", 30, 150);
   std::vector<std::string> names;
-  for (const InputColumn& column : study.columns.shared[Grouping::rig]) names.push_back(column.name);
-  EXPECT_EQ(names, of_a_rig);
+  for (const InputColumn& column : study.columns.shared[Grouping::machine]) names.push_back(column.name);
+  EXPECT_EQ(names, of_a_machine);
   for (std::int64_t i = 0; i < 150; ++i) {
     std::vector<double> inputs;
-    for (const std::string& name : of_a_rig) inputs.push_back(input(study, name, i, 1));
-    EXPECT_EQ(group_inputs(study, Grouping::rig, group_of(study, Grouping::rig, i)), inputs);
+    for (const std::string& name : of_a_machine) inputs.push_back(input(study, name, i, 1));
+    EXPECT_EQ(group_inputs(study, Grouping::machine, group_of(study, Grouping::machine, i)), inputs);
   }
-  EXPECT_TRUE(study_of(full_manifest()).columns.shared[Grouping::rig].empty());
+  EXPECT_TRUE(study_of(full_manifest()).columns.shared[Grouping::machine].empty());
 }
 
-TEST(Rigs, MoreTrialsKeepTheRigsAndTheFirstTrials) {
+TEST(Machines, MoreTrialsKeepTheMachinesAndTheFirstTrials) {
   for (const std::string design : {"monte_carlo", "sobol"}) {
-    const Study few = rig_study(design, 30, 60);
-    const Study many = rig_study(design, 30, 6000);
+    const Study few = machine_study(design, 30, 60);
+    const Study many = machine_study(design, 30, 6000);
     for (std::int64_t i = 0; i < 60; ++i) {
       EXPECT_EQ(study_trial(few, 0, i).inputs, study_trial(many, 0, i).inputs) << design;
       EXPECT_EQ(rotor_of(few, i), rotor_of(many, i));
     }
   }
-  // The trials of a Latin hypercube change with their number, and its rigs do not.
-  const Study few = rig_study("latin_hypercube", 30, 60);
-  const Study many = rig_study("latin_hypercube", 30, 6000);
-  for (std::int64_t rig = 0; rig < 30; ++rig)
-    EXPECT_EQ(group_inputs(few, Grouping::rig, rig), group_inputs(many, Grouping::rig, rig));
+  // The trials of a Latin hypercube change with their number, and its machines do not.
+  const Study few = machine_study("latin_hypercube", 30, 60);
+  const Study many = machine_study("latin_hypercube", 30, 6000);
+  for (std::int64_t machine = 0; machine < 30; ++machine)
+    EXPECT_EQ(group_inputs(few, Grouping::machine, machine), group_inputs(many, Grouping::machine, machine));
 }
 
-TEST(Rigs, AllPointsShareThemIndependentOrNot) {
-  for (const std::string& design : designs_with_rigs) {
+TEST(Machines, AllPointsShareThemIndependentOrNot) {
+  for (const std::string& design : designs_with_machines) {
     for (const std::string independent : {"false", "true"}) {
-      const Study study = rig_study(design, 30, 60, "independent_points=" + independent);
+      const Study study = machine_study(design, 30, 60, "independent_points=" + independent);
       for (std::int64_t i = 0; i < 60; ++i) {
-        for (const std::string& name : of_a_rig)
+        for (const std::string& name : of_a_machine)
           EXPECT_EQ(input(study, name, i, 0), input(study, name, i, 1));
         EXPECT_EQ(input(study, "friction.alpha", i, 0), input(study, "friction.alpha", i, 1));
         EXPECT_EQ(rotor_of(study, i, 0), rotor_of(study, i, 1));
@@ -111,7 +112,7 @@ TEST(Rigs, AllPointsShareThemIndependentOrNot) {
 }
 
 // What belongs to the machine and what a trial does with it, section by section.
-TEST(Rigs, TheMachineIsOfTheRigAndTheRestOfTheTrial) {
+TEST(Machines, TheMachineIsOfTheMachineAndTheRestOfTheTrial) {
   const std::set<std::string> of_machine{"plant", "friction", "encoder", "dac", "amplifier", "controller"};
   for (const parameters::Parameter& parameter : parameters::parameter_table()) {
     const std::string section(parameter.name.substr(0, parameter.name.find('.')));
@@ -123,47 +124,48 @@ double uniform_of(const Study& study, const std::string& name, std::int64_t inde
   return (input(study, name, index) - low) / (high - low);
 }
 
-// Of the rigs each has a stratum of its own in what is theirs, and of the trials each in what is theirs.
-TEST(Rigs, StratifiedDesignsSpreadRigsAndTrialsEachAmongThemselves) {
+// Of the machines each has a stratum of its own in what is theirs, and of the trials each in what is theirs.
+TEST(Machines, StratifiedDesignsSpreadMachinesAndTrialsEachAmongThemselves) {
   for (const std::string design : {"latin_hypercube", "sobol"}) {
-    const Study study = rig_study(design, 64, 1024);
-    std::set<int> rigs;
+    const Study study = machine_study(design, 64, 1024);
+    std::set<int> machines;
     std::set<int> trials;
     for (std::int64_t i = 0; i < 1024; ++i) {
-      rigs.insert(static_cast<int>(64 * uniform_of(study, "friction.k2", i, 600, 900)));
+      machines.insert(static_cast<int>(64 * uniform_of(study, "friction.k2", i, 600, 900)));
       trials.insert(static_cast<int>(1024 * uniform_of(study, "initial.position", i, 0, 6)));
     }
-    EXPECT_EQ(rigs.size(), 64U) << design;
+    EXPECT_EQ(machines.size(), 64U) << design;
     EXPECT_EQ(trials.size(), 1024U) << design;
     std::set<int> means;
-    for (std::int64_t rig = 0; rig < 64; ++rig) {
+    for (std::int64_t machine = 0; machine < 64; ++machine) {
       const double z =
-          std::log(input(study, "friction.k1.profile.mean", rig) / 110) / std::sqrt(std::log1p(0.01));
+          std::log(input(study, "friction.k1.profile.mean", machine) / 110) / std::sqrt(std::log1p(0.01));
       means.insert(static_cast<int>(64 * 0.5 * std::erfc(-z / std::numbers::sqrt2)));
     }
     EXPECT_EQ(means.size(), 64U) << design;
   }
 }
 
-// In the order of a Sobol sequence, the trials of one of 64 rigs would all be in one 64th of the range.
-TEST(Rigs, WhatATrialDrawsTellsNothingOfItsRig) {
-  for (const std::string& design : designs_with_rigs) {
-    const Study study = rig_study(design, 64, 64 * 64);
-    for (std::int64_t rig = 0; rig < 64; rig += 7) {
+// In the order of a Sobol sequence, the trials of one of 64 machines would all be in one 64th of the range.
+TEST(Machines, WhatATrialDrawsTellsNothingOfItsMachine) {
+  for (const std::string& design : designs_with_machines) {
+    const Study study = machine_study(design, 64, 64 * 64);
+    for (std::int64_t machine = 0; machine < 64; machine += 7) {
       std::set<int> parts;
       for (std::int64_t k = 0; k < 64; ++k)
-        parts.insert(static_cast<int>(8 * uniform_of(study, "initial.position", 64 * k + rig, 0, 6)));
-      EXPECT_EQ(parts.size(), 8U) << design << ", machine " << rig;  // all but once in 600
+        parts.insert(static_cast<int>(8 * uniform_of(study, "initial.position", 64 * k + machine, 0, 6)));
+      EXPECT_EQ(parts.size(), 8U) << design << ", machine " << machine;  // all but once in 600
     }
   }
 }
 
-TEST(Rigs, SobolPlacesAreAPermutationWithinEveryRoundOfTheRigs) {
-  const random::RandomKey key = sobol_place_key(1, Grouping::rig);
+TEST(Machines, SobolPlacesAreAPermutationWithinEveryRoundOfTheMachines) {
+  const random::RandomKey key = sobol_place_key(1, Grouping::machine);
   std::set<std::uint64_t> orders;
   for (std::uint64_t round = 0; round < 20; ++round) {
     std::set<std::uint64_t> places;
-    for (std::uint64_t rig = 0; rig < 30; ++rig) places.insert(sobol_place(key, 30 * round + rig, 30));
+    for (std::uint64_t machine = 0; machine < 30; ++machine)
+      places.insert(sobol_place(key, 30 * round + machine, 30));
     EXPECT_EQ(places.size(), 30U);
     EXPECT_EQ(*places.begin(), 30 * round);
     EXPECT_EQ(*places.rbegin(), 30 * round + 29);
@@ -172,8 +174,8 @@ TEST(Rigs, SobolPlacesAreAPermutationWithinEveryRoundOfTheRigs) {
   EXPECT_GT(orders.size(), 10U);
 }
 
-TEST(Rigs, AContactDrawsByItsNumberAndTheTrialAlone) {
-  const Study study = rig_study("monte_carlo", 30, 60);
+TEST(Machines, AContactDrawsByItsNumberAndTheTrialAlone) {
+  const Study study = machine_study("monte_carlo", 30, 60);
   std::set<double> values;
   for (std::int64_t i = 0; i < 60; ++i) {
     const friction::FrictionAlongRotor friction = study_trial(study, 0, i).parameters.friction;
@@ -191,7 +193,7 @@ TEST(Rigs, AContactDrawsByItsNumberAndTheTrialAlone) {
 }
 
 // Trials that do not slide are the same whether a parameter is drawn for the trial or for each contact.
-TEST(Rigs, TheFirstContactHasWhatTheTrialWouldHave) {
+TEST(Machines, TheFirstContactHasWhatTheTrialWouldHave) {
   for (const std::string design : {"monte_carlo", "latin_hypercube", "sobol", "saltelli"}) {
     const auto with_per = [&](const std::string& per) {
       return study_of(minimal_manifest("friction: {k1: {uniform: [100, 120], per: " + per +
@@ -205,7 +207,7 @@ TEST(Rigs, TheFirstContactHasWhatTheTrialWouldHave) {
   }
 }
 
-TEST(Rigs, AStudyWithoutThemCanDrawOnceForAllItsTrials) {
+TEST(Machines, AStudyWithoutThemCanDrawOnceForAllItsTrials) {
   const Study study = study_of(minimal_manifest(
       "friction: {k1: {profile: {mean: {uniform: [100, 120]}, cv: 0.1, correlation_length: 1}}, "
       "k2: {uniform: [600, 900], per: study}, beta: {uniform: [1.0e5, 2.0e5]}}\n"));
@@ -226,7 +228,8 @@ TEST(Rotors, AreThoseOfTheirNumberKeptOrNot) {
                                                       friction::Marginal::lognormal};
   const Rotors rotors(description, std::nullopt, 7, "friction.k1", 1'000'000);
   const Rotors others(description, std::nullopt, 7, "friction.k1", 10);
-  for (const std::int64_t rig : {0L, 9L, 0L}) EXPECT_EQ(rotors.rotor(rig)->cosine, others.rotor(rig)->cosine);
+  for (const std::int64_t machine : {0L, 9L, 0L})
+    EXPECT_EQ(rotors.rotor(machine)->cosine, others.rotor(machine)->cosine);
   EXPECT_EQ(rotors.rotor(3), rotors.rotor(3));
   EXPECT_NE(rotors.rotor(999'999), rotors.rotor(999'999));
   EXPECT_EQ(rotors.rotor(999'999)->sine, rotors.rotor(999'999)->sine);
@@ -238,24 +241,25 @@ TEST(Rotors, NoneLeavesTheBoundsKnownBefore) {
                         DrawnMean{distributions::Lognormal{100, 0.3}, Design::monte_carlo, {}}, 7,
                         "friction.k1", 200);
     EXPECT_TRUE(numerics::contains(rotors.bounds(), rotors.all_limits()));
-    for (std::int64_t rig = 0; rig < 200; ++rig)
-      EXPECT_TRUE(numerics::contains(rotors.all_limits(), friction::value_at(*rotors.rotor(rig), 0.1)));
+    for (std::int64_t machine = 0; machine < 200; ++machine)
+      EXPECT_TRUE(numerics::contains(rotors.all_limits(), friction::value_at(*rotors.rotor(machine), 0.1)));
   }
 }
 
-// The profiles of thousands of rigs are made once for all variants of a study, and only where they are equal.
-TEST(Rigs, OfAVariantHaveTheProfilesOfTheStudyIfTheyAreEqual) {
+// The profiles of thousands of machines are made once for all variants of a study, and only where they are
+// equal.
+TEST(Machines, OfAVariantHaveTheProfilesOfTheStudyIfTheyAreEqual) {
   const std::string text = minimal_manifest(machines_and_moves);
-  const Study study = study_of(text, {"rigs=4", "trials=8"});
+  const Study study = study_of(text, {"machines=4", "trials=8"});
   const auto shares = [&](const std::vector<std::string>& overrides) {
-    std::vector<std::string> all{"rigs=4", "trials=8"};
+    std::vector<std::string> all{"machines=4", "trials=8"};
     all.insert(all.end(), overrides.begin(), overrides.end());
     const Study variant = manifest::parse_study(text, "m.yaml", all, sections::companions_of(study));
     return variant.plan->profiles.front() == study.plan->profiles.front();
   };
   EXPECT_TRUE(shares({"plant.inertia=1e-3"}));
   EXPECT_FALSE(shares({"seed=99"}));
-  EXPECT_FALSE(shares({"rigs=8"}));
+  EXPECT_FALSE(shares({"machines=8"}));
   EXPECT_FALSE(shares({"friction.k1.profile.cv=0.2"}));
   EXPECT_FALSE(shares({"friction.k1.profile.mean.lognormal.cv=0.2"}));
   EXPECT_FALSE(shares({"design=latin_hypercube"}));

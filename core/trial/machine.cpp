@@ -1,4 +1,4 @@
-#include "core/trial/rig.hpp"
+#include "core/trial/machine.hpp"
 
 #include <algorithm>
 #include <cmath>

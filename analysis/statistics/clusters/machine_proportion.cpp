@@ -1,4 +1,4 @@
-#include "analysis/statistics/clusters/rig_proportion.hpp"
+#include "analysis/statistics/clusters/machine_proportion.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,14 +20,14 @@ struct MarkRule {
 /// Chosen for sharp bounds in populations of many kinds.
 constexpr MarkRule rules[] = {{0.1, 0.35}, {0.35, 0.25}, {0.6, 0.15}, {0.85, 0.15}, {0.35, 0.1, 0.1}};
 
-/// ε of the highest mark, not so large that it takes more than half of what the number of rigs leaves.
-double strictest(const RigStudy& study, const RigClaim& claim) {
-  const double room = proportion_at_least(study.rigs, study.rigs, claim.confidence) - claim.wanted;
+/// ε of the highest mark, not so large that it takes more than half of what the number of machines leaves.
+double strictest(const MachineStudy& study, const MachineClaim& claim) {
+  const double room = proportion_at_least(study.machines, study.machines, claim.confidence) - claim.wanted;
   return room > 0.0 ? std::min(rules[0].wrong, room / (2.0 * (1.0 - claim.wanted))) : rules[0].wrong;
 }
 
-RigMark mark_of(const RigStudy& study, double q, const MarkRule& rule) {
-  RigMark mark;
+MachineMark mark_of(const MachineStudy& study, double q, const MarkRule& rule) {
+  MachineMark mark;
   if (rule.left_out > 0.0) {
     mark.among = numerics::first_where(
                      0, study.moves + 1,
@@ -40,36 +40,38 @@ RigMark mark_of(const RigStudy& study, double q, const MarkRule& rule) {
   return mark;
 }
 
-std::int64_t passing(std::span<const RigMoves> rigs, std::int64_t met) {
-  return std::count_if(rigs.begin(), rigs.end(), [met](const RigMoves& rig) { return rig.met >= met; });
+std::int64_t passing(std::span<const MachineMoves> machines, std::int64_t met) {
+  return std::count_if(machines.begin(), machines.end(),
+                       [met](const MachineMoves& machine) { return machine.met >= met; });
 }
 
-/// As if all moves of a rig beyond the first `moves` met the requirement, and were left out.
-std::vector<RigMoves> without_further_moves(std::span<const RigMoves> rigs, std::int64_t moves) {
-  std::vector<RigMoves> shortened(rigs.begin(), rigs.end());
-  for (RigMoves& rig : shortened) rig.met -= rig.moves - moves;
+/// As if all moves of a machine beyond the first `moves` met the requirement, and were left out.
+std::vector<MachineMoves> without_further_moves(std::span<const MachineMoves> machines, std::int64_t moves) {
+  std::vector<MachineMoves> shortened(machines.begin(), machines.end());
+  for (MachineMoves& machine : shortened) machine.met -= machine.moves - moves;
   return shortened;
 }
 
 /// The moves that miss in place of those that meet the requirement.
-std::vector<RigMoves> missing(std::span<const RigMoves> rigs) {
-  std::vector<RigMoves> missed(rigs.begin(), rigs.end());
-  for (RigMoves& rig : missed) rig.met = rig.moves - rig.met;
+std::vector<MachineMoves> missing(std::span<const MachineMoves> machines) {
+  std::vector<MachineMoves> missed(machines.begin(), machines.end());
+  for (MachineMoves& machine : missed) machine.met = machine.moves - machine.met;
   return missed;
 }
 
-double low_bound(std::span<const RigMoves> rigs, const RigClaim& claim) {
-  const auto [fewest, most] = std::minmax_element(
-      rigs.begin(), rigs.end(), [](const RigMoves& a, const RigMoves& b) { return a.moves < b.moves; });
-  const RigStudy study{std::ssize(rigs), fewest->trials, fewest->moves,
-                       fewest->moves == most->moves && !claim.of_least};
-  const std::vector<RigMoves> counted = without_further_moves(rigs, fewest->moves);
-  return RigBound(study, claim).at_least([&](std::int64_t met) { return passing(counted, met); });
+double low_bound(std::span<const MachineMoves> machines, const MachineClaim& claim) {
+  const auto [fewest, most] =
+      std::minmax_element(machines.begin(), machines.end(),
+                          [](const MachineMoves& a, const MachineMoves& b) { return a.moves < b.moves; });
+  const MachineStudy study{std::ssize(machines), fewest->trials, fewest->moves,
+                           fewest->moves == most->moves && !claim.of_least};
+  const std::vector<MachineMoves> counted = without_further_moves(machines, fewest->moves);
+  return MachineBound(study, claim).at_least([&](std::int64_t met) { return passing(counted, met); });
 }
 
 }  // namespace
 
-double chance_to_show(const RigStudy& study, double p, std::int64_t met) {
+double chance_to_show(const MachineStudy& study, double p, std::int64_t met) {
   if (met <= 0) return 1.0;
   if (study.trials == study.moves) return binomial_upper_tail(study.moves, p, met - 1);
   const double mean = static_cast<double>(met) / static_cast<double>(study.moves);
@@ -77,14 +79,15 @@ double chance_to_show(const RigStudy& study, double p, std::int64_t met) {
   return std::exp(-static_cast<double>(study.trials) * bernoulli_divergence(mean, p));
 }
 
-RigBound::RigBound(const RigStudy& study, const RigClaim& claim) : study_(study), claim_(claim) {
+MachineBound::MachineBound(const MachineStudy& study, const MachineClaim& claim)
+    : study_(study), claim_(claim) {
   std::vector<Tested> marks;  // with their weights in place of errors
   for (const MarkRule& rule : rules) {
     // Further moves change both numbers of a ratio; moves of one trial have no known ratio.
     if (rule.left_out > 0.0 && !(study.all_alike && study.trials == study.moves)) continue;
     MarkRule one = rule;
     if (&rule == &rules[0]) one.wrong = strictest(study, claim);
-    const RigMark mark = mark_of(study, claim.proportion, one);
+    const MachineMark mark = mark_of(study, claim.proportion, one);
     const bool is_idle = mark.wrong >= 1.0 || (rule.left_out > 0.0 && mark.among == 0);
     if (is_idle) continue;
     const auto same = std::ranges::find_if(marks, [&](const Tested& other) {
@@ -104,7 +107,7 @@ RigBound::RigBound(const RigStudy& study, const RigClaim& claim) : study_(study)
     for (std::size_t i = 0; i < marks.size(); ++i) {
       Tested& one = stage.marks[i];
       one.error *= (1.0 - claim.confidence) / weights;
-      const double reach = bound(one, study.rigs, study.rigs);
+      const double reach = bound(one, study.machines, study.machines);
       if (reach < stage.reach) lowest = i;
       stage.reach = std::min(stage.reach, reach);
     }
@@ -113,17 +116,17 @@ RigBound::RigBound(const RigStudy& study, const RigClaim& claim) : study_(study)
   }
 }
 
-double RigBound::bound(const Tested& tested, std::int64_t passing, std::int64_t among) const {
+double MachineBound::bound(const Tested& tested, std::int64_t passing, std::int64_t among) const {
   const auto& [mark, error] = tested;
   if (among == 0) return 0.0;
   const bool of_all = mark.among == 0;
   const double confidence = 1.0 - (of_all ? error : 0.5 * error);
-  const double in_question = of_all ? 1.0 : proportion_at_least(among, study_.rigs, confidence);
+  const double in_question = of_all ? 1.0 : proportion_at_least(among, study_.machines, confidence);
   const double pass = proportion_at_least(passing, among, confidence);
   return std::max(0.0, in_question * (pass - mark.wrong) / (1.0 - mark.wrong));
 }
 
-double RigBound::at_least(const std::function<std::int64_t(std::int64_t met)>& passing) const {
+double MachineBound::at_least(const std::function<std::int64_t(std::int64_t met)>& passing) const {
   double low = 0.0;
   for (const Stage& stage : stages_) {
     double found = 0.0;
@@ -135,7 +138,7 @@ double RigBound::at_least(const std::function<std::int64_t(std::int64_t met)>& p
   return low;
 }
 
-std::vector<RigBound::Enough> RigBound::enough() const {
+std::vector<MachineBound::Enough> MachineBound::enough() const {
   std::vector<Enough> found;
   const Stage* last = nullptr;  // that shows the proportion wanted
   for (const Stage& stage : stages_)
@@ -150,27 +153,29 @@ std::vector<RigBound::Enough> RigBound::enough() const {
       });
       const double shown = &stage == last ? claim_.wanted : stage.reach;
       const double pass = shown + (1.0 - shown) * one.mark.wrong;
-      enough.rigs = numerics::first_where(enough.rigs, study_.rigs + 1, [&](std::int64_t rigs) {
-        return rigs > 0 && binomial_upper_tail(study_.rigs, pass, rigs - 1) <= here->error;
-      });
+      enough.machines =
+          numerics::first_where(enough.machines, study_.machines + 1, [&](std::int64_t machines) {
+            return machines > 0 && binomial_upper_tail(study_.machines, pass, machines - 1) <= here->error;
+          });
       if (&stage == last) break;
     }
   }
   return found;
 }
 
-RigClaim of_missing(const RigClaim& claim) {
+MachineClaim of_missing(const MachineClaim& claim) {
   return {1.0 - claim.proportion, 1.0 - claim.wanted, claim.confidence};
 }
 
-RigProportion rig_proportion(std::span<const RigMoves> rigs, const RigClaim& claim) {
-  if (rigs.empty() || std::ranges::any_of(rigs, [](const RigMoves& rig) { return rig.moves == 0; }))
+MachineProportion machine_proportion(std::span<const MachineMoves> machines, const MachineClaim& claim) {
+  if (machines.empty() ||
+      std::ranges::any_of(machines, [](const MachineMoves& machine) { return machine.moves == 0; }))
     return {};
-  const auto meeting = std::count_if(rigs.begin(), rigs.end(), [&](const RigMoves& one) {
+  const auto meeting = std::count_if(machines.begin(), machines.end(), [&](const MachineMoves& one) {
     return rate(one.met, one.moves) >= claim.proportion;
   });
-  const double low = low_bound(rigs, claim);
-  const double high = 1.0 - low_bound(missing(rigs), of_missing(claim));
+  const double low = low_bound(machines, claim);
+  const double high = 1.0 - low_bound(missing(machines), of_missing(claim));
   return {meeting, low, std::max(low, high)};
 }
 

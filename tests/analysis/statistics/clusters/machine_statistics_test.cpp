@@ -1,9 +1,9 @@
-#include "analysis/statistics/clusters/rig_statistics.hpp"
+#include "analysis/statistics/clusters/machine_statistics.hpp"
 
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/random/beta_distribution.hpp>
 
-#include "analysis/statistics/clusters/rig_proportion.hpp"
+#include "analysis/statistics/clusters/machine_proportion.hpp"
 #include "analysis/statistics/clusters/trial_clusters.hpp"
 #include "analysis/statistics/distributions.hpp"
 #include "analysis/statistics/sums/state.hpp"
@@ -14,137 +14,145 @@
 namespace zerocount::statistics {
 namespace {
 
-RigTrials rig_with(std::int64_t trials, std::int64_t successes, std::int64_t moves = 1) {
+MachineTrials machine_with(std::int64_t trials, std::int64_t successes, std::int64_t moves = 1) {
   return {trials, successes, trials * moves, successes * moves};
 }
 
-std::vector<RigTrials> rigs_with(std::int64_t trials, const std::vector<std::int64_t>& successes) {
-  std::vector<RigTrials> rigs;
-  for (const std::int64_t k : successes) rigs.push_back(rig_with(trials, k));
-  return rigs;
+std::vector<MachineTrials> machines_with(std::int64_t trials, const std::vector<std::int64_t>& successes) {
+  std::vector<MachineTrials> machines;
+  for (const std::int64_t k : successes) machines.push_back(machine_with(trials, k));
+  return machines;
 }
 
-TEST(RigStatistics, CountsTheRigsWithoutFailureAndTheWorst) {
+TEST(MachineStatistics, CountsTheMachinesWithoutFailureAndTheWorst) {
   std::vector<std::int64_t> successes(40, 10);
   successes[3] = 4;
   successes[17] = 1;
   successes[30] = 9;
-  const RigStatistics found = rig_statistics(rigs_with(10, successes));
+  const MachineStatistics found = machine_statistics(machines_with(10, successes));
   EXPECT_EQ(found.n, 40);
   EXPECT_NEAR(found.without_failure, 37.0 / 40.0, 1e-15);
   EXPECT_EQ(found.without_failure_bounds.low, clopper_pearson(37, 40).low);
   EXPECT_EQ(found.without_failure_bounds.high, clopper_pearson(37, 40).high);
-  EXPECT_NEAR(found.worst_5_percent, 0.5 * (0.1 + 0.4), 1e-15);                        // 2 of 40
-  EXPECT_NEAR(rig_statistics(rigs_with(10, {3, 8, 10})).worst_5_percent, 0.3, 1e-15);  // 1 of fewer than 20
-  EXPECT_EQ(rig_statistics({}).n, 0);
-  EXPECT_THROW(rig_statistics(rigs_with(10, successes), 1.0), Failure);
+  EXPECT_NEAR(found.worst_5_percent, 0.5 * (0.1 + 0.4), 1e-15);  // 2 of 40
+  EXPECT_NEAR(machine_statistics(machines_with(10, {3, 8, 10})).worst_5_percent, 0.3,
+              1e-15);  // 1 of fewer than 20
+  EXPECT_EQ(machine_statistics({}).n, 0);
+  EXPECT_THROW(machine_statistics(machines_with(10, successes), 1.0), Failure);
 }
 
 /// A beta-binomial sample has the standard deviation of its beta distribution, whatever the number of trials.
-TEST(RigStatistics, StandardDeviationIsThatOfTheProbabilities) {
+TEST(MachineStatistics, StandardDeviationIsThatOfTheProbabilities) {
   std::mt19937_64 random(61);
   for (const double sd : {0.0, 0.1, 0.3}) {
     for (const std::int64_t trials : {2, 10, 100}) {
       constexpr double mean = 0.7;
       const double size = sd > 0.0 ? mean * (1.0 - mean) / (sd * sd) - 1.0 : 0.0;
       std::vector<std::int64_t> successes;
-      for (int rig = 0; rig < 4000; ++rig) {
+      for (int machine = 0; machine < 4000; ++machine) {
         const double p =
             sd > 0.0 ? boost::random::beta_distribution<double>(mean * size, (1.0 - mean) * size)(random)
                      : mean;
         successes.push_back(std::binomial_distribution<std::int64_t>(trials, p)(random));
       }
-      const double found = rig_statistics(rigs_with(trials, successes)).success_sd;
+      const double found = machine_statistics(machines_with(trials, successes)).success_sd;
       // Of nothing, the estimated variance errs by its standard error to either side, or is cut off at 0.
       EXPECT_NEAR(found * found, sd * sd, 0.02 / static_cast<double>(trials) + 0.005) << sd << " " << trials;
     }
   }
-  EXPECT_TRUE(std::isnan(rig_statistics(rigs_with(1, {1, 0, 1})).success_sd));
-  EXPECT_EQ(rig_statistics(rigs_with(10, {5, 5, 5, 5})).success_sd, 0.0);
+  EXPECT_TRUE(std::isnan(machine_statistics(machines_with(1, {1, 0, 1})).success_sd));
+  EXPECT_EQ(machine_statistics(machines_with(10, {5, 5, 5, 5})).success_sd, 0.0);
 }
 
-TEST(RigTolerance, WithoutAFailureIsTheBoundOfTheTrialsOfOneRig) {
-  // 29 rigs are the fewest that show a content of 90 % with 95 % confidence: 0.9^29 < 0.05.
-  const RigTolerance few = rig_tolerance(rigs_with(100, std::vector<std::int64_t>(28, 100)), 0.9, 0.95);
+TEST(MachineTolerance, WithoutAFailureIsTheBoundOfTheTrialsOfOneMachine) {
+  // 29 machines are the fewest that show a content of 90 % with 95 % confidence: 0.9^29 < 0.05.
+  const MachineTolerance few =
+      machine_tolerance(machines_with(100, std::vector<std::int64_t>(28, 100)), 0.9, 0.95);
   EXPECT_TRUE(std::isnan(few.zero_at_least));
-  EXPECT_EQ(few.min_rigs, 29);
+  EXPECT_EQ(few.min_machines, 29);
   EXPECT_EQ(tolerance_sentence(few),
             "with 95 % confidence, it takes 29 machines to say in how many moves 90 % of machines hold zero");
-  // With 40 rigs, those below the worst are at most p = 1 − 0.05^(1/40) = 7.2 % of all; a rig that shows no
-  // failure in 100 trials with a probability of δ = 1 − p/10 % = 28 % holds zero in δ^(1/100) = 98.7 %.
-  const RigTolerance all = rig_tolerance(rigs_with(100, std::vector<std::int64_t>(40, 100)), 0.9, 0.95);
+  // With 40 machines, those below the worst are at most p = 1 − 0.05^(1/40) = 7.2 % of all; a machine that
+  // shows no failure in 100 trials with a probability of δ = 1 − p/10 % = 28 % holds zero in δ^(1/100) = 98.7
+  // %.
+  const MachineTolerance all =
+      machine_tolerance(machines_with(100, std::vector<std::int64_t>(40, 100)), 0.9, 0.95);
   const double p = 1.0 - std::pow(0.05, 1.0 / 40.0);
   EXPECT_NEAR(all.zero_at_least, std::pow(1.0 - p / 0.1, 1.0 / 100.0), 1e-9);
   EXPECT_EQ(tolerance_sentence(all),
             "with 95 % confidence at least 90 % of machines hold zero in at least 98.7 % of moves");
 }
 
-TEST(RigTolerance, MovesOfOneTrialMayAllBeAlike) {
+TEST(MachineTolerance, MovesOfOneTrialMayAllBeAlike) {
   // Without a failure, ten moves a trial show no more than one does.
-  std::vector<RigTrials> one, ten;
-  for (int rig = 0; rig < 60; ++rig) {
-    one.push_back(rig_with(50, 50));
-    ten.push_back(rig_with(50, 50, 10));
+  std::vector<MachineTrials> one, ten;
+  for (int machine = 0; machine < 60; ++machine) {
+    one.push_back(machine_with(50, 50));
+    ten.push_back(machine_with(50, 50, 10));
   }
-  EXPECT_NEAR(rig_tolerance(ten, 0.9, 0.95).zero_at_least, rig_tolerance(one, 0.9, 0.95).zero_at_least, 1e-9);
+  EXPECT_NEAR(machine_tolerance(ten, 0.9, 0.95).zero_at_least,
+              machine_tolerance(one, 0.9, 0.95).zero_at_least, 1e-9);
   // With failures the bound for moves that may be alike is below that for trials of one move.
-  for (RigTrials& rig : one) rig = rig_with(50, 45);
-  for (RigTrials& rig : ten) rig = rig_with(50, 45, 10);
-  EXPECT_LT(rig_tolerance(ten, 0.9, 0.95).zero_at_least, rig_tolerance(one, 0.9, 0.95).zero_at_least);
-  EXPECT_GT(rig_tolerance(ten, 0.9, 0.95).zero_at_least, 0.7);
-  for (RigTrials& rig : ten) rig = rig_with(50, 0, 10);
-  EXPECT_EQ(rig_tolerance(ten, 0.9, 0.95).zero_at_least, 0.0);
+  for (MachineTrials& machine : one) machine = machine_with(50, 45);
+  for (MachineTrials& machine : ten) machine = machine_with(50, 45, 10);
+  EXPECT_LT(machine_tolerance(ten, 0.9, 0.95).zero_at_least, machine_tolerance(one, 0.9, 0.95).zero_at_least);
+  EXPECT_GT(machine_tolerance(ten, 0.9, 0.95).zero_at_least, 0.7);
+  for (MachineTrials& machine : ten) machine = machine_with(50, 0, 10);
+  EXPECT_EQ(machine_tolerance(ten, 0.9, 0.95).zero_at_least, 0.0);
 }
 
-TEST(RigTolerance, LeavesOutAsManyRigsAsItsRankAllows) {
-  // Of 100 rigs the third worst counts: two that always fail cost nothing.
+TEST(MachineTolerance, LeavesOutAsManyMachinesAsItsRankAllows) {
+  // Of 100 machines the third worst counts: two that always fail cost nothing.
   std::vector<std::int64_t> successes(100, 200);
-  const double best = rig_tolerance(rigs_with(200, successes), 0.9, 0.95).zero_at_least;
+  const double best = machine_tolerance(machines_with(200, successes), 0.9, 0.95).zero_at_least;
   successes[1] = successes[7] = 0;
-  EXPECT_EQ(rig_tolerance(rigs_with(200, successes), 0.9, 0.95).zero_at_least, best);
+  EXPECT_EQ(machine_tolerance(machines_with(200, successes), 0.9, 0.95).zero_at_least, best);
   successes[9] = 0;
-  EXPECT_EQ(rig_tolerance(rigs_with(200, successes), 0.9, 0.95).zero_at_least, 0.0);
+  EXPECT_EQ(machine_tolerance(machines_with(200, successes), 0.9, 0.95).zero_at_least, 0.0);
 }
 
-// Bounds of the proportion of rigs that meet a requirement in a proportion of their moves.
+// Bounds of the proportion of machines that meet a requirement in a proportion of their moves.
 
-// If all rigs pass, only the highest mark can show so much, and has all of the error.
-TEST(RigProportion, OfRigsThatAllPassIsThatOfWilksLessWhatFewMovesHide) {
+// If all machines pass, only the highest mark can show so much, and has all of the error.
+TEST(MachineProportion, OfMachinesThatAllPassIsThatOfWilksLessWhatFewMovesHide) {
   // 100 moves: P(B ≥ 57) = 0.0966 ≤ 0.1 for B binomial (100, ½).
-  const std::vector<RigMoves> rigs(300, {100, 100, 100});
-  const RigProportion found = rig_proportion(rigs, {0.5, 0.95, 0.95});
+  const std::vector<MachineMoves> machines(300, {100, 100, 100});
+  const MachineProportion found = machine_proportion(machines, {0.5, 0.95, 0.95});
   const double all_pass = std::pow(0.05, 1.0 / 300.0);
   const double wrong = binomial_upper_tail(100, 0.5, 56);
   EXPECT_LE(wrong, 0.1);
   EXPECT_EQ(found.meeting, 300);
   EXPECT_NEAR(found.low, (all_pass - wrong) / (1.0 - wrong), 1e-12);
   EXPECT_EQ(found.high, 1.0);
-  // Five moves hardly tell a rig at 99 % from one at 98 %.
-  EXPECT_LT(rig_proportion(std::vector<RigMoves>(300, {5, 5, 5}), {0.99, 0.95, 0.95}).low, 0.9);
-  // Wilks: 59 rigs show 95 %, 58 do not.
-  EXPECT_GE(rig_proportion(std::vector<RigMoves>(59, {4000, 4000, 4000}), {0.9, 0.95, 0.95}).low, 0.95);
-  EXPECT_LT(rig_proportion(std::vector<RigMoves>(58, {4000, 4000, 4000}), {0.9, 0.95, 0.95}).low, 0.95);
+  // Five moves hardly tell a machine at 99 % from one at 98 %.
+  EXPECT_LT(machine_proportion(std::vector<MachineMoves>(300, {5, 5, 5}), {0.99, 0.95, 0.95}).low, 0.9);
+  // Wilks: 59 machines show 95 %, 58 do not.
+  EXPECT_GE(machine_proportion(std::vector<MachineMoves>(59, {4000, 4000, 4000}), {0.9, 0.95, 0.95}).low,
+            0.95);
+  EXPECT_LT(machine_proportion(std::vector<MachineMoves>(58, {4000, 4000, 4000}), {0.9, 0.95, 0.95}).low,
+            0.95);
 }
 
-TEST(RigProportion, OfRigsThatAllFailIsSmall) {
-  const RigProportion found = rig_proportion(std::vector<RigMoves>(100, {200, 200, 20}), {0.9, 0.9, 0.95});
+TEST(MachineProportion, OfMachinesThatAllFailIsSmall) {
+  const MachineProportion found =
+      machine_proportion(std::vector<MachineMoves>(100, {200, 200, 20}), {0.9, 0.9, 0.95});
   EXPECT_EQ(found.meeting, 0);
   EXPECT_EQ(found.low, 0.0);
   EXPECT_NEAR(found.high, 1.0 - std::pow(0.05, 1.0 / 100.0), 4e-3);
 }
 
-// Where rigs are well above the requirement and miss at times, a bound by those without a miss is poor.
-TEST(RigProportion, IsSharperThanThatOfOneMark) {
+// Where machines are well above the requirement and miss at times, a bound by those without a miss is poor.
+TEST(MachineProportion, IsSharperThanThatOfOneMark) {
   std::mt19937_64 random(3);
-  const auto median_low = [&](double good, double bad, std::int64_t rigs, std::int64_t moves) {
+  const auto median_low = [&](double good, double bad, std::int64_t machines, std::int64_t moves) {
     std::vector<double> found;
     for (int study = 0; study < 51; ++study) {
-      std::vector<RigMoves> drawn;
-      for (std::int64_t rig = 0; rig < rigs; ++rig) {
-        std::binomial_distribution<std::int64_t> met(moves, rig % 10 == 0 ? bad : good);
+      std::vector<MachineMoves> drawn;
+      for (std::int64_t machine = 0; machine < machines; ++machine) {
+        std::binomial_distribution<std::int64_t> met(moves, machine % 10 == 0 ? bad : good);
         drawn.push_back({moves, moves, met(random)});
       }
-      found.push_back(rig_proportion(drawn, {0.95, 0.9, 0.95}).low);
+      found.push_back(machine_proportion(drawn, {0.95, 0.9, 0.95}).low);
     }
     std::ranges::sort(found);
     return found[25];
@@ -154,12 +162,12 @@ TEST(RigProportion, IsSharperThanThatOfOneMark) {
   EXPECT_GT(median_low(0.99, 0.8, 300, 100), 0.75);    // of 0.9
 }
 
-// Half of the rigs hold far fewer moves than the claim asks for: the bound on the proportion stays near one
-// half.
-TEST(RigProportion, OfHalfOfTheRigsLeavesTheOthersOut) {
-  std::vector<RigMoves> rigs(200, {20, 20, 20});
-  for (std::size_t rig = 0; rig < rigs.size(); rig += 2) rigs[rig].met = 4;
-  const RigProportion found = rig_proportion(rigs, {0.9, 0.95, 0.95});
+// Half of the machines hold far fewer moves than the claim asks for: the bound on the proportion stays near
+// one half.
+TEST(MachineProportion, OfHalfOfTheMachinesLeavesTheOthersOut) {
+  std::vector<MachineMoves> machines(200, {20, 20, 20});
+  for (std::size_t machine = 0; machine < machines.size(); machine += 2) machines[machine].met = 4;
+  const MachineProportion found = machine_proportion(machines, {0.9, 0.95, 0.95});
   // The proportion of those that may be at the requirement, 0.5, by a Clopper–Pearson bound at 99.75 %, and
   // that of those that pass.
   EXPECT_GT(found.low, 0.36);
@@ -167,22 +175,22 @@ TEST(RigProportion, OfHalfOfTheRigsLeavesTheOthersOut) {
   EXPECT_GT(found.high, 0.5);
 }
 
-TEST(RigProportion, OfNoRigIsUnknown) {
-  const RigProportion none = rig_proportion({}, {0.9, 0.9, 0.95});
+TEST(MachineProportion, OfNoMachineIsUnknown) {
+  const MachineProportion none = machine_proportion({}, {0.9, 0.9, 0.95});
   EXPECT_EQ(none.meeting, 0);
   EXPECT_EQ(none.low, 0.0);
   EXPECT_EQ(none.high, 1.0);
 }
 
-/// Studies of rigs drawn at random, half of them with moves of a trial that are all alike.
+/// Studies of machines drawn at random, half of them with moves of a trial that are all alike.
 struct Population {
-  double meeting;       ///< proportion of rigs at or above the requirement
+  double meeting;       ///< proportion of machines at or above the requirement
   double above, below;  ///< proportions of moves of those, and of the others
 };
 
-class RigProportionCoverage : public ::testing::TestWithParam<Population> {};
+class MachineProportionCoverage : public ::testing::TestWithParam<Population> {};
 
-TEST_P(RigProportionCoverage, BoundsHold) {
+TEST_P(MachineProportionCoverage, BoundsHold) {
   constexpr double proportion = 0.95, wanted = 0.9, confidence = 0.95;
   constexpr int studies = 600;
   const Population population = GetParam();
@@ -191,13 +199,13 @@ TEST_P(RigProportionCoverage, BoundsHold) {
     for (const int trials : {10, 100}) {
       int too_high = 0, too_low = 0;
       for (int study = 0; study < studies; ++study) {
-        std::vector<RigMoves> rigs;
-        for (int rig = 0; rig < 80; ++rig) {
+        std::vector<MachineMoves> machines;
+        for (int machine = 0; machine < 80; ++machine) {
           const bool meets = std::bernoulli_distribution(population.meeting)(random);
           std::binomial_distribution<std::int64_t> met(trials, meets ? population.above : population.below);
-          rigs.push_back({trials, trials * moves_of_trial, met(random) * moves_of_trial});
+          machines.push_back({trials, trials * moves_of_trial, met(random) * moves_of_trial});
         }
-        const RigProportion found = rig_proportion(rigs, {proportion, wanted, confidence});
+        const MachineProportion found = machine_proportion(machines, {proportion, wanted, confidence});
         EXPECT_LE(found.low, found.high);
         too_high += found.low > population.meeting;
         too_low += found.high < population.meeting;
@@ -209,8 +217,8 @@ TEST_P(RigProportionCoverage, BoundsHold) {
   }
 }
 
-// Rigs just below and just on the requirement are the hardest to tell apart.
-INSTANTIATE_TEST_SUITE_P(, RigProportionCoverage,
+// Machines just below and just on the requirement are the hardest to tell apart.
+INSTANTIATE_TEST_SUITE_P(, MachineProportionCoverage,
                          ::testing::Values(Population{0.9, 0.95, 0.949}, Population{0.0, 1.0, 0.9499},
                                            Population{1.0, 0.95, 0.0}, Population{0.8, 0.99, 0.9},
                                            Population{0.95, 1.0, 0.5}));
@@ -227,8 +235,8 @@ std::vector<double> values_of(std::int64_t trial) {
   return values;
 }
 
-TrialClusters clusters_of(std::int64_t rigs, std::int64_t first, std::int64_t end) {
-  TrialClusters clusters(rigs);
+TrialClusters clusters_of(std::int64_t machines, std::int64_t first, std::int64_t end) {
+  TrialClusters clusters(machines);
   for (std::int64_t trial = first; trial < end; ++trial) {
     std::vector<double> values = values_of(trial);
     clusters.add_trial(trial, values, moves);
@@ -245,26 +253,26 @@ State state_of(const TrialClusters& clusters) {
 
 class TrialClustersOf : public ::testing::TestWithParam<std::int64_t> {};
 
-TEST_P(TrialClustersOf, MomentsAreThoseOfTheValuesOfEachRig) {
-  const std::int64_t rigs = GetParam();
+TEST_P(TrialClustersOf, MomentsAreThoseOfTheValuesOfEachMachine) {
+  const std::int64_t machines = GetParam();
   constexpr std::int64_t trials = 700;
-  std::vector<std::vector<double>> by_rig(static_cast<std::size_t>(rigs));
+  std::vector<std::vector<double>> by_machine(static_cast<std::size_t>(machines));
   for (std::int64_t trial = 0; trial < trials; ++trial) {
     const std::vector<double> values = values_of(trial);
-    std::vector<double>& rig = by_rig[static_cast<std::size_t>(trial % rigs)];
-    rig.insert(rig.end(), values.begin(), values.end());
+    std::vector<double>& machine = by_machine[static_cast<std::size_t>(trial % machines)];
+    machine.insert(machine.end(), values.begin(), values.end());
   }
-  const ClusteredSample sample = clusters_of(rigs, 0, trials).sample();
+  const ClusteredSample sample = clusters_of(machines, 0, trials).sample();
   EXPECT_EQ(sample.size(), moves * trials);
   for (const double x : {-1.0, 4.0, 11.5, 30.0}) {
     ClusterSums expected;
-    for (std::int64_t rig = 0; rig < rigs; ++rig) {
-      const std::vector<double>& values = by_rig[static_cast<std::size_t>(rig)];
+    for (std::int64_t machine = 0; machine < machines; ++machine) {
+      const std::vector<double>& values = by_machine[static_cast<std::size_t>(machine)];
       const auto hits = std::count_if(values.begin(), values.end(), [&](double value) { return value <= x; });
-      expected.add(hits, moves * ((trials - rig + rigs - 1) / rigs));
+      expected.add(hits, moves * ((trials - machine + machines - 1) / machines));
     }
     const ClusterSums found = sample.at_most(x);
-    EXPECT_EQ(found.clusters, std::min(rigs, trials));
+    EXPECT_EQ(found.clusters, std::min(machines, trials));
     EXPECT_EQ(found.hits, expected.hits);
     EXPECT_EQ(found.events, moves * trials);
     EXPECT_EQ(found.hits_squared, expected.hits_squared);
@@ -274,37 +282,37 @@ TEST_P(TrialClustersOf, MomentsAreThoseOfTheValuesOfEachRig) {
 }
 
 TEST_P(TrialClustersOf, BlocksInAnyOrderGiveTheStateOfAllTrials) {
-  const std::int64_t rigs = GetParam();
+  const std::int64_t machines = GetParam();
   constexpr std::int64_t trials = 700;
-  const State whole = state_of(clusters_of(rigs, 0, trials));
+  const State whole = state_of(clusters_of(machines, 0, trials));
   std::mt19937_64 random(7);
   for (int order = 0; order < 20; ++order) {
     std::vector<TrialClusters> blocks;
     for (std::int64_t first = 0; first < trials;) {
       const std::int64_t end =
           std::min<std::int64_t>(trials, first + 1 + static_cast<std::int64_t>(random() % 90));
-      blocks.push_back(clusters_of(rigs, first, end));
+      blocks.push_back(clusters_of(machines, first, end));
       first = end;
     }
     std::shuffle(blocks.begin(), blocks.end(), random);
-    TrialClusters sum(rigs);
+    TrialClusters sum(machines);
     for (const TrialClusters& block : blocks) sum += block;
     const State state = state_of(sum);
     EXPECT_EQ(state.whole, whole.whole);
     EXPECT_EQ(state.real, whole.real);
-    TrialClusters again(rigs);
+    TrialClusters again(machines);
     StateReader reader(state.whole, state.real);
     reader(again);
     reader.require_end();
-    again += clusters_of(rigs, trials, trials + 50);
-    EXPECT_EQ(state_of(again).whole, state_of(clusters_of(rigs, 0, trials + 50)).whole);
+    again += clusters_of(machines, trials, trials + 50);
+    EXPECT_EQ(state_of(again).whole, state_of(clusters_of(machines, 0, trials + 50)).whole);
   }
 }
 
 TEST(TrialClusters, OfAColumnAreThoseOfItsTrials) {
   std::mt19937_64 random(9);
-  for (const std::int64_t rigs : {0, 0, 7}) {
-    TrialClusters one_by_one(rigs), by_column(rigs);
+  for (const std::int64_t machines : {0, 0, 7}) {
+    TrialClusters one_by_one(machines), by_column(machines);
     for (std::int64_t trial = 0; trial < 3000;) {
       // Single values before and after trials of several; columns of repeated and of different values.
       const std::size_t of_trial = random() % 4 == 0 ? 1 + random() % 3 : 1;
@@ -330,8 +338,8 @@ TEST(TrialClusters, OfAColumnAreThoseOfItsTrials) {
   }
 }
 
-// Few rigs with many trials, about as many, and rigs without a trial.
-INSTANTIATE_TEST_SUITE_P(Rigs, TrialClustersOf, ::testing::Values(1, 7, 64, 699, 5000));
+// Few machines with many trials, about as many, and machines without a trial.
+INSTANTIATE_TEST_SUITE_P(Machines, TrialClustersOf, ::testing::Values(1, 7, 64, 699, 5000));
 
 }  // namespace
 }  // namespace zerocount::statistics

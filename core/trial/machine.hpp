@@ -52,12 +52,13 @@ inline constexpr double max_counts = 0x1p52;
 /// Tolerances of the motion integrator, derived from the resolution (rad) of the fine encoder.
 motion::MotionTolerance motion_tolerance(double resolution);
 
-/// The rig of a trial: drive, plant and encoders, without the controller. One sample is: read, drive, hold.
+/// The machine of a trial: drive, plant and encoders, without the controller. One sample is: read, drive,
+/// hold.
 /// @tparam AnyPlant PlantOf a list of laws.
 template <class AnyPlant>
-class Rig {
+class Machine {
  public:
-  explicit Rig(const TrialParameters& p)
+  explicit Machine(const TrialParameters& p)
       : sample_time_(1.0 / p.controller.sample_rate),
         clock_(p.controller, p.randomness),
         measurement_(p.encoder, p.initial.encoder_phase, p.initial.position, p.randomness, sample_time_,

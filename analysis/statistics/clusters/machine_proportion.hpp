@@ -1,0 +1,147 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "analysis/statistics/proportion.hpp"
+
+namespace zerocount::statistics {
+
+/// Moves of one machine, of which some meet a requirement.
+struct MachineMoves {
+  std::int64_t trials{0};  ///< independent, given the machine
+  std::int64_t moves{0};   ///< of all trials, each with as many
+  std::int64_t met{0};
+
+  MachineMoves& operator+=(const MachineMoves& other) {
+    trials += other.trials;
+    moves += other.moves;
+    met += other.met;
+    return *this;
+  }
+  bool operator==(const MachineMoves&) const = default;
+
+  template <class Self, class Archive>
+  static void transfer(Self& self, Archive& archive) {
+    archive(self.trials, self.moves, self.met);
+  }
+};
+
+/// The proportion π of all machines that meet the requirement in at least the proportion q of their moves,
+/// with one-sided bounds. p_r, the proportion of machine r in infinitely many moves, is not known: the
+/// machine was seen in n moves only.
+struct MachineProportion {
+  std::int64_t meeting{0};  ///< machines with met/moves ≥ q
+  double low{0.0};
+  double high{1.0};
+};
+
+/// The claim on machines: the proportion `wanted` of them meets the requirement in the proportion q of
+/// their moves.
+struct MachineClaim {
+  double proportion;  ///< q
+  double wanted;
+  double confidence;  ///< of a bound
+  /// Machines meet the requirement under several conditions if they do under each, and show the fewest moves
+  /// of these, which may depend on each other: the ratio of two tails is not known then. Only for `low`.
+  bool of_least{false};
+};
+
+/// The size of a study on machines.
+struct MachineStudy {
+  std::int64_t machines{0};
+  std::int64_t trials{0};  ///< of a machine
+  std::int64_t moves{0};   ///< of a machine, of all its trials
+  bool all_alike{true};    ///< all machines have as many moves; otherwise these are the fewest
+};
+
+/// How probably a machine that meets the requirement in the proportion p of its moves shows `met` or more, at
+/// most (exactly for trials of one move): ε of MachineBound.
+double chance_to_show(const MachineStudy& study, double p, std::int64_t met);
+
+/// Machines that pass a mark: c or more of their n moves meet the requirement.
+struct MachineMark {
+  std::int64_t met{0};    ///< c
+  std::int64_t among{0};  ///< b: the mark is of those machines alone that show b or more; 0: of all
+  double wrong{1.0};  ///< ρ: proportion of machines below q that pass, at most; of those that show b or more
+};
+
+/// The lower bound of π from the numbers of machines that pass some marks.
+///
+/// A machine with p_r < q shows c or more moves of n with a probability of at most ε(c), that of a machine on
+/// q. For trials of one move it is the tail of the binomial distribution (n, q). Moves of one trial may be
+/// correlated; then ε is the bound of Chernoff and Hoeffding for the mean of m trials with values in [0, 1],
+/// exp(−m·KL(c/n‖q)); Hoeffding, J. Amer. Statist. Assoc. 58 (1963) 13, theorem 1. With P(c) the proportion
+/// of all machines that show c or more,
+///
+///   P(c) ≤ π + (1 − π)·ε(c),   so that π ≥ (P(c) − ε(c))/(1 − ε(c)).
+///
+/// Machines far below q need not be allowed for: the ratio of two binomial tails rises with p (monotone
+/// likelihood ratio), so that of the machines below q that show b or more at most ρ = ε(c)/ε(b) show c. Hence
+///
+///   P(c) ≤ ρ·P(b) + (1 − ρ)·π,   π ≥ P(b)·(P(c)/P(b) − ρ)/(1 − ρ),
+///
+/// of which the former is the case b = 0. P(b) and P(c)/P(b) are proportions with Clopper–Pearson bounds.
+///
+/// The best mark depends on the machines: a high one where they hardly ever miss, a low one where they are
+/// well above q and miss at times. So there are several, and the error 1 − γ is divided among them
+/// (Bonferroni); the bound is the best of theirs. A mark that cannot show a proportion π₀ even if all
+/// machines pass takes no part in showing π₀ or more, and leaves its error to the others:
+///
+///   low = 0; marks = all
+///   repeat
+///     found = largest bound of the marks, which share 1 − γ by their weights
+///     reach = smallest of the bounds that the marks have if all machines pass
+///     low = max(low, found)
+///     if found < reach or one mark is left: return low
+///     low = max(low, reach); leave out the mark with the smallest reach
+///
+/// Each π₀ is so tested by marks that depend on π₀ and the size of the study alone, which makes the bound
+/// valid for each size and distribution of the machines. If all machines pass it is that of the highest mark
+/// alone.
+class MachineBound {
+ public:
+  MachineBound(const MachineStudy& study, const MachineClaim& claim);
+
+  /// @param passing number of machines that show so many moves or more
+  double at_least(const std::function<std::int64_t(std::int64_t met)>& passing) const;
+
+  /// Machines that show `met` moves or more, in a number that suffices to show the proportion that is wanted.
+  struct Enough {
+    std::int64_t met{0};
+    std::int64_t machines{0};  ///< more than there are: no number suffices
+  };
+  /// [mark]; of the marks that are of all machines.
+  std::vector<Enough> enough() const;
+
+ private:
+  /// A mark of a stage, and its part of the error.
+  struct Tested {
+    MachineMark mark;
+    double error;
+  };
+  /// Proportions that are shown by the same marks.
+  struct Stage {
+    std::vector<Tested> marks;
+    double reach;
+  };
+
+  double bound(const Tested& tested, std::int64_t passing, std::int64_t among) const;
+
+  MachineStudy study_;
+  MachineClaim claim_;
+  std::vector<Stage> stages_{};
+};
+
+/// The upper bound is 1 − the lower bound of the machines that miss the requirement in more than 1 − q of
+/// their moves.
+/// @param machines with moves each @param confidence of each bound
+MachineProportion machine_proportion(std::span<const MachineMoves> machines, const MachineClaim& claim);
+
+/// The claim on the machines that do not meet the requirement.
+MachineClaim of_missing(const MachineClaim& claim);
+
+}  // namespace zerocount::statistics

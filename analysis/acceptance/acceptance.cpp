@@ -27,10 +27,12 @@
 namespace zerocount::acceptance {
 namespace {
 
-/// [machine][move that a goal is about] whether it meets the goal.
+/// [machine][judged move] Whether the move meets the goal.
 using MetMoves = std::vector<std::vector<bool>>;
 
-/// @param axis of the study
+/// Values of a measure in a log.
+/// @param axis kind of the axis of the study
+/// @throws Failure (bad_input) if the unit in the log has another dimension
 const std::vector<double>& values_of(const monitor::MoveLog& log, const std::string& measure,
                                      parameters::AxisKind axis) {
   const monitor::Moves::Column* const column = log.find(measure);  // require_columns()
@@ -88,7 +90,7 @@ bool is_asked(const study::Goal& goal, const monitor::MoveLog& log, std::size_t 
 /// A limit of a goal, and the column of a log that it is about.
 struct LoggedLimit {
   const monitor::MonitoredMeasure& measure;
-  const std::vector<double>& values;  ///< [row]
+  const std::vector<double>& values;  ///< [row] Value in the log.
   double largest;
 };
 
@@ -97,7 +99,7 @@ bool meets(const LoggedLimit& limit, std::size_t row) {
   return monitor::is_nothing(limit.measure, value) || std::abs(value) <= limit.largest;
 }
 
-/// [move that the goal is about] whether it meets the goal.
+/// [judged move] Whether the move meets the goal.
 std::vector<bool> met_moves(const study::Goal& goal, const monitor::MoveLog& log,
                             const reading::AllTrialsFile& file) {
   std::vector<bool> asked;
@@ -127,7 +129,7 @@ std::vector<bool> met_moves(const study::Goal& goal, const monitor::MoveLog& log
   return met;
 }
 
-/// [goal] the moves of each machine of the study at the point.
+/// [goal] Counts of the moves of each machine of the study at the point.
 std::vector<measures::CellCounts> simulated_counts(const reading::AllTrialsFile& file, std::int64_t point) {
   const study::Study& study = file.study();
   const std::vector<measures::CountedGoal> goals = measures::counted_goals(study);
@@ -146,7 +148,8 @@ goal::BoundedProportion bounded_rate(std::int64_t met, std::int64_t moves, doubl
           statistics::proportion_at_most(met, moves, confidence)};
 }
 
-/// The first moves of the machines, beside the simulated ones.
+/// Compares the first moves of the measured machines with those of the simulated machines. Each machine
+/// counts with the smallest number of moves of any machine.
 Agreement agreement_with(const MetMoves& met_of_machines, const measures::MoveCounts& simulated,
                          std::uint64_t seed) {
   std::int64_t common = std::numeric_limits<std::int64_t>::max();
@@ -158,8 +161,9 @@ Agreement agreement_with(const MetMoves& met_of_machines, const measures::MoveCo
   return agreement_of(first_met, common, simulated.machines, seed);
 }
 
-/// The prediction of a claim, and whether the machines agree with it: with worlds that of the one that they
-/// are most like, with the intervals of all.
+/// Sets the prediction of a claim, and whether the measured machines agree with it. With worlds, the
+/// prediction is that of the world most like the machines, and the predicted interval spans the intervals of
+/// all worlds.
 void compare_with_prediction(Claim& claim, const measures::CellCounts& simulated, const MetMoves& met,
                              std::uint64_t seed) {
   if (simulated.shape().worlds > 0) claim.like_worlds = 0;
@@ -177,7 +181,8 @@ void compare_with_prediction(Claim& claim, const measures::CellCounts& simulated
   claim.is_below_prediction = claim.agreement.p <= claim.significance && claim.agreement.is_lower;
 }
 
-/// The goal for the measured machines alone. @param parts goals that must be met
+/// Status of the goal for the measured machines alone.
+/// @param parts number of goals that must be met
 goal::Status status_of_these(const study::Goal& goal, const measures::MoveCounts& measured,
                              std::size_t parts) {
   const auto bounds = [&](std::int64_t met, std::int64_t moves, std::size_t statements) {
@@ -213,7 +218,8 @@ measures::CellCounts measured_counts(const MetMoves& met_of_machines) {
   return measured;
 }
 
-/// The verdict on each goal, [goal], of the machines that are judged.
+/// Sets the measured results and the status of each claim.
+/// @param measured [goal]
 void judge(Acceptance& acceptance, std::span<const study::Goal> goals,
            std::span<const measures::CellCounts> measured) {
   const goal::Verdict verdict = goal::judge_goals(goals, measured, 1);
@@ -235,7 +241,8 @@ void judge(Acceptance& acceptance, std::span<const study::Goal> goals,
 using Sequence = std::span<const study::SequenceMove>;
 using Values = std::vector<iso230::AxisRepeatability>;
 
-/// By the encoder, for which the true positions of the moves do not matter.
+/// The values of ISO 230-2 of one run, computed from encoder counts. The true positions of the moves do not
+/// matter for them. Nothing if the run has no values.
 std::optional<iso230::AxisRepeatability> values_of_run(Sequence sequence,
                                                        std::span<const trial::MoveOutcome> moves) {
   trial::TrialParameters parameters;
@@ -275,7 +282,7 @@ void add_measured(Sequence sequence, const monitor::MoveLog& log, Values& values
   }
 }
 
-/// Between the values of a sorted sample.
+/// Sample quantile, interpolated linearly between the values of a sorted sample.
 double sample_quantile(const std::vector<double>& sorted, double p) {
   const double place = p * static_cast<double>(sorted.size() - 1);
   const auto below = static_cast<std::size_t>(place);
@@ -285,7 +292,8 @@ double sample_quantile(const std::vector<double>& sorted, double p) {
 
 constexpr int draws = 9999;
 
-/// How many of `wanted` random moves of the machine meet the requirement, without replacement.
+/// Number of moves that meet the requirement among `wanted` random moves of the machine, drawn without
+/// replacement.
 std::int64_t thinned(const statistics::MachineMoves& machine, std::int64_t wanted,
                      random::NumberSource& numbers) {
   std::int64_t left = machine.moves;
@@ -307,8 +315,8 @@ double chance_of_a_choice(std::size_t measured, std::size_t simulated) {
   return chance;
 }
 
-/// Moves that meet the requirement of as many of the machines as are measured, chosen at random from those
-/// from `first` on: the measured ones come before the simulated ones.
+/// Number of moves that meet the requirement on randomly chosen machines, as many as are measured. They are
+/// chosen from the machines from `first` on; the measured machines come before the simulated ones.
 std::int64_t drawn(std::span<const std::int64_t> met, std::int64_t moves,
                    std::span<const statistics::MachineMoves> simulated, std::size_t first,
                    std::vector<std::size_t>& order, random::NumberSource& numbers) {

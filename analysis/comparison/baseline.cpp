@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The bytes of a file; empty where there is none.
+/// The bytes of a file; empty if the file does not exist.
 std::string bytes_of(const fs::path& path) {
   std::error_code error;
   const fs::file_status there = fs::status(path, error);
@@ -29,7 +29,7 @@ std::string bytes_of(const fs::path& path) {
   return bytes;
 }
 
-/// A text as YAML: JSON's strings are YAML's double-quoted ones.
+/// The text as a double-quoted string of YAML. JSON strings are valid YAML.
 std::string quoted(const std::string& text) {
   return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
@@ -57,8 +57,8 @@ std::string log_entry(const layout::FileHeader& header, const std::string& sha25
   return entry;
 }
 
-/// The present text of the log, to which more can be appended.
-/// @throws Failure (bad_data) where it is not a log.
+/// The present text of the log, to which more entries can be appended; empty if there is no log.
+/// @throws Failure (bad_data) if the file is not a log.
 std::string log_so_far(const fs::path& path) {
   std::string log = bytes_of(path);
   if (log.empty()) return log;

@@ -19,7 +19,7 @@
 namespace zerocount::comparison {
 namespace {
 
-/// Why the datasets of the two need not be equal to the bit; empty where they must be.
+/// Reason why the datasets of the two files need not be equal to the bit; empty if they must be equal.
 std::string why_bits_may_differ(const layout::FileHeader& one, const layout::FileHeader& other) {
   if (one.study_sha256 != other.study_sha256) return "the manifests or overrides differ";
   if (one.engine != other.engine) return "they are of different engines";
@@ -32,7 +32,7 @@ std::string why_bits_may_differ(const layout::FileHeader& one, const layout::Fil
   return {};
 }
 
-/// Finds whether equal bits decide, and compares the datasets where they can.
+/// Decides whether the files must be equal to the bit, and compares the datasets if they can be.
 void compare_bits(StudyComparison& result, const reading::AllTrialsFile& baseline,
                   const reading::AllTrialsFile& current) {
   const std::string different = why_bits_may_differ(baseline.header(), current.header());
@@ -55,13 +55,13 @@ void pair_trials(StudyComparison& result, const StudyPair& pair) {
   result.changed_inputs = draws.changed_inputs;
 }
 
-/// The trials of a point.
+/// The trials of a point in both files.
 struct PointPair {
   PointTrials baseline;
   PointTrials current;
 };
 
-/// @throws Failure (bad_data) where a file is damaged
+/// Reads the compared trials of a point in both files. @throws Failure (bad_data) if a file is damaged
 PointPair read_trials(const StudyPair& pair, const MatchedPoint& point) {
   const auto read = [&](const ComparedStudy& study, std::int64_t at) {
     return read_point_trials(study.trials_of(point), at, study.trials, study.also);
@@ -69,7 +69,7 @@ PointPair read_trials(const StudyPair& pair, const MatchedPoint& point) {
   return {read(pair.baseline, point.baseline), read(pair.current, point.current)};
 }
 
-/// Calls `use` with the trials that are compared. Where trials are paired, these are the ones that both files
+/// Calls `use` with the trials that are compared. If trials are paired, these are the trials that both files
 /// have.
 template <class Use>
 auto of_compared(const PointPair& trials, bool paired, const Use& use) {
@@ -80,7 +80,7 @@ auto of_compared(const PointPair& trials, bool paired, const Use& use) {
   return use(BothTrials{baseline, current, true});
 }
 
-/// The judgements at a point, without the verdicts on measures.
+/// The judgements at a point. The verdicts on measures are still missing, as they depend on all points.
 PointComparison compare_point(const StudyComparison& comparison, const GateRules& rules,
                               const StudyPair& pair, const MatchedPoint& point, double failing) {
   const PointPair trials = read_trials(pair, point);
@@ -110,7 +110,8 @@ PointComparison compare_point(const StudyComparison& comparison, const GateRules
   return result;
 }
 
-/// An open-loop study has moves, but none that could be judged. Its first moves tell.
+/// Whether the study is open-loop, so that no move can be judged. Only the first moves of the file are
+/// examined.
 bool judges_nothing(const reading::AllTrialsFile& file) {
   const std::int64_t trials = std::min(file.rows().count, layout::chunk_rows(file.moves()));
   const std::vector<double> outcomes = file.measure("outcome", {file.rows().first, trials});
@@ -141,12 +142,12 @@ void judge_points(StudyComparison& result, const GateRules& rules, const StudyPa
     result.notes.push_back("the moves have torque levels and no targets: no measure of the gate applies");
 }
 
-/// Whether a forecast has a sample of it. No measure of equal data is open.
+/// Whether the forecast needs a sample of the judgement. Measures of equal data are never open.
 bool is_forecast(const StudyComparison& comparison, const Judgement& one) {
   return !one.is_measure() || (!comparison.equal_to_the_bit && has_finite_bounds(one));
 }
 
-/// Adds the samples of a point to those of a forecast.
+/// Adds the samples of a point to the samples of a forecast.
 void add_point(ForecastSamples& samples, const StudyComparison& comparison, const GateRules& rules,
                const PointComparison& point, const PointPair& trials) {
   samples.add_point(point.baseline_trials, point.current_trials);
@@ -165,8 +166,8 @@ void add_point(ForecastSamples& samples, const StudyComparison& comparison, cons
     samples.add(requirement_sample(requirement, trials.current));
 }
 
-/// Independent units of the samples of a forecast. Pairs are as many as the smaller file has; a requirement
-/// is judged on all units of the current one.
+/// [file] number of independent units in the samples of a forecast. The number of pairs is that of the
+/// smaller file. A requirement is judged on all units of the current file.
 std::array<std::int64_t, 2> units_of_samples(const StudyComparison& comparison, const GateRules& rules,
                                              const StudyPair& pair) {
   const auto units = [](const ComparedStudy& study) {
@@ -194,8 +195,8 @@ Forecast forecast_of(const StudyComparison& comparison, const GateRules& rules, 
   return forecast_decision(samples, options);
 }
 
-/// Finds the trials that would decide what is open, of a design point under all conditions. Reads the trials
-/// again: most comparisons leave nothing open.
+/// Finds the number of trials, per design point under all conditions, that would decide the open judgements.
+/// The trials are read again only then, because most comparisons leave nothing open.
 void forecast(StudyComparison& result, const GateRules& rules, const StudyPair& pair) {
   const std::vector<Judgement*> judgements = judgements_of(result.points);
   if (std::ranges::none_of(judgements, [](const Judgement* one) { return one->is_open(); })) return;
@@ -230,7 +231,7 @@ void forecast(StudyComparison& result, const GateRules& rules, const StudyPair& 
   }
 }
 
-/// Equal data need no statistics: no measure can be worse.
+/// Passes every measure of equal data. They need no statistics, because no measure can be worse.
 void pass_equal_data(StudyComparison& result) {
   for (Judgement* const measure : judgements_of(result.points)) {
     if (!measure->is_measure()) continue;
@@ -242,8 +243,8 @@ void pass_equal_data(StudyComparison& result) {
   }
 }
 
-/// Finds the verdicts on the points and on the whole. A point of which nothing was measured leaves the whole
-/// undecided.
+/// Sets the verdicts on the points and on the whole comparison. A point at which nothing was measured leaves
+/// the whole undecided.
 void find_verdict(StudyComparison& result) {
   std::vector<GateVerdict> whole;
   for (PointComparison& point : result.points) {
@@ -293,7 +294,7 @@ void note_trials(StudyComparison& result, const StudyPair& pair) {
       std::min(before, after), before > after ? result.baseline.path : result.current.path));
 }
 
-/// Notes by which goal the points are judged where the manifests do not have the same.
+/// Notes by which goal the points are judged if the goals of the manifests differ.
 void note_goal(StudyComparison& result, const StudyPair& pair) {
   const auto is_of_goal = [](const manifest_text::ManifestDifference& difference) {
     return keys::is_within(difference.key, "goal") || keys::is_within(difference.key, "goals");
@@ -322,7 +323,7 @@ void note_units(StudyComparison& result, const StudyPair& pair) {
                                 : "means and rates are averages over the worlds");
 }
 
-/// The judgements, and what follows from them.
+/// Fills in the judgements, the verdicts and the forecast of the comparison.
 void judge(StudyComparison& result, const GateRules& given, const StudyPair& pair) {
   const GateRules rules = rules_for(pair, given);
   result.goals = pair.goals;

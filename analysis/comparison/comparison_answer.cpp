@@ -28,7 +28,7 @@ using document::to_people;
 using document::with_words;
 using Comparison = const StudyComparison&;
 
-/// A judgement as people read it: a row of the table, and a case of JUnit.
+/// A judgement with its texts for people: a row of the table, and a case of JUnit.
 struct Row {
   const StudyComparison& comparison;
   const PointComparison& point;
@@ -50,7 +50,7 @@ struct Row {
   std::string note() const;
   bool has(GateVerdict wanted) const { return one.verdict == wanted; }
   bool has(ChangeVerdict wanted) const { return one.is_measure() && one.change == wanted; }
-  /// It did not simply pass.
+  /// Whether the judgement did not pass, or the measure became better.
   bool is_noteworthy() const { return !has(GateVerdict::passed) || one.change == ChangeVerdict::better; }
 };
 
@@ -61,7 +61,7 @@ std::vector<Row> all_rows(Comparison comparison) {
   return rows;
 }
 
-/// Judgements with a verdict of the gate, or measures with one on their change.
+/// Number of judgements with this verdict: a GateVerdict, or a ChangeVerdict of a measure.
 template <class Verdict>
 std::int64_t count(Comparison comparison, Verdict verdict) {
   return std::ranges::count_if(all_rows(comparison), [&](const Row& row) { return row.has(verdict); });
@@ -71,13 +71,13 @@ std::int64_t failed(Comparison comparison) {
   return count(comparison, GateVerdict::regression) + count(comparison, GateVerdict::changed);
 }
 
-/// Judgements that have enough values.
+/// Number of judgements that have enough values.
 std::int64_t judged(Comparison comparison) {
   return std::ranges::count_if(all_rows(comparison),
                                [](const Row& row) { return !row.has(GateVerdict::not_measured); });
 }
 
-/// "3 of 40 judgements failed (1 worse, 2 better)"; empty where none did.
+/// "3 of 40 judgements failed (1 worse, 2 better)"; empty if none failed.
 std::string failures_text(Comparison comparison) {
   if (failed(comparison) == 0) return "";
   std::string text = fmt::format("{} of {} judgements failed", failed(comparison), judged(comparison));
@@ -87,7 +87,7 @@ std::string failures_text(Comparison comparison) {
   return text;
 }
 
-/// The advice on how many trials would decide the comparison.
+/// Advice on the number of trials that would decide the comparison.
 std::string advice_text(Comparison comparison) {
   if (comparison.trials_to_decide)
     return fmt::format("; {} trials per design point would decide, with a probability of {:.0f} %",
@@ -106,8 +106,8 @@ std::string advice_text(Comparison comparison) {
                      fmt::join(open, ", "));
 }
 
-/// "better: success_rate, arrival_time; worse: none; ..." of the point that is compared with another, under
-/// each condition.
+/// For the comparison of two points: the measures by their change, "better: success_rate, arrival_time;
+/// worse: none; ...", under each condition.
 std::string answer_text(Comparison comparison) {
   std::string text = fmt::format("{} against {}", text::printable(comparison.points.front().design_point),
                                  text::printable(comparison.baseline_label));
@@ -124,8 +124,9 @@ std::string answer_text(Comparison comparison) {
   return text;
 }
 
-/// The smallest changes for the worse that the trials find with decision_probability, of each measure over
-/// the points: "Detectable changes: success_rate 3.4 % to 6.7 %, ...". Empty where nothing was measured.
+/// The smallest changes for the worse that the trials find with decision_probability, as a range over the
+/// points for each measure: "Detectable changes: success_rate 3.4 % to 6.7 %, ...". Empty if nothing was
+/// measured.
 std::string detectable_sentence(Comparison comparison) {
   std::vector<std::string> names;
   std::map<std::string, std::vector<Row>> measured;
@@ -147,7 +148,7 @@ std::optional<std::int64_t> whole(const std::optional<double>& trials) {
   return trials ? std::optional(static_cast<std::int64_t>(*trials)) : std::nullopt;
 }
 
-/// The verdicts from the first to `last`, as text.
+/// The texts of the verdicts from the first to `last`.
 template <class Verdict>
 std::vector<std::string> words_until(Verdict last) {
   std::vector<std::string> words;
@@ -313,7 +314,8 @@ Description<StudyComparison> counts_description() {
   return counts;
 }
 
-/// A requirement on a quantile has the bounds of the proportion within its limit.
+/// Text of the bounds. For a requirement on a quantile these are bounds of the proportion of trials within
+/// the limit.
 std::string Row::bounds() const {
   if (std::isnan(one.bounds.low)) return "–";
   if (one.is_measure() || one.measure.find('.') == std::string::npos)
@@ -327,8 +329,8 @@ std::string Row::margin() const {
   return relation + text(one.margin);
 }
 
-/// The adjusted p against the change that is shown: for the better if the measure is better, otherwise for
-/// the worse.
+/// The adjusted p-value that is shown: of a change for the better if the measure is better, otherwise of a
+/// change for the worse.
 double shown_p(const Judgement& measure) {
   return measure.change == ChangeVerdict::better ? measure.adjusted_improvement_p : measure.adjusted_p;
 }
@@ -339,8 +341,8 @@ std::string Row::p() const {
   return p < 1e-4 ? "< 1e-4" : fmt::format("{:.2g}", p);
 }
 
-/// The reason, the goal beside the proportion of moves in it, undecided moves beside that of stable trials,
-/// and what would decide.
+/// The remarks on the judgement: its reason, the verdicts on the goal for the proportion of moves in the
+/// goal, the undecided moves for the proportion of stable trials, and what would decide it.
 std::string Row::note() const {
   std::vector<std::string> notes;
   if (!one.note.empty()) notes.push_back(one.note);
@@ -404,7 +406,7 @@ Description<manifest_text::ManifestDifference> difference_description() {
       .shown_as(shown(&Difference::current));
 }
 
-/// All rows, or the noteworthy ones where there are many.
+/// All rows; only the noteworthy ones if there are more than max_rows.
 std::vector<Row> rows_shown(Comparison comparison) {
   std::vector<Row> all = all_rows(comparison);
   if (all.size() <= max_rows) return all;
@@ -418,7 +420,7 @@ std::string omitted_sentence(Comparison comparison) {
   return omitted == 0 ? "" : fmt::format("({} rows that simply passed are not shown)", omitted);
 }
 
-/// Whether a test is significant whose bounds leave the direction of the change open.
+/// Whether any test is significant although its bounds leave the direction of the change open.
 bool any_contrast(Comparison comparison) {
   return std::ranges::any_of(all_rows(comparison), [&](const Row& row) {
     return shown_p(row.one) < comparison.false_discovery_rate && row.one.bounds.low < 0.0 &&

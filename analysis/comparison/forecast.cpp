@@ -17,18 +17,20 @@ using two_samples::ContinuationDraw;
 using two_samples::FileSums;
 using two_samples::FileWeights;
 
-constexpr double slab_variance = 9.0;  ///< of effects that are not zero, in units of the standard error
+/// Variance of the effects that are not zero, in units of the squared standard error.
+constexpr double slab_variance = 9.0;
 constexpr int expectation_steps = 40;
-constexpr double jeffreys_shape = 0.5;  ///< weight of a kind of unit that was not seen, in units
+constexpr double jeffreys_shape = 0.5;  ///< Prior weight of a kind of unit that was not seen, in units.
 
 /// An assumption about the true effects.
 enum class Truth {
-  as_seen,    ///< as seen, with their uncertainty
-  some_zero,  ///< the effects seen, but some are zero
-  no_effect,  ///< two studies of one population, and what was seen is of one of them
+  as_seen,    ///< The true effects are those seen, with their uncertainty.
+  some_zero,  ///< The true effects are those seen, but some are zero.
+  no_effect,  ///< Both studies are from one population; the sample is from one of them.
 };
 
-/// A weight of the gamma distribution of shape ½: the posterior part of a kind of unit that was not seen.
+/// Random weight from the gamma distribution of shape ½: the posterior weight of a kind of unit that was not
+/// seen.
 double unseen_weight(std::uint64_t bits) {
   const double z = random::standard_normal(bits);
   return jeffreys_shape * z * z;
@@ -37,8 +39,8 @@ double unseen_weight(std::uint64_t bits) {
 /// The result of a simulated comparison.
 struct SimulatedComparison {
   bool decided{false};
-  std::vector<bool> each;       ///< [judgement] decided
-  std::vector<double> margins;  ///< [measure] that would have decided it
+  std::vector<bool> each;       ///< [judgement] whether the judgement is decided
+  std::vector<double> margins;  ///< [measure] margin above which the measure would be decided
 };
 
 class Simulator {
@@ -58,7 +60,7 @@ class Simulator {
   }
   std::size_t judgements() const { return samples_.measures().size() + samples_.requirements().size(); }
 
-  /// A comparison under each of the assumptions, from the same random numbers.
+  /// [assumption] a simulated comparison; all use the same random numbers.
   std::vector<SimulatedComparison> simulate(double trials, const std::vector<Truth>& truths,
                                             std::uint32_t simulation) const {
     FileWeights population;
@@ -82,7 +84,7 @@ class Simulator {
   }
 
  private:
-  /// The file whose sample stands for the population of this one.
+  /// Index of the file whose sample represents the population of this file.
   std::uint32_t population_of(std::size_t file) const {
     return samples_.one_sample() ? 1 : static_cast<std::uint32_t>(file);
   }
@@ -93,8 +95,8 @@ class Simulator {
     return samples_.one_sample() ? units * trials / there : std::max(0.0, units * trials / there - units);
   }
 
-  /// Number of further units of a kind that the sample of the file does not have, the same for all measures
-  /// of a point.
+  /// Number of further units of a kind that the sample of the file lacks. It is the same for all measures of
+  /// a point.
   double unseen_units(std::size_t file, std::size_t point, std::uint32_t kind, std::uint32_t simulation,
                       double trials) const {
     const double weight = unseen_weight(two_samples::continuation_bits(
@@ -113,7 +115,7 @@ class Simulator {
     return u < zero_probabilities_[measure];
   }
 
-  /// The sums over the further units of each measure.
+  /// [measure] sums over the further units.
   std::vector<FileSums> further_sums(const FileWeights& further, std::uint32_t simulation,
                                      double trials) const {
     std::vector<FileSums> all;
@@ -156,7 +158,8 @@ class Simulator {
     return verdicts;
   }
 
-  /// Two equal studies are decided if they are found equivalent. A false alarm decides nothing.
+  /// The result of a simulated comparison. Two equal studies (Truth::no_effect) are decided only if they are
+  /// found equivalent; a false alarm does not decide them.
   SimulatedComparison outcome_of(const std::vector<TestedMeasure>& tested,
                                  const std::vector<GateVerdict>& requirements, Truth truth) const {
     SimulatedComparison outcome;
@@ -179,17 +182,17 @@ class Simulator {
 
   const ForecastSamples& samples_;
   ForecastOptions options_;
-  std::vector<double> zero_probabilities_;  ///< [measure] probability that its effect is zero
+  std::vector<double> zero_probabilities_;  ///< [measure] probability that the effect is zero
 };
 
-/// Proportions of the simulations that decide, with so many trials.
+/// Proportions of the simulations with a given number of trials that decide.
 struct Chances {
-  double whole{1.0};
-  std::vector<double> each;     ///< [judgement]
-  std::vector<double> margins;  ///< [measure] decided with the stated probability
+  double whole{1.0};            ///< proportion that decides the whole comparison
+  std::vector<double> each;     ///< [judgement] proportion that decides the judgement
+  std::vector<double> margins;  ///< [measure] smallest margin decided with the stated probability
 };
 
-/// The proportions among simulated comparisons, [simulation][assumption], under one assumption.
+/// The proportions under one assumption. @param outcomes [simulation][assumption] simulated comparisons
 Chances chances_under(const std::vector<std::vector<SimulatedComparison>>& outcomes, std::size_t assumption,
                       double probability) {
   const auto proportion = [&](const auto& is) {
@@ -211,7 +214,7 @@ Chances chances_under(const std::vector<std::vector<SimulatedComparison>>& outco
   return chances;
 }
 
-/// The least favourable of all assumptions.
+/// The least favourable value of each proportion and margin over all assumptions.
 Chances chances_with(const Simulator& simulator, double trials, const std::vector<Truth>& truths,
                      const ForecastOptions& options) {
   std::vector<std::vector<SimulatedComparison>> outcomes(static_cast<std::size_t>(options.simulations));
@@ -230,7 +233,9 @@ Chances chances_with(const Simulator& simulator, double trials, const std::vecto
   return lowest;
 }
 
-/// Where a chance that rises with the logarithm of the trials reaches the probability.
+/// Number of trials at which the chance reaches the probability, by interpolation that is linear in the
+/// logarithm of the trials. @param few, low a number of trials with its chance @param many, high a larger
+/// number with its chance
 double crossing_between(double few, double low, double many, double high, double probability) {
   if (high <= low) return many;
   const double part = std::clamp((probability - low) / (high - low), 0.0, 1.0);

@@ -10,11 +10,11 @@
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/two_samples/continued_sample.hpp"
 
-/// How many trials would decide a comparison, by simulation of the comparison with more trials.
+/// Forecast of the number of trials that would decide a comparison, by simulating it with more trials.
 namespace zerocount::comparison {
 
-/// The samples of all design points, as the sums that simulations need: the memory does not grow with the
-/// trials.
+/// The samples of all design points, reduced to the sums that simulations need. The memory does not grow with
+/// the number of trials.
 class ForecastSamples {
  public:
   struct Measure {
@@ -24,18 +24,18 @@ class ForecastSamples {
   };
   struct Requirement {
     std::size_t point;
-    RequirementSample asked;  ///< without its units
+    RequirementSample asked;  ///< the requirement, without the values of units
     two_samples::BlockedSums sums;
   };
 
-  /// @param units number of independent units (trials or machines) of the largest sample of the baseline and
-  /// of the file
-  /// @param one_sample the samples of the file stand for the baseline too
+  /// @param units number of independent units (trials or machines) in the largest sample of the baseline and
+  /// of the current file
+  /// @param one_sample whether the samples of the current file represent the baseline too
   ForecastSamples(std::array<std::int64_t, 2> units, bool one_sample);
 
-  /// Begins a design point with so many trials of the baseline and of the file.
+  /// Begins a design point with these numbers of trials in the baseline and in the current file.
   void add_point(std::int64_t baseline_trials, std::int64_t current_trials);
-  /// Adds a measure of the point, which has values enough for a verdict.
+  /// Adds a measure of the current point. It must have enough values for a verdict.
   void add(const TestedMeasure& found, two_samples::Sample sample);
   void add(RequirementSample requirement);
 
@@ -43,7 +43,7 @@ class ForecastSamples {
   const std::array<two_samples::Continuation, 2>& continuations() const { return continuations_; }
   const std::vector<Measure>& measures() const { return measures_; }
   const std::vector<Requirement>& requirements() const { return requirements_; }
-  /// The most trials of a point of the baseline (0) or the file (1); at least 1.
+  /// Largest number of trials of any point in the baseline (0) or the current file (1); at least 1.
   std::int64_t trials_of(std::size_t file) const { return trials_[file]; }
 
  private:
@@ -56,56 +56,58 @@ class ForecastSamples {
 };
 
 struct ForecastOptions {
-  double confidence{statistics::summary_confidence};  ///< of each bound
-  double false_discovery_rate{0.05};                  ///< over all measures at all points
-  double failing_confidence{
-      statistics::summary_confidence};       ///< with which a requirement must be contradicted
-  double probability{decision_probability};  ///< with which the number of trials decides
-  int simulations{400};                      ///< of each number of trials
-  double factor_step{1.4};   ///< Ratio of the numbers of trials that are tried one after the other.
-  double min_factor{1.0};    ///< the fewest trials that are tried, as a multiple of those that there are
-  double max_factor{100.0};  ///< the most trials that are tried, as such a multiple
+  double confidence{statistics::summary_confidence};  ///< Confidence of each bound.
+  double false_discovery_rate{0.05};  ///< False discovery rate over all measures at all points.
+  /// Confidence with which a requirement must be contradicted to fail.
+  double failing_confidence{statistics::summary_confidence};
+  double probability{decision_probability};  ///< Probability with which the number of trials decides.
+  int simulations{400};                      ///< Number of simulations for each number of trials.
+  double factor_step{1.4};  ///< Ratio of the numbers of trials that are tried one after the other.
+  double min_factor{1.0};   ///< Smallest number of trials that is tried, as a multiple of the present number.
+  double max_factor{100.0};  ///< Largest number of trials that is tried, as a multiple of the present number.
 };
 
-/// Limits the simulations of a comparison with many judgements, so that their work grows no faster than the
-/// comparison: at least an eighth of the usual ones, and of numbers of trials twice as far apart.
+/// Limits the simulations of a comparison with many judgements, so that their work does not grow faster than
+/// the comparison itself. At least an eighth of the simulations remain, and the logarithms of the numbers of
+/// trials are twice as far apart.
 void limit_work(ForecastOptions& options, std::size_t judgements);
 
 /// The forecast of one judgement.
 struct JudgementForecast {
-  std::optional<double> trials;  ///< per design point, that decide it by itself
-  double margin{0.0};            ///< the smallest that max_trials decide; of a measure
+  std::optional<double> trials;  ///< Trials per design point that decide this judgement by itself.
+  double margin{0.0};  ///< For a measure: smallest margin that is decided with Forecast::max_trials.
 };
 
 struct Forecast {
-  std::optional<double> trials;               ///< per design point, that decide the whole
-  double max_trials{0.0};                     ///< per design point, the most that were tried
+  std::optional<double> trials;               ///< Trials per design point that decide the whole comparison.
+  double max_trials{0.0};                     ///< Largest number of trials per design point that was tried.
   std::vector<JudgementForecast> judgements;  ///< all measures in order, then all requirements
 };
 
-/// The number of trials with which the comparison as a whole is decided with the stated probability: some
-/// measure or requirement fails, or all pass. The trials that there are go on (Continuation), as the same
-/// study does with more trials; every simulated comparison has the tests, the adjustment and the margins of
+/// The number of trials with which the whole comparison is decided with the stated probability: some measure
+/// or requirement fails, or all pass. The simulations continue the present trials (Continuation), as the same
+/// study with more trials would. Every simulated comparison has the tests, the adjustment and the margins of
 /// the real one (ContinuedSample::change_of).
 ///
-/// The number must suffice under two assumptions of what the sample leaves open:
-/// - the true effects are those that were seen, with their uncertainty;
-/// - the effects seen, but each is zero with the probability that the effects of all measures together give
-///   it (a two-group mixture: Efron et al., Journal of the American Statistical Association 96 (2001), 1151).
-/// The first by itself promises decisions by regressions that are not there; the second misses small
-/// changes. Its measured accuracy: README.md.
+/// The number must suffice under two assumptions about the true effects:
+/// - they are the effects seen, with their uncertainty;
+/// - they are the effects seen, but each is zero with a probability that is estimated from the effects of all
+///   measures together (a two-group mixture: Efron et al., Journal of the American Statistical Association 96
+///   (2001), 1151).
+/// The first assumption alone would promise decisions by regressions that do not exist; the second alone
+/// misses small changes. README.md states the measured accuracy.
 ///
 /// The result does not depend on the number of threads.
 Forecast forecast_decision(const ForecastSamples& samples, const ForecastOptions& options);
 
-/// The number of trials of each of two equal studies, with different random numbers, with which all measures
-/// are equivalent with the stated probability.
-/// @param pilot one sample: the trials of the study
+/// The number of trials that each of two equal studies with different random numbers needs so that all
+/// measures are found equivalent with the stated probability.
+/// @param pilot samples of the trials of one study
 Forecast forecast_equivalence(const ForecastSamples& pilot, const ForecastOptions& options);
 
-/// For each measure the probability that its effect is zero: with z = e/s, the posterior of a mixture of
-/// N(0, 1) and N(0, 1 + 3²), whose weights are estimated from all z by expectation maximisation, with one
-/// measure more of each kind.
+/// [measure] posterior probability that the effect is zero. z = e/s is modelled by a mixture of N(0, 1) for
+/// zero effects and N(0, 1 + 3²) for others. The weights are estimated from all z by expectation
+/// maximisation, with one more measure of each kind.
 std::vector<double> zero_difference_probabilities(const std::vector<double>& z);
 
 }  // namespace zerocount::comparison

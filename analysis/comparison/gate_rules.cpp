@@ -32,7 +32,8 @@ auto find_named(const List& all, std::string_view name) {
   return std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.name == name; });
 }
 
-/// The quantities of a measure. @param stem its name, before that of a quantile
+/// Appends the quantities of a measure. @param stem name of the measure, which precedes the name of a
+/// quantile
 void add_quantities(std::vector<RequirableQuantity>& quantities, const std::string& stem,
                     const GateMeasure& measure) {
   if (measure.proportion()) {
@@ -46,7 +47,7 @@ void add_quantities(std::vector<RequirableQuantity>& quantities, const std::stri
   }
 }
 
-/// The quantities of the error bands and tolerances of the table.
+/// Appends the quantities of the error bands and tolerances of the table.
 void add_limit_quantities(std::vector<RequirableQuantity>& quantities, const layout::MeasureTable& measures) {
   for (const layout::Measure& measure : measures) {
     if (!measure.band && !measure.tolerance) continue;
@@ -55,7 +56,7 @@ void add_limit_quantities(std::vector<RequirableQuantity>& quantities, const lay
   }
 }
 
-/// The number in "band_settling_time[5].p95"; nothing where there is none.
+/// The number in brackets, 5 in "band_settling_time[5].p95"; empty without a number of at least 0.
 template <class Number>
 std::optional<Number> number_in(std::string_view name) {
   const std::size_t open = name.find('[');
@@ -66,7 +67,7 @@ std::optional<Number> number_in(std::string_view name) {
 }
 
 /// The features of a study that has the error band, or the tolerance, in "band_settling_time[5].p95" or
-/// "tolerance_settling_time[1e-8].p95"; nothing for other names.
+/// "tolerance_settling_time[1e-8].p95"; empty for other names.
 std::optional<study::StudyFeatures> features_with_limit(std::string_view name) {
   study::StudyFeatures features;
   if (const auto band = number_in<std::int64_t>(name); band && name.starts_with("band_")) {
@@ -80,7 +81,7 @@ std::optional<study::StudyFeatures> features_with_limit(std::string_view name) {
   return features;
 }
 
-/// The name as files have it: a tolerance can be written in several ways.
+/// The name as files write it. Users may write a tolerance in several ways.
 std::string name_in_files(std::string_view name) {
   const auto tolerance = number_in<double>(name);
   if (!tolerance || !layout::is_of_tolerance(name)) return std::string(name);
@@ -88,14 +89,14 @@ std::string name_in_files(std::string_view name) {
          std::string(name.substr(name.find(']') + 1));
 }
 
-/// The names that the rules may call a measure by, the most special one first.
+/// The names by which the rules may call a measure, the most specific one first.
 std::vector<std::string> names_in_rules(const std::string& measure) {
   std::vector<std::string> names{measure};
   if (const std::string_view whole = without_goal(measure); whole != measure) names.emplace_back(whole);
   return names;
 }
 
-/// The rules of all points, then those of each that has its own.
+/// The rules for all points, followed by the rules for single points.
 std::vector<const PointRules*> all_rules(const GateRules& rules) {
   std::vector<const PointRules*> all{&rules};
   for (const auto& [label, own] : rules.points) all.push_back(&own);
@@ -109,7 +110,7 @@ std::vector<const Requirement*> all_requirements(const GateRules& rules) {
   return all;
 }
 
-/// The names of all measures that the rules name, in the list of measures or with a margin.
+/// The names of all measures in the rules: in the list of measures, or with a margin.
 std::vector<std::string> named_measures(const GateRules& rules) {
   std::vector<std::string> names = rules.measures;
   for (const PointRules* const one : all_rules(rules))
@@ -124,7 +125,7 @@ bool is_listed(const GateRules& rules, const std::string& measure) {
   });
 }
 
-/// Whether the rules give the measure a margin, at every point or at some.
+/// Whether the rules give the measure a margin, for all points or for a single one.
 bool has_margin(const GateRules& rules, const std::string& name) {
   return std::ranges::any_of(all_rules(rules),
                              [&](const PointRules* one) { return one->margins.contains(name); });
@@ -137,7 +138,7 @@ const GateMargin* margin_in(const std::map<std::string, GateMargin>& margins, co
   return nullptr;
 }
 
-/// The requirement `goal` as one for each goal.
+/// The requirements, with the requirement `goal` replaced by one for each goal.
 std::vector<Requirement> for_each_goal(const std::vector<Requirement>& requirements,
                                        std::span<const std::string> goals) {
   std::vector<Requirement> all;
@@ -162,7 +163,7 @@ std::vector<std::string> names_of(const List& all) {
   return names;
 }
 
-/// A key of a map, and what reads its value.
+/// A key of a map, with the function that reads its value.
 struct Key {
   std::string name;
   std::function<void(const yaml::Field&)> read;
@@ -178,7 +179,7 @@ void read_keys(const yaml::Field& map, const std::vector<Key>& keys, yaml::Probl
   }
 }
 
-/// `worse` or `changed`: whether a change for the better fails too.
+/// Reads `worse` or `changed`. True for `changed`: a change for the better fails too.
 bool read_changed_fails(const yaml::Field& field, yaml::Problems& problems) {
   const std::optional<std::string> word = yaml::read_text(field, problems);
   if (!word) return false;
@@ -189,7 +190,7 @@ bool read_changed_fails(const yaml::Field& field, yaml::Problems& problems) {
   return *word == "changed";
 }
 
-/// A number by itself is the absolute margin.
+/// Reads a margin: a map, or a number that is the absolute margin. Empty if it is invalid.
 std::optional<GateMargin> read_margin(const yaml::Field& field, yaml::Problems& problems) {
   GateMargin margin;
   if (field.node->kind == yaml::YamlNode::Kind::scalar) {
@@ -234,7 +235,7 @@ void read_margin_of(const yaml::Field& map, const yaml::YamlEntry& entry,
 
 const char* const requirement_form = "a text such as 'success_rate ≥ 0.995' (or >=, ≤, <=), or goal";
 
-/// The parts of a text such as "success_rate ≥ 0.995"; of "goal" the name alone.
+/// The parts of a text such as "success_rate ≥ 0.995"; for "goal" only the name.
 std::optional<text::Relation> parts_of(std::string_view text) {
   const std::string_view name = text::trimmed(text);
   if (name == "goal") return text::Relation{name, {}, {}, {}};
@@ -287,7 +288,7 @@ std::optional<Requirement> read_requirement(const yaml::Field& field, yaml::Prob
   return requirement;
 }
 
-/// One requirement, or a list of them.
+/// Reads one requirement, or a list of requirements.
 void read_requirements(const yaml::Field& field, std::vector<Requirement>& requirements,
                        yaml::Problems& problems) {
   const auto add = [&](const yaml::Field& one) {
@@ -297,7 +298,8 @@ void read_requirements(const yaml::Field& field, std::vector<Requirement>& requi
   for (std::size_t i = 0; i < field.node->items.size(); ++i) add(yaml::item_of(field, i));
 }
 
-/// Margins of measures; with `require` among them where a point has its own.
+/// Reads a map of margins by measure. @param is_own whether the map is for a single point; it may then
+/// contain `require`
 void read_point(const yaml::Field& field, bool is_own, PointRules& rules, yaml::Problems& problems) {
   const char* const expected =
       is_own ? "a map from measures to margins, and require" : "a map from measures to margins";
@@ -348,7 +350,7 @@ void read_measures(const yaml::Field& field, std::vector<std::string>& measures,
   }
 }
 
-/// The keys of the file. @param labels of design points
+/// The keys of the file. @param labels labels of the design points
 std::vector<Key> keys_of(GateRules& rules, std::span<const std::string> labels, yaml::Problems& problems) {
   using yaml::Field;
   const auto number = [&](double& to, double low, double high) {

@@ -11,24 +11,25 @@
 namespace zerocount::comparison {
 namespace {
 
-constexpr int detectable_steps = 40;  ///< of a fixed-point iteration that halves its error or better
+/// Number of steps of the fixed-point iteration for detectable_change(); each at least halves the error.
+constexpr int detectable_steps = 40;
 
-/// 1 + 1/2 + … + 1/n.
+/// The harmonic number 1 + 1/2 + … + 1/n.
 double harmonic_number(std::size_t n) {
   double sum = 0.0;
   for (std::size_t i = 1; i <= n; ++i) sum += 1.0 / static_cast<double>(i);
   return sum;
 }
 
-/// The p that a failure is judged by: against a change for the worse beyond the margin; where every change
-/// fails, two-sided.
+/// The p-value by which a failure is judged: one-sided, for a change for the worse beyond the margin;
+/// two-sided if every change fails.
 double failure_p(const TestedMeasure& measure) {
   const two_samples::DirectionalP& p = measure.beyond;
   return measure.changed_fails ? std::min(1.0, 2.0 * std::min(p.worse, p.better)) : p.worse;
 }
 
-/// Failures are one family, improvements that do not fail are another. A measure of which every change fails
-/// has one p in the first family, which counts for the direction of its effect.
+/// Adjusts the p-values. Failures form one family of tests, improvements another. If every change of a
+/// measure fails, its p-value in the first family counts for the direction of its effect.
 void adjust(std::span<TestedMeasure> tested) {
   std::vector<double> failures;
   std::vector<double> improvements;
@@ -54,7 +55,7 @@ ChangeVerdict change_of(const TestedMeasure& measure, double rate) {
   return measure.bounds.low > -measure.margin ? ChangeVerdict::equivalent : ChangeVerdict::not_worse;
 }
 
-/// The reason why a measure does not decide.
+/// The reason why a measure is inconclusive.
 std::string reason_of(const TestedMeasure& measure) {
   const bool beyond =
       measure.effect > measure.margin || (measure.changed_fails && -measure.effect > measure.margin);

@@ -11,30 +11,30 @@
 #include "analysis/statistics/unknown.hpp"
 #include "analysis/two_samples/sample.hpp"
 
-/// The judgements of a comparison at a design point, and the rules by which numbers give a verdict.
+/// The judgements of a comparison at a design point, and the rules that turn numbers into verdicts.
 namespace zerocount::comparison {
 
-/// Probability with which the number of trials that would decide does decide, and with which the smallest
-/// detectable change is found.
+/// Probability with which the forecast number of trials decides, and with which the smallest detectable
+/// change is found.
 inline constexpr double decision_probability = 0.8;
 
 /// The gate's verdict on a measure, a requirement, a point or the whole comparison; the worst first.
 enum class GateVerdict {
-  regression,    ///< shown: worse by more than the margin, or the requirement is not met
-  changed,       ///< shown: better by more than the margin, where every change fails
-  inconclusive,  ///< neither a failure nor its absence is shown
-  passed,        ///< shown: no worse (or no change) than the margin allows, or the requirement is met
-  not_measured   ///< too few trials have a value; does not affect the other verdicts
+  regression,    ///< Shown: worse by more than the margin, or the requirement is not met.
+  changed,       ///< Shown: better by more than the margin, and every change fails.
+  inconclusive,  ///< Neither a failure nor its absence is shown.
+  passed,        ///< Shown: no failing change exceeds the margin, or the requirement is met.
+  not_measured   ///< Too few trials have a value; does not affect the other verdicts.
 };
 
-/// The change of one measure that the data show. The gate's verdict follows from it. With e the effect and M
-/// the margin:
+/// The change of one measure that the data show. It determines the gate's verdict. e is the effect (positive:
+/// for the worse) and M the margin.
 enum class ChangeVerdict {
   worse,        ///< e > M is shown: by the adjusted p of e ≤ M, and by the lower bound
   better,       ///< e < −M is shown: by the adjusted p of e ≥ −M, and by the upper bound
   equivalent,   ///< −M < e < M: both one-sided bounds are within the margin
-  not_worse,    ///< e < M only: better or equivalent, which of them is open
-  undecided,    ///< none of these
+  not_worse,    ///< only e < M is shown: the measure is better or equivalent
+  undecided,    ///< none of the changes above is shown
   not_measured  ///< too few trials have a value
 };
 
@@ -43,87 +43,92 @@ std::string_view to_string(GateVerdict verdict);
 /// "worse", "better", "equivalent", "not worse", "undecided" or "not measured".
 std::string_view to_string(ChangeVerdict change);
 
-/// True for a verdict that fails the gate.
+/// Whether the verdict fails the gate.
 constexpr bool fails(GateVerdict verdict) {
   return verdict == GateVerdict::regression || verdict == GateVerdict::changed;
 }
 
-/// The verdict of the gate on a change.
+/// The gate's verdict on a change. @param changed_fails whether a change for the better fails too
 GateVerdict gate_verdict(ChangeVerdict change, bool changed_fails);
 
-/// The worst of several verdicts, in the order of GateVerdict; not_measured where all are.
+/// The worst of several verdicts, in the order of GateVerdict; not_measured if all are not_measured.
 GateVerdict worst_of(std::span<const GateVerdict> verdicts);
 
-/// The numbers of one measure that its verdict follows from.
+/// The numbers of one measure that determine its verdict.
 struct TestedMeasure : two_samples::Change {
   double margin{statistics::unknown};      ///< largest accepted effect
-  bool changed_fails{false};               ///< a change for the better beyond the margin fails too
-  double adjusted_p{statistics::unknown};  ///< beyond.worse after control of the false discoveries
-  double adjusted_improvement_p{statistics::unknown};  ///< beyond.better after it
+  bool changed_fails{false};               ///< A change for the better beyond the margin fails too.
+  double adjusted_p{statistics::unknown};  ///< beyond.worse, adjusted for false discoveries
+  double adjusted_improvement_p{statistics::unknown};  ///< beyond.better, adjusted for false discoveries
   ChangeVerdict change{ChangeVerdict::not_measured};
 };
 
-/// A measure at a design point in the two files, or an absolute requirement on a quantity of the current one.
+/// The judgement of a measure at a design point in the two files, or of an absolute requirement on a quantity
+/// of the current file. For a requirement, `margin` is its limit.
 struct Judgement : TestedMeasure {
-  std::string measure{};       ///< of gate_measures(); of a requirement its quantity, "arrival_time.p95"
-  std::string unit{};          ///< of every value here
-  std::string requirement{};   ///< as it was given, "success_rate ≥ 0.995"; empty of a measure
-  bool at_least{true};         ///< of a requirement, whose limit is `margin`: ≥; otherwise ≤
-  std::string test{};          ///< that gave p
-  std::int64_t baseline_n{0};  ///< trials with a value
-  std::int64_t current_n{0};   ///< likewise; the number of pairs in both where they are paired
-  double baseline{statistics::unknown};  ///< proportion, mean or quantile
-  double current{statistics::unknown};
-  /// Smallest true change for the worse that these trials find with decision_probability; README.md.
+  std::string measure{};  ///< Name in gate_measures(); for a requirement the quantity, "arrival_time.p95".
+  std::string unit{};     ///< Unit of every value of the judgement.
+  std::string requirement{};   ///< Text of the requirement, "success_rate ≥ 0.995"; empty for a measure.
+  bool at_least{true};         ///< Sign of a requirement: ≥ if true, otherwise ≤.
+  std::string test{};          ///< Name of the test that gave p.
+  std::int64_t baseline_n{0};  ///< Number of trials of the baseline with a value; if paired, number of pairs.
+  std::int64_t current_n{0};   ///< Number of trials of the current file with a value; if paired, of pairs.
+  double baseline{statistics::unknown};  ///< proportion, mean or quantile of the baseline
+  double current{statistics::unknown};   ///< proportion, mean or quantile of the current file
+  /// Smallest true change for the worse that these trials find with decision_probability
+  /// (detectable_change()).
   double detectable_change{statistics::unknown};
-  bool paired_proportion{false};                   ///< the trials of a proportion were compared one by one
-  GateVerdict verdict{GateVerdict::not_measured};  ///< of the gate
-  /// Trials per design point that decide what is inconclusive, with decision_probability.
+  bool paired_proportion{false};                   ///< The trials of a proportion were compared one by one.
+  GateVerdict verdict{GateVerdict::not_measured};  ///< The gate's verdict.
+  /// Trials per design point that decide an inconclusive judgement with decision_probability.
   std::optional<double> trials_to_decide{};
-  double decided_margin{statistics::unknown};  ///< of an inconclusive measure: any larger one is decided now
-  double max_trials_margin{statistics::unknown};  ///< where no number of trials decides: the smallest margin
-                                                  ///< that max_trials_to_decide do
-  std::string note{};                             ///< reason or remark; may be empty
+  /// For an inconclusive measure: the present trials decide any margin larger than this.
+  double decided_margin{statistics::unknown};
+  /// Set if no number of trials decides: the smallest margin that max_trials_to_decide trials decide.
+  double max_trials_margin{statistics::unknown};
+  std::string note{};  ///< reason or remark; may be empty
 
   bool is_measure() const { return requirement.empty(); }
   bool is_open() const { return verdict == GateVerdict::inconclusive; }
 };
 
-/// Whether the measure was tested, with bounds that a forecast can start from.
+/// Whether the measure was tested and both bounds of its change are finite. A forecast starts from such
+/// bounds.
 bool has_finite_bounds(const TestedMeasure& measure);
 
-/// The standard error of a normal distribution with these one-sided bounds.
+/// The standard error of a normal distribution with these one-sided bounds. @param confidence confidence of
+/// each bound
 double standard_error_of(const statistics::ConfidenceInterval& bounds, double confidence);
 
-/// The largest change that its bounds leave possible, of those that fail: any larger margin is decided.
+/// The largest failing change that the bounds of the measure leave possible. A margin larger than this is
+/// decided.
 double largest_possible_change(const TestedMeasure& measure);
 
-/// Adjusts the p-values of all measures of a comparison, and finds the verdict on the change of each.
-/// @param rate of false discoveries
+/// Adjusts the p-values of all measures of a comparison, and sets the verdict on the change of each.
+/// @param rate accepted rate of false discoveries
 void decide(std::span<TestedMeasure> tested, double rate);
 
 /// Gives every measure its adjusted p-values and its verdicts.
 ///
-/// A measure is worse where a change of no more than the margin is rejected: where its adjusted p is at most
-/// the rate, and the lower bound exceeds the margin. An estimate beyond the margin shows nothing by itself.
-/// It is better where the same holds for the opposite direction. It is equivalent where both bounds of its
-/// effect are within the margin (two one-sided tests: Schuirmann, Journal of Pharmacokinetics and
-/// Biopharmaceutics 15 (1987), 657), and not worse where only the upper bound is below it. Worse fails the
-/// gate; the others pass, except undecided. Where every change fails, better fails too, and only equivalent
-/// passes.
-/// @param measures of all points
-/// @return the number of tests over which the false discoveries were controlled.
+/// A measure is worse if the hypothesis of a change within the margin is rejected: its adjusted p is at most
+/// the rate, and the lower bound exceeds the margin. An estimate beyond the margin shows nothing by itself. A
+/// measure is better if both hold for the opposite direction. It is equivalent if both bounds of its effect
+/// are within the margin (two one-sided tests: Schuirmann, Journal of Pharmacokinetics and Biopharmaceutics
+/// 15 (1987), 657), and not worse if only the upper bound is below the margin. Worse fails the gate; better,
+/// equivalent and not worse pass. If every change fails, better fails too, and only equivalent passes.
+/// @param measures measures of all points
+/// @return number of tests over which the false discoveries were controlled
 std::int64_t decide(std::span<Judgement* const> measures, const GateRules& rules);
 
-/// The smallest true change for the worse that is found with decision_probability: with s its standard error,
-/// M the margin and α the strictest level of the adjustment over m tests, that of a change of one measure
-/// alone, the solution of
+/// The smallest true change δ for the worse that is found with decision_probability, the solution of
 ///
-///   δ = M + (z_{1−α} + z_0.8)·s,   α = rate/(m·(1 + ½ + … + 1/m)),
+///   δ = M + (z_{1−α} + z_0.8)·s,   α = rate/(m·(1 + ½ + … + 1/m)).
 ///
-/// α/2 where every change fails. s is that of the bounds; with n pairs of a proportion s² + δ/n, because the
-/// change makes pairs differ. A normal approximation, which leaves the rank tests out.
-/// @param tests m
+/// M is the margin and s the standard error that follows from the bounds. α is the strictest level of the
+/// adjustment over m tests, which applies if only one measure changes; it is halved if every change fails.
+/// For a proportion of n pairs s² is replaced by s² + δ/n, because the change makes pairs differ. The formula
+/// is a normal approximation that ignores the rank tests. NaN without finite bounds.
+/// @param tests number m of tests
 double detectable_change(const Judgement& measure, const GateRules& rules, std::size_t tests);
 
 /// Adjusted p-values that control the false discovery rate whatever the dependence between the tests: with
@@ -131,11 +136,11 @@ double detectable_change(const Judgement& measure, const GateRules& rules, std::
 ///
 ///   q_(i) = min over j ≥ i of min(1, m·H_m·p_(j)/j).
 ///
-/// Rejecting where q ≤ α has an expected proportion of false rejections of at most α. Where every null
-/// hypothesis is true, that is the probability of any rejection at all. Source: Benjamini and Yekutieli,
-/// Annals of Statistics 29 (2001), 1165, Theorem 1.3.
+/// If hypotheses with q ≤ α are rejected, the expected proportion of false rejections is at most α. If every
+/// null hypothesis is true, α bounds the probability of any rejection at all. Source: Benjamini and
+/// Yekutieli, Annals of Statistics 29 (2001), 1165, Theorem 1.3.
 ///
-/// @param p in [0, 1], any order; @return in the same order.
+/// @param p p-values in [0, 1], in any order; @return the adjusted p-values in the same order
 std::vector<double> benjamini_yekutieli(std::span<const double> p);
 
 }  // namespace zerocount::comparison

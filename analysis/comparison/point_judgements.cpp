@@ -17,18 +17,19 @@ namespace {
 using two_samples::QuantileSample;
 using two_samples::Sample;
 
-/// A value so that larger is worse, and back: of a quality of which less is worse, its lack.
+/// The value transformed so that larger is worse; the transform is its own inverse. If less is worse, a
+/// proportion p becomes 1 − p, any other value changes its sign.
 double worsened(const GateMeasure& measure, double value) {
   if (measure.worse == layout::Worse::more) return value;
   return measure.proportion() ? 1.0 - value : -value;
 }
 
-/// Whether trials share machines, or worlds that take their place.
+/// Whether trials share machines, or worlds in place of machines.
 bool over_machines(const BothTrials& trials) {
   return trials.baseline.machines > 0 || trials.current.machines > 0;
 }
 
-/// The values of both [trial], of pairs over the moves that have one in both; NaN where no move has.
+/// [trial] the mean values in both files, over the moves that have a value in both; NaN if no move has.
 Sample values_of_pairs(const BothTrials& trials, const GateMeasure& measure) {
   Sample sample{.paired = true};
   const std::vector<double>& before = trials.baseline.of(measure);
@@ -55,8 +56,8 @@ Sample values_of_pairs(const BothTrials& trials, const GateMeasure& measure) {
   return sample;
 }
 
-/// Machines are judged by the moves that were seen of each, so both files must show as many: the trials on
-/// each machine that both have.
+/// Number of trials on each machine that both files have. Machines are judged by the moves seen on each, so
+/// both files must contribute equally many.
 std::int64_t common_trials_of_machine(const BothTrials& trials, std::size_t goal) {
   const auto of_machine = [goal](const PointTrials& all) {
     return all.trials / std::max<std::int64_t>(all.judged[goal].machines, 1);
@@ -64,8 +65,8 @@ std::int64_t common_trials_of_machine(const BothTrials& trials, std::size_t goal
   return std::min(of_machine(trials.baseline), of_machine(trials.current));
 }
 
-/// 1 for each machine that meets the goal in Goal::moves of its moves in its first `trials_of_machine`, else
-/// 0, [machine].
+/// [machine] 1 if the machine meets the goal in the proportion Goal::moves of its moves, otherwise 0. Only
+/// the first `trials_of_machine` trials of each machine count.
 std::vector<double> machines_in_goal(const PointTrials& trials, const GoalTrials& goal,
                                      std::int64_t trials_of_machine) {
   const auto machines = static_cast<std::size_t>(goal.machines);
@@ -77,29 +78,28 @@ std::vector<double> machines_in_goal(const PointTrials& trials, const GoalTrials
   return met;
 }
 
-/// The proportion of the moves of each trial that meet the goal, [trial].
+/// [trial] proportion of the judged moves that meet the goal.
 std::vector<double> moves_in_goal(const PointTrials& trials, const GoalTrials& goal) {
   std::vector<double> met = goal.moves_in_goal;
   for (double& value : met) value /= static_cast<double>(goal.asked_moves(trials.moves));
   return met;
 }
 
-/// The clusters in which the values of a file are: the number of machines or worlds, 0 where each is
-/// independent.
+/// Number of clusters (machines or worlds) that the values of a file form; 0 if each value is independent.
 std::int64_t clusters_of(const PointTrials& trials, const GateMeasure& measure) {
   const bool of_machines =
       measure.statistic == GateStatistic::machines && trials.machines == trials.judged[measure.goal].machines;
   return of_machines ? 0 : trials.machines;
 }
 
-/// Whether the values of a proportion are independent, and each 0 or 1.
+/// Whether the measure is a proportion whose values are independent and each 0 or 1.
 bool are_whole(const PointTrials& trials, const GateMeasure& measure) {
   return measure.proportion() && clusters_of(trials, measure) == 0 &&
          (measure.statistic != GateStatistic::moves ||
           trials.judged[measure.goal].asked_moves(trials.moves) == 1);
 }
 
-/// The value of each trial; of machines, of each machine.
+/// The values of the trials in both files; for GateStatistic::machines, of the machines.
 Sample values_of_both(const BothTrials& trials, const GateMeasure& measure) {
   if (!measure.proportion() && trials.paired) return values_of_pairs(trials, measure);
   const auto values = [&](const PointTrials& all) {
@@ -119,8 +119,8 @@ Sample values_of_both(const BothTrials& trials, const GateMeasure& measure) {
   return {.paired = trials.paired, .baseline = values(trials.baseline), .current = values(trials.current)};
 }
 
-/// Plausible difference of a single trial, the `unit` of cautious_bounds(): 1 for counts and proportions; for
-/// times the larger of both means, or 1 ms without one.
+/// Plausible difference of a single trial, the `unit` of cautious_bounds(). It is 1 for counts and
+/// proportions. For times it is the larger mean of the two files, or 1 ms if there is none.
 double plausible_difference(const GateMeasure& measure, const Sample& sample) {
   if (measure.proportion() || measure.measure->field.column.element != hdf5::Element::float64) return 1.0;
   const auto mean = [](const std::vector<double>& values) {
@@ -130,7 +130,7 @@ double plausible_difference(const GateMeasure& measure, const Sample& sample) {
   return value > 0.0 ? value : 1e-3;
 }
 
-/// The values of the independent units.
+/// The values of the independent units in both files, transformed by worsened().
 Sample sample_of(const BothTrials& trials, const GateMeasure& measure) {
   Sample sample = values_of_both(trials, measure);
   sample.failures = are_whole(trials.baseline, measure) && are_whole(trials.current, measure);
@@ -156,13 +156,15 @@ std::string test_name(const Sample& sample, bool over_machines) {
                      over_machines ? ", over machines" : "");
 }
 
-/// The larger of the two parts of a margin. Nothing is a proportion of a value that is unknown or infinite.
+/// The margin for a given value of the baseline: the larger of the absolute and the relative part. If the
+/// value is unknown or infinite, only the absolute part applies.
 double margin_at(const GateMargin& margin, double baseline) {
   return std::isfinite(baseline) ? std::max(margin.absolute, margin.relative * std::abs(baseline))
                                  : margin.absolute;
 }
 
-/// Takes the values of the sample and, where there are enough of them, the change that they show.
+/// Stores the values of the sample in the judgement and, if there are enough of them, the change that they
+/// show.
 void compare_sample(Judgement& result, const GateMeasure& measure, const BothTrials& trials,
                     const GateMargin& margin, double confidence) {
   const Sample sample = sample_of(trials, measure);
@@ -184,7 +186,7 @@ void compare_sample(Judgement& result, const GateMeasure& measure, const BothTri
   static_cast<two_samples::Change&>(result) = two_samples::change_of(sample, confidence, result.margin);
 }
 
-/// Probability of the quantile of the goal's settling time that is compared.
+/// Probability of the compared quantile of the goal's settling time.
 constexpr double judged_quantile = 0.95;
 
 QuantileSample times_of(const BothTrials& trials, const GateMeasure& measure) {
@@ -220,7 +222,8 @@ void compare_quantile(Judgement& result, const GateMeasure& measure, const BothT
   static_cast<two_samples::Change&>(result) = two_samples::change_of(times, confidence, result.margin);
 }
 
-/// Bounds of a proportion of the hits among the events: `low` with one confidence, `high` with another.
+/// Bounds of the proportion of hits among events. @param sums sums_of_unit() over all units @param clustered
+/// whether the units are machines
 statistics::ConfidenceInterval proportion_bounds(const two_samples::Sums& sums, bool clustered,
                                                  double low_confidence, double high_confidence) {
   const std::int64_t hits = std::llround(sums[1]);
@@ -265,7 +268,7 @@ void judge_mean(Judgement& result, const std::vector<double>& values, double con
   result.verdict = verdict_of(result.bounds, result.margin, result.at_least);
 }
 
-/// The verdict of the goal; its confidence is that of the manifest.
+/// Judges the requirement `goal` by the verdict on the goal, with the confidence that the manifest states.
 void judge_goal(Judgement& result, const GoalTrials& required, std::size_t claims) {
   const study::Goal& asked = required.goal;
   const measures::MoveCounts counts = required.counts.sum();
@@ -281,7 +284,8 @@ void judge_goal(Judgement& result, const GoalTrials& required, std::size_t claim
                                                             : GateVerdict::inconclusive;
 }
 
-/// The hits and events of trials, by unit: trial i is of unit i mod units, 0: each is one.
+/// Sets the hits and events of the sample, summed by unit. Trial i belongs to unit i mod `units`; if `units`
+/// is 0, each trial is a unit. @param hits [trial] @param events events of each trial
 void add_units(RequirementSample& sample, std::span<const double> hits, double events, std::int64_t units) {
   const std::size_t count = units > 0 ? static_cast<std::size_t>(units) : hits.size();
   sample.hits.assign(count, 0.0);
@@ -292,8 +296,8 @@ void add_units(RequirementSample& sample, std::span<const double> hits, double e
   }
 }
 
-/// The moves of each machine or trial that meet the goal; if the goal asks for machines, whether the machine
-/// meets it. Where worlds take the place of machines, by world.
+/// The sample of the requirement `goal`: by machine or trial, the moves that meet the goal. If the goal asks
+/// for machines: whether the machine meets it. If worlds take the place of machines, the units are worlds.
 RequirementSample goal_sample(const PointTrials& trials, const GoalTrials& counted) {
   const study::Goal& goal = counted.goal;
   RequirementSample sample{RequirementKind::goal, true, goal.machines.value_or(goal.moves), true};
@@ -316,7 +320,7 @@ RequirementSample goal_sample(const PointTrials& trials, const GoalTrials& count
   return sample;
 }
 
-/// [trial] 1 for each trial that meets the requirement by itself, otherwise 0.
+/// [trial] 1 if the trial meets the requirement by itself, otherwise 0.
 std::vector<double> met_by_trial(const Requirement& requirement, const PointTrials& trials) {
   const RequirableQuantity& quantity = requirement.quantity;
   if (quantity.kind == RequirementKind::proportion) return trials.of(quantity.measure);

@@ -8,19 +8,19 @@
 #include "analysis/comparison/point_trials.hpp"
 #include "analysis/two_samples/continued_sample.hpp"
 
-/// The judgements on the trials of one design point: the values of the independent units, which are trials,
-/// or machines or worlds where trials share these, and the tests of these values.
+/// The judgements on the trials of one design point: the values of the independent units, and the tests of
+/// these values. A unit is a trial; if trials share machines or worlds, it is a machine or a world.
 namespace zerocount::comparison {
 
-/// Minimum number of values in each file for the comparison of a mean. If fewer trials arrive, the proportion
-/// of arrivals shows the difference.
+/// Minimum number of values in each file for the comparison of a mean. If fewer trials have a value because
+/// they do not arrive, the proportion of arrivals shows the difference.
 inline constexpr std::int64_t min_values = 20;
 
 /// The trials of a point in both files.
 struct BothTrials {
   const PointTrials& baseline;
   const PointTrials& current;
-  bool paired{false};  ///< trial i of both drew the same random numbers; both then have as many trials
+  bool paired{false};  ///< Trial i drew the same random numbers in both; both have equal numbers of trials.
 };
 
 /// The measures that are judged at a point with these trials.
@@ -32,43 +32,43 @@ std::vector<Judgement> compare_measures(const GateRules& rules, const std::strin
                                         const BothTrials& trials);
 
 /// The samples behind the results of compare_measures() with the same arguments, in the same order.
-/// @param found these results; a quantile's sample follows from its effect and bounds
+/// @param found results of compare_measures(); the sample of a quantile follows from its effect and bounds
 std::vector<two_samples::Sample> measure_samples(const GateRules& rules, std::span<const Judgement> found,
                                                  const BothTrials& trials);
 
-/// Judges a requirement at one point by one-sided bounds: it passes where the bound against the limit, at
-/// `confidence`, meets it; it fails where the other bound, at `failing_confidence`, contradicts it; otherwise
-/// it is inconclusive.
+/// Judges a requirement at one point by one-sided bounds. It passes if the less favourable bound, at
+/// `confidence`, meets the limit. It fails if the more favourable bound, at `failing_confidence`, contradicts
+/// the limit. Otherwise it is inconclusive.
 ///
-/// Proportions have Clopper–Pearson bounds. A quantile of the settling time of a trial (that of its slowest
-/// move; infinite if a move did not arrive) is judged as the proportion of trials that settle within the
-/// limit L: q_p ≤ L holds if that proportion is at least p. Its bounds are those of this proportion. The mean
-/// of the jerks has the bounds of cautious_bounds().
+/// Proportions have Clopper–Pearson bounds. The settling time of a trial is that of its slowest move;
+/// infinite if a move did not arrive. A quantile of it is judged by the proportion of trials that settle
+/// within the limit L, and has the bounds of this proportion: q_p ≤ L holds if the proportion is at least p.
+/// The mean of the jerks has the bounds of cautious_bounds().
 Judgement judge_requirement(const Requirement& requirement, const PointTrials& trials, double confidence,
                             double failing_confidence);
 
-/// The numbers of each independent unit that a requirement judges.
+/// The numbers of the independent units by which a requirement is judged.
 struct RequirementSample {
   RequirementKind kind{RequirementKind::proportion};
   bool at_least{true};
-  double limit{0.0};      ///< of the mean, or of the proportion of trials
-  bool clustered{false};  ///< the units are machines
-  /// [unit] trials that meet the requirement by themselves; or the value of a mean
+  double limit{0.0};      ///< Limit of the mean, or of the proportion of trials.
+  bool clustered{false};  ///< The units are machines, not single trials.
+  /// [unit] number of trials that meet the requirement by themselves; for a mean, the value of the unit.
   std::vector<double> hits{};
-  std::vector<double> events{};  ///< [unit] trials; 1 of a mean
+  std::vector<double> events{};  ///< [unit] number of trials; 1 for a mean
 };
 RequirementSample requirement_sample(const Requirement& requirement, const PointTrials& trials);
 
-/// The terms 1, h, e, h², h·e, e² of a unit with h hits in e events. The verdict needs their sums over the
-/// units.
+/// The terms 1, h, e, h², h·e, e² of a unit with h hits in e events. The verdict depends on the sums of these
+/// terms over the units.
 two_samples::Sums sums_of_unit(double hits, double events);
 
 /// The verdict of judge_requirement() on a sample with these sums.
 GateVerdict requirement_verdict(const RequirementSample& sample, const two_samples::Sums& sums,
                                 double confidence, double failing_confidence);
 
-/// The confidence with which each of `count` requirements must be contradicted, so that with this confidence
-/// none of those that are met fails (Bonferroni): 1 − (1 − confidence)/count.
+/// The confidence 1 − (1 − confidence)/count with which each of `count` requirements must be contradicted.
+/// Then, with the probability `confidence`, no requirement that is in truth met fails (Bonferroni).
 double failing_confidence(double confidence, std::int64_t count);
 
 }  // namespace zerocount::comparison

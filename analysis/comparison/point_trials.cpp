@@ -11,7 +11,7 @@
 namespace zerocount::comparison {
 namespace {
 
-/// @param first index of the first of these trials at its point
+/// Counts trials by a goal. @param first index of the first of these trials at its point
 void add_to_goal(GoalTrials& goal, std::int64_t first, std::int64_t moves,
                  std::span<const trial::MoveOutcome> outcomes) {
   for (auto move = outcomes.begin(); move != outcomes.end(); move += moves) {
@@ -20,7 +20,7 @@ void add_to_goal(GoalTrials& goal, std::int64_t first, std::int64_t moves,
   }
 }
 
-/// Adds the settling times of the moves that the goal asks, s; of those that do not settle infinity.
+/// Appends the settling times of the moves that the goal judges, s; infinity for moves that do not settle.
 void add_goal_times(std::vector<double>& times, const GoalTrials& goal,
                     std::span<const trial::MoveOutcome> outcomes) {
   for (const trial::MoveOutcome& move : outcomes) {

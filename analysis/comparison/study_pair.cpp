@@ -32,8 +32,8 @@ std::string some_of(const std::vector<std::string>& names) {
   return names.size() > shown ? fmt::format("{} and {} more", text, names.size() - shown) : text;
 }
 
-/// @param what of the files has these names, "design points"
-/// @throws Failure (bad_data) that lists the names without a partner
+/// @param what noun for the things with these names: "design points"
+/// @throws Failure (bad_data) with a list of the names without a partner
 void require_same_names(const StudyPair& pair, const std::vector<std::string>& before,
                         const std::vector<std::string>& after, std::string_view what) {
   std::string problem;
@@ -62,7 +62,7 @@ std::map<std::string, std::int64_t> points_by_label(const AllTrialsFile& file) {
   return points;
 }
 
-/// A number so that it reads back to the same; two NaN agree, whatever their signs.
+/// Text that reads back to the same number; "drawn" for any NaN.
 std::string exact_text(double value) {
   return std::isnan(value) ? "drawn" : fmt::format("{}", value);
 }
@@ -103,14 +103,14 @@ void match_points(StudyPair& pair) {
   require_equal_axes(pair);
 }
 
-/// The names of the conditions, with ages at each of them; none of a manifest without them, which is not
-/// parsed for it.
+/// The names of the conditions; with ages, of each condition at each age. Empty without conditions; the
+/// manifest is then not parsed.
 std::vector<std::string> conditions_of(const AllTrialsFile& file) {
   const bool any = file.root().contains("condition") || file.root().contains("age");
   return any ? file.study().conditions : std::vector<std::string>();
 }
 
-/// Gives the pair each of its points under each condition, by point.
+/// Replaces the points of the pair by each point under each condition, ordered by point.
 void match_conditions(StudyPair& pair) {
   const std::vector<std::string> names = conditions_of(pair.baseline.file);
   require_same_names(pair, names, conditions_of(pair.current.file), "conditions");
@@ -143,7 +143,7 @@ void require_same_kind(const StudyPair& pair) {
 
 constexpr const char* expected_goal = "expected one such as goal: {band: 1, within: 0.05, moves: 0.99}";
 
-/// The goals of the manifest.
+/// The goals of the manifest; empty if it has none.
 std::vector<study::Goal> goals_of(const ComparedStudy& study) {
   const bool has_goal = std::ranges::any_of(study.values, [](const auto& value) {
     return keys::is_within(value.first, "goal") || keys::is_within(value.first, "goals");
@@ -155,7 +155,7 @@ std::int64_t whole_value(const ComparedStudy& study, const std::string& key) {
   return std::stoll(value_or(study.values, key, "0"));
 }
 
-/// The goal for the loop of this file, which the encoder of the other mass may close.
+/// The goal adapted to this file, whose loop may be closed by the encoder of the other mass.
 study::Goal for_loop_of(const ComparedStudy& study, study::Goal goal) {
   const std::vector<study::Goal>& goals = study.file.study().goals;
   const auto own = std::ranges::find_if(goals, [](const study::Goal& one) { return one.of.has_value(); });
@@ -163,8 +163,8 @@ study::Goal for_loop_of(const ComparedStudy& study, study::Goal goal) {
   return goal;
 }
 
-/// The goals as the moves of the file are counted by them.
-/// @throws Failure (bad_data) where the file does not have what it is judged by
+/// The goals with the criteria by which the moves of the file are counted.
+/// @throws Failure (bad_data) if the file lacks a band, tolerance or limit of a goal
 std::vector<GoalTrials> counted_in(const ComparedStudy& study, const std::vector<study::Goal>& goals) {
   std::vector<GoalTrials> all;
   for (const study::Goal& of_both : goals) {
@@ -183,13 +183,14 @@ std::vector<GoalTrials> counted_in(const ComparedStudy& study, const std::vector
   return all;
 }
 
-/// @throws Failure (bad_input) of a file whose manifest has no goal
+/// @throws Failure (bad_input) always: the manifest of the file has no goal. @param purpose clause that says
+/// what the goal is needed for
 [[noreturn]] void refuse_without_goal(const AllTrialsFile& file, std::string_view purpose) {
   throw Failure(ExitCode::bad_input, fmt::format("{}: its manifest has no goal, {}; {}", file.path().string(),
                                                  purpose, expected_goal));
 }
 
-/// The measure of the file's own error bands or tolerances in place of the one that a requirement names.
+/// The measure in the file's own table for a measure of an error band or tolerance that a requirement names.
 GateMeasure in_file(const AllTrialsFile& file, const GateMeasure& wanted) {
   const bool of_tolerance = wanted.measure->tolerance.has_value();
   std::vector<std::string> limits;
@@ -206,8 +207,8 @@ GateMeasure in_file(const AllTrialsFile& file, const GateMeasure& wanted) {
                             limits.empty() ? "none" : fmt::format("{}", fmt::join(limits, ", "))));
 }
 
-/// Finds the goals whose measures are judged, those of the baseline, else those of the current file, and what
-/// the requirements need.
+/// Sets the goals whose measures are judged, and the values that the requirements need. The goals are those
+/// of the baseline or, if it has none, of the current file.
 void take_goals(StudyPair& pair, const GateRules& rules) {
   const std::vector<study::Goal> before = goals_of(pair.baseline);
   const std::vector<study::Goal> after = goals_of(pair.current);
@@ -229,8 +230,8 @@ void take_goals(StudyPair& pair, const GateRules& rules) {
     also.bands.push_back(in_file(pair.current.file, measure));
 }
 
-/// Finds how many trials of each point are compared, and which of them are independent. Where two studies
-/// have different worlds, the trials of a world are not; else those of a machine.
+/// Sets the number of compared trials of each point, and the units of independent trials. If the studies have
+/// different worlds, the trials in one world are dependent; otherwise the trials on one machine.
 void take_trials(StudyPair& pair, const GateRules& rules) {
   const std::string before = value_or(pair.baseline.values, "worlds", "0");
   const std::string after = value_or(pair.current.values, "worlds", "0");
@@ -252,7 +253,7 @@ std::vector<std::string> names_of(const std::vector<GoalTrials>& goals) {
   return names;
 }
 
-/// How the values of one drawn parameter in two files are related.
+/// Relation between the values of one drawn parameter in the two files; the worst comes last.
 enum class InputRelation { equal, same_order, different };
 
 InputRelation relation_of(const std::vector<double>& before, const std::vector<double>& after) {
@@ -269,7 +270,7 @@ InputRelation relation_of(const std::vector<double>& before, const std::vector<d
 }
 
 /// The worst relation of one parameter over all points.
-/// @param columns its number in the baseline and in the current file
+/// @param columns column of the parameter in the baseline and in the current file
 InputRelation relation_over_points(const StudyPair& pair, std::pair<std::size_t, std::size_t> columns) {
   const std::int64_t trials = std::min(pair.baseline.trials, pair.current.trials);
   const auto values = [&](const ComparedStudy& study, const MatchedPoint& point, std::int64_t at,

@@ -16,30 +16,29 @@
 
 namespace zerocount::document {
 
-/// A kind of answers: its name, its version and its items.
+/// A type of answers: its name, its version and its items.
 struct AnswerType {
-  std::string name;     ///< "answer" in JSON: the command
+  std::string name;     ///< The command; value of "answer" in JSON.
   std::string meaning;  ///< a phrase without a full stop
-  int version{1};       ///< in JSON: counts changes that a reader of the JSON notices
-  /// Key of the table that CSV has; empty: CSV has one line, the
-  /// values of the answer and the members of its objects. "points.rates" are the
-  /// tables `rates` of all rows of `points`: a line begins with the values of the row of `points`, without
-  /// its lists, objects and tables.
+  int version{1};       ///< Value of "version" in JSON; grows with each change that readers of JSON notice.
+  /// Key of the table that the CSV holds. Empty: the CSV has one line with the values of the answer and the
+  /// members of its objects. "points.rates": the tables `rates` of all rows of `points`; each line begins
+  /// with the values of its row of `points`, without lists, objects and tables.
   std::string csv_table{};
   std::vector<Item> items{};
 };
 
-/// An answer: the contents of the items of its type. Every format is rendered from it.
+/// An answer: the contents of the items of its type. Every format is rendered from an Answer.
 struct Answer {
   AnswerType type;
-  Members contents;  ///< of type.items
+  Members contents;  ///< One content for each of type.items.
   ExitCode exit_code{ExitCode::success};
 };
 
-/// A type of answers, and how each item is found in a `Subject`.
+/// A type of answers, with the functions that read each item from a `Subject`.
 template <class Subject>
 struct AnswerDescription {
-  AnswerType type;  ///< without items
+  AnswerType type;  ///< The type; its items are left empty (complete_type() has them).
   Description<Subject> items;
 
   AnswerType complete_type() const {
@@ -53,9 +52,9 @@ struct AnswerDescription {
   }
 };
 
-/// For people: the headline, sentences a line each, values in two columns, tables below their titles. UTF-8;
-/// text::fitted fits it to a terminal. Columns without any content are left out, and so are tables without
-/// rows.
+/// The answer for people as plain text in UTF-8: the headline, sentences on a line each, values in two
+/// columns, tables below their titles. Columns without any content and tables without rows are left out.
+/// text::fitted fits the text to a terminal.
 std::string text(const Answer& answer);
 
 /// The answer for people as GitHub-flavoured Markdown.
@@ -64,38 +63,39 @@ std::string markdown(const Answer& answer);
 /// The answer for people as a fragment of HTML, without figures.
 std::string html(const Answer& answer);
 
-/// The figures of the answer, in their order.
+/// The figures of the answer in the order of its items.
 std::vector<Figure> figures(const Answer& answer);
 
-/// Gives the text of {"answer": name, "version": …, "headline": …, …}, ending with a line break, to `take` in
-/// pieces: values, objects and lists by their keys, a table as a list of objects. Unknown numbers and items
-/// without content are null; every number reads back to the same double. Bytes that are not UTF-8 are
+/// Passes the JSON text {"answer": name, "version": …, "headline": …, …}, ending with a line break, to `take`
+/// in pieces. Values, objects and lists have their keys; a table is a list of objects. Unknown numbers and
+/// items without content are null. Every number reads back to the same double. Bytes that are not UTF-8 are
 /// replaced.
-/// @param indent blanks of a level; text::one_line: no line breaks
+/// @param indent number of blanks per level; text::one_line: no line breaks
 void write_json(const Answer& answer, int indent, const std::function<void(std::string_view)>& take);
 
-/// The JSON of the answer as one text.
+/// The text of write_json() in one piece.
 std::string json_text(const Answer& answer, int indent = 2);
 
-/// The JSON of the answer as a tree. A large answer takes much memory as a tree: see json_text().
+/// The JSON of the answer as a tree. The tree of a large answer takes much memory; json_text() takes less.
 nlohmann::ordered_json json(const Answer& answer);
 
-/// The object of these items, as in json() of an answer.
+/// A JSON object with these items, in the form that json() gives an object of an answer.
 nlohmann::ordered_json json(const std::vector<Item>& items, const Members& contents);
 
-/// The rows of the type's csv_table: RFC 4180 with \n, a line with the names of the columns first. A member
-/// of an object has the name "<object>_<member>", unless its item has a column; a column of an outer table
-/// that is named like an inner one is "<table>_<name>"; an unknown number is `nan`, a list is written as in
-/// JSON; a text that is a formula of spreadsheets begins with an apostrophe (text::csv_field).
+/// The rows of the table AnswerType::csv_table as CSV: RFC 4180 with \n as line end; the first line has the
+/// names of the columns. A member of an object is named "<object>_<member>", unless Item::column names it. A
+/// column of an outer table with the name of an inner column becomes "<table>_<name>". An unknown number is
+/// `nan`; a list is written as in JSON. A text that spreadsheets would read as a formula gets an apostrophe
+/// in front (text::csv_field).
 std::string csv(const Answer& answer);
 
-/// Name in CSV and cell of each column of an item.
+/// The columns that an item has in CSV, each as {name, cell}.
 std::vector<std::pair<std::string, std::string>> csv_cells(const Item& item, const Content& content);
 
-/// The schema of json() of all answers of the type.
+/// JSON Schema of json() for the answers of this type.
 nlohmann::ordered_json json_schema(const AnswerType& type);
 
-/// The JSON Schema (draft 2020-12) of all these answers: "$defs" has one for each name.
+/// JSON Schema (draft 2020-12) of the answers of all these types: "$defs" holds one schema for each name.
 nlohmann::ordered_json json_schema(const std::vector<AnswerType>& types);
 
 }  // namespace zerocount::document

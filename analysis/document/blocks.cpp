@@ -57,7 +57,7 @@ std::string bounded_text(const Bounded& number, Notation notation) {
   return fmt::format("{} [{}]", number_text(number.value, notation), bounds);
 }
 
-/// The text of each alternative of Content that is a value.
+/// Visitor of Content::value: returns the text of a value for people.
 struct ValueText {
   const Item& item;
 
@@ -96,7 +96,7 @@ struct ValueText {
   }
 };
 
-/// The unit as it is shown beside numbers in this notation.
+/// The unit that is shown beside the item; empty for dimensionless numbers, per cent and text.
 std::string shown_unit(const Item& item) {
   const bool is_text = item.kind_for_people == Kind::text && !item.numeric;
   return item.unit == "1" || is_percent(item.notation) || is_text ? "" : item.unit;
@@ -107,19 +107,20 @@ bool is_numeric(const Item& item) {
   return kind == Kind::whole || kind == Kind::number || item.numeric;
 }
 
-/// Whether it stands in the table of its rows as a column, or with its members as columns.
+/// Whether the item is a column in the table of its rows, or an object whose members are columns there.
 bool is_column(const Item& item) {
   const Kind kind = shown_kind(item);
   return is_for_people(item) && item.own_table.empty() && !item.names_row && kind != Kind::sentence &&
          kind != Kind::table;
 }
 
-/// Whether its members stand beside other items of its level.
+/// Whether the item is an object whose members are shown like items of its own level.
 bool is_flat(const Item& item) {
   return shown_kind(item) == Kind::object && item.heading.empty();
 }
 
-/// The cells of these items, of rows that may be missing.
+/// Appends a column for each item, unless the item has no known value. @param rows [row] the members of the
+/// items; null if the row has none
 void add_columns(std::vector<BlockColumn>& columns, const std::vector<Item>& items,
                  const std::vector<const Members*>& rows) {
   for (std::size_t i = 0; i < items.size(); ++i) {
@@ -151,21 +152,22 @@ TableBlock table_block(const Item& item, const Rows& rows) {
   return table;
 }
 
-/// The item that names the rows of a table in their own tables.
+/// Index of the item that names the rows of a table in the tables of Item::own_table: the one with
+/// Item::names_row, otherwise the first column. Equals items.size() if there is none.
 std::size_t naming_item(const std::vector<Item>& items) {
   const auto named = std::ranges::find(items, true, &Item::names_row);
   const auto found = named != items.end() ? named : std::ranges::find_if(items, is_column);
   return static_cast<std::size_t>(found - items.begin());
 }
 
-/// A table and its rows.
+/// The description of a table with its rows.
 struct ItemWithRows {
   Item item;
   Rows rows;
 };
 
-/// The table with this title that members of the rows of `outer` have for themselves. Its first column names
-/// the row, where there are several.
+/// The separate table with this title (Item::own_table) for members of the rows of `outer`. If `outer` has
+/// several rows, the first column names the row.
 ItemWithRows own_table(const Item& outer, const Rows& rows, const std::string& title) {
   ItemWithRows own{{.heading = title, .kind = Kind::table}, {}};
   const std::size_t naming = naming_item(outer.members);
@@ -211,7 +213,7 @@ ItemWithRows own_table(const Item& outer, const Rows& rows, const std::string& t
   return own;
 }
 
-/// The sentences of a row, a line each.
+/// The sentences of a row, and those of its flat objects (is_flat()).
 std::vector<std::string> sentences_of(const std::vector<Item>& items, const Members& row) {
   std::vector<std::string> sentences;
   for (std::size_t i = 0; i < items.size(); ++i) {
@@ -225,7 +227,8 @@ std::vector<std::string> sentences_of(const std::vector<Item>& items, const Memb
   return sentences;
 }
 
-/// The sentences of the rows of such a table, a line each behind the name of its row.
+/// The sentences of the rows of an own_table(), one per line. @param is_named whether the first column names
+/// the row; the sentence then begins with this name
 std::string sentences_below(const ItemWithRows& own, bool is_named) {
   std::string text;
   for (const Members& row : own.rows.rows) {
@@ -319,8 +322,8 @@ class BlockList {
     }
   }
 
-  /// Moves the columns whose cells are all equal, of a single row all, out of the table into facts below its
-  /// title.
+  /// Moves columns whose cells are all equal out of the table into facts below its title. A table with a
+  /// single row loses all its columns.
   void add_common_columns(TableBlock& table) {
     FactsBlock common;
     std::vector<BlockColumn> others;

@@ -12,26 +12,26 @@
 
 namespace zerocount::document {
 
-/// Plain text for the text of an element or a quoted attribute of HTML: escapes & < > " '; replaces control
+/// Plain text escaped for an element or a quoted attribute of HTML. Escapes & < > " '. Replaces control
 /// characters other than tab and line feed, and bytes that are not UTF-8, by U+FFFD.
 std::string markup(std::string_view text);
 
-/// As markup, without line breaks before percent signs.
+/// markup() of the text, without line breaks before percent signs.
 std::string prose_markup(std::string_view text);
 
-/// A value with its name.
+/// A named value for people.
 struct Fact {
   std::string name;
-  std::string value;  ///< with its unit
+  std::string value;  ///< text of the value with its unit
 };
 
-/// A column of a table; a row is a cell of each column.
+/// A column of a table. Row i of the table consists of cell i of each column.
 struct BlockColumn {
   std::string head;
   std::string unit;  ///< empty: none
   bool numeric;      ///< aligned to the right
   std::vector<std::string> cells{};
-  std::vector<std::string> links{};  ///< in HTML: [row] the file that the cell leads to; empty: none
+  std::vector<std::string> links{};  ///< [row] file that the cell links to, in HTML only; empty: no link
 };
 
 struct FactsBlock {
@@ -54,7 +54,7 @@ struct SentenceBlock {
 struct SectionBlock {
   std::string title;
 };
-/// Lines that are shown as they are, such as a part of a manifest.
+/// Lines shown verbatim, such as a part of a manifest.
 struct VerbatimBlock {
   std::string title;  ///< may be empty
   std::string lines;
@@ -63,17 +63,18 @@ struct VerbatimBlock {
 /// A part of an answer for people, in plain text. A section is followed by its blocks.
 using Block = std::variant<HeadlineBlock, SentenceBlock, FactsBlock, TableBlock, SectionBlock, VerbatimBlock>;
 
-/// The parts of an answer for people, in their order, without figures: empty ones, columns without any
-/// content and what is shown in data only are left out.
+/// The parts of an answer for people, in their order. Left out are figures, empty parts, columns without any
+/// content, and items that are shown in data only.
 std::vector<Block> blocks(const Answer& answer);
 
 /// The block as a fragment of HTML.
 std::string html(const Block& block);
 
-/// text() of an answer, fitted to a terminal. @param width its columns, at least 20; nothing: no limit
+/// The answer for people as plain text, fitted to a terminal. @param width columns of the terminal, at least
+/// 20; empty: no limit
 std::string text(const Answer& answer, std::optional<std::size_t> width);
 
-/// A value as people read it, without its unit; "–" where it is unknown.
+/// Text of a value for people, without its unit; "–" if the value is unknown.
 std::string shown_value(const Item& item, const Content& content);
 
 }  // namespace zerocount::document

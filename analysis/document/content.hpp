@@ -22,12 +22,12 @@ struct Bounded {
   double high;
 };
 
-/// A value with bounds, which have the members `low` and `high`.
+/// A Bounded from a value and its bounds. @param bounds any type with members `low` and `high`
 Bounded bounded(double value, const auto& bounds) {
   return {value, bounds.low, bounds.high};
 }
 
-/// Range of a quantity over trials, in the unit of the item. NaN does not change it.
+/// Range of a quantity over trials, in the unit of the item. Adding NaN does not change the range.
 struct Range {
   double low{std::numeric_limits<double>::infinity()};
   double high{-std::numeric_limits<double>::infinity()};
@@ -39,7 +39,7 @@ struct Range {
   bool empty() const { return low > high; }
 };
 
-/// "0.5 … 2 Hz"; one number where the ends are equal, nothing of an empty range.
+/// "0.5 … 2 Hz"; one number if the ends are equal. Empty for an empty range.
 std::optional<std::string> range_text(const Range& range, const std::string& unit = {});
 
 struct Content;
@@ -64,7 +64,7 @@ struct Rows {
   std::vector<Members> rows;
 };
 
-/// The content of one item; std::monostate if there is none.
+/// The content of one item; std::monostate if the item has no content.
 struct Content {
   std::variant<std::monostate, bool, std::int64_t, std::uint64_t, double, Bounded, std::string, Members, List,
                Named, Rows, std::shared_ptr<const Figure>, std::shared_ptr<const Twofold>>
@@ -73,8 +73,8 @@ struct Content {
   bool is_empty() const { return value.index() == 0; }
 };
 
-/// Data, and what people are shown in their place. An answer holds as many contents as values: this one is
-/// behind a pointer, so that all the others stay as small as a text.
+/// A content for data, and another that people are shown in its place. Content holds it by pointer, so that a
+/// Content stays as small as a text: an answer holds one for each value.
 struct Twofold {
   Content data;
   Content shown;

@@ -14,10 +14,10 @@ std::string csv_number(double value) {
   return std::isnan(value) ? "nan" : fmt::format("{}", value);
 }
 
-/// Names and cells of the columns of a line.
+/// The names and cells of the columns of one line of CSV.
 class CsvLine {
  public:
-  /// @param members nothing: only the names matter
+  /// Adds the columns of all items. @param members contents of the items; null: only the names matter
   void add(const std::vector<Item>& items, const Members* members, const std::string& prefix = "") {
     for (std::size_t i = 0; i < items.size(); ++i) {
       if (!is_data(items[i])) continue;
@@ -26,7 +26,10 @@ class CsvLine {
     }
   }
 
-  /// Those of the items that are one value, in a row of the table, which holds the table of the line.
+  /// Adds the columns of an outer table, whose row holds the table of this line: only items with a single
+  /// value.
+  /// @param members contents of the row; null: only the names matter
+  /// @param table key of the outer table
   void add_values(const std::vector<Item>& items, const Members* members, const std::string& table) {
     for (std::size_t i = 0; i < items.size(); ++i) {
       if (is_data(items[i]) && is_one_value(items[i].kind))
@@ -35,7 +38,7 @@ class CsvLine {
     outer_tables_.resize(names_.size(), table);
   }
 
-  /// The values of an answer, and the members of its objects.
+  /// Adds the columns of an answer without csv_table: its values, and the members of its objects.
   void add_answer(const Answer& answer) {
     for (std::size_t i = 0; i < answer.type.items.size(); ++i) {
       const Item& item = answer.type.items[i];
@@ -44,7 +47,8 @@ class CsvLine {
     }
   }
 
-  /// A column of an outer table that is named like a later one has the name of its table before its own.
+  /// The line with the names of the columns. A column of an outer table that has the name of a later column
+  /// is named "<table>_<name>".
   std::string names() const {
     std::vector<std::string> names = names_;
     for (std::size_t i = 0; i < outer_tables_.size(); ++i) {
@@ -103,12 +107,12 @@ class CsvLine {
 
   std::vector<std::string> names_;
   std::vector<std::string> cells_;
-  std::vector<std::string> outer_tables_;  ///< [column] of the columns of outer tables, which stand first
+  std::vector<std::string> outer_tables_;  ///< [column] key of the outer table; these columns stand first
 };
 
-/// Adds the lines of the table that `path` names: keys of tables that hold one another, with dots between.
-/// @param members nothing: only the line of names
-/// @param line begins each
+/// Appends the lines of a table. @param path keys of nested tables, separated by dots, the outermost first
+/// @param members contents of the items; null: append only the line of names
+/// @param line columns with which each line begins
 void add_lines(std::string& csv, const std::vector<Item>& items, const Members* members,
                std::string_view path, const CsvLine& line = {}) {
   const std::size_t dot = path.find('.');

@@ -19,9 +19,9 @@
 
 namespace zerocount::document {
 
-/// The items of values of the type `T`: their kind follows from the type. A whole number, a floating-point
-/// number, an estimate with bounds, a Range, bool, text, and a number or text are values; a vector is a list,
-/// a map or a vector of pairs is a map; an optional value is null where there is none.
+/// Maps a C++ type to the kind and the content of an item. Values are whole numbers, floating-point numbers,
+/// estimates with bounds, Range, bool, text, and a variant of number and text. A vector is a list. A map or a
+/// vector of pairs is a map. An empty optional is null.
 template <class T>
 struct ValueType;
 
@@ -46,7 +46,7 @@ struct ValueType<T> {
   static Content content(T value) { return {static_cast<double>(value)}; }
 };
 
-/// An estimate with its bounds.
+/// An estimate with its bounds: any type with the members `value`, `low` and `high`.
 template <class T>
 requires requires(const T& of) {
   Bounded{of.value, of.low, of.high};
@@ -59,7 +59,7 @@ struct ValueType<T> {
   static Content content(const T& of) { return {Bounded{of.value, of.low, of.high}}; }
 };
 
-/// In data an object; people see a text with the unit.
+/// A Range: an object with `low` and `high` in data, a text with the unit for people.
 template <>
 struct ValueType<Range> {
   static void describe(Item& item) {
@@ -101,7 +101,7 @@ struct ValueType<std::optional<T>> {
   }
 };
 
-/// The item of the values of a list or a map: unit, notation and words are those of the whole.
+/// The item of an element of a list or a map. It inherits unit, notation and words from the list or map.
 template <class T>
 Item element_of(const Item& whole) {
   Item element{.unit = whole.unit, .notation = whole.notation, .words = whole.words};
@@ -138,7 +138,8 @@ struct ValueType<std::vector<std::pair<std::string, T>>> {
 template <class T>
 struct ValueType<std::map<std::string, T>> : ValueType<std::vector<std::pair<std::string, T>>> {};
 
-/// Where there is no subject there is no content: pointers and optional values are looked into.
+/// The subject as a pointer: looks through pointers and optional values. Null if there is no subject; the
+/// item then has no content.
 template <class T>
 const T* subject_in(const T& subject) {
   return &subject;
@@ -152,14 +153,14 @@ const T* subject_in(const std::optional<T>& subject) {
   return subject ? &*subject : nullptr;
 }
 
-/// The items of an object, a row or an answer, and how each is found in a `Row`. The order of the items is
-/// that of all formats.
+/// The items of an object, a row or an answer, with the functions that read each from a `Row`. All formats
+/// keep the order of the items.
 template <class Row>
 class Description {
  public:
   using ContentOf = std::function<Content(const Row&, Audience)>;
 
-  /// A value. Its kind is that of what `get` returns (ValueType).
+  /// Adds a value. Its kind follows from the type that `get` returns (ValueType).
   template <class Get>
   Description& value(Item item, Get get) {
     using Type = std::remove_cvref_t<std::invoke_result_t<Get, const Row&>>;
@@ -172,8 +173,8 @@ class Description {
     return *this;
   }
 
-  /// How people see the item that was added last: as the value that `get` returns. A text stands without the
-  /// unit of the item, unless it is Item::numeric.
+  /// Shows people the value that `get` returns in place of the item that was added last. A text is shown
+  /// without the unit of the item, unless the item is Item::numeric.
   template <class Get>
   Description& shown_as(Get get) {
     using Value = ValueType<std::remove_cvref_t<std::invoke_result_t<Get, const Row&>>>;
@@ -190,7 +191,7 @@ class Description {
     return *this;
   }
 
-  /// People see the item that was added last only in the rows where `is_worth` returns true.
+  /// Shows people the item that was added last only in rows for which `is_worth` returns true.
   template <class IsWorth>
   Description& shown_where(IsWorth is_worth) {
     contents_.back() = [data = std::move(contents_.back()), is_worth](const Row& row, Audience audience) {
@@ -202,7 +203,7 @@ class Description {
     return *this;
   }
 
-  /// An object with the items of `parts`. `get` returns a Part, an optional one, or a pointer to one.
+  /// Adds an object with the items of `parts`. `get` returns a Part, an optional one, or a pointer to one.
   template <class Part, class Get>
   Description& object(Item item, Description<Part> parts, Get get) {
     item.kind = Kind::object;
@@ -217,23 +218,23 @@ class Description {
         });
   }
 
-  /// A table with the items of `columns`. `get` returns a range of Parts.
+  /// Adds a table with the items of `columns`. `get` returns a range of Parts.
   template <class Part, class Get>
   Description& table(Item item, Description<Part> columns, Get get) {
     item.kind = Kind::table;
     return add_rows(std::move(item), std::move(columns), std::move(get));
   }
 
-  /// Sections with the items of `parts`: a list of objects in JSON, for people one below the other. `get`
-  /// returns a range of Parts.
+  /// Adds sections with the items of `parts`: a list of objects in JSON, one section below the other for
+  /// people. `get` returns a range of Parts.
   template <class Part, class Get>
   Description& sections(Item item, Description<Part> parts, Get get) {
     item.kind = Kind::sections;
     return add_rows(std::move(item), std::move(parts), std::move(get));
   }
 
-  /// The items of `parts` beside the others. `get` returns a Part, an optional one, or a pointer to one;
-  /// where there is none they are empty.
+  /// Adds the items of `parts` at the level of this description. `get` returns a Part, an optional one, or a
+  /// pointer to one; without a Part the items are empty.
   template <class Part, class Get>
   Description& include(const Description<Part>& parts, Get get) {
     for (std::size_t i = 0; i < parts.items().size(); ++i) {
@@ -250,26 +251,26 @@ class Description {
     return *this;
   }
 
-  /// The answer in one sentence. An answer has one.
+  /// Adds the answer in one sentence. Each answer has exactly one headline.
   template <class Get>
   Description& headline(Get get) {
     return add_text({.key = "headline", .meaning = "the answer in one sentence", .kind = Kind::headline},
                     std::move(get));
   }
 
-  /// The title of a section.
+  /// Adds the title of a section.
   template <class Get>
   Description& title(Get get) {
     return add_text({.shown = Shown::to_people, .kind = Kind::title}, std::move(get));
   }
 
-  /// Sentences for people, each on a line of its own; none where `get` returns an empty text.
+  /// Adds sentences for people, each on a line of its own; none if `get` returns an empty text.
   template <class Get>
   Description& sentence(Get get) {
     return add_text({.shown = Shown::to_people, .kind = Kind::sentence}, std::move(get));
   }
 
-  /// Figures, of which `get` returns a vector.
+  /// Adds figures. `get` returns a vector of Figure.
   template <class Get>
   Description& figures(Get get) {
     return add({.shown = Shown::to_people, .kind = Kind::figure},
@@ -284,7 +285,7 @@ class Description {
   const std::vector<Item>& items() const { return items_; }
   const ContentOf& content_of(std::size_t item) const { return contents_[item]; }
 
-  /// The contents of all items of `row`, in their order; those that the audience is not shown are empty.
+  /// The contents of all items for `row`, in their order. Items that the audience is not shown are empty.
   Members members_of(const Row& row, Audience audience = Audience::all) const {
     Members members;
     members.contents.reserve(contents_.size());

@@ -23,14 +23,14 @@ struct FigureData {
   std::vector<nlohmann::ordered_json> rows{};  ///< [row] an array with one value per column
 };
 
-/// A column of a dataset with a row for each subject, and its value of a subject.
+/// A column of a dataset, with the function that returns its value for a subject.
 template <class Subject>
 struct ColumnOf {
   FigureColumn column;
   std::function<nlohmann::ordered_json(const Subject&)> value;
 };
 
-/// A dataset with a row for each of `subjects`.
+/// A dataset with one row for each of `subjects`.
 template <class Subject>
 FigureData data_of(std::string name, const std::vector<Subject>& subjects,
                    const std::vector<ColumnOf<Subject>>& columns) {
@@ -45,13 +45,13 @@ FigureData data_of(std::string name, const std::vector<Subject>& subjects,
 
 /// A figure: a Vega-Lite specification, its data, title and caption.
 struct Figure {
-  std::string name;  ///< for `plot`, and its anchor in the page
+  std::string name;  ///< Name for the command `plot`, and anchor of the figure in the page.
   std::string title;
   std::string caption;  ///< plain text
   nlohmann::ordered_json specification;
   std::vector<FigureData> data;  ///< the first one is also shown as a table
-  nlohmann::ordered_json
-      parameters{};  ///< of the specification, a template: {"NAME": what stands there for "$NAME"}
+  /// Values for the placeholders in the specification: {"NAME": value that replaces "$NAME"}.
+  nlohmann::ordered_json parameters{};
 };
 
 }  // namespace zerocount::document

@@ -12,7 +12,7 @@
 namespace zerocount::document {
 namespace {
 
-/// A table with more columns does not fit a page.
+/// Largest number of columns of a table that fits a page.
 constexpr std::size_t max_columns = 10;
 
 std::string facts_html(const std::vector<Fact>& facts) {
@@ -26,7 +26,7 @@ std::string unit_html(const BlockColumn& column) {
   return column.unit.empty() ? "" : fmt::format("<span class=\"unit\">{}</span>", markup(column.unit));
 }
 
-/// The name of a file as a part of an address.
+/// The name of a file, percent-encoded for use in a URL.
 std::string percent_encoded(std::string_view name) {
   std::string text;
   for (const char c : name) {
@@ -43,7 +43,7 @@ std::string linked_cell(const BlockColumn& column, std::size_t row) {
   return fmt::format("<a href=\"./{}\">{}</a>", percent_encoded(column.links[row]), cell);
 }
 
-/// Each cell has the head of its column, which a phone shows in front of it.
+/// A cell with the head of its column as an attribute; narrow screens show the head in front of the cell.
 std::string cell_html(const BlockColumn& column, std::size_t row) {
   return fmt::format("<td{} data-head=\"{}\">{}</td>", column.numeric ? "" : " class=\"text wrap\"",
                      markup(column.head + (column.unit.empty() ? "" : " (" + column.unit + ")")),
@@ -65,7 +65,7 @@ std::string columns_html(std::span<const BlockColumn* const> columns) {
   return html + "</tbody></table>\n";
 }
 
-/// A single row of many columns, one below the other.
+/// The columns of a table with a single row as facts, one below the other.
 std::vector<Fact> facts_of_row(const TableBlock& table) {
   std::vector<Fact> facts;
   for (const BlockColumn& column : table.columns)
@@ -73,7 +73,8 @@ std::vector<Fact> facts_of_row(const TableBlock& table) {
   return facts;
 }
 
-/// One that is too wide is several, each with the first column.
+/// The HTML of a table. A table with more than max_columns becomes several, each beginning with the first
+/// column; if it has a single row, it becomes a list of facts.
 std::string table_html(const TableBlock& table) {
   std::string html = table.title.empty() ? "" : fmt::format("<h3>{}</h3>\n", prose_markup(table.title));
   if (table.columns.empty()) return html;

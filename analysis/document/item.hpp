@@ -5,41 +5,41 @@
 #include <utility>
 #include <vector>
 
-/// Answers as data. An answer is a tree of items: named values, lists, tables, sentences and figures. Its
-/// description states each item once, with name, unit and meaning; text, JSON, CSV, Markdown, HTML and the
-/// JSON Schema follow from it.
+/// Answers as data. An answer is a tree of items: named values, lists, tables, sentences and figures. A
+/// description states each item once, with name, unit and meaning. Text, JSON, CSV, Markdown, HTML and the
+/// JSON Schema are generated from the description.
 namespace zerocount::document {
 
 enum class Kind {
   flag,      ///< true or false
   whole,     ///< a whole number
-  number,    ///< a floating-point number; unknown where it is not finite
+  number,    ///< a floating-point number; unknown if not finite
   text,      ///< a word or a name
   scalar,    ///< a floating-point number, or a text
-  list,      ///< values of members[0]
-  map,       ///< values by name, of members[0]
-  object,    ///< members
-  table,     ///< rows, of which the members are the columns
-  sections,  ///< rows, of which each is a section for people
+  list,      ///< values, each described by members[0]
+  map,       ///< values by name, each described by members[0]
+  object,    ///< members, described by Item::members
+  table,     ///< rows; Item::members describes the columns
+  sections,  ///< rows, each shown to people as a section
   headline,  ///< the answer in one sentence; "headline" in JSON
-  title,     ///< of a section, for people only
-  sentence,  ///< for people only
-  figure     ///< for people only
+  title,     ///< title of a section, for people only
+  sentence,  ///< sentences, for people only
+  figure     ///< figures, for people only
 };
 
-/// Where an item is shown. What has no key is shown to people only; a value without a heading is not shown to
-/// people.
+/// The formats that show an item. People read text, Markdown and HTML; data are JSON and CSV. An item without
+/// a key is shown to people only. A value without a heading is not shown to people.
 enum class Shown {
   everywhere,
-  in_data,      ///< in JSON and CSV only
-  in_json,      ///< in JSON only
-  in_csv,       ///< in CSV only: a column of what the JSON has in another form
-  not_in_json,  ///< in CSV and to people, likewise
-  not_in_csv,   ///< in JSON and to people: rows of a row
-  to_people     ///< in text, Markdown and HTML only
+  in_data,      ///< JSON and CSV only
+  in_json,      ///< JSON only
+  in_csv,       ///< CSV only: a column that JSON has in another form
+  not_in_json,  ///< CSV and people: a column that JSON has in another form
+  not_in_csv,   ///< JSON and people: rows inside a row
+  to_people     ///< text, Markdown and HTML only
 };
 
-/// For whom an answer is made: what others are shown is not computed.
+/// The readers for whom an answer is made. Items that only others are shown are not computed.
 enum class Audience { all, people, json, csv };
 
 /// Whether the audience is shown an item with this `shown`.
@@ -60,48 +60,50 @@ constexpr bool is_shown(Shown shown, Audience audience) {
   return true;
 }
 
-/// How a number is written for people. In JSON and CSV every number reads back to the same double.
+/// Format of a number for people. In JSON and CSV every number reads back to the same double.
 enum class Notation {
-  four_digits,    ///< 1.234e-05
-  three_digits,   ///< 1.23e-05
-  two_digits,     ///< 1.2e-05
-  exact,          ///< the shortest text that reads back to the same number
-  percent,        ///< of a proportion, with as many digits as tell it from 0 and 1 (text::percent_near)
-  given_percent,  ///< of a proportion that somebody chose: 95 % (text::percent)
-  change          ///< with its sign and one decimal: +0.4
+  four_digits,   ///< 1.234e-05
+  three_digits,  ///< 1.23e-05
+  two_digits,    ///< 1.2e-05
+  exact,         ///< the shortest text that reads back to the same number
+  percent,       ///< a proportion in per cent, with enough digits to differ from 0 and 1 (text::percent_near)
+  given_percent,  ///< a proportion that somebody chose, in per cent: 95 % (text::percent)
+  change          ///< a signed number with one decimal: +0.4
 };
 
 /// The description of one item of an answer.
 struct Item {
-  std::string key{};      ///< in JSON, CSV and Python; no two of a level are equal; empty for sentences
-  std::string heading{};  ///< for people: the name of a value, the head of a column, the title of a table
-  std::string meaning{};  ///< in the schema and in legends: a phrase without a full stop
-  std::string unit{};     ///< "1" where it is dimensionless; empty where there is none
+  std::string key{};      ///< Name in JSON, CSV and Python, unique in its level; empty for sentences.
+  std::string heading{};  ///< Name for people: of a value, a column or a table.
+  std::string meaning{};  ///< Description for the schema and for legends, a phrase without a full stop.
+  std::string unit{};     ///< "1" for dimensionless numbers; empty if a unit makes no sense
   Notation notation{Notation::four_digits};
   Shown shown{Shown::everywhere};
-  bool numeric{false};               ///< a text that stands in tables as numbers do: "> 1 s"
-  std::vector<std::string> words{};  ///< that a text can be; empty: any
-  std::string column{};              ///< name in CSV; empty: "<object>_<key>", without an object the key
-  bool optional{false};              ///< JSON has no such member where there is no content; else null
-  bool verbatim{false};              ///< a text whose lines are shown as they are, below the heading
-  bool free_keys{false};             ///< of an object: its members are alike, and a study gives their keys
-  bool common_above{false};          ///< of a table: what all its rows say alike is said once, above it
+  bool numeric{false};               ///< The text is aligned in tables like a number: "> 1 s".
+  std::vector<std::string> words{};  ///< All values that the text can have; empty: any text.
+  std::string column{};              ///< Name in CSV; empty: "<object>_<key>", or the key outside an object.
+  bool optional{false};              ///< Without content JSON omits the member; otherwise it is null.
+  bool verbatim{false};              ///< The lines of the text are shown verbatim below the heading.
+  bool free_keys{false};     ///< An object whose members are alike and whose keys depend on the study.
+  bool common_above{false};  ///< A table whose constant columns are shown once, above it.
 
-  /// For a member of a row: people see it in a table with this title, which stands below the table of the
-  /// rows. Members with the same title share the table. There an object gives its members as columns, and a
-  /// table gives its rows; their sentences follow, each behind the name of its row. Empty: the member stays
-  /// in the table of the rows, where an object without heading gives its members as columns.
+  /// For a member of a row: title of a separate table for people, below the table of the rows. Members with
+  /// the same title share the table. In it, the members of an object are columns and the rows of a table are
+  /// rows; sentences follow below, each after the name of its row. Empty: the member stays in the table of
+  /// the rows, and the members of an object without heading are columns there.
   std::string own_table{};
-  std::string note{};     ///< for people: sentences below its table
-  bool names_row{false};  ///< of a member of a row: it is the first column of those tables, and of no other
+  std::string note{};     ///< Sentences for people below the separate table (own_table).
+  bool names_row{false};  ///< The member is the first column of the separate tables, and of no other table.
 
   // Description sets the members below.
 
   Kind kind{Kind::sentence};
-  std::optional<Kind> kind_for_people{};  ///< where it is shown as something else (Description::shown_as)
+  std::optional<Kind> kind_for_people{};  ///< Kind shown to people if it differs (Description::shown_as).
   bool bounded{false};                    ///< a number with bounds, "<key>_low" and "<key>_high"
   bool nullable{false};                   ///< may be without content
-  std::vector<Item> members{};  ///< of an object, a table, sections or their rows; [0] of a list and a map
+  /// Members of an object, or columns of the rows of a table or sections. For a list and a map [0] describes
+  /// each element.
+  std::vector<Item> members{};
 };
 
 /// An item that is shown in all formats.
@@ -123,7 +125,7 @@ inline Item in_data(std::string key, std::string meaning, std::string unit = {})
       .key = std::move(key), .meaning = std::move(meaning), .unit = std::move(unit), .shown = Shown::in_data};
 }
 
-/// An item that is text, of which these are all words.
+/// The item with Item::words set. @param words all values that the text can have
 inline Item with_words(Item item, std::vector<std::string> words) {
   item.words = std::move(words);
   return item;

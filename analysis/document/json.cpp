@@ -25,7 +25,7 @@ class JsonWriter {
     close('}');
   }
 
-  /// The answer without its last line break.
+  /// Writes the answer without its last line break.
   void answer(const Answer& answer) {
     open('{');
     key("answer");
@@ -128,7 +128,7 @@ class JsonWriter {
     is_empty_ = true;
   }
 
-  /// Before each member or element.
+  /// Begins a member or an element: writes the comma and the line break before it.
   void next() {
     constexpr std::size_t piece = 1 << 16;
     if (!is_empty_) text_ += ',';
@@ -153,9 +153,9 @@ class JsonWriter {
   int indent_;
   const TakeText& take_;
   const Item* item_{nullptr};
-  std::string text_;  ///< that is not taken yet
+  std::string text_;  ///< text not yet passed to take_
   int depth_{0};
-  bool is_empty_{true};  ///< nothing stands behind the bracket that was opened last
+  bool is_empty_{true};  ///< whether the object or list opened last has no member yet
 };
 
 }  // namespace

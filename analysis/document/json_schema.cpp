@@ -34,7 +34,7 @@ Json object_schema(const std::vector<Item>& items) {
   return schema;
 }
 
-/// The schema of a value of the item's kind, which is there.
+/// The schema of the item's content by its kind, before Item::nullable is applied.
 Json kind_schema(const Item& item) {
   switch (item.kind) {
     case Kind::flag:

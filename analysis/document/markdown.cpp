@@ -34,7 +34,7 @@ std::string escaped_line(std::string_view text) {
   return line;
 }
 
-/// A paragraph of each line.
+/// The text with each line as a paragraph; blank lines are dropped.
 std::string paragraphs(std::string_view text) {
   std::string paragraphs;
   while (!text.empty()) {

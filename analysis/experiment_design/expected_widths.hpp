@@ -12,14 +12,15 @@
 #include "core/trial/parameters.hpp"
 #include "experiments/study/study.hpp"
 
-/// The only place that knows how `identify` reads and fits a record.
+/// Expected results of `identify` on simulated records. This is the only place that depends on how `identify`
+/// reads and fits a record.
 namespace zerocount::experiment_design {
 
 /// A machine that the manifest allows. Its contact is unloaded and virgin at the start.
 struct Machine {
   parameters::AxisKind axis{parameters::AxisKind::rotary};
   trial::TrialParameters parameters;
-  fit::ContactParameters contact;  ///< where the test is made
+  fit::ContactParameters contact;  ///< Parameters of the contact at the position of the test.
 };
 
 /// The machine with the median of each quantity that the manifest draws.
@@ -31,28 +32,28 @@ std::vector<Machine> drawn_machines(const study::Study& study, std::int64_t poin
 
 /// The record of a machine under a protocol.
 struct SimulatedRecord {
-  std::vector<std::int64_t> counts;  ///< [sample] of the fine encoder
-  std::vector<double> angle;         ///< [sample] of the rotor, rad
-  double travel{0.0};                ///< largest |angle|, rad
-  bool slid{false};                  ///< the friction broke away
+  std::vector<std::int64_t> counts;  ///< [sample] Count of the fine encoder.
+  std::vector<double> angle;         ///< [sample] Angle of the rotor, rad.
+  double travel{0.0};                ///< Largest |angle|, rad.
+  bool slid{false};                  ///< True if the friction broke away.
 };
 
 /// Runs a trial of core under the protocol, with all errors of encoder and converter that the manifest has.
 SimulatedRecord simulate(const Machine& machine, const TorqueProtocol& protocol);
 
 /// Half-widths of the 95 % intervals of the parameters with a manifest key, in the order of
-/// fit::coordinate_keys: of the logarithm, of n itself. Infinite for what the machine does not
-/// have (creep).
+/// fit::coordinate_keys. They refer to the logarithm of the parameter, for n to the parameter itself.
+/// Infinite for parameters that the machine does not have (creep).
 using Widths = std::vector<double>;
 
-/// The record as `identify` would read it from a file.
+/// The simulated record as `identify` would read it from a file.
 /// @throws Failure (bad_data) if `identify` would refuse it.
 fit::TestRecord test_record_of(const Machine& machine, const TorqueProtocol& protocol,
                                const SimulatedRecord& simulated);
 
-/// How narrow the parameters come out by the linear theory: mean of the logarithms of the standard deviations
-/// of ln k1, ln k2, ln β, ln c, ln J, ln α, ln λ and n, from the information matrix at the machine's own
-/// parameters.
+/// Criterion for the precision of the parameters by linear theory: mean of the logarithms of the standard
+/// deviations of ln k1, ln k2, ln β, ln c, ln J, ln α, ln λ and n. They follow from the information matrix at
+/// the machine's own parameters.
 double log_spread(const Machine& machine, const TorqueProtocol& protocol, const SimulatedRecord& simulated);
 
 /// The widths of the intervals that `identify` would report, by replicates of the readings in the model

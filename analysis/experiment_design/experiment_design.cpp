@@ -72,7 +72,7 @@ double guess_of(const fit::ContactParameters& contact, std::size_t parameter) {
   return values[parameter];
 }
 
-/// Half-width over value.
+/// Relative half-width of the interval of a parameter: half-width over value.
 double relative_width(std::size_t parameter, double width, const fit::ContactParameters& contact) {
   return parameter == fit::creep_exponent ? width / contact.friction.n : std::sinh(width);
 }

@@ -15,24 +15,26 @@ namespace zerocount::experiment_design {
 
 struct DesignSettings {
   std::int64_t point{0};
-  double duration{10.0};   ///< s
-  double max_torque{0.7};  ///< proportion of the smallest breakaway torque of the machines
-  double max_travel{std::numeric_limits<double>::infinity()};  ///< rad
-  std::int64_t machines{16};                                   ///< besides the median one
+  double duration{10.0};  ///< Duration of the record, s.
+  /// Largest torque as a proportion of the smallest breakaway torque of the machines.
+  double max_torque{0.7};
+  double max_travel{std::numeric_limits<double>::infinity()};  ///< Largest allowed |angle|, rad.
+  std::int64_t machines{16};  ///< Number of machines besides the median machine.
   SearchSettings search;
   fit::StageReport report{};
 };
 
 /// Expected estimate of a parameter.
 struct ExpectedParameter {
-  std::string key;               ///< in a manifest
-  std::string unit;              ///< on this kind of axis
-  double guess{0.0};             ///< of the median machine
-  fit::ParameterEstimate found;  ///< from the simulated record of the median machine
-  /// Narrowest and widest relative half-width of the interval over the machines on which it can be told.
+  std::string key;               ///< Manifest key of the parameter.
+  std::string unit;              ///< Unit on this kind of axis.
+  double guess{0.0};             ///< Value of the median machine.
+  fit::ParameterEstimate found;  ///< Estimate from the simulated record of the median machine.
+  /// Narrowest relative half-width of the interval over the machines on which the parameter can be
+  /// identified.
   double narrowest{0.0};
-  double widest{0.0};
-  std::int64_t told{0};  ///< on how many of the machines
+  double widest{0.0};    ///< Widest relative half-width of the interval over these machines.
+  std::int64_t told{0};  ///< Number of machines on which the parameter can be identified.
 };
 
 /// A designed experiment.
@@ -42,12 +44,12 @@ struct ExperimentDesign {
   ProtocolShape shape;
   std::vector<ProtocolSegment> segments;
   TorqueProtocol protocol;
-  double least_breakaway{0.0};  ///< N m, of all machines
-  double travel{0.0};           ///< largest |angle| on any machine, rad
-  std::int64_t machines{0};     ///< with the median one
+  double least_breakaway{0.0};  ///< Smallest breakaway torque of all machines, N m.
+  double travel{0.0};           ///< Largest |angle| on any machine, rad.
+  std::int64_t machines{0};     ///< Number of machines, including the median machine.
   SearchResult search;
   Machine median;
-  SimulatedRecord record;  ///< of the median machine
+  SimulatedRecord record;  ///< Simulated record of the median machine.
   fit::Identification identification;
   std::vector<ExpectedParameter> parameters;
 };

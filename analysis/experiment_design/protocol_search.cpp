@@ -16,7 +16,7 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// [axis] the place on its grid.
+/// [axis] Index of the value on the axis' grid.
 using GridPoint = std::vector<std::size_t>;
 
 ProtocolShape shape_at(const GridPoint& point) {
@@ -37,7 +37,7 @@ GridPoint first_point() {
   return point;
 }
 
-/// Why a record is not safe; empty if it is.
+/// Reason why a record is not safe; empty if it is safe.
 std::string danger_in(const SearchProblem& problem, const SimulatedRecord& record) {
   if (record.slid) return "a machine breaks away";
   if (record.travel <= problem.max_travel) return "";
@@ -78,7 +78,8 @@ class ProtocolSearch {
     result_.improvements.push_back({shape_at(best_), best_spread_});
   }
 
-  /// One change to each property, up or down. @returns whether any was better.
+  /// Tries to change each property by one step, up or down.
+  /// @returns whether any change was better.
   bool improve_once() {
     bool improved = false;
     for (std::size_t axis = 0; axis < best_.size(); ++axis) {
@@ -128,7 +129,7 @@ class ProtocolSearch {
     return entry->second;
   }
 
-  /// Infinite where `identify` would refuse the record of a machine.
+  /// Mean of log_spread() over the judged machines; infinite if `identify` would refuse the record of one.
   double mean_spread(const TorqueProtocol& protocol) {
     const std::size_t count = std::min(problem_.judging, problem_.machines.size());
     std::vector<double> spreads(count, infinite);

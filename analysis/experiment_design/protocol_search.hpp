@@ -17,14 +17,16 @@ namespace zerocount::experiment_design {
 /// Dynamic System Identification, 1977, chapter 6, and Ljung, System Identification, 1999, chapter 13.
 struct SearchProblem {
   ProtocolFrame frame;
-  std::span<const Machine> machines;  ///< on all of them a protocol must be safe
-  std::size_t judging{4};             ///< the first so many machines have the criterion
-  double max_travel{0.0};             ///< rad; infinite: no limit
+  std::span<const Machine> machines;  ///< Machines; a protocol must be safe on all of them.
+  /// Number of machines, from the first on, over which the criterion is averaged.
+  std::size_t judging{4};
+  double max_travel{0.0};  ///< Largest allowed |angle|, rad; infinite: no limit.
 };
 
 struct SearchSettings {
   int max_protocols{80};
-  /// Asked before each protocol, with the number of those before; may be empty.
+  /// Called before each protocol with the number of protocols already examined. The search ends if it returns
+  /// false. May be empty.
   std::function<bool(int)> go_on{};
 };
 
@@ -35,10 +37,10 @@ struct JudgedShape {
 };
 
 struct SearchResult {
-  std::vector<JudgedShape>
-      improvements;       ///< the first safe shape, then each better one; the last is the best
-  int protocols{0};       ///< examined
-  bool converged{false};  ///< no single change of the shape is better
+  /// The first safe shape, then each better one; the last is the best.
+  std::vector<JudgedShape> improvements;
+  int protocols{0};       ///< Number of examined protocols.
+  bool converged{false};  ///< True if no single change of the shape is better.
 };
 
 /// Searches by coordinate exchange (Meyer & Nachtsheim, Technometrics 37 (1995) 60): one property after the
@@ -46,10 +48,10 @@ struct SearchResult {
 /// @throws Failure (bad_input) with the last reason if even the smallest protocol is not safe.
 SearchResult search_protocol(const SearchProblem& problem, const SearchSettings& settings);
 
-/// How a protocol does on all machines.
+/// Safety of a protocol on all machines.
 struct Safety {
-  std::string danger{};  ///< why it is not safe; empty if it is
-  double travel{0.0};    ///< largest |angle|, rad
+  std::string danger{};  ///< Reason why the protocol is not safe; empty if it is safe.
+  double travel{0.0};    ///< Largest |angle| on any machine, rad.
 };
 
 Safety safety_of(const SearchProblem& problem, const TorqueProtocol& protocol);

@@ -20,41 +20,43 @@ namespace zerocount::experiment_design {
 /// A protocol within a family: pulses of the torque with their ring-downs, ramps with reversals, two holds.
 /// Levels are fractions of the largest torque that is allowed.
 struct ProtocolShape {
-  double amplitude{0.55};     ///< largest level of ramps and holds
-  double pulse{0.25};         ///< level of the pulses
-  double pulses{2.0};         ///< number of them; each steps up, rings down, steps back and rings down
-  double reversals{4.0};      ///< of the ramps
-  double nesting{0.8};        ///< magnitude of a reversal over that of the one before
-  double ramp_time{0.3};      ///< of the time beside the pulses; the rest are holds
-  double low_hold{0.5};       ///< level of the first hold over the amplitude
-  double high_hold{1.0};      ///< level of the second hold over the amplitude
-  double low_hold_time{0.5};  ///< of the time of both holds
-  double holds_first{0.0};    ///< 1: before the ramps
+  double amplitude{0.55};  ///< Largest level of ramps and holds.
+  double pulse{0.25};      ///< Level of the pulses.
+  double pulses{2.0};      ///< Number of pulses. Each steps up, rings down, steps back and rings down.
+  double reversals{4.0};   ///< Number of reversals of the ramps.
+  double nesting{0.8};     ///< Ratio of the magnitudes of successive reversals.
+  /// Ramp time as a proportion of the time without the pulses; the rest are holds.
+  double ramp_time{0.3};
+  double low_hold{0.5};       ///< Level of the first hold as a proportion of the amplitude.
+  double high_hold{1.0};      ///< Level of the second hold as a proportion of the amplitude.
+  double low_hold_time{0.5};  ///< Time of the first hold as a proportion of the time of both holds.
+  double holds_first{0.0};    ///< 1: the holds come before the ramps.
 };
 
 /// A property of the shape, and the values that a search tries.
 struct ShapeAxis {
   double ProtocolShape::*property;
-  std::vector<double> values;  ///< ascending
+  std::vector<double> values;  ///< Values in ascending order.
 };
 
 const std::vector<ShapeAxis>& shape_axes();
 
 /// The frame that a shape fills.
 struct ProtocolFrame {
-  parameters::AxisKind axis{parameters::AxisKind::rotary};  ///< whose units messages have
+  /// Kind of the axis, which sets the units in messages.
+  parameters::AxisKind axis{parameters::AxisKind::rotary};
   loop::DacParameters dac;
   double sample_time{5e-4};  ///< T, s
-  double max_torque{0.0};    ///< N m
-  std::int64_t samples{0};   ///< of the whole record, at least min_samples()
-  /// In which an oscillation has died out: after each edge of a pulse, and the least of a ramp, which is to
-  /// be slow.
+  double max_torque{0.0};    ///< Largest allowed torque, N m.
+  std::int64_t samples{0};   ///< Number of samples of the whole record, at least min_samples().
+  /// Number of samples in which an oscillation dies out. Each edge of a pulse is followed by as many samples.
+  /// It is also the shortest length of a ramp, because ramps must be slow.
   std::int64_t ring_down_samples{0};
 };
 
-/// A monotonic part of a protocol: from the torque before it linearly to `to`.
+/// A monotonic part of a protocol: the torque changes linearly from its previous value to `to`.
 struct ProtocolSegment {
-  double to{0.0};  ///< N m
+  double to{0.0};  ///< Torque at the end of the part, N m.
   std::int64_t samples{1};
 };
 
@@ -62,7 +64,7 @@ struct ProtocolSegment {
 struct TorqueProtocol {
   double sample_time{5e-4};  ///< T, s
   std::vector<std::int64_t> codes;
-  std::vector<double> torque;  ///< [sample] code·Δu, N m
+  std::vector<double> torque;  ///< [sample] Torque code·Δu, N m.
 };
 
 /// The parts of a protocol, in order, with frame.samples samples in all.

@@ -25,9 +25,11 @@ using Point = Eigen::VectorXd;
 /// A reported quantity: a linear or nearly linear function of the coordinates.
 struct Quantity {
   std::string name;
-  std::string key;         ///< of its parameter in a manifest; empty: none
-  std::string unit;        ///< on a rotary axis
-  double value{0.0};       ///< at the fit: its logarithm, or itself
+  /// Manifest key of the parameter. Empty if a manifest has no such parameter.
+  std::string key;
+  std::string unit;  ///< Unit of the parameter on a rotary axis.
+  /// Value at the fit: the logarithm of the quantity if `logarithmic`, otherwise the quantity itself.
+  double value{0.0};
   Eigen::VectorXd slope;   ///< derivatives of `value` with respect to the coordinates
   bool logarithmic{true};  ///< whether `value` is a logarithm
 };
@@ -39,7 +41,8 @@ Quantity coordinate_quantity(const std::string& name, const std::string& key, co
 /// The time offset, the last coordinate.
 Quantity time_offset_quantity(const Point& point);
 
-/// Value and 95 % interval of a quantity, on its own scale (see Quantity::value).
+/// Value and 95 % interval of a quantity, on the scale of Quantity::value: a logarithm if
+/// Quantity::logarithmic.
 struct QuantityEstimate {
   double value{0.0};
   double standard_error{0.0};
@@ -49,13 +52,13 @@ struct QuantityEstimate {
   double half_width() const { return 0.5 * (high - low); }
 };
 
-/// The interval of a quantity from the errors of replicates of the fit, multiplied by `widening` about their
-/// mean.
-/// @param errors [replicate, coordinate]; further columns are left out
+/// The 95 % interval of a quantity, from the errors of replicates of the fit. The errors are first multiplied
+/// by `widening` about their mean.
+/// @param errors [replicate, coordinate]; further columns are ignored
 QuantityEstimate interval_of_errors(const Quantity& quantity, const Eigen::MatrixXd& errors, double widening);
 
-/// Largest half-width of a 95 % interval of a quantity that the records determine: of a logarithm a factor of
-/// two to each side, of n or the time offset (samples) 1.
+/// Largest half-width of a 95 % interval with which a quantity counts as determined by the records. For a
+/// logarithm it is 0.7, a factor of two to each side. For n and for the time offset (samples) it is 1.
 inline double max_half_width(bool logarithmic) {
   return logarithmic ? 0.7 : 1.0;
 }
@@ -79,30 +82,33 @@ struct AxisParameters {
 
 /// The values of a coordinate that a fit may try.
 struct CoordinateRange {
-  double max_decrease{std::numeric_limits<double>::infinity()};  ///< from the mean of its prior
+  /// Largest decrease below the mean of the prior.
+  double max_decrease{std::numeric_limits<double>::infinity()};
+  /// Largest increase above the mean of the prior.
   double max_increase{std::numeric_limits<double>::infinity()};
   double low{-std::numeric_limits<double>::infinity()};
   double high{std::numeric_limits<double>::infinity()};
 };
 
-/// A friction law as a function of coordinates that are fitted, and what is reported of a fit. Its motion is
-/// that of core's Plant.
+/// A friction law as a function of the fitted coordinates, and the quantities that are reported of a fit. The
+/// motion is simulated by core's Plant.
 struct FitModel {
   friction::FrictionModel law{friction::FrictionModel::presliding};
-  std::vector<CoordinateRange> ranges;  ///< with that of the time offset, the last one
-  FreeCoordinates free;                 ///< [coordinate] false for one that the law does not have
+  /// [coordinate] range of each coordinate; the last one is the range of the time offset.
+  std::vector<CoordinateRange> ranges;
+  FreeCoordinates free;  ///< [coordinate] False for a coordinate that the law does not have.
   std::function<AxisParameters(const Point&)> parameters_at;
   /// Compliance of a fixture in series with the contact, rad/(N m); empty: none.
   std::function<double(const Point&)> series_compliance{};
   std::function<std::vector<Quantity>(const Point&)> quantities_at;
   std::vector<Point> starts{};  ///< starting points of the fit
-  /// Lines below `friction:` in a manifest for what is not fitted, with the units of a rotary axis; may be
-  /// empty.
+  /// Lines below `friction:` in a manifest for the parameters that are not fitted, with the units of a rotary
+  /// axis. They may be empty.
   std::function<std::string(const Point&)> fixed_lines{};
   /// The line `sliding_damping` below `plant:` where the records do not determine it; empty: no such line.
   std::string plant_lines{};
-  /// Samples simulated with this model and its copies, each weighted by the steps that a fast rotor needs in
-  /// it. The same for any number of threads.
+  /// Number of samples simulated with this model and its copies. A sample is weighted by the integration
+  /// steps that a fast rotor needs in it. The number does not depend on the number of threads.
   std::shared_ptr<std::atomic<std::int64_t>> simulated{std::make_shared<std::atomic<std::int64_t>>(0)};
 };
 
@@ -121,29 +127,32 @@ double fastest_rate(const AxisParameters& parameters);
 
 /// Modelled motion of a record.
 struct RecordMotion {
-  Eigen::VectorXd path;         ///< [sample] angle since the first sample, in the record's unit
-  Eigen::MatrixXd sensitivity;  ///< [sample, coordinate] its derivatives; 0 for coordinates that are not free
+  Eigen::VectorXd path;  ///< [sample] angle since the first sample, in the record's unit
+  /// [sample, coordinate] Derivatives of `path`; 0 for coordinates that are not free.
+  Eigen::MatrixXd sensitivity;
 };
 
-/// The path of a record, simulated to 0.01 of the record's unit. When only creep moves the rotor in a long
-/// hold of an evenly sampled record, the steps are longer and the samples are interpolated by cubics.
+/// Path of a record, simulated to 0.01 of the record's unit. In a long hold of an evenly sampled record, once
+/// only creep moves the rotor, the steps are longer and the samples are interpolated by cubics.
 Eigen::VectorXd modelled_path(const TestRecord& record, const FitModel& model, const Point& point);
 
-/// The motions of all records, with derivatives by forward differences, that with respect to the time offset
-/// from the velocity. Simulated in parallel.
-/// @param known empty, or these motions with their paths and the derivatives by the time offset alone
+/// Motions of all records with their derivatives. The derivative with respect to the time offset comes from
+/// the velocity, the others are forward differences. The records are simulated in parallel.
+/// @param known empty, or the motions at this point with their paths and only the derivatives with respect to
+/// the time offset
 std::vector<RecordMotion> modelled_motions(Records records, const FitModel& model, const Point& point,
                                            const FreeCoordinates& free, std::vector<RecordMotion> known = {});
 
 /// Samples that simulating all records at a point adds to FitModel::simulated.
 std::int64_t samples_of_paths(Records records, const FitModel& model, const Point& point);
 
-/// True if a fit whose prior has the mean `prior` may try the point: all coordinates within their ranges, and
-/// the motion at most 20 times as fast as the sampling, or twice as fast as that of the prior.
+/// True if a fit whose prior has the mean `prior` may try the point. All coordinates must be within their
+/// ranges. The motion must be at most 20 times as fast as the sampling, or at most twice as fast as the
+/// motion at `prior`.
 bool is_within_reach(Records records, const FitModel& model, const Point& prior, const Point& point);
 
-/// True if the motion is at most `max_rate` times as fast as the sampling of every record. A faster one takes
-/// long to simulate, and cannot be told from the records.
+/// True if the motion is at most `max_rate` times as fast as the sampling of every record. A faster motion
+/// takes long to simulate, and the records do not determine it.
 bool is_sampled(Records records, const FitModel& model, const Point& point, double max_rate = 20.0);
 
 }  // namespace zerocount::fit

@@ -212,9 +212,9 @@ double counting_noise(const TestRecord& record, const Eigen::VectorXd& path,
 
 namespace {
 
-/// Σ w·q² over the edges that slow motion passes, where q = e₋ − 2e + e₊ of three successive edges without a
-/// turn between them, e is the distance of an edge from the path, and w = 1/Var(q) if the
-/// noise were 0.03 counts.
+/// Σ w·q² over the edges that slow motion passes. Here q = e₋ − 2e + e₊ is the second difference of the
+/// distances e of three successive edges from the path, without a reversal between them. For an assumed noise
+/// of 0.03 counts the weight w is 1/Var(q).
 struct EdgeDifferences {
   double squares{0.0};
   double weight{0.0};
@@ -227,9 +227,9 @@ constexpr double typical_noise = 0.03;        // counts
 
 /// An edge between two samples.
 struct PassedEdge {
-  double distance;  ///< from the path, counts
-  double travel;    ///< of the path between the samples, counts, with its sign
-  double variance;  ///< without noise, counts²
+  double distance;  ///< Distance of the edge from the path, counts.
+  double travel;    ///< Signed travel of the path between the two samples, counts.
+  double variance;  ///< Variance of the edge position without noise, counts².
 };
 
 void add_edges(const TestRecord& record, const Eigen::VectorXd& path, const Eigen::VectorXd& readings,

@@ -54,22 +54,25 @@ auto mean_over(const AngleObservation& observation, const Values& values) {
   return values.middleRows(first, count).colwise().mean();
 }
 
-/// Noise of counts (standard deviation in counts, before rounding), estimated from the differences of
-/// readings one or two samples apart beside the rotor's travel; 0 if an encoder without noise explains them.
-/// Slow deviations from `path` have little influence. Masked and single wrong readings are not used.
+/// Noise of counts: the standard deviation in counts before rounding. It is estimated from the differences of
+/// readings one or two samples apart, compared with the rotor's travel. 0 if an encoder without noise
+/// explains them. Slow deviations from `path` have little influence. Masked and single wrong readings are not
+/// used.
 double counting_noise(const TestRecord& record, const Eigen::VectorXd& path, const Eigen::VectorXd& readings);
 
-/// Noise of counts of one encoder, estimated from the edges that slow motion passes: by the second
-/// differences of their distances from the paths, beside those of readings without noise. It shows noise that
-/// is too small for counting_noise(), but not in fast motion.
-/// @param unit size of its count, rad or m. Other records are not used. @returns counts; 0 if an encoder
-/// without noise explains the edges.
+/// Noise of counts of one encoder, estimated from the edges that slow motion passes. The second differences
+/// of their distances from the paths are compared with the second differences for readings without noise. The
+/// method finds noise that is too small for counting_noise(), but it does not work in fast motion.
+/// @param unit size of the encoder's count, rad or m. Records with another unit are not used.
+/// @returns standard deviation in counts; 0 if an encoder without noise explains the edges.
 double edge_noise(Records records, const FittedModel& model, double unit);
 
-/// [record] Noise of the readings in the record's unit: of counts by counting_noise(), of others the misfit.
+/// [record] Noise of the readings in the record's unit. For counts it is counting_noise(), for other readings
+/// the misfit.
 ///
-/// Records with the same count come from the same encoder. One that is too short or too fast to show noise
-/// has the smallest noise of the others; if none shows any, all have their edge_noise().
+/// Records with the same size of a count come from the same encoder. A record that is too short or too fast
+/// to show noise gets the smallest noise of the encoder's other records. If none shows any, all of them get
+/// edge_noise().
 std::vector<double> noise_along(Records records, const FittedModel& model);
 
 }  // namespace zerocount::fit

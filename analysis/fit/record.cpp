@@ -82,7 +82,8 @@ class RecordRun {
     }
   }
 
-  /// From one event to the next: a reading, or a change of the torque.
+  /// Simulates unevenly sampled records from event to event. An event is a reading, or a change of the
+  /// torque.
   void run_uneven() {
     double now = delay_ * record_.sample_time;  // when the first torque begins
     double begin = now;                         // of the torque's interval
@@ -112,7 +113,7 @@ class RecordRun {
     return static_cast<std::size_t>(std::clamp(duration / record_.sample_time, 1.0, 1e9));
   }
 
-  /// The torque over an interval; the last one stays.
+  /// Torque over an interval. After the last interval the last torque stays.
   const motion::TorqueCourse& torque_of(std::ptrdiff_t interval) const {
     return record_.torque[static_cast<std::size_t>(
         std::min(interval, static_cast<std::ptrdiff_t>(record_.torque.size()) - 1))];
@@ -123,7 +124,8 @@ class RecordRun {
     path_.velocity[k] = plant_.omega() * record_.sample_time / record_.unit;
   }
 
-  /// From the fraction of one interval to that of the next.
+  /// Advances the plant by one sample, from the reading's fraction of one torque interval to that of the
+  /// next.
   void advance_sample(std::ptrdiff_t interval) {
     const motion::TorqueCourse& torque = torque_of(interval);
     if (fraction_ == 0.0 || same_torque(interval + 1)) {

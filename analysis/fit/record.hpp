@@ -15,29 +15,30 @@
 
 namespace zerocount::fit {
 
-/// A part with a monotonic torque, from sample `first` to sample `last`.
+/// A part of a record with a monotonic torque, from sample `first` to sample `last`.
 struct LoadingBranch {
   std::size_t first{0};
   std::size_t last{0};
-  double from{0.0};  ///< N m; 0 before the first sample
-  double to{0.0};    ///< N m
+  double from{0.0};  ///< Torque at the beginning, N m; 0 before the first sample.
+  double to{0.0};    ///< Torque at the end, N m.
   /// True if the rotor follows without oscillation: 20 samples or more, over at least 20 % of the range.
   bool slow{false};
 };
 
-/// A part with a constant torque, from sample `first` to sample `last`.
+/// A part of a record with a constant torque, from sample `first` to sample `last`.
 struct TorqueHold {
   std::size_t first{0};
   std::size_t last{0};
-  double torque{0.0};      ///< N m
-  double from{0.0};        ///< torque 8 samples before the hold, N m
-  bool rings_down{false};  ///< begins with a ring-down: the torque changed by 5 % of the range since `from`
+  double torque{0.0};  ///< Torque during the hold, N m.
+  double from{0.0};    ///< Torque 8 samples before the hold, N m.
+  /// True if the hold begins with a ring-down: the torque has changed by 5 % of its range since `from`.
+  bool rings_down{false};
 };
 
 /// The parts of a record, found from its torque. Percentages are of the range of the torque.
 struct RecordParts {
   std::vector<LoadingBranch> branches;  ///< consecutive; torque reversals below 2 % of the range are ignored
-  std::vector<TorqueHold> holds;        ///< of 20 samples or more
+  std::vector<TorqueHold> holds;        ///< Holds of 20 samples or more.
 
   /// Number of torque reversals.
   std::size_t reversals() const { return branches.empty() ? 0 : branches.size() - 1; }
@@ -46,28 +47,29 @@ struct RecordParts {
   std::size_t ring_downs() const;
 };
 
-/// One checked material test: the motor torque and the encoder reading at each sample. Of a linear axis read
-/// force for torque and position for angle, N for N m and m for rad, here and in all that is fitted to it.
+/// One checked material test: the motor torque and the encoder reading at each sample. For a linear axis read
+/// force for torque, position for angle, N for N m and m for rad. This holds here and for everything that is
+/// fitted to the record.
 struct TestRecord {
   std::string name;  ///< name in messages
   parameters::AxisKind axis{parameters::AxisKind::rotary};
-  double sample_time{5e-4};                  ///< T, s; of uneven samples the mean
-  double first_time{0.0};                    ///< of the first sample, as recorded, s
-  std::vector<double> intervals{};           ///< [sample] until the next one, s; empty: T each
-  std::vector<motion::TorqueCourse> torque;  ///< [sample] from t_k to t_{k+1}
-  /// Samples by which the torque acts later than at its sample, from 0 to below 1: the fraction of a delay.
+  double sample_time{5e-4};                  ///< Sampling interval T, s. For uneven samples: the mean.
+  double first_time{0.0};                    ///< Recorded time of the first sample, s.
+  std::vector<double> intervals{};           ///< [sample] Time to the next sample, s. Empty: T for each.
+  std::vector<motion::TorqueCourse> torque;  ///< [sample] Torque from t_k to t_{k+1}.
+  /// Fractional part of the torque's delay, samples, in [0, 1).
   double delay_fraction{0.0};
   std::vector<double> reading;  ///< [sample] angle at t_k, in `unit`
-  double unit{1.0};             ///< of the readings, rad; for counts one count
+  double unit{1.0};             ///< Unit of the readings, rad: the size of a count if they are counts.
   /// True if the readings are whole counts: the angle is somewhere in [reading, reading + 1).
   bool counted{false};
   std::vector<bool> excluded{};  ///< [sample] masked readings; empty: none
-  /// [sample] The readings as recorded; empty: as `reading`, which has straight lines in place of masked
-  /// ones.
+  /// [sample] Readings as recorded. Empty if they equal `reading`. In `reading`, straight lines replace
+  /// masked readings.
   std::vector<double> recorded{};
-  std::string note{};        ///< what was cut out of it; empty: nothing
+  std::string note{};        ///< Note on what was cut out of the record; empty if nothing was.
   motion::PlantStart start;  ///< state of the contact at the first sample
-  RecordParts parts;         ///< parts_of() the record, which identify() sets
+  RecordParts parts;         ///< Parts found by parts_of(); identify() sets them.
 };
 
 inline std::size_t sample_count(const TestRecord& record) {
@@ -132,16 +134,17 @@ struct SampledPath {
 /// Steps of several samples in a long hold of an evenly sampled record, where only creep moves the rotor. By
 /// default there are none.
 struct LongSteps {
-  double settled_after{1e9};  ///< time after the last change of the torque from which they are taken, s
-  double longest{0.0};        ///< s
+  /// Time after the last change of the torque from which long steps are taken, s.
+  double settled_after{1e9};
+  double longest{0.0};  ///< Longest step, s.
 };
 
 /// The motion of a plant along a record, at every sample.
 ///
-/// The torque acts `offset` samples later than recorded, and later by the record's delay_fraction; of uneven
-/// samples, so many mean intervals. That is the same as readings so much earlier: a fraction of a sample
-/// places each reading between two changes of the torque. Before its first torque the rotor rests; after the
-/// last one the torque stays.
+/// The torque acts later than recorded by `offset` and the record's delay_fraction, in samples; for uneven
+/// samples, in mean intervals. This is equivalent to readings that are earlier by the same time: a fraction
+/// of a sample places each reading between two changes of the torque. Before the first torque the rotor
+/// rests; after the last one the torque stays.
 SampledPath sampled_path(const TestRecord& record, plant::Plant plant, double offset,
                          const LongSteps& steps = {});
 

@@ -16,20 +16,22 @@ namespace zerocount::fit {
 /// The report of all kinds of identification, and its description in their answers.
 
 enum class EstimateStatus {
-  estimated,        ///< from the records
-  known,            ///< given by the user
-  kept,             ///< the records do not determine it, and the fit kept the given value
+  estimated,  ///< The value comes from the records.
+  known,      ///< The user has given the value.
+  /// The records do not determine the parameter, and the fit was repeated with a fixed value. Only the time
+  /// offset is kept, at 0: the torque acts with the delay that the record states.
+  kept,
   not_identifiable  ///< the records do not determine it
 };
 
-/// Estimate of one parameter in its own unit, with its 95 % interval; all four numbers are NaN if it is not
-/// identifiable, and the standard error is 0 if it is known or kept.
+/// Estimate of one parameter in its own unit, with the 95 % interval. All four numbers are NaN if the
+/// parameter is not identifiable. The standard error is 0 if the parameter is known or kept.
 struct ParameterEstimate : QuantityEstimate {
   std::string name;
-  std::string key;  ///< in a manifest; empty: it has none
+  std::string key;  ///< Manifest key of the parameter; empty if it has none.
   std::string unit;
   EstimateStatus status{EstimateStatus::not_identifiable};
-  std::string reason{};  ///< why it is not identifiable, or kept
+  std::string reason{};  ///< Reason why the parameter is not identifiable, or was kept.
 };
 
 inline bool is_estimated(const ParameterEstimate& parameter) {
@@ -43,24 +45,25 @@ void leave_open(ParameterEstimate& parameter, std::string reason);
 struct FitReport {
   parameters::AxisKind axis{parameters::AxisKind::rotary};
   std::vector<ParameterEstimate> parameters;
-  std::string fragment;  ///< see fragment_text()
+  std::string fragment;  ///< Fragment of a manifest, see fragment_text().
 };
 
-/// A record, and what was left out of it.
+/// Name and size of a record, and the readings that were left out of it.
 struct RecordExtent {
   std::string name;
   parameters::AxisKind axis{parameters::AxisKind::rotary};
   std::size_t samples{0};
   std::size_t excluded{0};  ///< masked samples
-  std::string note{};       ///< what was cut out of it; empty: nothing
+  std::string note{};       ///< Note on what was cut out of the record; empty if nothing was.
 };
 
 RecordExtent extent_of(const TestRecord& record);
 
-/// An estimate: its name, key, unit and status, and its numbers in that unit.
+/// Description of an estimate: name, key, unit and status of the parameter, and the numbers in that unit.
 document::Description<ParameterEstimate> estimate_description();
 
-/// The kind of axis, the table of the estimates, and a sentence on each one that is not identifiable.
+/// Description of a report: the kind of axis, the table of the estimates, and a sentence on each parameter
+/// that is not identifiable.
 document::Description<FitReport> estimates_description();
 
 /// "109.98 to 110.02", with as many digits as the interval justifies; nothing if it is not estimated.
@@ -69,7 +72,7 @@ std::optional<std::string> interval_text(const ParameterEstimate& estimate);
 /// A sentence on each parameter that is not identifiable, on a line of its own.
 std::string missing_parameters_text(std::span<const ParameterEstimate> parameters);
 
-/// An item that data do not have.
+/// An item that is shown to people only and does not appear in data output.
 inline document::Item for_people(const char* key, const char* heading, bool numeric = true) {
   return {.key = key, .heading = heading, .shown = document::Shown::to_people, .numeric = numeric};
 }
@@ -77,23 +80,24 @@ inline document::Item for_people(const char* key, const char* heading, bool nume
 /// "1.23e-06 m", a length on an axis.
 std::string length_text(double length, parameters::AxisKind axis);
 
-/// The item of the kind of axis; the words of parameters::axis_labels.
+/// The item for the kind of axis, with the words of parameters::axis_labels.
 document::Item axis_item();
 
-/// The item of a fragment of a manifest.
+/// The item for a fragment of a manifest.
 document::Item fragment_item();
 
-/// A fragment of a manifest with identified parameters: the maps `plant` and `friction`, before them `axis`
-/// of a linear axis.
+/// A fragment of a manifest with identified parameters: the maps `plant` and `friction`, for a linear axis
+/// preceded by `axis`.
 struct Fragment {
-  std::vector<std::string> records;  ///< names
-  std::string remarks;               ///< after the sentence on the intervals; ends with a newline
-  std::string plant;                 ///< lines of the map, such as those of manifest_lines()
-  std::string friction;
+  std::vector<std::string> records;  ///< Names of the records.
+  std::string remarks;               ///< Remarks after the sentence on the intervals; ends with a newline.
+  std::string plant;                 ///< Lines of the map `plant`, for example from manifest_lines().
+  std::string friction;              ///< Lines of the map `friction`.
   const char* source{"Identified from"};
 };
 
-/// The text of a fragment; ends with a newline. A map whose lines are all comments is a comment, too.
+/// The text of a fragment; ends with a newline. A map whose lines are all comments is written as a comment
+/// itself.
 std::string fragment_text(const Fragment& fragment, parameters::AxisKind axis);
 
 /// The comment on a lack of fit, on a line of its own; empty if the model explains the residuals.
@@ -102,10 +106,12 @@ std::string lack_of_fit_comment(bool explained);
 /// The lines of the parameters whose keys are in the map `group`, "plant" or "friction".
 std::string manifest_lines(std::span<const ParameterEstimate> parameters, const std::string& group);
 
-/// The line `name`: of a parameter in its map of a manifest: for an estimated one a distribution whose
-/// central 95 % are its interval, for a given one its value, for another a comment. Ends with a newline.
+/// The manifest line with the key `name` for a parameter; ends with a newline. For an estimated parameter it
+/// gives a distribution whose central 95 % are the interval, for a known or kept parameter the value,
+/// otherwise a comment.
 ///
-/// Positive parameters are lognormal, n is a truncated normal from 1, and coulomb_ratio one from 0 to 1.
+/// Positive parameters are lognormal. n has a normal distribution truncated below 1, coulomb_ratio one
+/// truncated to 0 … 1.
 std::string manifest_line(const ParameterEstimate& parameter, const std::string& name);
 
 /// The distribution of one estimated parameter in the fragment.
@@ -114,9 +120,9 @@ std::string distribution_text(const ParameterEstimate& parameter);
 /// `value` with one digit more than the half-width of the parameter's interval justifies.
 std::string with_digits(double value, const ParameterEstimate& parameter);
 
-/// A number for a manifest, with two digits more than its relative uncertainty justifies; all digits if that
-/// is 0. It has a decimal point and a sign of the exponent, because some YAML readers take 2e5 and 2.0e5 for
-/// texts.
+/// A number for a manifest, with two digits more than the relative uncertainty justifies; with all digits if
+/// the uncertainty is 0. It has a decimal point and a sign of the exponent, because some YAML readers take
+/// 2e5 and 2.0e5 for texts.
 std::string manifest_number(double value, double relative_uncertainty);
 
 }  // namespace zerocount::fit

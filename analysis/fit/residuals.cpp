@@ -152,7 +152,7 @@ std::vector<Window> ring_downs_of(const TestRecord& record) {
   return windows;
 }
 
-/// Values without their mean and slope, faded out towards the end: their beginning has the oscillation.
+/// Values without mean and slope, faded out towards the end, because the oscillation is at the beginning.
 Eigen::VectorXd faded(const Eigen::VectorXd& values) {
   const Eigen::Index count = values.size();
   const Eigen::ArrayXd time = Eigen::ArrayXd::LinSpaced(count, -1.0, 1.0);
@@ -193,8 +193,9 @@ std::vector<Eigen::Index> searched_bins(const TestRecord& record, const std::vec
 
 /// The spectra of replicates of the readings along the path of a record.
 struct UsualPower {
-  Eigen::ArrayXd power;   ///< [bin] largest of the first half of the replicates
-  double max_ratio{0.0};  ///< to `power`, of the other half
+  Eigen::ArrayXd power;  ///< [bin] Largest power in the first half of the replicates.
+  /// Largest ratio of the power in the other half of the replicates to `power`.
+  double max_ratio{0.0};
 };
 
 UsualPower usual_power(const TestRecord& record, const Eigen::VectorXd& path, double noise,
@@ -216,8 +217,8 @@ UsualPower usual_power(const TestRecord& record, const Eigen::VectorXd& path, do
   return usual;
 }
 
-/// The maximum of the power to which it rises from `bin`; nothing if that is at the edge of the searched
-/// bins.
+/// Bin of the local maximum to which the power rises from `bin`; nothing if the maximum is at the edge of the
+/// searched bins.
 std::optional<Eigen::Index> peak_at(const Eigen::ArrayXd& power, const std::vector<Eigen::Index>& bins,
                                     Eigen::Index bin) {
   while (std::binary_search(bins.begin(), bins.end(), bin)) {

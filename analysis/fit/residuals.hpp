@@ -26,13 +26,13 @@ struct ResidualStatistics {
 
 ResidualStatistics residual_statistics(const std::vector<double>& residuals);
 
-/// Those of (observed − modelled angle)/√variance of every observation.
+/// Statistics of the normalised residuals (observed − modelled angle)/√variance of all observations.
 ResidualStatistics residual_statistics(const FittedModel& model, const Observations& observations);
 
 /// Standard deviation of the replicates' true parameters, in textbook standard deviations.
 inline constexpr double truth_spread = 3.0;
 
-/// The standard normal numbers of one replicate, which depend on its number only.
+/// Standard normal random numbers of one replicate. They depend only on the number of the replicate.
 class ReplicateNoise {
  public:
   explicit ReplicateNoise(std::size_t replicate);
@@ -52,7 +52,7 @@ Eigen::VectorXd read_path(const TestRecord& record, const Eigen::VectorXd& path,
 /// Results of fits to simulated replicates of the records.
 struct ReadingReplicates {
   Eigen::MatrixXd errors;                     ///< [replicate, coordinate, then offset] estimate − truth
-  std::vector<ResidualStatistics> residuals;  ///< [replicate]
+  std::vector<ResidualStatistics> residuals;  ///< [replicate] Statistics of the residuals.
 };
 
 /// Parametric bootstrap. True parameters are drawn around the model's point. Their paths are read by the
@@ -77,7 +77,7 @@ struct FrequencyRange {
 /// A narrow peak in the spectrum of the residuals.
 struct ResidualLine {
   std::size_t record{0};  ///< number of the record
-  double frequency{0.0};  ///< Hz
+  double frequency{0.0};  ///< Frequency of the peak, Hz.
 };
 
 /// The frequency at which the residuals of ring-downs oscillate although the model does not: a sign of a
@@ -101,13 +101,13 @@ std::optional<ResidualLine> residual_line(Records records, const FittedModel& mo
 /// distribution in the replicates (see ReadingReplicates).
 struct ResidualChecks {
   std::size_t observations{0};
-  double spread{0.0};           ///< root mean square of residual/standard deviation
-  double expected_spread{0.0};  ///< its mean over the replicates
+  double spread{0.0};           ///< Root mean square of residual/standard deviation.
+  double expected_spread{0.0};  ///< Mean of the spread over the replicates.
   double spread_chance{1.0};    ///< proportion of the replicates with at least this spread
   double runs{0.0};             ///< number of runs of one sign
   double expected_runs{0.0};
   double runs_chance{1.0};         ///< proportion of the replicates at least as far from expected_runs
-  double correlation_length{1.0};  ///< see ResidualStatistics
+  double correlation_length{1.0};  ///< Correlation length, see ResidualStatistics.
   double expected_correlation_length{1.0};
   /// Both probabilities are at least 1 %, or the spread is less than half of the expected one (then the
   /// residuals are rounding errors, whose runs do not matter).
@@ -122,7 +122,7 @@ ResidualChecks check_residuals(const ResidualStatistics& residuals,
 
 /// The errors of a fit, by replicates of the readings, and the checks of its residuals.
 struct FitErrors {
-  Eigen::MatrixXd errors;  ///< see ReadingReplicates
+  Eigen::MatrixXd errors;  ///< Errors of the replicates, see ReadingReplicates.
   ResidualChecks checks;
 };
 
@@ -132,7 +132,8 @@ FitErrors errors_of(Records records, const Fit& fit, std::size_t replicates);
 /// passed.
 std::string reason_of_misfit(const ResidualChecks& checks);
 
-/// Measured − modelled angle, for counts that of the middle of the count; 0 where readings are masked.
+/// [sample] Measured − modelled angle; for counts the measured angle is the middle of the count. 0 for masked
+/// readings.
 Eigen::VectorXd residuals_along(const TestRecord& record, const Eigen::VectorXd& path);
 
 /// Root mean square of the residuals of the readings that are not masked, in the record's unit. Quantisation
@@ -143,10 +144,10 @@ double misfit_along(const TestRecord& record, const Eigen::VectorXd& path);
 /// path from the counts, for other readings the autocorrelation of the residuals.
 bool is_explained(const TestRecord& record, const Eigen::VectorXd& path);
 
-/// A sample whose reading is an outlier: its residual is above 12 standard deviations of all (for counts,
-/// 1.5 counts beyond rounding and 6 standard deviations of their noise), those of the readings a few samples
-/// away are not, and it is as far from the readings before and after it. Masked readings are none. Nothing if
-/// there is none.
+/// A sample whose reading is an outlier; nothing if there is none. Its residual exceeds 12 standard
+/// deviations of all residuals (for counts: 1.5 counts beyond rounding and 6 standard deviations of their
+/// noise), the residuals a few samples away do not, and the reading differs as much from the readings before
+/// and after it. Masked readings are not considered.
 std::optional<std::size_t> find_glitch(const TestRecord& record, const Eigen::VectorXd& path);
 
 /// The sample at which the residuals change most over 20 samples.

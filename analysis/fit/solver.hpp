@@ -18,24 +18,28 @@ class Problem;
 }  // namespace ceres
 namespace zerocount::fit {
 
-/// When a search by least squares ends, and how it steps. The defaults are those of Ceres.
+/// End conditions and step control of a least-squares search. The defaults are those of Ceres.
 struct SearchSetting {
   int max_steps{50};
-  int max_invalid_steps{5};  ///< in a row: the residuals are not finite there
-  double tolerance{1e-6};    ///< relative decrease of the sum of squares by a step that ends the search
-  double parameter_tolerance{1e-8};        ///< relative change of the parameters that ends it
-  double trust_region{1e4};                ///< radius for the first step
-  bool many_blocks{false};                 ///< eliminates parameter blocks that few residuals depend on
+  /// Consecutive steps with non-finite residuals after which the search fails.
+  int max_invalid_steps{5};
+  /// Relative decrease of the sum of squares in one step below which the search ends.
+  double tolerance{1e-6};
+  double parameter_tolerance{1e-8};        ///< Relative change of the parameters below which the search ends.
+  double trust_region{1e4};                ///< Radius of the trust region for the first step.
+  bool many_blocks{false};                 ///< Eliminates the parameter blocks on which few residuals depend.
   ceres::IterationCallback* end{nullptr};  ///< called after each step; not owned
 };
 
 struct SearchResult {
-  bool found{false};  ///< otherwise the residuals are not finite, and the parameters are as before
+  /// False if the residuals are not finite. The parameters are then unchanged.
+  bool found{false};
   bool converged{false};
   double squares{0.0};  ///< sum of the squared residuals
 };
 
-/// Moves the parameters of the problem to the least sum of squares: Levenberg and Marquardt, on one thread.
+/// Moves the parameters of the problem to the minimum of the sum of squares by the Levenberg–Marquardt
+/// method, on one thread.
 ///
 /// The program calls ceres::Solve() nowhere else. It prints nothing: what Ceres would write to standard error
 /// through glog, such as "Residual and Jacobian evaluation failed", is in the result, and the caller says
@@ -56,7 +60,7 @@ struct FitSetting {
   /// standard deviation `prior_spread` corresponds to a parameter known to a factor of 400.
   Point prior;
   double prior_spread{3.0};
-  double tolerance{1e-6};  ///< relative change of the sum of squares at which the fit ends
+  double tolerance{1e-6};  ///< Relative change of the sum of squares at which the fit ends.
   int max_steps{50};
   /// Simulated samples (FitModel::simulated) at which the fit ends after its present step.
   double max_simulated{std::numeric_limits<double>::infinity()};
@@ -72,7 +76,7 @@ Observations all_readings(Records records);
 struct FitResult {
   FitPoint point;
   double squares{0.0};    ///< the minimum sum of squares
-  bool converged{false};  ///< within the steps of the setting
+  bool converged{false};  ///< True if the fit converged within FitSetting::max_steps.
 };
 
 /// Minimises the sum of squares of (observed − modelled angle)/√variance and of the prior, starting at
@@ -85,12 +89,13 @@ FitResult fit_jointly(Records records, const Observations& observations, const F
 FitResult fit_from(Records records, const Observations& observations, const FitPoint& start,
                    FitSetting setting);
 
-/// A point with the offsets for which the residuals of all readings have the mean 0, and their sum of squares
-/// over the variance of a count; infinite where the motion cannot be simulated, or is too fast for the
-/// sampling.
+/// A point with the offsets for which the residuals of each record have the mean 0, and the sum of squares of
+/// all readings over the variance of a count. The sum is infinite if the motion cannot be simulated, or is
+/// too fast for the sampling.
 FitResult with_mean_offsets(Records records, const FitModel& model, const Point& point);
 
-/// A round of a search from many points: the best of them, each followed for so many steps.
+/// One round of a search from many starting points: the best `points` of them are each followed for `steps`
+/// steps.
 struct SearchRound {
   std::size_t points{0};
   int steps{0};
@@ -98,13 +103,14 @@ struct SearchRound {
 
 using SearchRounds = std::initializer_list<SearchRound>;
 
-/// Follows the best of the fits, in each round fewer of them for more steps (successive halving: Jamieson &
-/// Talwalkar, AISTATS 2016), in parallel. @returns the fits of the last round that are finite, by their sums
-/// of squares.
+/// Follows the best of the fits in parallel. Each round follows fewer fits for more steps (successive
+/// halving: Jamieson & Talwalkar, AISTATS 2016).
+/// @returns the fits of the last round that are finite, sorted by the sum of squares.
 std::vector<FitResult> follow_best(Records records, const Observations& observations,
                                    std::vector<FitResult> fits, FitSetting setting, SearchRounds rounds);
 
-/// follow_best() from the starting points. @returns those within four times the smallest sum of squares.
+/// Runs follow_best() from the starting points.
+/// @returns the fits within four times the smallest sum of squares.
 std::vector<FitResult> promising_fits(Records records, const Observations& observations,
                                       const std::vector<Point>& starts, const FitSetting& setting,
                                       SearchRounds rounds = {{6, 4}, {3, 8}});
@@ -121,21 +127,23 @@ FittedModel model_at(Records records, const FitPoint& point, const FitSetting& s
 /// @param noise [record] of the readings, in the record's unit
 Observations observations_along(Records records, const FittedModel& model, const std::vector<double>& noise);
 
-/// False if the simulation did not follow the record.
+/// False if the simulated motion contains a value that is not finite.
 bool is_finite(const RecordMotion& motion);
 
 /// A model fitted to records.
 struct Fit {
   FitSetting setting;
   FittedModel model;
-  std::vector<double> noise;  ///< [record] of the readings, in the record's unit; 0: counts without noise
-  Observations observations;  ///< along the paths of a model at which the readings were last observed
+  /// [record] Standard deviation of the readings' noise in the record's unit; 0: counts without noise.
+  std::vector<double> noise;
+  /// Observations along the paths of the model at which the readings were last converted.
+  Observations observations;
 };
 
-/// The model at a point, and the readings as observations along it.
+/// Sets the model of `fit` to the point `at`, and converts the readings to observations along it.
 void observe_at(Records records, const FitPoint& at, Fit& fit);
 
-/// Observes the readings again, along the path of the fit's model.
+/// Converts the readings to observations again, along the paths of the fit's present model.
 void observe_again(Records records, Fit& fit);
 
 /// Textbook covariance of the errors of a fit, valid for independent observations: the inverse of the normal
@@ -143,24 +151,25 @@ void observe_again(Records records, Fit& fit);
 Eigen::MatrixXd textbook_covariance(const FittedModel& model, const Observations& observations,
                                     const FitSetting& setting);
 
-/// Normal equations of the linearised model: `matrix`·d = `gradient` gives the step d to its least squares.
-/// The first rows belong to the coordinates, the others to the offsets. Rows of fixed
-/// coordinates are those of the identity.
+/// Normal equations of the linearised model: the solution d of `matrix`·d = `gradient` is the step to the
+/// minimum of the sum of squares. The first rows belong to the coordinates, the others to the offsets. Rows
+/// of fixed coordinates are rows of the identity matrix.
 struct NormalEquations {
   Eigen::MatrixXd matrix;
   Eigen::VectorXd gradient;
-  double squares{0.0};          ///< sum of squares at the model, without the prior
-  std::size_t observations{0};  ///< in the sum
+  double squares{0.0};          ///< Sum of squares at the model, without the prior.
+  std::size_t observations{0};  ///< Number of observations in the sum.
 };
 
-/// The residuals of all observations and of the prior at the model.
+/// Normal equations for the residuals of all observations and of the prior at the model.
 NormalEquations normal_equations(const FittedModel& model, const Observations& observations,
                                  const FitSetting& setting);
 
-/// Adds each of `changes` to the model's point, and adapts the free coordinates of `setting` and the offsets
-/// by one step of linear least squares with the model's sensitivities. Their sums of squares are those of the
-/// linear model.
-/// @returns those with a smaller sum than the model's by more than chance, by their sums of squares.
+/// Adds each of `changes` to the model's point. Then one step of linear least squares with the model's
+/// sensitivities adapts the free coordinates of `setting` and the offsets. The sums of squares are those of
+/// the linear model.
+/// @returns the points whose sum is smaller than the model's by more than chance, sorted by the sum of
+/// squares.
 std::vector<FitResult> better_points(Records records, const Observations& observations,
                                      const FittedModel& model, const FitSetting& setting,
                                      const std::vector<Point>& changes);

@@ -40,8 +40,9 @@ measures::MoveCounts larger_study(const measures::MoveCounts& counts, double fac
   return larger;
 }
 
-/// The counts of a study on so many machines with the proportions of the observed ones: machine i stands for
-/// the quantile (i + ½)/machines of the machines in order of their moves that meet the goal.
+/// The counts of a study on `machines` machines that resemble the observed ones: machine i equals the
+/// quantile (i + ½)/machines of the observed machines. @param sorted observed machines by rising number of
+/// moves that meet the goal
 measures::MoveCounts machines_like(std::vector<statistics::MachineMoves> sorted, std::int64_t machines) {
   measures::MoveCounts counts;
   for (std::int64_t i = 0; i < machines; ++i) {
@@ -55,15 +56,16 @@ measures::MoveCounts machines_like(std::vector<statistics::MachineMoves> sorted,
   return counts;
 }
 
-/// The smallest number from `low` on, up to `high`, for which `decides`, which is taken to stay true from
-/// there on; 0 if there is none.
+/// The smallest number from `low` to `high` for which `decides` is true; 0 if there is none. `decides` is
+/// assumed to stay true for all larger numbers.
 template <class Decides>
 std::int64_t smallest(std::int64_t low, std::int64_t high, const Decides& decides) {
   const std::int64_t found = numerics::first_where_by_doubling(low, high + 1, decides);
   return found <= high ? found : 0;
 }
 
-constexpr std::int64_t max_more_trials = 1024;  ///< times the trials of a machine that are observed
+/// Maximum of PlannedSize::more_on_each_machine.
+constexpr std::int64_t max_more_trials = 1024;
 
 /// Size of one world of a planned study, or of a study without worlds.
 struct PlannedSize {
@@ -77,20 +79,22 @@ struct Chances {
   double missed{0.0};
 };
 
-/// The chances of a planned study of one world, after what was observed in it. The proportion π that the
-/// verdict is about is not known: it has the distribution that the observation leaves likely, Beta(k + ½,
-/// n − k + ½) for k of n independent events (the posterior of Jeffreys' prior; assurance after O'Hagan,
-/// Stevens and Campbell, Pharmaceutical Statistics 4 (2005) 187).
+/// The chances of the verdicts of a planned study in one world, given the moves observed in it.
 ///
-/// Events are moves, as many as the clusters observed are worth. Without a miss, or without a hit, nothing
-/// tells how clusters differ, and each move is one; the bounds of the planned study count its clusters: with
-/// e1 of a machine of m moves, a machine of c·m moves is worth 1/(1/e1 − 1/m + 1/(c·m)). For a goal on
-/// machines the planned machines are like those observed, each of which meets the goal in its moves as often
-/// as observed: the bounds of machine_proportion.hpp leave a range of proportions open that no study decides,
-/// so that what is likely cannot be decided with any probability.
+/// Goal on moves: the true proportion π is unknown. Given k hits in n independent events it has the posterior
+/// distribution Beta(k + ½, n − k + ½) of Jeffreys' prior, and the chances are averaged over it (assurance;
+/// O'Hagan, Stevens and Campbell, Pharmaceutical Statistics 4 (2005) 187). n is the effective number of
+/// independent moves in the observed clusters. Without a miss, or without a hit, the observation does not
+/// tell how clusters differ, so each move counts as one event; the bounds of the planned study still depend
+/// on its number of clusters. If a machine of m moves is worth e1 independent events, a machine of c·m moves
+/// is worth 1/(1/e1 − 1/m + 1/(c·m)).
+///
+/// Goal on machines: the planned machines resemble the observed ones, and each meets the goal in its moves as
+/// often as observed. A distribution of π is not used here: the bounds of machine_proportion.hpp leave a
+/// range of proportions open that no study decides, so the probability of a decision would stay limited.
 class ObservedWorld {
  public:
-  /// @param counts of one world, with moves @param points, parts as of judge_goal()
+  /// @param counts counts of one world, with at least one move @param points, parts as for judge_goal()
   ObservedWorld(const study::Goal& goal, measures::MoveCounts counts, std::size_t points, std::size_t parts)
       : goal_(goal),
         counts_(std::move(counts)),
@@ -124,7 +128,7 @@ class ObservedWorld {
     return sum / static_cast<double>(likely_.size());
   }
 
-  /// Independent moves that all clusters of the planned study are worth.
+  /// Effective number of independent moves in all clusters of the planned study.
   double planned_events(const PlannedSize& planned) const {
     const auto clusters = static_cast<double>(sums_.clusters);
     const double moves = static_cast<double>(sums_.events) / clusters;
@@ -140,7 +144,8 @@ class ObservedWorld {
     return std::max(1.0, events / (t * t));
   }
 
-  /// Single events stand for those that the clusters are worth; the number of clusters limits what they show.
+  /// The chances for a goal on moves. The clusters are replaced by their effective number of single events;
+  /// what these can show is limited by the number of clusters.
   Chances of_moves(const PlannedSize& planned) const {
     const auto n = static_cast<std::int64_t>(planned_events(planned));
     const auto verdict = [&](std::int64_t hits) {
@@ -166,7 +171,8 @@ class ObservedWorld {
     return {chance_of_at_least(n, met), 1.0 - chance_of_at_least(n, not_missed)};
   }
 
-  /// So many of the machines observed would show `met` or more moves that meet the goal.
+  /// Expected number of the observed machines that have at least `met` moves in the goal.
+  /// @param more trials of a machine, as a multiple of those observed
   double machines_passing(std::int64_t met, std::int64_t more) {
     const auto [at, is_new] = passing_.try_emplace({met, more}, 0.0);
     if (!is_new) return at->second;
@@ -180,7 +186,8 @@ class ObservedWorld {
     return at->second;
   }
 
-  /// The chance of the mark that shows best what is wanted: that of any of them is not smaller.
+  /// The chances for a goal on machines. A verdict can be reached in several ways (MachineBound::enough());
+  /// its chance is at least that of the likeliest way, which is returned.
   Chances of_machines(const PlannedSize& planned) {
     const statistics::MachineMoves& machine = counts_.machines.front();
     const statistics::MachineStudy study{planned.units, machine.trials * planned.more_on_each_machine,
@@ -210,20 +217,19 @@ class ObservedWorld {
   measures::MoveCounts counts_;
   std::size_t points_;
   std::size_t parts_;
-  double confidence_low_, confidence_high_;  ///< of the bounds
+  double confidence_low_, confidence_high_;  ///< confidences of the lower and the upper bounds
   statistics::ClusterSums sums_;
-  double worth_{0.0};                 ///< events that the clusters are worth
-  std::array<double, 100> likely_{};  ///< equally probable values of π
-  std::map<std::int64_t, std::int64_t>
-      machines_{};  ///< number of those with so many moves that meet the goal
-  std::map<std::pair<std::int64_t, std::int64_t>, double> passing_{};  ///< machines_passing()
+  double worth_{0.0};                                ///< effective number of independent moves observed
+  std::array<double, 100> likely_{};                 ///< equally probable values of π
+  std::map<std::int64_t, std::int64_t> machines_{};  ///< {moves in the goal: number of machines with so many}
+  std::map<std::pair<std::int64_t, std::int64_t>, double> passing_{};  ///< cache of machines_passing()
 };
 
-/// One claim: a goal, under one condition, in all worlds. Worlds in which the same was observed have the same
-/// chances.
+/// One claim: a goal under one condition, in all worlds. Worlds with the same observation have the same
+/// chances, which are computed once.
 class ObservedClaim {
  public:
-  /// @param claims of the study, of which this is one
+  /// @param claims number of claims of the study
   ObservedClaim(const study::Goal& goal, const std::vector<measures::MoveCounts>& worlds, std::size_t points,
                 std::size_t claims) {
     std::map<std::array<double, 3>, std::size_t> known;  // of worlds without machines
@@ -239,7 +245,8 @@ class ObservedClaim {
     }
   }
 
-  /// Chances that it is met in all worlds, and that it is missed in one.
+  /// Probability that the claim is met in all worlds, and that it is missed in at least one. Worlds are
+  /// independent.
   Chances chances_of(const PlannedSize& planned) {
     double all_met = 1.0;
     double none_missed = 1.0;
@@ -252,10 +259,11 @@ class ObservedClaim {
   }
 
  private:
-  std::vector<std::pair<ObservedWorld, std::int64_t>> different_{};  ///< and how many are like it
+  std::vector<std::pair<ObservedWorld, std::int64_t>> different_{};  ///< distinct worlds with their numbers
 };
 
-/// All claims of a study: each goal under each condition. What is known of one says nothing of another.
+/// All claims of a study: each goal under each condition. The claims are evaluated one by one; nothing is
+/// assumed about their dependence.
 class ObservedStudy {
  public:
   ObservedStudy(std::span<const study::Goal> goals, std::span<const measures::CellCounts> counts,
@@ -276,12 +284,11 @@ class ObservedStudy {
   bool has_moves() const { return has_moves_; }
   std::int64_t worlds() const { return worlds_; }
   std::int64_t conditions() const { return conditions_; }
-  std::int64_t trials_of_machine() const {
-    return trials_of_machine_;
-  }  ///< under one condition; 0 without machines
+  /// Trials of one machine under one condition; 0 without machines.
+  std::int64_t trials_of_machine() const { return trials_of_machine_; }
 
-  /// Probability that a study whose worlds have this size is decided, at least, whatever the claims have in
-  /// common: it is if no claim is undecided, or if one is missed.
+  /// Lower bound of the probability that a study whose worlds have this size is decided. It is decided if no
+  /// claim is undecided, or if one is missed. The bound holds for any dependence between the claims.
   double chance_of_decision(const PlannedSize& planned) {
     double undecided = 0.0;
     double missed = 0.0;
@@ -299,8 +306,8 @@ class ObservedStudy {
   bool has_moves_{true};
 };
 
-/// The smallest number of machines, or without machines of trials, that meets the goal if no move misses it;
-/// 0 if there is none. @param trials on each; 0: no trials share a machine
+/// The smallest number of machines (without machines: of trials) that meets the goal if no move misses it; 0
+/// if there is none. @param trials trials on each machine; 0: no trials share a machine
 std::int64_t smallest_without_miss(const AskedGoal& asked, std::int64_t trials, std::size_t points) {
   const auto met = [&](const measures::MoveCounts& counts) {
     return judge_goal(asked.goal, counts, points).status == Status::met;

@@ -57,13 +57,13 @@ std::string limits_text(const study::Goal& goal) {
   return text;
 }
 
-/// "move 3", "moves 0 and 1"; empty where it is about all.
+/// "move 3", "moves 0, 1": the moves of a trial that the goal judges; empty if it judges all.
 std::string moves_text(const study::Goal& goal) {
   if (goal.on.empty()) return {};
   return fmt::format("move{} {}", goal.on.size() == 1 ? "" : "s", fmt::join(goal.on, ", "));
 }
 
-/// "large: ", the name of one of several goals.
+/// "large: ", the name of the goal; empty without a name.
 std::string name_text(const study::Goal& goal) {
   return goal.name.empty() ? "" : goal.name + ": ";
 }
@@ -86,17 +86,17 @@ std::string ending_of(trial::Outcome outcome, std::string_view of_mass) {
   return "it has no target";
 }
 
-/// The line, indented as readings are; nothing without one.
+/// The line indented by two blanks; an empty line stays empty.
 std::string indented(const std::string& line) {
   return line.empty() ? line : "  " + line;
 }
 
-/// Machines, and the trials and moves of one of them. @param counts of trials on machines
+/// The number of machines, and the numbers of trials and moves of one machine. @param counts with machines
 statistics::MachineStudy shape_of(const measures::MoveCounts& counts) {
   return {std::ssize(counts.machines), counts.machines.front().trials, counts.machines.front().moves};
 }
 
-/// The readings of a study with worlds: the worst world, and the worlds by their verdicts.
+/// The proportions of the worst world, and how many worlds have each verdict.
 std::string readings_of_worlds(const study::Goal& goal, const measures::MoveCounts& counts,
                                const ClaimVerdict& verdict) {
   const std::size_t worst = worst_worlds_first(goal, verdict).front();
@@ -115,7 +115,8 @@ std::string readings_of_worlds(const study::Goal& goal, const measures::MoveCoun
   return counts.machines.empty() ? text : text + indented(one_machine_text(goal, shape_of(counts), verdict));
 }
 
-/// The machines that meet all claims together, a line; empty where only one claim is on machines.
+/// One line with the number of machines that meet all claims together; empty if fewer than two claims are on
+/// machines.
 std::string together_text(const Question& question, const measures::PointSummary& point) {
   const auto all = machines_meeting_all(question, point);
   if (!all) return {};

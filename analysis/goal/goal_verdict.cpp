@@ -17,10 +17,10 @@ Status status_of(const BoundedProportion& proportion, double wanted) {
   return proportion.high < wanted ? Status::missed : Status::undecided;
 }
 
-/// The confidences of the bounds of one part.
+/// Confidences of the bounds in one part (a world, or a claim) of what must be met.
 struct Confidences {
-  double low;   ///< a goal that must hold in every part is met where it is met in each: no correction
-  double high;  ///< it is missed where it is missed in one of the parts (Bonferroni)
+  double low;   ///< Confidence of lower bounds, uncorrected: the goal must be met in every part.
+  double high;  ///< Confidence of upper bounds (Bonferroni): a miss in one part is a miss of the whole.
 
   Confidences(const study::Goal& goal, std::size_t points, std::size_t parts)
       : low(statistics::confidence_of_each(goal.confidence, points)),
@@ -57,7 +57,8 @@ WorldVerdict judge_world(const study::Goal& goal, const measures::MoveCounts& co
   return verdict;
 }
 
-/// Proportions that were not observed are ranked after all others.
+/// Difference of the logits of the observed and the wanted proportion. Infinite if nothing was observed, so
+/// that such proportions rank last.
 double observed_margin(const BoundedProportion& proportion, double wanted) {
   if (std::isnan(proportion.value)) return std::numeric_limits<double>::infinity();
   return logit_difference(proportion.value, wanted);

@@ -12,7 +12,8 @@
 #include "analysis/statistics/unknown.hpp"
 #include "experiments/study/goal.hpp"
 
-/// The goal of a study at a design point. Everything that judges asks judge_goal().
+/// Judgement of the goals of a study at a design point. All code that judges uses judge_goal() or
+/// judge_goals().
 namespace zerocount::goal {
 
 enum class Status {
@@ -31,59 +32,67 @@ struct BoundedProportion {
   double high{1.0};
 };
 
-/// The standing of a proportion of which nothing is claimed, among others of the same kind.
+/// Standing of a proportion about which the study makes no claim, to rank it among others of the same kind.
 Standing standing_of(const BoundedProportion& proportion);
 
-/// The lowest of the proportions, of their lower bounds, and of their upper bounds.
+/// The minimum of the two proportions, of their lower bounds, and of their upper bounds, each on its own.
 BoundedProportion lowest(const BoundedProportion& a, const BoundedProportion& b);
 
-/// The moves, or machines, of one world that meet the goal.
+/// The verdict on a claim in one world.
 struct WorldVerdict {
   Status status{Status::undecided};
-  BoundedProportion moves;  ///< of all moves of all axes that meet the goal (clustered_proportion.hpp)
-  BoundedProportion
-      machines;  ///< of axes that meet it in Goal::moves of their moves (machine_proportion.hpp);
-                 ///< NaN, 0 and 1 where the goal does not ask for machines
-  BoundedProportion without_miss;    ///< of all axes, in as many moves; where the goal asks for machines
-  std::int64_t machines_meeting{0};  ///< machines that meet it in Goal::moves of their moves, as observed
+  /// Proportion of all moves of all machines that meets the goal; bounds by clustered_proportion.hpp.
+  BoundedProportion moves;
+  /// Proportion of machines that meet the goal in at least the proportion Goal::moves of their moves; bounds
+  /// by machine_proportion.hpp. Value NaN and bounds 0 and 1 if the goal does not ask for machines.
+  BoundedProportion machines;
+  /// Proportion of machines without a miss in as many moves as were observed on each. Value NaN and bounds 0
+  /// and 1 if the goal does not ask for machines.
+  BoundedProportion without_miss;
+  /// Number of observed machines that meet the goal in Goal::moves of their moves; 0 if the goal does not ask
+  /// for machines.
+  std::int64_t machines_meeting{0};
   std::int64_t machines_without_miss{0};  ///< machines all of whose moves meet the goal
 };
 
-/// The verdict on a claim, one goal under one condition, for all axes that the manifest describes; by
-/// Goal::machines, or by Goal::moves where the goal does not ask for machines. With worlds the proportions
-/// are those of the worst world: the lowest of all, and of the bounds. A goal is met if it is met in every
-/// world, each at the confidence γ: that a claim must hold in every part needs no correction for their number
-/// (intersection–union test; Berger, Technometrics 24 (1982) 295). It is missed if it is shown to be missed
-/// in one: the upper bounds have the confidence 1 − (1 − γ)/worlds (Bonferroni).
+/// The verdict on a claim, which is one goal under one condition, for all machines that the manifest
+/// describes. The goal is judged by Goal::machines, or by Goal::moves if it does not ask for machines. With
+/// worlds each proportion, lower bound and upper bound is the lowest over the worlds.
+///
+/// The goal is met if it is met in every world, each at the confidence γ. A claim that must hold in every
+/// part needs no correction for the number of parts (intersection–union test; Berger, Technometrics 24 (1982)
+/// 295). The goal is missed if it is shown to be missed in one world, so the upper bounds have the confidence
+/// 1 − (1 − γ)/worlds (Bonferroni).
 struct ClaimVerdict : WorldVerdict {
-  std::size_t goal{0};
+  std::size_t goal{0};                 ///< Index of the goal among those that were judged.
   std::size_t condition{0};            ///< 0 without conditions
   std::vector<WorldVerdict> worlds{};  ///< [world]; empty without worlds
-  /// Moves of the load that meet a goal of the motor, under the condition where they are the fewest.
+  /// Proportion of moves in which the load meets a goal of the motor, under the condition with the lowest
+  /// proportion (`load_condition`). Empty unless the moves of the load are counted (Goal::beside_load).
   std::optional<BoundedProportion> of_load{};
   std::size_t load_condition{0};
   Standing standing{};
 };
 
-/// The verdict on several claims, all of which must be met, as that of the worst (Standing): a missed one
-/// before an undecided one before one that is met; among equals the one whose lower bound is least above what
-/// it asks for, as the difference of the logits. The upper bounds allow for the number of claims
+/// The verdict on several claims, all of which must be met. It is the verdict on the worst claim (Standing).
+/// Claims rank missed, undecided, met. Ties go to the claim whose lower bound has the smallest margin to the
+/// proportion demanded, as a difference of logits. The upper bounds allow for the number of claims
 /// (Bonferroni).
 struct Verdict : ClaimVerdict {
-  std::vector<ClaimVerdict> claims{};  ///< [goal, condition] each
+  std::vector<ClaimVerdict> claims{};  ///< One for each goal and condition: [goal, condition].
 };
 
 /// The verdict on each goal under each condition. @param counts [goal]
 /// @param points number of design points from which the point was chosen by its trials; 1 if it was chosen
-/// before. The bounds have the confidence 1 − (1 − γ)/points (Bonferroni). @param parts as many times these
-/// claims must be met
+/// before. The bounds have the confidence 1 − (1 − γ)/points (Bonferroni).
+/// @param parts number of parts in each of which all these claims must be met
 Verdict judge_goals(std::span<const study::Goal> goals, std::span<const measures::CellCounts> counts,
                     std::size_t points, std::size_t parts = 1);
 inline Verdict judge_goal(const study::Goal& goal, const measures::CellCounts& counts, std::size_t points,
                           std::size_t parts = 1) {
   return judge_goals({&goal, 1}, {&counts, 1}, points, parts);
 }
-/// The verdict on one claim, by moves of one world. @param parts claims that must be met
+/// The verdict on one claim, from the moves of one world. @param parts number of claims that must be met
 ClaimVerdict judge_goal(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points,
                         std::size_t parts = 1);
 
@@ -92,18 +101,18 @@ const ClaimVerdict& worst_of_goal(const Verdict& verdict, std::size_t goal);
 const ClaimVerdict& worst_where(const Verdict& verdict,
                                 const std::function<bool(const ClaimVerdict&)>& is_asked);
 
-/// From the worst status, missed, to the best: 0, 1, 2.
+/// 0 for missed, 1 for undecided, 2 for met.
 int rank_of(Status status);
-/// Whether the first claim has the smaller standing.
+/// Whether `one` has the smaller standing.
 inline bool is_worse(const ClaimVerdict& one, const ClaimVerdict& other) {
   return one.standing < other.standing;
 }
 
-/// The worlds in order of their proportions, the worst first: of machines that meet the goal where it asks
-/// for them, else of moves.
+/// Indices of the worlds by rising proportion that meets the goal, the worst world first. The proportion is
+/// of machines if the goal asks for them, otherwise of moves. Worlds without trials come last.
 std::vector<std::size_t> worst_worlds_first(const study::Goal& goal, const ClaimVerdict& verdict);
 
-/// The worlds of which the verdict says this, in order.
+/// Indices of the worlds whose verdict has this status, rising.
 std::vector<std::size_t> worlds_that(Status status, const ClaimVerdict& verdict);
 
 /// Study size that decides the goal with a stated probability.
@@ -115,14 +124,16 @@ struct Needs {
 /// Probability with which a study of the size of needs_of() is decided, unless another is asked for.
 inline constexpr double probability_of_needs = 0.9;
 
-/// Studies of which the verdict on all goals under all conditions is decided with this probability, at least,
-/// by what these counts leave likely (goal_needs.cpp), whatever goals and conditions have in common:
+/// Studies large enough to decide the verdict on all goals under all conditions with at least this
+/// probability. The chances follow from the observed counts (goal_needs.cpp). The goals and conditions may
+/// depend on each other in any way, because
 ///
 ///   P(decided) ≥ max(1 − Σ P(a claim is undecided), max P(a claim is missed)).
 ///
-/// Without machines one study, the smallest; with machines the fewest machines, at most 10⁵, with trials on
-/// each as observed, and for goals on machines with twice, four times … as many, as long as these save
-/// machines. Empty if none is large enough. @param counts [goal] @param points, as of judge_goal()
+/// Without machines the result is one study, the smallest. With machines it is the study with the fewest
+/// machines, at most 10⁵, and as many trials on each machine as observed. For goals on machines there follow
+/// studies with twice, four times … as many trials on each machine, as long as these save machines. Empty if
+/// no study is large enough. @param counts [goal] @param points as for judge_goals()
 std::vector<Needs> deciding_studies(std::span<const study::Goal> goals,
                                     std::span<const measures::CellCounts> counts, std::size_t points,
                                     double probability = probability_of_needs);
@@ -138,25 +149,26 @@ inline Needs needs_of(const study::Goal& goal, const measures::CellCounts& count
   return needs_of({&goal, 1}, {&counts, 1}, points, probability);
 }
 
-/// A goal, and the number of moves of a trial that it asks.
+/// A goal with the number of moves per trial that it judges.
 struct AskedGoal {
   study::Goal goal;
   std::int64_t moves{1};
 };
 
-/// The machines and worlds that the trials of a study share.
+/// Grouping of the trials of a study by machines, worlds and conditions.
 struct StudyShape {
-  bool on_machines{false};
-  std::int64_t worlds{0};      ///< in each of which the goals must be met; 0: none
-  std::int64_t conditions{1};  ///< under each of which they must be met
+  bool on_machines{false};     ///< whether trials share machines
+  std::int64_t worlds{0};      ///< Number of worlds; the goals must be met in each. 0: the study has none.
+  std::int64_t conditions{1};  ///< Number of conditions; the goals must be met under each.
 };
 
-/// The smallest studies that can meet the goals, if no move misses them: with machines the fewest machines
-/// for several numbers of trials on each, without them one study. Empty if none of up to 10⁹ trials, or 10⁵
-/// machines, can. @param points that the best is chosen from
+/// The smallest studies that can meet the goals, if no move misses them. With machines: for several numbers
+/// of trials on each machine, the fewest machines. Without machines: one study. Empty if no study of up to
+/// 10⁹ trials or 10⁵ machines can meet them. @param points number of design points from which the best is
+/// chosen
 std::vector<Needs> smallest_studies(std::span<const AskedGoal> goals, const StudyShape& shape,
                                     std::size_t points);
-/// The same of one goal under one condition. @param moves of a trial
+/// The smallest studies that can meet one goal under one condition. @param moves moves per trial
 inline std::vector<Needs> smallest_studies(const study::Goal& goal, bool on_machines, std::int64_t moves,
                                            std::size_t points, std::int64_t worlds = 0) {
   const AskedGoal asked{goal, moves};

@@ -70,7 +70,7 @@ QuestionWords words_of_success(std::string_view of_mass) {
           .falls_short = "are shown to succeed less often than the median world"};
 }
 
-/// The trials that succeed, each as one move.
+/// The trials of the point, each counted as one move that is met if the trial succeeds.
 measures::MoveCounts successes_of(const measures::PointSummary& point) {
   measures::MoveCounts counts{
       .moves = point.judged, .met = point.outcomes.zero_count, .of_trials = {}, .machines = {}};
@@ -88,7 +88,7 @@ measures::MoveCounts successes_of(const measures::PointSummary& point) {
   return counts;
 }
 
-/// All claims, and the moves of a point that meet each.
+/// The goals of all claims, and for each goal the counts of the point's moves.
 struct CountedClaims {
   std::vector<study::Goal> goals{};
   std::vector<measures::CellCounts> counts{};
@@ -416,9 +416,9 @@ namespace {
 
 /// One goal under one condition at one age.
 struct ClaimAtAge {
-  study::Goal goal;  ///< on machines: the bounds of a goal on moves are those of such a claim
+  study::Goal goal;  ///< Always on machines: a goal on moves is given a usual proportion of machines.
   measures::CellCounts counts;
-  std::vector<statistics::MachineMoves> machines;  ///< of the counts
+  std::vector<statistics::MachineMoves> machines;  ///< [machine] moves of `counts`, summed over its cells
 
   bool is_met_by(std::size_t machine) const {
     return statistics::rate(machines[machine].met, machines[machine].moves) >= goal.moves;
@@ -453,7 +453,8 @@ std::size_t machine_count(const ClaimsAtAge& claims) {
   return claims.front().front().machines.size();
 }
 
-/// The least of what is found of the machines of each world; without worlds it is of all machines.
+/// The minimum over the worlds of `of(values)`, where `values` holds value(machine) of the world's machines.
+/// Without worlds all machines form one group. At most 1.
 template <class Value, class Of>
 double least_of_worlds(std::size_t machines, std::int64_t worlds, const Value& value, const Of& of) {
   const auto groups = static_cast<std::size_t>(std::max<std::int64_t>(worlds, 1));
@@ -466,7 +467,7 @@ double least_of_worlds(std::size_t machines, std::int64_t worlds, const Value& v
   return least;
 }
 
-/// The proportion of the machines that meet all claims.
+/// Proportion of machines that meet all claims, in the worst world.
 double proportion_meeting(const ClaimsAtAge& claims, std::int64_t worlds) {
   return least_of_worlds(
       machine_count(claims), worlds, [&](std::size_t machine) { return meets_all(claims, machine); },
@@ -475,15 +476,16 @@ double proportion_meeting(const ClaimsAtAge& claims, std::int64_t worlds) {
       });
 }
 
-/// The upper bound of the machines that meet one of so many claims.
+/// Upper bound of the proportion of machines that meet this claim. @param claims number of claims that share
+/// the error probability (Bonferroni)
 double most_of(const ClaimAtAge& claim, std::size_t claims) {
   study::Goal goal = claim.goal;
   goal.confidence = statistics::confidence_of_each(goal.confidence, claims);
   return judge_goal(goal, claim.counts, 1).machines.high;
 }
 
-/// The moves of a machine in which it meets one goal, under the condition where these are the fewest; as if
-/// the moves that it made under some conditions only met the goal, and were left out.
+/// The fewest moves of a machine that meet one goal under any of the conditions. If the machine made more
+/// moves under some conditions than under others, the surplus moves count as met and are left out.
 statistics::MachineMoves least_moves(const std::vector<ClaimAtAge>& conditions, std::size_t machine) {
   statistics::MachineMoves least = conditions.front().machines[machine];
   for (const ClaimAtAge& claim : conditions) {
@@ -496,7 +498,8 @@ statistics::MachineMoves least_moves(const std::vector<ClaimAtAge>& conditions, 
   return least;
 }
 
-/// The lower bound of the machines that meet one of so many goals under every condition.
+/// Lower bound of the proportion of machines that meet one goal under every condition. @param goals number of
+/// goals that share the error probability (Bonferroni)
 double least_of(const std::vector<ClaimAtAge>& conditions, std::int64_t worlds, std::size_t goals) {
   const study::Goal& goal = conditions.front().goal;
   const statistics::MachineClaim claim{.proportion = goal.moves,

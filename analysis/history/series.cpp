@@ -210,7 +210,7 @@ using document::in_data;
 using document::to_people;
 using Run = const SeriesRun&;
 
-/// How the value of a run compares with its baseline, for a run that was compared.
+/// Comparison of a run's value with the baseline, for runs that were compared.
 Description<SeriesRun> comparison_description() {
   const auto of_value =
       Description<ValueComparison>()

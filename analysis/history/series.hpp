@@ -12,12 +12,12 @@
 
 namespace zerocount::history {
 
-/// Probability of a false alarm, in any of the series looked at, within false_alarm_runs runs.
+/// Probability of a false alarm in any of the examined series within false_alarm_runs runs.
 inline constexpr double false_alarm_probability = 0.05;
 inline constexpr double false_alarm_runs = 100.0;
 
-/// Which series are looked at; what is missing is not restricted, but of a study with a goal only the
-/// measures of the goal are looked at unless one is named.
+/// Selects the series to be examined. A member without a value does not restrict the selection. For a study
+/// with a goal, however, only the measures of the goal are examined unless a measure is named.
 struct SeriesFilter {
   std::optional<std::string> study{};
   std::optional<std::string> point{};
@@ -25,35 +25,38 @@ struct SeriesFilter {
   std::optional<std::string> series_sha256{};
 };
 
-/// How a series is tested (README.md).
+/// Test for changes in a series (README.md).
 enum class SeriesTest {
-  levels,   ///< statistics::level_changes: the runs drew different random numbers
-  baseline  ///< the runs share their draws: each is judged by its comparison with the baseline
+  /// Test by statistics::level_changes(): the runs drew different random numbers.
+  levels,
+  /// Test by the comparison of each run with the baseline: the runs share their random numbers.
+  baseline
 };
 
 /// One run of a series.
 struct SeriesRun {
-  std::shared_ptr<const RunIdentity> run{};  ///< which all series of the run share
+  std::shared_ptr<const RunIdentity> run{};  ///< Identity of the run, shared by all series of the run.
   RunValue value{};
-  std::int64_t changed{0};      ///< changes after which this is the first run
-  std::int64_t significant{0};  ///< changes that are significant since this run
+  std::int64_t changed{0};      ///< Number of changes for which this is the first run after the change.
+  std::int64_t significant{0};  ///< Number of changes that became significant at this run.
 };
 
-/// A run, or a baseline, by its time and its commit.
+/// A run or a baseline, identified by time and commit.
 struct RunPlace {
   std::string created;
   std::string git_commit;
 };
 
-/// A change that became significant. Indices are of SeriesRun.
+/// A change that became significant. Runs are given as indices in Series::runs.
 struct SeriesChange {
-  std::size_t first{0};        ///< first run after the change, as estimated
-  std::size_t significant{0};  ///< run at which the change was significant
-  bool since_baseline{false};  ///< the change lies between the baseline and run `first`
+  std::size_t first{0};        ///< First run after the change, as estimated.
+  std::size_t significant{0};  ///< Run at which the change became significant.
+  bool since_baseline{false};  ///< True if the change lies between the baseline and run `first`.
   double before{statistics::unknown};
-  double after{statistics::unknown};  ///< mean over the runs from `first` to `significant`
-  double z{statistics::unknown};  ///< of SeriesTest::levels: signed root of the likelihood ratio statistic
-  double p{statistics::unknown};  ///< of SeriesTest::baseline: two-sided
+  double after{statistics::unknown};  ///< Mean over the runs from `first` to `significant`.
+  /// For SeriesTest::levels: signed root of the likelihood ratio statistic.
+  double z{statistics::unknown};
+  double p{statistics::unknown};  ///< For SeriesTest::baseline: two-sided p-value.
   RunPlace last_before{}, first_after{}, significant_since{};
   /// "rose from 36.5 % to 41 % between 2026-01-01 (commit 1a2b3c4) and 2026-01-02 (commit …); significant
   /// since …".
@@ -67,26 +70,26 @@ struct Series {
   std::string point;
   std::string measure;
   std::string unit;
-  std::vector<SeriesRun> runs;  ///< by time
+  std::vector<SeriesRun> runs;  ///< Runs, sorted by time.
   SeriesTest test{SeriesTest::levels};
   std::vector<SeriesChange> changes;
 };
 
-/// The series that were asked for, and the limits of their tests.
+/// The requested series, and the thresholds of their tests.
 struct History {
   std::vector<Series> series;
-  double threshold{statistics::unknown};  ///< of |z|, of SeriesTest::levels
-  double max_p{statistics::unknown};      ///< of SeriesTest::baseline
-  std::set<std::string> others{};         ///< measures beside a goal that were not asked for
+  double threshold{statistics::unknown};  ///< Threshold of |z| for SeriesTest::levels.
+  double max_p{statistics::unknown};      ///< Largest significant p for SeriesTest::baseline.
+  std::set<std::string> others{};         ///< Names of measures besides the goal's that were not requested.
 };
 
-/// Sorts runs into series and finds their changes. With m series, each is tested so that it gives a false
-/// alarm with the probability false_alarm_probability/m within false_alarm_runs runs (Bonferroni).
-/// @param runs by time
-/// @throws Failure (bad_input) that lists what there is where the filter leaves nothing.
+/// Sorts runs into series and finds their changes. With m series, the probability of a false alarm within
+/// false_alarm_runs runs is false_alarm_probability/m in each (Bonferroni).
+/// @param runs sorted by time
+/// @throws Failure (bad_input) if the filter leaves nothing; the message lists what there is.
 History history_of(const std::vector<RunRecord>& runs, const SeriesFilter& filter = {});
 
-/// The answer of `history show`: a row per series, the changes in words, and of a single series every run.
+/// The answer of `history show`: a row per series, the changes in words, and for a single series every run.
 document::AnswerDescription<History> history_answer();
 
 }  // namespace zerocount::history

@@ -41,11 +41,14 @@ namespace zerocount::iso230 {
 
 /// The deviations at one target, any unit.
 struct TargetDeviations {
-  std::vector<double> positive;  ///< [cycle], x_ij↑; empty where it is not approached so
-  std::vector<double> negative;  ///< [cycle], x_ij↓
+  /// [cycle] x_ij↑; empty if the target is not approached in positive direction.
+  std::vector<double> positive;
+  /// [cycle] x_ij↓; empty if the target is not approached in negative direction.
+  std::vector<double> negative;
 };
 
-/// The quantities of the standard for one target, in the unit of the deviations; NaN where it is not defined.
+/// The quantities of the standard for one target, in the unit of the deviations; NaN if a quantity is not
+/// defined.
 struct TargetRepeatability {
   double mean_positive{statistics::unknown};           ///< x̄i↑
   double mean_negative{statistics::unknown};           ///< x̄i↓
@@ -58,8 +61,8 @@ struct TargetRepeatability {
   double repeatability{statistics::unknown};           ///< Ri
 };
 
-/// The quantities of the standard for the axis, in the unit of the deviations; NaN where it is not defined,
-/// which is so where it is not for one of the targets.
+/// The quantities of the standard for the axis, in the unit of the deviations. NaN if a quantity is not
+/// defined, which is so if it is undefined for one of the targets.
 struct AxisRepeatability {
   double reversal{statistics::unknown};                ///< B
   double mean_reversal{statistics::unknown};           ///< B̄, signed
@@ -77,19 +80,20 @@ struct AxisRepeatability {
 
 struct Repeatability {
   AxisRepeatability axis;
-  std::vector<TargetRepeatability> targets;  ///< [target]
+  std::vector<TargetRepeatability> targets;  ///< [target] Quantities of the target.
 };
 
 /// The values of one run of the test, by the formulas above. Equal deviations at a target that are whole
 /// numbers, such as counts, give an si of exactly 0.
 Repeatability repeatability_of(std::span<const TargetDeviations> targets);
 
-/// The measurements of a sequence of moves.
+/// Numbers of targets and approaches in a sequence of moves.
 struct SequenceShape {
-  std::int64_t targets{0};  ///< in its list
-  std::int64_t cycles{0};   ///< fewest approaches of a target from a side from which any is approached
-  bool positive{false};     ///< there are approaches from below
-  bool negative{false};     ///< there are approaches from above
+  std::int64_t targets{0};  ///< Number of targets in the list of the sequence.
+  /// Smallest number of approaches of a target from any side from which targets are approached.
+  std::int64_t cycles{0};
+  bool positive{false};  ///< True if there are approaches from below.
+  bool negative{false};  ///< True if there are approaches from above.
 };
 
 SequenceShape shape_of(std::span<const study::SequenceMove> sequence);
@@ -101,19 +105,21 @@ SequenceShape shape_of(std::span<const study::SequenceMove> sequence);
 /// the loop: from the middle of the target's count. By the encoder it is its fine count at the last sample
 /// less p, in counts.
 struct TrialRepeatability {
-  Repeatability from_position;  ///< Position of the mass whose encoder closes the loop, rad.
-  Repeatability from_encoder;   ///< counts
-  Repeatability of_motor;       ///< True position of the motor, rad.
-  Repeatability of_load;        ///< True position of the load, rad; of the motor on an axis with one mass.
+  /// Values from the true position of the mass whose encoder closes the loop, rad.
+  Repeatability from_position;
+  Repeatability from_encoder;  ///< Values from the encoder, counts.
+  Repeatability of_motor;      ///< Values from the true position of the motor, rad.
+  /// Values from the true position of the load, rad; of the motor if there is one mass.
+  Repeatability of_load;
 };
 
 /// The targets of a trial in the order of their list, counts.
 std::vector<double> listed_targets(std::span<const study::SequenceMove> sequence,
                                    const trial::TrialParameters& parameters);
 
-/// The repeatability of one trial. Every move to a target counts as it ended, whether it arrived or not, but
-/// where the motion of any move was lost (nonfinite) there is nothing to measure: empty.
-/// @throws Failure (bad_data) where moves and sequence are not of the same number.
+/// The repeatability of one trial. Every move to a target counts as it ended, whether it arrived or not.
+/// Nothing if the motion became non-finite in any move.
+/// @throws Failure (bad_data) if the numbers of moves and of elements of the sequence differ.
 std::optional<TrialRepeatability> trial_repeatability(std::span<const study::SequenceMove> sequence,
                                                       const trial::TrialParameters& parameters,
                                                       std::span<const trial::MoveOutcome> moves);

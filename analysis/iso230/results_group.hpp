@@ -18,11 +18,11 @@ namespace zerocount::iso230 {
 void write_repeatability(hdf5::File& file, const study::Study& study);
 
 /// The statistics of every design point from the values of the trials in the file.
-/// @throws Failure (bad_data) where they are not there or not those of the study.
+/// @throws Failure (bad_data) if the values are missing or do not belong to the study.
 RepeatabilitySummary read_repeatability(const hdf5::Group& root, const study::Study& study,
                                         double confidence = statistics::summary_confidence);
 
-/// As read_repeatability, of a complete results file.
+/// read_repeatability() for a complete results file.
 RepeatabilitySummary study_repeatability(const reading::AllTrialsFile& file, const study::Study& study,
                                          double confidence = statistics::summary_confidence);
 

@@ -10,21 +10,22 @@
 
 namespace zerocount::jerks {
 
-/// The interval of zero error before the next jerk. The torque is constant, and only creep moves the rotor.
-/// Times in s from the start of the move.
+/// An interval of zero error up to the next jerk. The torque is constant, and only creep moves the rotor.
+/// Times are in s from the start of the move.
 struct CreepWait {
-  std::int64_t trial{0};  ///< index within its point
-  std::int64_t move{0};
-  bool first{false};                  ///< the first wait after arrival
-  double since{0.0};                  ///< start of the prediction: a dwell after the error became 0
-  double onset{statistics::unknown};  ///< of the jerk that ended it; NaN without one
-  double end{0.0};                    ///< end of the wait: the onset, or the end of the move
-  double predicted{std::numeric_limits<double>::infinity()};  ///< onset by the closed form; infinite: never
+  std::int64_t trial{0};              ///< Index of the trial within the design point.
+  std::int64_t move{0};               ///< Index of the move within the trial.
+  bool first{false};                  ///< True for the first wait after arrival.
+  double since{0.0};                  ///< Start of the prediction: one dwell after the error became 0.
+  double onset{statistics::unknown};  ///< Onset of the jerk that ended the wait; NaN if no jerk did.
+  double end{0.0};                    ///< End of the wait: the onset of the jerk, or the end of the move.
+  /// Onset predicted by the closed form; infinite if no jerk is predicted.
+  double predicted{std::numeric_limits<double>::infinity()};
 };
 
 /// Comparison of the jerks with the closed form of creep at constant torque.
 struct CreepComparison {
-  std::int64_t trials{0};        ///< simulated again
+  std::int64_t trials{0};        ///< Number of trials that were simulated again.
   std::string not_applicable{};  ///< reason why the closed form does not apply; empty if it does
   std::vector<CreepWait> waits{};
   std::int64_t too_short{0};  ///< excluded waits: not longer than a dwell
@@ -49,10 +50,13 @@ CreepComparison compare_with_creep(const study::Study& study, std::int64_t point
 
 /// Summary of a comparison.
 struct CreepAgreement {
-  std::int64_t ended{0};      ///< waits that ended with a jerk
-  std::int64_t predicted{0};  ///< of them, predicted to within two samples and 1 % of the time from `since`
-  std::int64_t lasting{0};    ///< waits without a jerk
-  std::int64_t lasting_predicted{0};              ///< of them, predicted to last as long
+  std::int64_t ended{0};  ///< waits that ended with a jerk
+  /// Number of ended waits whose onset is predicted to within two samples and 1 % of the time from
+  /// CreepWait::since.
+  std::int64_t predicted{0};
+  std::int64_t lasting{0};  ///< waits without a jerk
+  /// Number of waits without a jerk that are predicted to last as long as they did.
+  std::int64_t lasting_predicted{0};
   double median_deviation{statistics::unknown};   ///< median of |onset − predicted|, s
   double largest_deviation{statistics::unknown};  ///< largest |onset − predicted|, s
 };

@@ -26,17 +26,18 @@ namespace zerocount::jerks {
 struct SampledJerk {
   std::int64_t onset{0};      ///< first sample with an error, counted from arrival
   std::int64_t length{0};     ///< samples with an error
-  std::int64_t magnitude{0};  ///< counts
-  bool agrees{false};         ///< in the direction of the holding torque of the move
+  std::int64_t magnitude{0};  ///< Largest |error| of the jerk, counts.
+  bool agrees{false};         ///< True if the jerk has the direction of the move's holding torque.
 };
 
-/// A move after its arrival. Samples are counted from the first of the arrival dwell.
+/// A move after its arrival. Samples are counted from the first sample of the arrival dwell.
 struct ObservedMove {
-  std::int64_t trial{0};    ///< global row
-  std::int64_t cluster{0};  ///< the independent unit: the trial, or with machines the trial's machine
+  std::int64_t trial{0};  ///< Global row of the trial in the results file.
+  /// The independent cluster: the trial, or with machines the trial's machine.
+  std::int64_t cluster{0};
   bool arrived{false};
   bool lost{false};         ///< the state became non-finite at an unknown time; the fields below are unset
-  double sample_time{0.0};  ///< s
+  double sample_time{0.0};  ///< Sampling interval, s.
   std::int64_t dwell{0};    ///< first sample at which a jerk could begin
   std::int64_t end{0};      ///< number of observed samples
   std::vector<SampledJerk> jerks;
@@ -58,11 +59,12 @@ void for_each_move(const reading::AllTrialsFile& file, const study::Study& study
 
 /// Rate of jerks in a range of the time since arrival.
 struct JerkRate {
-  double from{0.0};                  ///< s since arrival
-  double to{0.0};                    ///< s since arrival; `to` itself belongs to the next range
-  std::int64_t moves{0};             ///< moves in which a jerk could have begun in the range
-  double exposure{0.0};              ///< s, sum over all moves of the time in which a jerk could have begun
-  std::int64_t jerks{0};             ///< that began in the range
+  double from{0.0};  ///< Begin of the range, s since arrival.
+  /// End of the range, s since arrival. This time itself belongs to the next range.
+  double to{0.0};
+  std::int64_t moves{0};             ///< Number of moves in which a jerk could have begun in the range.
+  double exposure{0.0};              ///< Time in which a jerk could have begun, summed over all moves, s.
+  std::int64_t jerks{0};             ///< Number of jerks that began in the range.
   double rate{statistics::unknown};  ///< jerks / exposure, 1/s
   statistics::ConfidenceInterval poisson{};  ///< Garwood bounds of the rate, 1/s, for independent jerks
   /// Variance of the jerks of a trial about rate·exposure, divided by that of a Poisson number; 1 if unknown.
@@ -79,25 +81,27 @@ inline constexpr std::array<double, 5> jerk_interval_probabilities{0.05, 0.25, 0
 struct JerkIntervals {
   std::int64_t n{0};
   double mean{statistics::unknown};
-  /// At jerk_interval_probabilities, with order-statistic bounds for the effective number of intervals.
+  /// Quantiles at jerk_interval_probabilities, with order-statistic bounds for the effective number of
+  /// intervals.
   std::array<statistics::Quantile, jerk_interval_probabilities.size()> quantiles{};
 };
 
 /// The largest |error| of the jerks, counts.
 struct JerkMagnitudes {
   statistics::ClusteredProportion one_count;  ///< proportion of jerks of one count
-  std::vector<std::int64_t> counts;           ///< [m]: jerks of magnitude m + 1; last: or more
+  /// [m] Number of jerks of magnitude m + 1; the last element also counts all larger ones.
+  std::vector<std::int64_t> counts;
   double mean{statistics::unknown};
   std::int64_t max{0};
-  double median_duration{statistics::unknown};   ///< s
-  double longest_duration{statistics::unknown};  ///< s
+  double median_duration{statistics::unknown};   ///< Median duration of the jerks, s.
+  double longest_duration{statistics::unknown};  ///< Longest duration of a jerk, s.
 };
 
 /// The jerks of all trials of a design point.
 struct JerkStatistics {
-  double confidence{statistics::summary_confidence};  ///< of all bounds
+  double confidence{statistics::summary_confidence};  ///< Confidence of all bounds.
   std::int64_t trials{0};
-  std::int64_t moves{0};       ///< of all trials
+  std::int64_t moves{0};       ///< Number of moves of all trials.
   std::int64_t arrived{0};     ///< moves that arrived; only these can jerk
   std::int64_t lost{0};        ///< moves that became non-finite after arrival; excluded below
   std::int64_t with_jerks{0};  ///< trials with at least one jerk
@@ -124,8 +128,8 @@ class JerkRates {
   explicit JerkRates(bool clusters_return = false) : clusters_return_(clusters_return) {}
   /// @param move a move that arrived and was not lost. Moves must be added in order of their trials.
   void add(const ObservedMove& move);
-  /// In order of time. The first range begins with the earliest possible jerk of any move; the last range
-  /// ends with the longest observation.
+  /// Rates in the ranges, in order of time. The first range begins with the earliest possible jerk of any
+  /// move. The last range ends with the longest observation.
   std::vector<JerkRate> rates(double confidence) const;
 
  private:
@@ -148,12 +152,13 @@ class JerkRates {
 
   bool clusters_return_;
   std::map<std::int64_t, Range> ranges_;
-  double sample_time_{0.0};         ///< s, of the last move
-  std::int64_t first_range_{0};     ///< with this sample time, that of sample 1
-  std::vector<std::int64_t> ends_;  ///< of the ranges from that one on, in samples
+  double sample_time_{0.0};         ///< Sample time of the last move, s.
+  std::int64_t first_range_{0};     ///< Number of the range that contains sample 1 at this sample time.
+  std::vector<std::int64_t> ends_;  ///< Ends of the ranges from `first_range_` on, samples.
   std::int64_t moves_{0};
-  double earliest_{std::numeric_limits<double>::infinity()};  ///< s
-  double latest_{0.0};                                        ///< s
+  /// Earliest possible jerk of the moves so far, s.
+  double earliest_{std::numeric_limits<double>::infinity()};
+  double latest_{0.0};  ///< Longest observation of the moves so far, s.
 };
 
 // Output of the command `jerks`.
@@ -161,13 +166,13 @@ class JerkRates {
 /// The data of one point that the command `jerks` reports.
 struct PointJerks : measures::PointUnderCondition {
   JerkStatistics statistics{};
-  CreepComparison creep;  ///< from trials simulated again
+  CreepComparison creep;  ///< Comparison with the closed form of creep, from trials simulated again.
   CreepAgreement creep_agreement;
 };
 
 /// The reported data of a study.
 struct JerkReport {
-  std::string name;  ///< of the study
+  std::string name;  ///< Name of the study.
   double confidence{statistics::summary_confidence};
   std::vector<PointJerks> points;
 };

@@ -41,7 +41,7 @@ void shuffle(std::vector<std::int64_t>& intervals, const random::RandomStream& s
   }
 }
 
-/// How many orders have a sum as small, and as large, as that observed.
+/// Number of orders with a sum as small as the observed one, and of orders with a sum as large.
 struct OrderCount {
   std::int64_t orders{0}, small{0}, large{0};
 

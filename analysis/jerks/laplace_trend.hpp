@@ -30,8 +30,9 @@ namespace zerocount::jerks {
 /// Laplace's statistic of the intervals of one move.
 struct TrendTerm {
   std::int64_t intervals{0};  ///< m
-  double excess{0.0};    ///< ΣT_j less its mean, in units of the intervals: negative if the intervals grow
-  double variance{0.0};  ///< of the excess over all orders of the intervals
+  /// ΣT_j minus the mean over all orders, in units of the intervals. Negative if the intervals grow.
+  double excess{0.0};
+  double variance{0.0};  ///< Variance of the excess over all orders of the intervals.
 };
 
 /// @param intervals in the order of time, whole samples.
@@ -48,32 +49,37 @@ struct TrendProbability {
   double quickening{1.0};
 };
 
-/// By all orders for up to 7 intervals, otherwise by 999 random ones and the observed one.
-/// @param move its number, which the random orders depend on.
+/// Computes the one-sided p-values of one move. For up to 7 intervals all orders are counted, otherwise 999
+/// random orders and the observed one.
+/// @param move number of the move, on which the random orders depend.
 TrendProbability trend_probability(std::span<const std::int64_t> intervals, std::uint32_t move);
 
 /// Test whether jerks slow down, per move and for all moves together.
 struct TrendSummary {
-  std::int64_t moves{0};       ///< moves with at least two intervals that differ
-  std::int64_t tested{0};      ///< of them, those with min_trend_intervals or more
-  std::int64_t slowing{0};     ///< of those tested, slowing down with the stated confidence (one-sided)
-  std::int64_t quickening{0};  ///< of those tested, speeding up with the stated confidence (one-sided)
+  std::int64_t moves{0};   ///< moves with at least two intervals that differ
+  std::int64_t tested{0};  ///< Number of these moves with min_trend_intervals or more intervals.
+  /// Number of tested moves that slow down with the stated confidence (one-sided).
+  std::int64_t slowing{0};
+  /// Number of tested moves that speed up with the stated confidence (one-sided).
+  std::int64_t quickening{0};
   /// Σ excess/√(Σ variance) of all moves: mean 0 and standard deviation 1 without a trend, negative if jerks
   /// slow down.
   double summed{statistics::unknown};
   double stouffer{statistics::unknown};   ///< Σ score/√moves: all moves have the same weight
-  double p_slowing{statistics::unknown};  ///< of `summed`: small if jerks slow down
-  std::int64_t permutations{0};           ///< that p_slowing comes from; 0: from the normal limit of `summed`
+  double p_slowing{statistics::unknown};  ///< One-sided p-value of `summed`; small if jerks slow down.
+  /// Number of permutations behind p_slowing; 0: p_slowing comes from the normal limit of `summed`.
+  std::int64_t permutations{0};
 };
 
-/// Fewest intervals of which an order can be significant at 5 %: there are 24 orders of four.
+/// Smallest number of intervals for which an order can be significant at 5 %: four intervals have 24 orders.
 inline constexpr std::int64_t min_trend_intervals = 4;
 
-/// Random orders of the intervals of all moves together; p_slowing is 1/10000 at least.
+/// Number of random orders for the intervals of all moves together. The smallest possible p_slowing is
+/// therefore 1/10000.
 inline constexpr std::int64_t trend_permutations = 9999;
 
-/// Intervals of all moves together up to which p_slowing comes from permutations. With more, their sum is
-/// normal (the combinatorial central limit theorem of Hoeffding).
+/// Largest total number of intervals for which p_slowing comes from permutations. With more intervals the sum
+/// is approximately normal (combinatorial central limit theorem of Hoeffding).
 inline constexpr std::int64_t max_permuted_intervals = 20000;
 
 /// Collects the moves of a design point.
@@ -91,7 +97,7 @@ class TrendSum {
     std::uint32_t number;
     std::vector<std::int64_t> intervals;
   };
-  /// Tests the moves that wait for it, in parallel.
+  /// Tests the moves in `untested_`, in parallel.
   void test_moves();
 
   double level_{0.0};  ///< p below which a single move has a trend
@@ -100,7 +106,8 @@ class TrendSum {
   double variance_{0.0};
   double scores_{0.0};
   std::int64_t intervals_{0};
-  std::vector<std::vector<std::int64_t>> kept_;  ///< [move], while there are few enough to permute
+  /// [move] Intervals of each move, while there are few enough to permute.
+  std::vector<std::vector<std::int64_t>> kept_;
   std::vector<Move> untested_;
 };
 

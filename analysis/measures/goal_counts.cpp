@@ -20,7 +20,7 @@
 namespace zerocount::measures {
 namespace {
 
-/// The place of a value in a list.
+/// Index of a value in a list; empty if the list lacks it.
 template <class Value>
 std::optional<std::size_t> slot_of(std::span<const Value> values, Value value) {
   const auto place = std::ranges::find(values, value);
@@ -159,7 +159,7 @@ std::vector<SettlingTimes> GoalSettling::statistics(double confidence) const {
 
 namespace {
 
-/// Whether the event is a large value.
+/// Whether large values are the event, not small ones.
 bool is_above(const MoveEvent& event) {
   return event.sign == text::Sign::above || event.sign == text::Sign::at_least;
 }
@@ -176,12 +176,13 @@ double value_of(const layout::Measure& measure, const trial::MoveOutcome& move) 
   return ranked_value(measure, move).value_or(statistics::unknown);
 }
 
-/// Whether the moves of the event may be allowed different times.
+/// Whether the goals of the event may allow moves different times.
 bool allows_several_times(const MoveEvent& event) {
   return event.goals.size() > 1 || event.goals.front().within.after_profile;
 }
 
-/// The settling time of a goal; as the largest proportion of the time allowed, where that may differ.
+/// The settling time of the move for the event's goal, s. If moves may be allowed different times: the
+/// largest ratio of settling time and allowed time over the goals. NaN if never.
 double lateness_of(const MoveEvent& event, const trial::MoveOutcome& move) {
   const bool by_share = allows_several_times(event);
   double latest = event.goals.size() > 1 ? 0.0 : statistics::unknown;

@@ -24,59 +24,60 @@
 
 namespace zerocount::measures {
 
-/// A limit of a goal: the magnitude of the measure is at most `largest`.
+/// A limit of a goal: the magnitude of the measure must be at most `largest`.
 struct CountedLimit {
-  const layout::Measure* measure{nullptr};  ///< a row of a table that stays (layout::measure_table())
+  const layout::Measure* measure{nullptr};  ///< Row of layout::measure_table(), a table that outlives this.
   double largest{0.0};
 };
 
-/// What is asked of a move: to be within an error band, or a tolerance, for good in time and to keep the
-/// limits; or to succeed (end at zero counts).
+/// The criterion by which a move is counted: either to settle within an error band, or a tolerance, for good
+/// in time and to keep the limits; or, without band and tolerance, to succeed (end at zero counts).
 struct CountedGoal {
-  std::optional<std::size_t> slot{};       ///< of the band, in MoveOutcome::bands
-  study::TimeLimit within{0.0};            ///< of a band or a tolerance
-  std::optional<std::size_t> tolerance{};  ///< in MoveOutcome::tolerance_settling_times. Neither: it succeeds
-  bool of_other_mass{false};               ///< the tolerance is in other_tolerance_settling_times
-  std::vector<std::int64_t> on{};          ///< the moves that are asked, rising; empty: all
+  std::optional<std::size_t> slot{};       ///< Index of the band in MoveOutcome::bands.
+  study::TimeLimit within{0.0};            ///< Time allowed to settle within the band or tolerance.
+  std::optional<std::size_t> tolerance{};  ///< Index in MoveOutcome::tolerance_settling_times.
+  bool of_other_mass{false};               ///< `tolerance` is an index in other_tolerance_settling_times.
+  std::vector<std::int64_t> on{};          ///< Numbers of the moves that are judged, rising; empty: all.
   std::vector<CountedLimit> limits{};
 };
 
-/// The goal as moves with these features are counted; nothing where they lack its band, tolerance or limits.
+/// The criterion of the goal for moves with these features; empty if they lack its band, tolerance or limits.
 std::optional<CountedGoal> counted_by(const study::Goal& goal, const study::StudyFeatures& features);
-/// The goals of the study as they are counted, [goal]; empty without one.
+/// [goal] the criteria of the study's goals; empty without a goal.
 std::vector<CountedGoal> counted_goals(const study::Study& study);
-/// The goals of the study, or success where it has none.
+/// The criteria of the study's goals; if it has none, the single criterion success.
 std::vector<CountedGoal> asked_of_moves(const study::Study& study);
 
-/// Number of moves of a trial that the goal asks. @param moves of a trial
+/// Number of moves of a trial that the goal judges. @param moves number of moves of a trial
 inline std::int64_t asked_moves(const CountedGoal& goal, std::int64_t moves) {
   return goal.on.empty() ? moves : std::ssize(goal.on);
 }
 
-/// Whether the goal is about this move.
+/// Whether the goal judges this move.
 inline bool asks(const CountedGoal& goal, const trial::MoveOutcome& move) {
   return goal.on.empty() || std::ranges::binary_search(goal.on, move.number);
 }
 
-/// The time that a goal allows this move, s from its start.
+/// Time that the goal allows this move, s from the start of the move.
 inline double allowed_time(const CountedGoal& goal, const trial::MoveOutcome& move) {
   return goal.within.from_start(move.travel_time);
 }
 
-/// A time that is never reached is later than any other.
+/// The time as a rank: NaN, a time never reached, becomes infinity.
 inline double lateness(double time) {
   return std::isnan(time) ? std::numeric_limits<double>::infinity() : time;
 }
 
-/// Whether a time is in time, both in s. A sample at the very end is, although k·T may be rounded up, and
-/// although a manifest may write the allowed time with few digits: 0.016333333333 s for 49 samples at 3 kHz.
+/// Relative tolerance of is_in_time(). A sample exactly at the allowed time must count, although k·T may be
+/// rounded up and a manifest may give the time with few digits: 0.016333333333 s for 49 samples at 3 kHz.
 constexpr double rounding_of_times = 1.0 + 1e-9;
+/// Whether `time` is at most `allowed`, up to rounding; both in s. False if `time` is NaN.
 inline bool is_in_time(double time, double allowed) {
   return time <= allowed * rounding_of_times;  // not NaN
 }
 
-/// When the move is within the goal's band, or tolerance, for good, or has arrived (of success), s; NaN if
-/// never.
+/// Time from which on the move stays within the goal's band or tolerance, s. For success: the arrival time.
+/// NaN if never.
 inline double settling_time(const CountedGoal& goal, const trial::MoveOutcome& move) {
   if (goal.tolerance)
     return (goal.of_other_mass ? move.other_tolerance_settling_times
@@ -84,38 +85,39 @@ inline double settling_time(const CountedGoal& goal, const trial::MoveOutcome& m
   return goal.slot ? move.bands[*goal.slot].settling_time : move.arrival_time;
 }
 
-/// Whether the move does what is asked. @param move that is asked
+/// Whether the move meets the criterion. @param move a move that the goal judges
 bool meets(const CountedGoal& goal, const trial::MoveOutcome& move);
 
-/// Whether all moves that the goal asks meet it.
+/// Whether all moves that the goal judges meet it.
 inline bool all_meet(const CountedGoal& goal, std::span<const trial::MoveOutcome> moves) {
   return std::ranges::all_of(
       moves, [&](const trial::MoveOutcome& move) { return !asks(goal, move) || meets(goal, move); });
 }
 
-/// Adds the moves of a trial that the goal asks. @returns how many meet it
+/// Adds the moves of a trial that the goal judges. @returns number of moves that meet the goal
 std::int64_t count_moves(CellCounts& counts, const CountedGoal& goal, std::int64_t trial,
                          std::span<const trial::MoveOutcome> moves);
 
-/// The settling times of the moves that one goal asks, beside the times that it allows them.
+/// Settling times of the moves that one goal judges, compared with the times allowed.
 struct SettlingTimes {
   MeasureStatistics times;              ///< number of moves, their extremes, median and 95 % quantile, s
-  double allowed{statistics::unknown};  ///< s from the start of a move, the longest of all
-  double share{statistics::unknown};  ///< 95 % quantile of time / allowed time; infinite where never reached
+  double allowed{statistics::unknown};  ///< Longest time allowed to a move, s from its start.
+  /// 95 % quantile of settling time / allowed time; infinite if it is never reached.
+  double share{statistics::unknown};
 };
 
-/// Collects the settling times of the moves that one goal asks, under each condition. A goal on all moves of
-/// a study without conditions that allows all the same time needs no times of its own: they are those of its
-/// band (or tolerance), which is a measure of the study.
+/// Collects the settling times of the moves that one goal judges, under each condition. Nothing is collected
+/// for a goal on all moves of a study without conditions that allows all moves the same time: its times are
+/// then a measure of the study, the settling time of its band or tolerance.
 class GoalSettling {
  public:
   GoalSettling(const CountedGoal& goal, const Shape& shape);
 
   /// Adds the moves of a trial. @param trial its index at the design point
   void add(std::int64_t trial, const CountedGoal& goal, std::span<const trial::MoveOutcome> moves);
-  /// Adds other trials, of the same goal.
+  /// Adds the trials of another accumulator for the same goal.
   GoalSettling& operator+=(const GoalSettling& next);
-  /// [condition, or 0 without conditions]; empty where it collects nothing.
+  /// [condition, or 0 without conditions] the statistics; empty if nothing is collected.
   std::vector<SettlingTimes> statistics(double confidence) const;
 
   template <class Self, class Archive>
@@ -124,57 +126,61 @@ class GoalSettling {
     for (auto& shares : self.shares_) archive(shares);
     for (auto& allowed : self.allowed_) archive(allowed);
   }
-  /// Whether restored times can be those of so many moves.
+  /// Whether the restored times are possible for this number of moves.
   bool is_valid(std::int64_t moves) const;
 
  private:
   std::int64_t machines_;
   study::TimeLimit within_;
-  std::vector<double> values_{};                     ///< of the current trial
-  std::vector<statistics::TrialClusters> times_{};   ///< [condition]
-  std::vector<statistics::TrialClusters> shares_{};  ///< [condition] of moves with times of their own
-  std::vector<double> allowed_{};                    ///< [condition] the longest, s, likewise
+  std::vector<double> values_{};                    ///< Values of the current trial.
+  std::vector<statistics::TrialClusters> times_{};  ///< [condition] settling times
+  /// [condition] settling time / allowed time; empty if all moves are allowed the same time.
+  std::vector<statistics::TrialClusters> shares_{};
+  /// [condition] longest allowed time, s; empty if all moves are allowed the same time.
+  std::vector<double> allowed_{};
 };
 
-/// An event of a move: it misses what is asked of it, or a measure of it is beyond a limit.
+/// An event that a move may show: it misses the question of the study, or one of its measures is beyond a
+/// limit.
 struct MoveEvent {
-  std::string text;                  ///< "arrival_time > 0.5"; empty: it misses the goal, or does not succeed
-  std::vector<CountedGoal> goals{};  ///< used if text is empty
-  layout::Measure measure{};         ///< used otherwise
-  text::Sign sign{text::Sign::above};  ///< how values that are the event lie to the limit; never equal
-  double limit{0.0};                   ///< in the measure's unit
+  std::string text;  ///< "arrival_time > 0.5"; empty: the move misses the goal, or does not succeed
+  std::vector<CountedGoal> goals{};    ///< used if text is empty
+  layout::Measure measure{};           ///< used otherwise
+  text::Sign sign{text::Sign::above};  ///< Relation of the value to the limit at the event; never equal.
+  double limit{0.0};                   ///< Limit, in the measure's unit.
 };
 
 /// The event that a move misses the goal of the study or, without a goal, that it does not succeed.
 MoveEvent missed_question(const study::Study& study);
 
-/// The event of a text such as "arrival_time > 0.5" or "band_settling_time[1] >= 0.05".
+/// Parses the text of an event, such as "arrival_time > 0.5" or "band_settling_time[1] >= 0.05".
 /// @throws Failure (bad_input) unless it is MEASURE, one of > >= < <= (or ≥, ≤), and a number
 MoveEvent parse_event(const study::Study& study, std::string_view text);
 
-/// Whether the event can be that of this move: a goal is about it, or the event is not of goals.
+/// Whether the move can show the event: a goal judges the move, or the event is about a measure.
 bool is_asked(const MoveEvent& event, const trial::MoveOutcome& move);
 
-/// Whether the move shows the event. A value that is missing counts as ranked_value() says: an event that
-/// never came is worse than any limit, and nothing to measure is no event.
+/// Whether the move shows the event. ranked_value() decides about missing values: a time never reached is
+/// beyond every limit, and a move with nothing to measure does not show the event.
 bool happens(const MoveEvent& event, const trial::MoveOutcome& move);
 
-/// The continuous scores of a move. Each is larger the nearer a move is to some kind of failure.
+/// Continuous scores of a move. A larger score means that the move is nearer to some kind of failure.
 enum class MoveScore {
-  event,        ///< settling time in the goal's band, or arrival, s; or the measure, with the event's sign
-  peak_torque,  ///< largest |torque|, N m: towards the range of the converter, and towards breakaway
-  final_error,  ///< |true error| at the end, counts: towards the edge of a band
-  restlessness  ///< part of the samples after arrival at which the error is not 0
+  event,        ///< Settling time in the goal's band, or arrival time, s; or the event's measure, signed.
+  peak_torque,  ///< Largest |torque|, N m: distance to the converter's range and to breakaway.
+  final_error,  ///< |true error| at the end, counts: distance to the edge of a band.
+  restlessness  ///< Proportion of the samples after arrival at which the error is not 0.
 };
 
-/// Every score, the most direct one first.
+/// All scores, the most direct one first.
 inline constexpr std::array move_scores{MoveScore::event, MoveScore::peak_torque, MoveScore::final_error,
                                         MoveScore::restlessness};
 
-/// "settling time in the band", "time until arrival", or the name of the event's measure; "largest torque" …
+/// Name of a score. MoveScore::event: "settling time in the band", "time until arrival", or the name of the
+/// event's measure. Other scores: "largest torque" …
 std::string name_of(MoveScore score, const MoveEvent& event);
 
-/// The score of a move; NaN where it has none.
+/// The score of a move; NaN if the move has none.
 double score_of(MoveScore score, const MoveEvent& event, const trial::MoveOutcome& move);
 
 }  // namespace zerocount::measures

@@ -19,7 +19,8 @@
 namespace zerocount::measures {
 namespace {
 
-/// −0 + 0 is 0: which of two equal values stands for both must not depend on their order.
+/// Added to values, it turns −0 into 0. The two are equal, so which of them represents both in a histogram
+/// must not depend on their order.
 constexpr double positive_zero = 0.0;
 
 bool needs_every_value(const layout::Measure& measure, const layout::ReportedStatistics& reported) {
@@ -118,7 +119,8 @@ void MeasureAccumulator::add_values(const MovesOfTrials& some) {
                          measure_->values.missing == layout::Missing::late);
 }
 
-/// Adds values_, [trial, value], to the totals of the clusters. @param trial index of the first
+/// Adds values_, [trial, value], to the totals of the clusters. @param trial index of the first trial
+/// @param of_trial number of values of a trial
 void MeasureAccumulator::add_totals(std::int64_t trial, std::size_t of_trial) {
   if (!has_mean_bounds_) return;
   std::vector<double> known;

@@ -14,26 +14,26 @@
 
 namespace zerocount::measures {
 
-/// Proportion of trials, with bounds; NaN where there are none that could be a part of it.
+/// Proportion of trials, with bounds; NaN without trials.
 struct RateWithBounds {
   double value{statistics::unknown};
   statistics::ConfidenceInterval clopper_pearson{statistics::unknown, statistics::unknown};
   statistics::ConfidenceInterval wilson{statistics::unknown, statistics::unknown};
 };
 
-/// The statistics of one measure over the moves or, of a sum or a quality, over the trials: in the measure's
-/// unit, NaN where there is none. Only what its row of the table reports is worked out.
+/// Statistics of one measure, in the unit of the measure: over the moves, or over the trials for a sum or a
+/// quality. NaN without values. Only the statistics that the measure's row of the table reports are computed.
 struct MeasureStatistics {
   static constexpr statistics::Quantile no_quantile{statistics::unknown, statistics::unknown,
                                                     statistics::unknown};
   std::int64_t n{0};                  ///< values that are known
   std::int64_t moves{0};              ///< values, including the censored ones
-  std::int64_t nonfinite{0};          ///< values left out because they are not finite
+  std::int64_t nonfinite{0};          ///< values left out as not finite
   std::int64_t trials{0};             ///< trials with the quality, or values above 0
   std::int64_t total{0};              ///< sum of the values of the trials
-  std::vector<std::int64_t> by_move;  ///< [move] of a quality: trials whose move has it
-  RateWithBounds rate;                ///< of trials with the quality
-  RateWithBounds moves_rate;  ///< of moves with the quality; Korn–Graubard in place of Clopper–Pearson
+  std::vector<std::int64_t> by_move;  ///< [move] number of trials whose move has the quality
+  RateWithBounds rate;                ///< Proportion of trials with the quality.
+  RateWithBounds moves_rate;  ///< Proportion of moves with it; Korn–Graubard instead of Clopper–Pearson.
   double mean{statistics::unknown};
   double sd{statistics::unknown};
   double rms{statistics::unknown};
@@ -41,9 +41,8 @@ struct MeasureStatistics {
   double max{statistics::unknown};
   statistics::Quantile p05{no_quantile}, p25{no_quantile}, median{no_quantile}, p75{no_quantile},
       p95{no_quantile};
-  statistics::ConfidenceInterval mean_bounds{
-      statistics::unknown,
-      statistics::unknown};  ///< Student's at a level; at a point by the bootstrap, if wanted
+  /// Bounds of the mean: Student's t at a torque level; bootstrap at a point, if requested.
+  statistics::ConfidenceInterval mean_bounds{statistics::unknown, statistics::unknown};
 };
 
 /// The statistics of all measures of a table.
@@ -75,28 +74,28 @@ struct StatisticsOfMeasures {
 };
 
 /// The statistics of the measure with this name, such as "band_settling_time[1]".
-/// @throws std::invalid_argument where the table has none
+/// @throws std::invalid_argument if the table has no such measure
 const MeasureStatistics& named(const StatisticsOfMeasures& statistics, std::string_view name);
 
 /// The statistics of a measure of an error band.
-/// @throws std::invalid_argument where the table has no such measure of the band.
+/// @throws std::invalid_argument if the table has no such measure of the band.
 const MeasureStatistics& of_band(const StatisticsOfMeasures& statistics, std::string_view name,
                                  std::int64_t band);
 
-/// Name and value of a statistic.
+/// Name, meaning and value of a statistic.
 struct StatisticKind {
   layout::Statistic statistic;
   std::string_view name;     ///< empty: the name of the measure
-  std::string_view meaning;  ///< for the long name
-  std::string_view bound{};  ///< for the long name, before the meaning
+  std::string_view meaning;  ///< Long name; for a bound, the long name of what is bounded: "the mean".
+  std::string_view bound{};  ///< Kind of bound, "lower 95 % bound"; empty if the statistic is not a bound.
   bool whole{false};
   double (*value)(const MeasureStatistics&);
 };
 
-/// All of them, in the order of Statistic.
+/// All kinds of statistics, in the order of layout::Statistic.
 std::span<const StatisticKind> statistic_kinds();
 
-/// "lower 95 % bound of the mean".
+/// Long name of the statistic: "lower 95 % bound of the mean".
 std::string meaning_of(const StatisticKind& kind);
 
 /// The value of a statistic.

@@ -22,7 +22,7 @@ std::int64_t CellCounts::cells_of_condition() const {
   return shape_.machines > 0 ? shape_.machines : static_cast<std::int64_t>(worlds());
 }
 
-/// @param within the machine, or without machines the world
+/// Index of a cell. @param within index of the machine; without machines, of the world
 std::int64_t CellCounts::cell_of(std::size_t condition, std::size_t within) const {
   return static_cast<std::int64_t>(condition) * cells_of_condition() + static_cast<std::int64_t>(within);
 }
@@ -116,7 +116,7 @@ bool CellCounts::is_valid(std::int64_t trials, std::int64_t moves_of_trial) cons
          });
 }
 
-/// As they stand in files: empty with machines, and where nothing was counted.
+/// [world] the sums in the form of files: empty with machines, and if nothing was counted.
 std::vector<statistics::ClusterSums> CellCounts::sums_of_worlds(Condition condition) const {
   std::vector<statistics::ClusterSums> sums;
   for (const MoveCounts& world : by_world(condition)) sums.push_back(world.of_trials);
@@ -125,7 +125,7 @@ std::vector<statistics::ClusterSums> CellCounts::sums_of_worlds(Condition condit
   return sums;
 }
 
-/// Whether what was read can be a part: sums of cells do not overflow.
+/// Whether the part that was read is possible. The limits ensure that sums of cells do not overflow.
 bool CellCounts::can_be(const Part& part) const {
   constexpr std::int64_t most_moves = std::int64_t{1} << 53;
   const std::int64_t most = most_moves / cells_of_condition() / static_cast<std::int64_t>(conditions());

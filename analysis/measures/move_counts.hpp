@@ -14,24 +14,25 @@
 
 namespace zerocount::measures {
 
-/// Moves of which some meet what is asked.
+/// Number of moves that were judged, and of those that meet the goal.
 struct MoveCounts {
   std::int64_t moves{0};
   std::int64_t met{0};
-  statistics::ClusterSums of_trials{};               ///< moves; each trial is a cluster. Empty with machines
-  std::vector<statistics::MachineMoves> machines{};  ///< [machine]; empty without machines
+  /// Sums over the moves with each trial as a cluster; empty with machines.
+  statistics::ClusterSums of_trials{};
+  std::vector<statistics::MachineMoves> machines{};  ///< [machine] moves; empty without machines
 
   bool operator==(const MoveCounts&) const = default;
 };
 
-/// The moves in clusters: machines, or trials where none share a machine.
+/// The moves grouped in clusters: one cluster per machine, or per trial if no trials share a machine.
 statistics::ClusterSums clusters_of(const MoveCounts& counts);
 
-/// Sizes of the dimensions by which the trials of a design point are told apart; 0: not by this one.
+/// Numbers of machines, worlds and conditions among the trials of a design point; 0: the study has none.
 struct Shape {
-  std::int64_t machines{0};    ///< draw j is on machine j mod machines
-  std::int64_t worlds{0};      ///< draw j is in world j mod worlds, and machine r in world r mod worlds
-  std::int64_t conditions{0};  ///< with ages each condition at each age; see study::TrialTurns
+  std::int64_t machines{0};    ///< Draw j is on machine j mod machines.
+  std::int64_t worlds{0};      ///< Draw j is in world j mod worlds, and machine r in world r mod worlds.
+  std::int64_t conditions{0};  ///< Number of conditions at all ages together; see study::TrialTurns.
 
   bool operator==(const Shape&) const = default;
 };
@@ -40,49 +41,51 @@ inline Shape shape_of(const study::Study& study) {
   return {study.machines, study.worlds, std::ssize(study.conditions)};
 }
 
-/// Cells of a design point: those under one condition, of one world, or all.
+/// Selection of cells of a design point: one condition or all, one world or all.
 struct Cells {
   std::optional<std::size_t> condition{};
   std::optional<std::size_t> world{};
 };
 
-/// The moves of a design point, counted in cells: each world under each condition, or with machines each
-/// machine under each condition. All other counts are sums of cells.
+/// The moves of a design point, counted in cells. A cell is a machine under a condition; without machines it
+/// is a world under a condition. All other counts are sums of cells.
 class CellCounts {
  public:
   explicit CellCounts(const Shape& shape = {}) : shape_(shape) {}
 
-  /// Adds moves of a trial.
+  /// Adds the moves of a trial. @param trial index of the trial at the design point
   void add(std::int64_t trial, std::int64_t moves, std::int64_t met);
   /// Adds moves of a machine under one condition. @param condition 0 without conditions
   void add_machine(std::size_t machine, std::size_t condition, const statistics::MachineMoves& moves);
   /// Adds the moves of trials of one world under one condition, without machines. @param world 0 without
   /// worlds
   void add_trials(std::size_t world, std::size_t condition, const statistics::ClusterSums& moves);
-  /// Adds other moves, of the same shape.
+  /// Adds the moves of other counts with the same shape.
   CellCounts& operator+=(const CellCounts& other);
 
   const Shape& shape() const { return shape_; }
-  /// 1 without conditions.
+  /// Number of conditions; 1 without conditions.
   std::size_t conditions() const {
     return static_cast<std::size_t>(std::max<std::int64_t>(shape_.conditions, 1));
   }
 
-  /// The moves of these cells, as those of a study of its own.
+  /// The sum of these cells, as if they were a study of their own.
   MoveCounts sum(const Cells& cells = {}) const;
-  /// [world] and [condition] the moves of each; empty without worlds, conditions.
+  /// [world] the moves in the world; empty without worlds.
   std::vector<MoveCounts> by_world() const { return by_world(std::nullopt); }
+  /// [condition] the moves under the condition; empty without conditions.
   std::vector<MoveCounts> by_condition() const;
-  /// The moves under a condition by world, [world]; without worlds all of them as one. A claim must hold in
-  /// each.
+  /// [world] the moves under a condition; without worlds a single element with all of them. A claim must hold
+  /// in each element.
   std::vector<MoveCounts> worlds_under(std::size_t condition) const;
-  /// The cells under one condition.
+  /// Counts with only the cells under one condition.
   CellCounts under(std::size_t condition) const;
 
-  /// Whether restored counts can be those of so many trials.
+  /// Whether the restored counts are possible for this number of trials.
   bool is_valid(std::int64_t trials, std::int64_t moves_of_trial) const;
 
-  /// In files stand the sums of all conditions, then those of each. The shape is known beforehand.
+  /// Serialises the sums over all conditions, then the sums of each condition. The shape must be known before
+  /// reading.
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
     const std::size_t parts = self.shape_.conditions == 0 ? 0 : self.conditions();
@@ -99,9 +102,9 @@ class CellCounts {
   }
 
  private:
-  using Condition = std::optional<std::size_t>;  ///< nothing: all
+  using Condition = std::optional<std::size_t>;  ///< Index of a condition; empty: all conditions.
 
-  /// The sums of one condition, or of all, as a file has them.
+  /// The sums of one condition, or of all conditions, as a file stores them.
   struct Part {
     MoveCounts counts;
     std::vector<statistics::ClusterSums> of_worlds;  ///< empty without worlds, with machines
@@ -123,7 +126,8 @@ class CellCounts {
     if (shape_.worlds > 0) archive(sums_of_worlds(condition));
   }
 
-  /// @returns the part, which is kept where it is of one condition, or there is none
+  /// Reads a part and returns it. The part is also added to the cells if it belongs to one condition, or if
+  /// the study has no conditions.
   template <class Archive>
   Part read(Archive& archive, Condition condition) {
     Part part;

@@ -18,10 +18,10 @@
 
 namespace zerocount::measures {
 
-/// The moves of trials of a design point that follow one another.
+/// The moves of successive trials of a design point.
 struct MovesOfTrials {
-  std::int64_t first_trial{0};                       ///< its index at the point
-  std::size_t of_trial{1};                           ///< moves
+  std::int64_t first_trial{0};                       ///< Index of the first trial at the point.
+  std::size_t of_trial{1};                           ///< Number of moves of a trial.
   std::span<const trial::MoveOutcome* const> moves;  ///< [trial, move]
 
   std::int64_t trials() const { return std::ssize(moves) / static_cast<std::int64_t>(of_trial); }
@@ -32,49 +32,50 @@ struct MoveKind {
   bool open_loop{false};  ///< torque levels in place of targets
   Shape shape{};
   std::vector<CountedGoal> goals{};
-  /// [goal] those with study::Goal::beside_load as goals of the load; empty where none has it
+  /// [goal] the criterion for the load, if the goal has study::Goal::beside_load. The vector is empty if no
+  /// goal has it.
   std::vector<std::optional<CountedGoal>> for_the_load{};
 
-  bool has_observed_counts{false};  ///< Trials of a real machine are compared with these.
+  bool has_observed_counts{false};  ///< Whether the study is compared with counts observed on a real machine.
 
-  /// Whether trials are counted by the question, beside their moves.
+  /// Whether trials are counted as well as their moves (PointSummary::trials_of_groups).
   bool counts_trials() const {
     return shape.worlds > 0 || shape.conditions > 0 || (has_observed_counts && !goals.empty());
   }
 };
 
-/// The kind of the moves of a study.
+/// The properties of the moves of a study.
 MoveKind move_kind(const study::Study& study);
 
-/// Where the resampling of a design point draws its random numbers.
+/// Source of the random numbers for the resampling (bootstrap) of a design point.
 struct BootstrapDraws {
-  std::uint64_t seed{0};    ///< of the study
-  std::uint32_t stream{0};  ///< the design point
+  std::uint64_t seed{0};    ///< Seed of the study.
+  std::uint32_t stream{0};  ///< Number of the design point.
 };
 
 /// Settings of the statistics of a design point.
 struct StatisticsOptions {
   double confidence{statistics::summary_confidence};
-  std::optional<BootstrapDraws> bootstrap{};  ///< none: the bounds of means are left open
-  /// Whether the outcomes decided the number of trials: the bounds of claims about all axes must then hold at
-  /// any stopping time.
+  std::optional<BootstrapDraws> bootstrap{};  ///< Empty: the bounds of means are not computed.
+  /// Whether the outcomes decided the number of trials. The bounds of claims about all machines must then
+  /// hold at any stopping time.
   bool stopped_by_outcomes{false};
 };
 
 /// Collects one measure of the trials of a design point and computes its statistics. The trials of one
 /// machine and the moves of one trial are clusters: the bounds account for their correlation.
 ///
-/// Sums, and values with quantiles, are kept as histograms: the memory grows with the number of distinct
-/// values, not with the number of trials.
+/// Measures that are summed over a trial, and measures with quantiles, are kept as histograms. The memory
+/// grows with the number of distinct values, not with the number of trials.
 class MeasureAccumulator {
  public:
-  /// @param measure must outlive this object. @param reported the measure's statistics at a point, or at a
-  /// level.
+  /// @param measure must outlive this object. @param reported the statistics that are reported of the measure
+  /// at a point, or at a level.
   MeasureAccumulator(const layout::Measure& measure, const layout::ReportedStatistics& reported,
                      const MoveKind& kind);
 
   void add(const MovesOfTrials& some);
-  /// Adds other trials, of the same measure.
+  /// Adds the trials of another accumulator of the same measure.
   MeasureAccumulator& operator+=(const MeasureAccumulator& next);
   MeasureStatistics statistics(const StatisticsOptions& options) const;
 
@@ -109,10 +110,10 @@ class MeasureAccumulator {
   statistics::TrialClusters clusters_;
   statistics::ClusterTotals totals_;
   std::vector<std::int64_t> by_move_;  ///< [move] trials whose move has the quality; empty without trials
-  statistics::ByCluster<> judged_;     ///< trials; without machines all are of machine 0
-  statistics::ByCluster<> hits_;       ///< those with the quality, likewise
-  CellCounts of_moves_;                ///< with the quality, where they are counted
-  std::vector<double> values_;         ///< of the trials that are being added
+  statistics::ByCluster<> judged_;  ///< [machine] number of trials; without machines all count as machine 0
+  statistics::ByCluster<> hits_;    ///< [machine] number of trials with the quality; indexed like judged_
+  CellCounts of_moves_;             ///< Counts of the moves with the quality, if counts_moves_.
+  std::vector<double> values_;      ///< Values of the trials that are being added.
 };
 
 /// Collects the trials of one design point and computes its statistics. The trials of one machine and the
@@ -130,18 +131,20 @@ class PointAccumulator {
                             std::int64_t first_trial = 0);
 
   /// Adds a trial with its jerks in order of move and onset.
-  /// @throws Failure (bad_data) where the trial has no move or another number of moves than those before it,
-  /// its jerks are out of order or not those that its outcome counts, or its moves are not of the kind.
+  /// @throws Failure (bad_data) if the trial has no move or another number of moves than earlier trials, if
+  /// its jerks are out of order or their number differs from the outcome, or if its moves are not of the
+  /// kind.
   void add(const trial::TrialOutcome& trial, std::span<const trial::Jerk> jerks);
 
-  /// The two parts of add(): the measures, of many trials with `moves_of_trial` moves each, by columns; and
-  /// the rest, of one trial.
-  /// @param moves [trial, move]
+  /// First part of add(), for many trials at once: adds their measures, column by column. add_counts() must
+  /// be called for each of these trials too.
+  /// @param moves [trial, move] @param moves_of_trial number of moves of each trial
   void add_measures(std::span<const trial::MoveOutcome* const> moves, std::size_t moves_of_trial);
+  /// Second part of add(), for one trial: adds all but the measures.
   void add_counts(std::span<const trial::MoveOutcome> moves, std::span<const trial::Jerk> jerks);
 
-  /// Adds the trials that follow these, of the same point. The statistics do not depend on how the trials of
-  /// a point were divided.
+  /// Adds the trials of the same point that follow those of this object. The statistics do not depend on how
+  /// the trials of a point were divided.
   PointAccumulator& operator+=(const PointAccumulator& next);
 
   std::int64_t trials() const { return counted_.trials; }
@@ -149,9 +152,9 @@ class PointAccumulator {
 
   /// The sums of the trials added so far, for files.
   statistics::State state() const;
-  /// Replaces the trials added so far by those whose sums these are.
-  /// @param moves of each trial
-  /// @throws Failure (bad_data) if they cannot be those of a point of this kind.
+  /// Replaces the trials added so far by the trials that these sums (state()) describe.
+  /// @param moves number of moves of each trial
+  /// @throws Failure (bad_data) if the sums are impossible for a point of this kind.
   void restore(std::span<const std::int64_t> whole, std::span<const double> real, std::int64_t moves);
 
   /// The statistics of the trials added so far.
@@ -186,16 +189,16 @@ class PointAccumulator {
   std::vector<std::int64_t> lost_in_levels_;             ///< [move] trials whose motion was lost
   statistics::ByCluster<statistics::MachineTrials> machines_;
   std::vector<CellCounts> goals_;                   ///< [goal]
-  std::vector<CellCounts> for_the_load_;            ///< [goal] of MoveKind::for_the_load
-  std::vector<GoalSettling> goal_settling_;         ///< [goal]
+  std::vector<CellCounts> for_the_load_;            ///< [goal] counts for MoveKind::for_the_load
+  std::vector<GoalSettling> goal_settling_;         ///< [goal] Settling times of the moves that it judges.
   GroupTrials groups_;                              ///< Trials of groups, if MoveKind::counts_trials().
-  statistics::TrialClusters trial_settling_times_;  ///< of each trial: of its slowest move
+  statistics::TrialClusters trial_settling_times_;  ///< Arrival time of each trial's slowest move, s.
   std::int64_t jerks_{0};
   statistics::Histogram<double> jerk_intervals_;
-  JerkSlowing jerk_slowing_;  ///< its counts
+  JerkSlowing jerk_slowing_;  ///< counts only; `proportion` and `tau` are not set
   statistics::RankTrend interval_trend_;
   std::int64_t one_count_jerks_{0};
-  std::vector<double> values_;  ///< of the current trial or move
+  std::vector<double> values_;  ///< Values of the current trial or move.
 };
 
 }  // namespace zerocount::measures

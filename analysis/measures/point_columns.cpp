@@ -28,7 +28,8 @@ const layout::PointColumn& find_column(std::span<const layout::PointColumn> colu
   return *found;
 }
 
-/// The number of trials behind a proportion that rate() computed.
+/// Number of trials in the numerator of a proportion of `trials` trials.
+/// @throws Failure (bad_data) if the value is not a proportion
 std::int64_t trials_of_proportion(double proportion, std::int64_t trials, std::string_view name,
                                   const std::filesystem::path& file) {
   if (!(proportion >= 0.0 && proportion <= 1.0))
@@ -178,7 +179,7 @@ std::vector<StatisticField> machine_fields() {
   };
 }
 
-/// The fields of the statistics of a measure that `wanted` picks.
+/// Appends the fields of those statistics of a measure that `wanted` selects.
 template <class Subject, class Wanted>
 void add_measure(std::vector<text::ReportField<Subject>>& fields, const layout::MeasureTable& measures,
                  const layout::Measure& measure, const layout::ReportedStatistics& reported,

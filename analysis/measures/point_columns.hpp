@@ -26,58 +26,59 @@
 
 namespace zerocount::measures {
 
-/// The statistics of all points as columns of the results file's /point: one for each of statistic_fields(),
-/// by flat_name.
+/// The statistics of all points as columns of the group /point of the results file: one column for each of
+/// statistic_fields(), named by flat_name().
 std::vector<layout::PointColumn> point_columns(
     std::span<const PointSummary> points, const study::StudyFeatures& features = {},
     const layout::MeasureTable& measures = layout::measure_table());
 
-/// The levels of an open-loop study, of all its points, as the group /level of the results file: a column for
-/// each of level_fields(), by flat_name.
+/// The torque levels of all points of an open-loop study, as the group /level of the results file: one column
+/// for each of level_fields(), named by flat_name().
 layout::StatisticTable level_table(std::span<const PointSummary> points,
                                    const layout::MeasureTable& measures = layout::measure_table());
 
-/// A reported proportion of trials by the criteria's prediction. The names are those in the CSV summary and
-/// in the results file.
+/// A proportion of trials with a certain prediction by the paper's criteria.
 struct PredictionField {
-  std::string_view name;
-  std::string_view long_name;                     ///< with the denominator
+  std::string_view name;                          ///< Name in the CSV summary and in the results file.
+  std::string_view long_name;                     ///< Meaning, including the denominator.
   std::int64_t theory::PointPrediction::*trials;  ///< the trials in the numerator
 };
 
-/// Where (6) holds, and where (7) is exceeded.
+/// The two reported proportions: of trials in which criterion (6) holds, and in which (7) is exceeded.
 std::span<const PredictionField> prediction_fields();
 
-/// The proportions of prediction_fields() as columns of /point, NaN where the criteria are about no trial.
+/// The proportions of prediction_fields() as columns of /point; NaN if the criteria apply to no trial.
 std::vector<layout::PointColumn> prediction_columns(std::span<const theory::PointPrediction> predictions);
 
-/// The reverse of prediction_columns, [point]: the predictions behind the columns of those names, for points
-/// with `trials` trials each.
-/// @throws Failure (bad_data), with `file` in the message, where a column is missing or holds no proportions.
+/// [point] the predictions behind the columns that prediction_columns() wrote (its inverse), for points with
+/// `trials` trials each.
+/// @throws Failure (bad_data), with `file` in the message, if a column is missing or holds other values than
+/// proportions.
 std::vector<theory::PointPrediction> predictions_of(std::span<const layout::PointColumn> columns,
                                                     std::int64_t trials, const std::filesystem::path& file);
 
-/// One number of PointSummary as it is reported.
+/// One reported number of PointSummary.
 using StatisticField = text::ReportField<PointSummary>;
 
-/// The fields of a study with these features, in the order of the report. Fields of some studies only come
-/// last.
+/// The fields of a study with these features, in the order of the report. Fields that only some studies have
+/// come last.
 std::vector<StatisticField> statistic_fields(const study::StudyFeatures& features = {},
                                              const layout::MeasureTable& measures = layout::measure_table());
 
-/// The bounds of means, which are in summaries only: the results file does not hold them.
+/// The bounds of means. Only summaries have them; the results file does not.
 std::vector<StatisticField> mean_bound_fields(const study::StudyFeatures& features,
                                               const layout::MeasureTable& measures = layout::measure_table());
 
-/// The statistics reported of a torque level, in the order of the report.
+/// One reported statistic of a torque level.
 using LevelField = text::ReportField<LevelStatistics>;
+/// The statistics reported of a torque level, in the order of the report.
 std::vector<LevelField> level_fields(const layout::MeasureTable& measures = layout::measure_table());
 
 /// The qualities by which trials are counted in a study with these features, in the order of the report.
 std::vector<const layout::Measure*> counted_qualities(const study::StudyFeatures& features,
                                                       const layout::MeasureTable& measures);
 
-/// Adds one number. @param subject_of gives the subject of a row, by reference
+/// Adds one field as a value. @param subject_of function that returns the subject of a row by reference
 template <class Row, class Subject, class Get>
 void add_field(document::Description<Row>& description, const text::ReportField<Subject>& field,
                const std::string& key, parameters::AxisKind axis, document::Shown shown, Get subject_of) {
@@ -98,7 +99,7 @@ void add_field(document::Description<Row>& description, const text::ReportField<
                     });
 }
 
-/// Adds the fields: those of a group as an object, so that their names in CSV are those of flat_name().
+/// Adds the fields. The fields of a group form an object, so that their names in CSV equal flat_name().
 template <class Row, class Subject, class Get>
 void add_fields(document::Description<Row>& description,
                 const std::vector<text::ReportField<Subject>>& fields, parameters::AxisKind axis,
@@ -125,17 +126,17 @@ void add_fields(document::Description<Row>& description,
   }
 }
 
-/// An error band, or a tolerance, and what its numbers are of.
+/// One row of a LimitList: a subject and one of its error bands or tolerances.
 template <class Subject>
 struct LimitReading {
   const Subject& subject;
-  std::size_t limit;  ///< in rising order
+  std::size_t limit;  ///< Index of the band or tolerance, in rising order of their sizes.
 };
 
-/// A list of an answer with a row for each error band, or tolerance.
+/// The items of a list with a row for each error band, or each tolerance.
 struct LimitList {
-  document::Item list;   ///< "bands"
-  document::Item limit;  ///< of a row: "band", its largest error
+  document::Item list;   ///< The list: "bands".
+  document::Item limit;  ///< Item of a row with the size of the band or tolerance: "band".
 };
 
 inline LimitList list_of_bands() {
@@ -151,7 +152,7 @@ inline LimitList list_of_tolerances(parameters::AxisKind axis) {
            .unit = parameters::unit_on(axis, "rad")}};
 }
 
-/// Adds the fields of error bands, or of tolerances: in JSON a list, in CSV columns by flat_name().
+/// Adds the fields of error bands, or of tolerances: a list in JSON, columns named by flat_name() in CSV.
 template <class Row, class Subject, class Get>
 void add_by_limit(document::Description<Row>& description,
                   const std::vector<text::ReportField<Subject>>& fields, LimitList list,

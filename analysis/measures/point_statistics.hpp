@@ -17,14 +17,14 @@
 /// names its denominator: "of trials" is all trials of the point, "of moves" all moves of all its trials.
 namespace zerocount::measures {
 
-/// How many trials (or moves) had each outcome.
+/// Number of trials (or moves) with each outcome.
 struct OutcomeCounts {
   std::int64_t zero_count{0};
   std::int64_t one_count{0};
   std::int64_t off_target{0};
   std::int64_t oscillating{0};
   std::int64_t nonfinite{0};
-  std::int64_t open_loop{0};  ///< not judged
+  std::int64_t open_loop{0};  ///< torque levels, which are not judged
 
   std::int64_t total() const;
   OutcomeCounts& operator+=(const OutcomeCounts& other);
@@ -36,12 +36,12 @@ struct OutcomeCounts {
   }
 };
 
-/// Where each outcome is counted, by its number in files.
+/// The counter of each outcome, indexed by the number that the outcome has in files.
 inline constexpr std::array outcome_counters{&OutcomeCounts::zero_count,  &OutcomeCounts::one_count,
                                              &OutcomeCounts::oscillating, &OutcomeCounts::nonfinite,
                                              &OutcomeCounts::open_loop,   &OutcomeCounts::off_target};
 
-/// Where an outcome is counted.
+/// The counter of an outcome.
 /// @throws Failure (bad_data) for a value that is not an outcome: the file is damaged.
 std::int64_t OutcomeCounts::*counter_of(trial::Outcome outcome);
 
@@ -59,8 +59,8 @@ struct JerkIntervalStatistics {
 /// whatever the distribution of the intervals, and τ zero on average.
 struct JerkSlowing {
   std::int64_t moves{0};                   ///< moves with 3 jerks or more
-  std::int64_t slowing{0};                 ///< of them, S > 0
-  std::int64_t quickening{0};              ///< of them, S < 0
+  std::int64_t slowing{0};                 ///< moves with 3 jerks or more and S > 0
+  std::int64_t quickening{0};              ///< moves with 3 jerks or more and S < 0
   double proportion{statistics::unknown};  ///< slowing / moves
   double tau{statistics::unknown};         ///< Kendall's τ_a over the pairs of intervals within
                                            ///< a move, all moves pooled
@@ -71,8 +71,8 @@ struct JerkSlowing {
   }
 };
 
-/// One torque level of an open-loop study, over the trials of a point: all values at the end of the level.
-/// Trials whose motion was lost in this level or before are only counted.
+/// Statistics of one torque level of an open-loop study over the trials of a point. All values are taken at
+/// the end of the level. Trials whose motion was lost at this level or before are only counted.
 struct LevelStatistics : StatisticsOfMeasures {
   std::int64_t nonfinite{0};  ///< trials whose motion was lost
 };
@@ -82,8 +82,8 @@ struct PointCounts {
   std::int64_t trials{0};
   std::int64_t moves{0};               ///< moves of all trials
   OutcomeCounts outcomes;              ///< trials by the worst of their moves
-  std::vector<OutcomeCounts> by_move;  ///< [move] trials by this move, which all of them have
-  std::int64_t jerks_agreeing{0};      ///< jerks in the direction of the sign of their move's holding torque
+  std::vector<OutcomeCounts> by_move;  ///< [move] trials by the outcome of this move; every trial has it
+  std::int64_t jerks_agreeing{0};      ///< jerks whose direction is the sign of their move's holding torque
 
   PointCounts& operator+=(const PointCounts& other);
 
@@ -93,10 +93,11 @@ struct PointCounts {
   }
 };
 
-/// Trials of a design point, each as one move.
+/// Counts of the trials of a design point; each trial counts like one move.
 struct GroupTrials {
-  CellCounts succeeded;  ///< all their moves ended at zero error
-  CellCounts meeting;    ///< all moves meet the goals about them; empty without one
+  CellCounts succeeded;  ///< Met: trials all of whose moves ended at zero error.
+  /// Met: trials all of whose moves meet the goals that judge them; empty without a goal.
+  CellCounts meeting;
 
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
@@ -106,26 +107,29 @@ struct GroupTrials {
 
 /// All statistics of a design point.
 struct PointSummary : StatisticsOfMeasures, PointCounts {
-  double hold{statistics::unknown};  ///< of a move, s, in a summary; NaN where trials differ
+  double hold{statistics::unknown};  ///< Hold of a move, s; set in summaries only. NaN if trials differ.
 
   std::int64_t judged{0};                  ///< trials with targets: all, or none in an open-loop study
-  statistics::SuccessClaim claim;          ///< from zero_count of judged trials; none for an open-loop study
-  statistics::MachineStatistics machines;  ///< differences between machines, of a study with machines
-  /// Upper tolerance limits of the settling time of a trial (that of its slowest move), with the contents of
-  /// tolerance_contents; a trial with a move that never arrives is above every limit.
+  statistics::SuccessClaim claim;          ///< Claim from zero_count of judged trials; none for an open loop.
+  statistics::MachineStatistics machines;  ///< Differences between machines, in a study with machines.
+  /// Upper tolerance limits of a trial's settling time, which is the arrival time of its slowest move, for
+  /// the contents statistics::tolerance_contents. A trial with a move that never arrives is above every
+  /// limit.
   std::array<statistics::ToleranceLimit, std::size(statistics::tolerance_contents)> settles_within{};
   JerkIntervalStatistics jerk_interval;
   JerkSlowing jerk_slowing;
   double jerk_agreement{statistics::unknown};        ///< jerks_agreeing / jerks
   double jerk_one_count_share{statistics::unknown};  ///< jerks of magnitude 1 / jerks
-  UndecidedMoves undecided;                          ///< only off_target is known without the study
-  std::vector<CellCounts> goals;                     ///< [goal] moves that meet it
-  std::vector<CellCounts> for_the_load;              ///< [goal] likewise of the load; empty where none is
-  /// [goal][condition, or 0 without conditions] settling times of the moves that it asks; empty for a goal on
-  /// all moves of a study without conditions, of which the measure of its band is
+  UndecidedMoves undecided;       ///< Undecided moves; without the study only off_target is known.
+  std::vector<CellCounts> goals;  ///< [goal] counts of the moves that meet the goal
+  /// [goal] counts of the moves in which the load meets the goal (MoveKind::for_the_load); empty if no goal
+  /// is counted for the load.
+  std::vector<CellCounts> for_the_load;
+  /// [goal][condition, or 0 without conditions] settling times of the moves that the goal judges. Empty for a
+  /// goal on all moves of a study without conditions: its times are then those of the measure of its band.
   std::vector<std::vector<SettlingTimes>> goal_settling;
-  std::optional<GroupTrials>
-      trials_of_groups;  ///< Empty unless MoveKind::counts_trials() and the moves have targets.
+  /// Counts of trials. Empty unless MoveKind::counts_trials() and the moves have targets.
+  std::optional<GroupTrials> trials_of_groups;
   std::vector<LevelStatistics> levels;  ///< [move] in an open-loop study, otherwise empty
 
   /// The proportion of trials all of whose moves ended at zero error.

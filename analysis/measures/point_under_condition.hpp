@@ -17,14 +17,14 @@
 
 namespace zerocount::measures {
 
-/// A design point, under one of the conditions where there are any.
+/// A design point under one condition; without conditions, just a design point.
 struct PointUnderCondition {
-  std::int64_t point{0};
-  std::string label;                       ///< with the condition, if there is one
-  std::optional<std::string> condition{};  ///< that its trials are under
+  std::int64_t point{0};                   ///< number of the design point
+  std::string label;                       ///< Label of the point, with the condition if there is one.
+  std::optional<std::string> condition{};  ///< Condition of the trials; empty without conditions.
 };
 
-/// How data name it.
+/// The items that name a PointUnderCondition in data: point, label and condition.
 inline document::Description<PointUnderCondition> name_of_point() {
   return document::Description<PointUnderCondition>()
       .value(document::in_data("point", "number of the design point"), &PointUnderCondition::point)
@@ -37,9 +37,10 @@ inline document::Description<PointUnderCondition> name_of_point() {
              &PointUnderCondition::condition);
 }
 
-/// What `make(file, place)` says of each of the points, of all if `points` is empty, under each condition: by
-/// point, then by condition. @param Part has the members of PointUnderCondition
-/// @throws Failure (bad_input) for a point that there is not
+/// The results of `make(file, place)` for each point under each condition, ordered by point, then by
+/// condition. `place` is a PointUnderCondition. @param points numbers of the points; empty: all points
+/// @tparam Part type of the results; has the members of PointUnderCondition
+/// @throws Failure (bad_input) for a point that does not exist
 template <class Part, class Make>
 std::vector<Part> at_points(const reading::AllTrialsFile& file, std::vector<std::int64_t> points,
                             const Make& make) {

@@ -9,7 +9,7 @@
 namespace zerocount::measures {
 namespace {
 
-/// The value of an event that never came.
+/// The value that ranks an event that never came: the worst of all values.
 double worst_value(const layout::CountedValues& values) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   return values.worse == layout::Worse::more ? infinity : -infinity;

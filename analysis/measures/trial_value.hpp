@@ -17,7 +17,8 @@
 
 namespace zerocount::measures {
 
-/// The value of a move for the statistics; NaN if it has none. @param value that of the measure's field
+/// The value of a move for the statistics; NaN if the move has none. @param value value of the measure's
+/// field
 inline double counted_value(const layout::Measure& measure, const trial::MoveOutcome& move, double value) {
   const bool is_lost = measure.values.needs_motion && move.outcome == trial::Outcome::nonfinite;
   if (is_lost || !trial::was_run(move)) return statistics::unknown;
@@ -25,22 +26,23 @@ inline double counted_value(const layout::Measure& measure, const trial::MoveOut
 }
 double counted_value(const layout::Measure& measure, const trial::MoveOutcome& move);
 
-/// A value as limits, events and rankings take it: infinite where an event never came, nothing where there is
-/// nothing to measure (layout::Missing). @param value of the measure's field
+/// A value for comparison with limits and for rankings: infinite if the event never came, empty if there is
+/// nothing to measure (layout::Missing). @param value value of the measure's field
 std::optional<double> ranked_value(const layout::CountedValues& values, double value);
-/// The ranked value of a move. A value that is missing because the move was stopped, or lost its motion, is
-/// infinite for any measure. A move that was not run has nothing but times, which are late.
+/// The ranked value of a move. If a value is missing because the move was stopped or its motion was lost, it
+/// is infinite for any measure. A move that was not run has only times, and these count as never reached.
 std::optional<double> ranked_value(const layout::Measure& measure, const trial::MoveOutcome& move);
-/// Whether a ranked value meets a limit of its magnitude. Nothing to measure meets every limit.
+/// Whether the magnitude of a ranked value is at most `largest`. An empty value meets every limit.
 bool is_within(std::optional<double> value, double largest);
 
-/// Whether the moves have targets where the measure needs them.
+/// Whether the moves have targets, or the measure needs none.
 bool has_targets(const layout::Measure& measure, std::span<const trial::MoveOutcome> moves);
 
-/// How many of a trial's moves must have a quality for the trial to have it.
+/// Number of moves of a trial that must have a quality for the trial to have it.
 std::int64_t wanted_moves(const layout::Measure& quality, std::int64_t moves_of_trial);
 
-/// The value of a trial for a measure that is summed over its moves. @param value of a move
+/// The value of a trial for a measure that is summed over its moves. @param value function that returns the
+/// value of a move
 template <class Moves, class Value = std::identity>
 double sum_of_moves(const Moves& moves, const Value& value = {}) {
   double sum = 0.0;
@@ -50,19 +52,20 @@ double sum_of_moves(const Moves& moves, const Value& value = {}) {
 
 /// The value of a trial, combined from the values of its moves by Measure::reduction; 1 or 0 for a quality.
 /// The settling time of a trial is that of its slowest move.
-/// @param late the value of a time that was not reached; without it the value of the trial is NaN.
+/// @param late returns the value used for a time that was not reached; without it the trial's value is NaN.
 double value_of_trial(const layout::Measure& measure, std::span<const trial::MoveOutcome> moves,
                       const std::function<double()>& late = {});
 
-/// Of these global rows those in the first chunk of the file's outcomes.
+/// The first of these global rows, up to the end of the chunk of the file's outcomes that holds the first
+/// one.
 inline layout::RowRange rows_of_first_chunk(const reading::AllTrialsFile& file, layout::RowRange rows) {
   const std::int64_t chunk = layout::chunk_rows(file.moves());
   const std::int64_t in_chunk = (rows.first - file.rows().first) % chunk;
   return {rows.first, std::min(chunk - in_chunk, rows.count)};
 }
 
-/// Calls visit(block, outcomes) for the trials of these global rows in order. A block ends where a chunk of
-/// the file does. `outcomes` is a span of the outcomes of its moves, [trial, move].
+/// Calls visit(block, outcomes) for the trials of these global rows in order. Each block ends at the end of a
+/// chunk of the file. `outcomes` is a span of the outcomes of the block's moves, [trial, move].
 template <class Visit>
 void visit_blocks(const reading::AllTrialsFile& file, layout::RowRange rows, const Visit& visit) {
   for (layout::RowRange block; rows.count > 0; rows = {block.end(), rows.count - block.count}) {

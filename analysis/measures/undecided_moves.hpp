@@ -15,16 +15,16 @@ namespace zerocount::measures {
 /// Moves that are off target: stalled, or still on their way when their hold ended. They are undecided,
 /// neither stable nor shown unstable.
 struct UndecidedMoves {
-  std::int64_t moves{0};          ///< of all trials
-  std::int64_t off_target{0};     ///< of them, undecided
-  std::int64_t still_falling{0};  ///< of these, with an error that fell in the last half of the hold
-  /// Moves that count as oscillating whose error fell too and kept its sign, with a ripple of a count:
+  std::int64_t moves{0};          ///< Number of moves of all trials.
+  std::int64_t off_target{0};     ///< Moves that ended off target: undecided.
+  std::int64_t still_falling{0};  ///< Off-target moves whose error fell in the last half of the hold.
+  /// Moves that count as oscillating although their error fell and kept its sign, with a ripple of one count:
   /// a proportional gain makes the count chatter on the edges that it passes.
   std::int64_t falling_with_ripple{0};
-  /// Moves whose error fell to within one count in the last half of the hold, and that had not arrived.
+  /// Moves whose error fell to within one count in the last half of the hold, but that had not arrived.
   std::int64_t about_to_arrive{0};
-  /// Hold that most of those whose error still fell are expected to need, s; NaN where there are none, or
-  /// nothing in their control brings the error to zero.
+  /// Hold that most of the moves with a falling error are expected to need, s. NaN if there are no such
+  /// moves, or if nothing in their control brings the error to zero.
   double advised_hold{statistics::unknown};
 
   template <class Self, class Archive>
@@ -33,11 +33,11 @@ struct UndecidedMoves {
   }
 };
 
-/// One of the counts as summaries and comparisons report it.
+/// Names of one of the counts of UndecidedMoves in summaries and comparisons.
 struct UndecidedCount {
-  const char* name;       ///< in JSON
-  const char* column;     ///< in CSV
-  const char* long_name;  ///< what it counts
+  const char* name;       ///< Name in JSON.
+  const char* column;     ///< Name in CSV.
+  const char* long_name;  ///< meaning of the count
   std::int64_t UndecidedMoves::*count;
 };
 inline constexpr UndecidedCount undecided_counts[] = {
@@ -52,21 +52,21 @@ inline constexpr UndecidedCount undecided_counts[] = {
      &UndecidedMoves::about_to_arrive},
 };
 
-/// Whether a longer hold may be what a move lacks: it did not arrive, with an error that fell in the last
-/// half of its hold.
+/// Whether the move might arrive with a longer hold: it did not arrive, and its error fell in the last half
+/// of its hold.
 bool is_still_falling(const trial::MoveOutcome& move);
 
 /// Counts a move.
 void add_move(UndecidedMoves& counts, const trial::MoveOutcome& move);
 
-/// The moves of both, without an advised hold.
+/// The sums of the counts of both, without an advised hold.
 UndecidedMoves sum_of(const UndecidedMoves& one, const UndecidedMoves& other);
 
-/// Whether there is anything to say of undecided moves.
+/// Whether any move is undecided, falling with ripple or about to arrive.
 bool any_undecided(const UndecidedMoves& moves);
 
-/// "the error was still falling in 2700 of 3000 moves at the end of the hold; hold ≥ about 2.1 s", and what
-/// else there is to say of undecided moves; empty where there are none.
+/// A sentence on the undecided moves: "…; the error was still falling in 2700 of 3000 moves at the end of the
+/// hold; hold ≥ about 2.1 s". Empty unless any_undecided().
 std::string undecided_sentence(const UndecidedMoves& moves);
 
 /// A sentence for the reader of a table: the meaning of undecided moves.
@@ -77,8 +77,9 @@ inline constexpr std::string_view undecided_meaning =
 /// Time from the start of a move at which an error that decays exponentially reads 0, s.
 ///
 /// Under integral control the error e of a rotor on a spring of stiffness k obeys de/dt = −e/τ with
-/// τ = T·(k·Δx + kp)/(2·ki), once the torque has caught up with the friction. The rate comes from what was
-/// recorded, e_h at sample h = ⌈N/2⌉ and e_{N−1}, and the count reads 0 from half a count on:
+/// τ = T·(k·Δx + kp)/(2·ki), once the torque has caught up with the friction. τ is estimated from two
+/// recorded errors, e_h at sample h = ⌈N/2⌉ and e_{N−1}. The count reads 0 once the error is below half a
+/// count:
 ///
 ///   t = t_{N−1} + τ·ln(2·|e_{N−1}|),  τ = (t_{N−1} − t_h)/ln(|e_h|/|e_{N−1}|).
 ///
@@ -89,10 +90,11 @@ double time_to_zero(std::int64_t midway_error, std::int64_t final_error, std::in
 
 /// Sums over the undecided moves of a design point.
 struct UndecidedSums {
-  UndecidedMoves counts;                       ///< without the advised hold
-  statistics::Histogram<double> needed_holds;  ///< of the moves still falling, rounded up to two digits, s
+  UndecidedMoves counts;  ///< the counts, without the advised hold
+  /// Holds that the moves with a falling error are expected to need, s, rounded up to two digits.
+  statistics::Histogram<double> needed_holds;
 
-  /// Adds a trial. @param row of the study
+  /// Adds a trial. @param row global row of the trial in the study
   void add(const study::Study& study, std::int64_t row, std::span<const trial::MoveOutcome> moves);
   UndecidedSums& operator+=(const UndecidedSums& other);
   UndecidedMoves moves() const;

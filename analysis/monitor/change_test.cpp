@@ -28,17 +28,17 @@ double kept_before(std::int64_t t) {
   return numerics::log(2.0) / numerics::log(static_cast<double>(t) + 1.0);
 }
 
-/// log2 of the largest bet at the value that follows so many.
+/// log2 of the largest bet at the value that follows `before` values.
 int highest_exponent(std::int64_t before) {
   return static_cast<int>(std::bit_width(static_cast<std::uint64_t>(before)));
 }
 
-/// The part of a stake in each direction that is bet in this way.
+/// Proportion of a stake in each direction that is bet in this kind.
 double weight_of(std::size_t kind) {
   return 0.5 * (kind == 0 ? 0.5 : 0.5 / static_cast<double>(steps.size() - 1));
 }
 
-/// A value that is as likely as not below the step q, as bets take it: of mean 0 and variance 1.
+/// Score of a p-value for the bet on a step at q. For uniform p it has mean 0 and variance 1.
 double score(double p, double q) {
   return p < q ? std::sqrt((1.0 - q) / q) : -std::sqrt(q / (1.0 - q));
 }
@@ -86,7 +86,7 @@ std::vector<std::vector<std::size_t>> places_of(std::span<const std::size_t> cla
   return places;
 }
 
-/// T_b of each window.
+/// Appends T_b for each window b.
 void add_windows(const std::vector<double>& x, std::span<const std::size_t> windows,
                  std::vector<double>& sums_of_squares) {
   std::vector<double> sums(x.size() + 1, 0.0);

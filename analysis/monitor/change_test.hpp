@@ -37,13 +37,13 @@ enum class Direction { higher, lower };
 /// 1 − κ·q/√(q(1 − q)), κ at most 0.9 of what keeps it positive. Bets on lower values have 1 − p for p.
 class ChangeMartingale {
  public:
-  /// @param baseline its number of values n, at least 1
+  /// @param baseline number n of values in the baseline, at least 1
   explicit ChangeMartingale(std::int64_t baseline);
 
-  /// @param p in (0, 1)
+  /// Adds the next value. @param p p-value of its rank among all values before it, in (0, 1)
   void update(double p);
 
-  std::int64_t values() const { return values_; }  ///< t
+  std::int64_t values() const { return values_; }  ///< Number t of values so far.
   double capital() const;
   /// The direction on which the capital depends most.
   Direction direction() const;
@@ -53,14 +53,15 @@ class ChangeMartingale {
 
  private:
   static constexpr std::size_t max_sizes = 64;
-  static constexpr std::size_t kinds = 12;  ///< of bets: by normal scores, and one by each step
+  /// Number of kinds of bets: one by normal scores, and one for each step.
+  static constexpr std::size_t kinds = 12;
   using Capitals = std::array<double, max_sizes>;
 
   std::int64_t baseline_;
   std::int64_t values_{0};
-  int lowest_;                                             ///< k of sizes [0]
-  std::size_t sizes_;                                      ///< in use
-  std::array<std::array<Capitals, kinds>, 2> capitals_{};  ///< [direction][kind][size]
+  int lowest_;                                             ///< Exponent k of the first size.
+  std::size_t sizes_;                                      ///< Number of sizes in use.
+  std::array<std::array<Capitals, kinds>, 2> capitals_{};  ///< [direction][kind][size] Capital.
 };
 
 /// A growing multiset of values, none of them NaN, in which new values are ranked. Insertion takes amortised
@@ -70,7 +71,7 @@ class RankedBag {
   explicit RankedBag(std::vector<double> values);
 
   struct Place {
-    std::int64_t above{0};  ///< values that are larger
+    std::int64_t above{0};  ///< Number of larger values.
     std::int64_t equal{0};
   };
   Place place_of(double value) const;
@@ -107,18 +108,18 @@ class ChangeTest {
   const ChangeMartingale& martingale() const { return martingale_; }
 
  private:
-  std::vector<RankedBag> bags_;  ///< [class]
+  std::vector<RankedBag> bags_;  ///< [class] Values so far, including the baseline.
   ChangeMartingale martingale_;
   random::RandomKey ties_;
-  std::uint64_t history_;  ///< h
+  std::uint64_t history_;  ///< State h of the numbers u.
 };
 
 /// Evidence in the order of values against their exchangeability.
 struct Dependence {
-  double p{1.0};         ///< probability of as much dependence in a random order
-  std::int64_t over{0};  ///< consecutive values that resemble each other most clearly
-  bool alternates{
-      false};  ///< consecutive values differ more than in a random order: `over` of them average out
+  double p{1.0};         ///< Probability of as much dependence in a random order.
+  std::int64_t over{0};  ///< Number of consecutive values over which the dependence is clearest.
+  /// True if consecutive values differ more than in a random order, so that `over` of them average out.
+  bool alternates{false};
 };
 
 /// Tests whether values are exchangeable within their classes, with power against what lasts long but weakly,
@@ -136,14 +137,14 @@ struct Dependence {
 Dependence dependence_of(std::span<const double> values, std::span<const std::size_t> classes,
                          const random::RandomKey& key);
 
-/// The number of sorted values below this one and half of those equal to it.
+/// Number of sorted values below `value`, plus half the number of values equal to it.
 double mid_rank(std::span<const double> sorted, double value);
 
-/// [value] its rank within its class, as a part of the class in (0, 1); equal values have the same.
+/// [value] Rank of each value within its class, as a proportion in (0, 1). Equal values have equal ranks.
 std::vector<double> ranks_within(std::span<const double> values, std::span<const std::size_t> classes);
 
-/// The part of the variance of the ranks of all values that lies between the classes. Two equal normal
-/// classes have two peaks from a distance of 2σ on, where it is one half.
+/// Proportion of the variance of the ranks of all values that lies between the classes. Two normal classes of
+/// equal size and width have two peaks from a distance of 2σ on, at which the proportion is one half.
 double part_between(std::span<const double> values, std::span<const std::size_t> classes);
 
 }  // namespace zerocount::monitor

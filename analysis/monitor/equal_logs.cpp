@@ -7,10 +7,11 @@
 namespace zerocount::monitor {
 namespace {
 
-/// Different rows with which chance is unlikely: one in 10! orders of them is that of another log.
+/// Number of different rows from which on two logs are unlikely to agree by chance. Ten different rows have
+/// 10! orders, of which another log has one.
 constexpr std::size_t enough_rows = 10;
 
-/// Columns of the same measure in two logs, as they were written where signs were taken off.
+/// Columns of the same measure in two logs, with the signs that the numbers have in the logs.
 struct SharedColumn {
   std::span<const double> one;
   std::span<const double> other;

@@ -11,22 +11,24 @@
 
 namespace zerocount::monitor {
 
-/// Number of moves with which both begin and that are equal one by one: those of the shorter one, or 0.
+/// Number of equal moves with which both sequences begin. It is the length of the shorter sequence if the
+/// other one begins with the same moves, and otherwise 0.
 ///
-/// Moves are equal if all measures are that both have, to nine digits, so that units, the order of columns
-/// and the notation of numbers make no difference. If one is longer, chance must be unlikely: the equal moves
-/// have at least ten different rows. 0 without a measure in common.
+/// Two moves are equal if all measures that both sides have agree to nine digits. Units, the order of columns
+/// and the notation of numbers therefore make no difference. If the lengths differ, the equal moves must have
+/// at least ten different rows, so that they are unlikely to be equal by chance. The number is 0 if the sides
+/// have no measure in common.
 std::int64_t equal_moves(const Moves& one, const Moves& other);
 
 /// Logs with the same moves in the same order.
 struct EqualLogs {
-  std::vector<std::size_t> logs;  ///< indices, ascending, at least two
-  std::int64_t moves;             ///< that are equal
-  bool whole;                     ///< no log of them has more moves
-  bool few_values;                ///< fewer than ten different rows: the logs may be equal by chance
+  std::vector<std::size_t> logs;  ///< Indices of the logs, ascending, at least two.
+  std::int64_t moves;             ///< Number of equal moves at the beginning of these logs.
+  bool whole;                     ///< True if all of these logs have the same number of moves.
+  bool few_values;  ///< True if there are fewer than ten different rows: the logs may agree by chance.
 };
 
-/// The first logs that are equal; nothing if each differs from all others.
+/// The first log that equals later ones, together with these; nothing if all logs differ.
 std::optional<EqualLogs> equal_logs(std::span<const MoveLog> logs);
 
 }  // namespace zerocount::monitor

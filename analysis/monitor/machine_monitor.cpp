@@ -30,7 +30,7 @@ constexpr int max_misses = 12;  // binomial: P(12 or fewer of 200) = 3 % where e
 constexpr std::array all_forms{ChangeForm::shift, ChangeForm::factor};
 constexpr std::size_t max_resample = 5000;
 
-/// The values that a measure can have.
+/// Interval of the values that a measure can have.
 numerics::Interval range_of(const MonitoredMeasure& measure) {
   const layout::ValidValues& valid = measure.row->field.valid;
   numerics::Interval range =
@@ -44,10 +44,10 @@ bool can_be(const MonitoredMeasure& measure, double value) {
   return value >= range.low && value <= range.high;
 }
 
-/// The change of one class.
+/// Change to be seen in one class of values.
 struct ChangeOfClass {
   double size{0.0};
-  std::vector<Direction> directions{};  ///< that are possible; empty: the class has no scale
+  std::vector<Direction> directions{};  ///< Possible directions; empty: the class has no scale.
 };
 
 ChangeOfClass change_of_class(const MonitoredMeasure& measure, std::span<const double> baseline,
@@ -73,14 +73,14 @@ ChangeOfClass change_of_class(const MonitoredMeasure& measure, std::span<const d
   return to_see;
 }
 
-/// One of the values, each as likely as the others.
+/// Draws one of the values, each with the same probability.
 template <class Values>
 auto value_from(const Values& values, random::NumberSource& numbers) {
   const auto place = static_cast<std::size_t>(numbers.uniform() * static_cast<double>(values.size()));
   return values[std::min(place, values.size() - 1)];
 }
 
-/// Draws a value of a class of the changed machine.
+/// Draws values of one class of the changed machine: values of the baseline, with the change.
 class ChangedValue {
  public:
   ChangedValue(const DelayQuestion& question, std::size_t of_class)
@@ -122,12 +122,13 @@ class ChangedValue {
  private:
   Scale scale_;
   std::span<const double> baseline_;
-  double lowest_;  ///< value that the measure can have
+  double lowest_;  ///< Smallest value that the measure can have.
   double size_;
   double sign_;
   bool is_binary_;
-  double flipped_{0.0};             ///< probability with which a value becomes the other one
-  std::optional<double> factor_{};  ///< nothing for a shift
+  /// For values 0 and 1: probability that a value flips if it can change in the direction.
+  double flipped_{0.0};
+  std::optional<double> factor_{};  ///< Factor of ChangeForm::factor; nothing for a shift.
 };
 
 std::string_view word_of(ChangeForm form) {
@@ -149,12 +150,13 @@ std::vector<std::vector<double>> resample(std::span<const std::vector<double>> c
 constexpr std::int64_t max_simulated = 100'000;  // values of a simulated sequence
 constexpr std::int64_t min_simulated = 64;
 
-/// Moves whose likes explain so much of the variance of a measure's ranks have no common median.
+/// Smallest proportion of the variance of a measure's ranks between classes of moves (part_between()) at
+/// which the classes have medians of their own in place of a common one.
 constexpr double most_between_likes = 0.5;
-constexpr double dependent_p = 0.01;      // of one measure
-constexpr double any_dependent_p = 0.05;  // of all, where that allows more
+constexpr double dependent_p = 0.01;      // significance level for one measure
+constexpr double any_dependent_p = 0.05;  // for all measures together, used if it allows more
 
-/// [value] one past its last move in the baseline. What is left of a last block is not used.
+/// [value] One past the last move of the value in the baseline. An incomplete last block is not used.
 std::vector<std::size_t> ends_of(const Baseline& baseline, const MonitorSettings& settings) {
   std::vector<std::size_t> ends;
   const auto moves = static_cast<std::size_t>(baseline.moves);
@@ -171,12 +173,13 @@ std::vector<std::size_t> ends_of(const Baseline& baseline, const MonitorSettings
   return ends;
 }
 
-/// The unit in which values are stored, where a column has this unit.
+/// Unit in which the values of a column with this unit are stored: the measure's unit, or the one that it has
+/// on a linear axis.
 std::string shown_unit(const MonitoredMeasure& measure, const std::string& unit) {
   return have_same_dimension(unit, measure.unit) ? measure.unit : linear_unit(measure);
 }
 
-/// The settings with the measures named as columns are.
+/// The settings with the names of the measures as the program writes them (measure_named()).
 MonitorSettings with_own_names(MonitorSettings settings) {
   for (std::string& name : settings.measures)
     if (const std::optional<MonitoredMeasure> measure = measure_named(name)) name = measure->name;
@@ -205,13 +208,14 @@ std::vector<std::string> missing_measures(const Moves& side, const Moves& other)
   return missing;
 }
 
-/// "; its column 'Settling_Time' looks like it", or empty.
+/// Hint at a column of this side with a resembling name, for a message: "; its column 'Arrival_Time' looks
+/// like it". Empty if there is none.
 std::string near_text(const Moves& side, const std::string& measure) {
   const std::optional<std::string> near = resembling_column(measure, unread_columns(side, {}));
   return near ? fmt::format("; its column '{}' looks like it", text::printable(*near)) : "";
 }
 
-/// "arrival_time, overshoot and 30 more"
+/// Names of the measures of one side, for a message: "arrival_time, overshoot and 30 more".
 std::string names_of(const Moves& side) {
   constexpr std::size_t max_shown = 8;
   std::vector<std::string> names;
@@ -221,7 +225,8 @@ std::string names_of(const Moves& side) {
   return fmt::format("{}{}", fmt::join(names, ", "), more > 0 ? fmt::format(" and {} more", more) : "");
 }
 
-/// The label if only one side has it.
+/// The label if only one side has it. Beside a simulated study, only if the log has the column in another
+/// letter case.
 std::optional<UnwatchedMeasure> unused_label(const Baseline& baseline, const MoveLog& log,
                                              const std::string& label, bool MoveLabels::*has) {
   if (baseline.labels.*has == log.labels.*has) return std::nullopt;
@@ -238,7 +243,7 @@ std::optional<UnwatchedMeasure> unused_label(const Baseline& baseline, const Mov
   return unused;
 }
 
-/// Labels by which moves are like each other that only one side has.
+/// The labels `move` and `target`, as far as unused_label() finds that only one side has them.
 std::vector<UnwatchedMeasure> labels_on_one_side(const Baseline& baseline, const MoveLog& log) {
   std::vector<UnwatchedMeasure> labels;
   for (const auto& [label, has] :
@@ -467,7 +472,8 @@ void MachineMonitor::update_measure(std::size_t number, std::size_t of_class, do
   watched.p_values = {};
 }
 
-/// A block ends with its last move, a group with the first move of the next one.
+/// Adds a move to the current value. A block is complete with its last move. A group is complete only when
+/// the first move of the next group arrives.
 void MachineMonitor::take_move(const MoveLog& log, const Columns& columns, std::size_t move) {
   const std::optional<std::size_t> like = likes_.of(log.labels.of(move));
   like_at_.push_back(like);
@@ -519,7 +525,8 @@ void MachineMonitor::update(const MoveLog& log) {
   for (MeasureState& state : states_) update_median(state, log);
 }
 
-/// Takes the median of the moves that the baseline has a like of: those since the change, or all.
+/// Updates the medians of a measure: of the moves since the change or, without an alarm, of all moves. Moves
+/// that are not compared are left out.
 void MachineMonitor::update_median(MeasureState& state, const MoveLog& log) {
   const std::vector<double>& moves = log.find(state.measure.name)->values;
   std::vector<std::vector<double>> by_like(likes_.count());
@@ -536,7 +543,8 @@ void MachineMonitor::update_median(MeasureState& state, const MoveLog& log) {
   if (state.by_like.empty() && !all.empty()) state.median = typical_value(state.measure, std::move(all));
 }
 
-/// Asks all measures and directions at once. The limit doubles, so that a growing log is simulated seldom.
+/// Simulates the changes of all measures in parallel, in all directions and forms. The limit of the number of
+/// values is a power of two, so that the simulations are seldom repeated while the log grows.
 void MachineMonitor::simulate_changes(std::int64_t values) {
   const auto limit = std::min(
       max_simulated,

@@ -38,14 +38,15 @@ std::string with_unit(std::string number, const std::string& unit) {
   return unit.empty() || unit == "1" ? number : number + " " + unit;
 }
 
-/// A typical value of a measure, of a quality its proportion.
+/// A value of typical_value() as text: "0.04 s", "never" or "none"; for a quality its proportion in percent.
 std::string typical_text(const MeasureState& state, double value) {
   if (state.measure.quality) return text::percent_near(value);
   if (is_nothing(state.measure, value)) return "none";
   return std::isinf(value) ? "never" : with_unit(text::short_number(value), state.unit);
 }
 
-/// "0.04 s; baseline 0.05 s", or that of each like: "move 0: 0.04 s, baseline 0.05 s; …".
+/// Medians of the moves and of the baseline as text: "0.04 s; baseline 0.05 s". If the classes of moves have
+/// medians of their own, those of the first three: "move 0: 0.04 s, baseline 0.05 s; …".
 std::string medians_text(const MeasureState& state) {
   constexpr std::size_t max_shown = 3;
   if (state.by_like.empty())
@@ -63,7 +64,7 @@ std::string medians_text(const MeasureState& state) {
   return fmt::format("{}", fmt::join(texts, "; "));
 }
 
-/// The names of the measures of which `is_named(state)` holds.
+/// Names of the measures for which is_named(state) is true, separated by commas.
 template <class IsNamed>
 std::string names_of(Of r, IsNamed is_named) {
   std::vector<std::string> names;
@@ -76,14 +77,16 @@ bool has_size(const MeasureState& state) {
   return !state.to_see.directions.empty();
 }
 
-/// A measure that `unchanged` says nothing about.
+/// A measure about which the status `unchanged` says nothing.
 struct NotJudged {
   std::string measure;
-  std::string why;  ///< one of why_words
+  std::string why;  ///< Reason, one of why_words.
+  /// Column with a resembling name on the side that lacks the measure; nothing if there is none.
   std::optional<std::string> near{};
 };
 
-/// The measures that are not watched, and without an alarm those without a change to be seen.
+/// The measures that are not watched. Without an alarm, also the watched measures without a change to be
+/// seen.
 std::vector<NotJudged> not_judged(Of r) {
   std::vector<NotJudged> all;
   for (const UnwatchedMeasure& one : r.monitor.unwatched())
@@ -94,7 +97,8 @@ std::vector<NotJudged> not_judged(Of r) {
   return all;
 }
 
-/// "jerk_count, arrival_time (its column 'Settling_Time' looks like it)", for the measures with this reason.
+/// Names of the measures that are not watched for this reason, as text: "jerk_count, arrival_time (its column
+/// 'Arrival_Time' looks like it)".
 std::string names_not_judged(Of r, WhyUnwatched why) {
   std::vector<std::string> names;
   for (const UnwatchedMeasure& one : r.monitor.unwatched())
@@ -104,7 +108,8 @@ std::string names_not_judged(Of r, WhyUnwatched why) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// "; not judged: jerk_count, overshoot and 3 more", of the measures of the baseline; or empty.
+/// Names of the baseline's measures that are not judged, for the headline: "; not judged: jerk_count,
+/// overshoot and 3 more". Empty if all are judged.
 std::string not_judged_text(Of r) {
   constexpr std::size_t max_shown = 3;
   std::vector<std::string> names;
@@ -117,8 +122,8 @@ std::string not_judged_text(Of r) {
                      more > 0 ? fmt::format(" and {} more", more) : "");
 }
 
-/// The columns of the moves that are not measures and that nothing is compared with; a measure that one of
-/// them seems to mean stands behind it.
+/// Columns of the log that are not measures and are not used. A column that seems to mean a measure is
+/// followed by the name of this measure.
 std::string unused_columns(Of r) {
   std::vector<std::string> columns;
   for (const std::string& column : r.monitor.unused()) {
@@ -129,8 +134,8 @@ std::string unused_columns(Of r) {
   return fmt::format("{}", fmt::join(columns, ", "));
 }
 
-/// "20 % of the baseline's median (added to each value, or as a factor of it) or 0.1 of a proportion", with
-/// the parts that the judged measures have.
+/// Size of the change to be seen as text: "20 % of the baseline's median (added to each value, or as a factor
+/// of it) or 0.1 of a proportion". The text has only those of its parts that apply to the judged measures.
 std::string asked_change(Of r) {
   const std::optional<double>& size = r.monitor.settings().change;
   bool any_proportion = false;
@@ -170,8 +175,9 @@ std::string headline_of(Of r) {
                      unseen.empty() ? ": no measure has a size of change to be seen" : " in " + unseen);
 }
 
-/// "friction.k1 lower by 12 to 20 %", "encoder.fine_errors.noise higher by 0.08 to 0.12 count"; an end of the
-/// interval at which the simulated changes end is left out.
+/// A change of a parameter as text: "friction.k1 lower by 12 to 20 %", "encoder.fine_errors.noise higher by
+/// 0.08 to 0.12 count". If the interval reaches the largest simulated change, the text is "lower by at least
+/// 12 %".
 std::string change_text(const ParameterChange& change) {
   const bool is_factor = change.kind == ChangeKind::factor;
   const auto off = [&](double end) {
@@ -189,7 +195,8 @@ std::string change_text(const ParameterChange& change) {
                      with_unit(beyond ? "at least " + least : least + " to " + most, unit));
 }
 
-/// "; the budget ended before a, b and 20 more were tried: all parameters take at most 20000 trials, …"
+/// Parameters that the budget did not allow to try, as text: "; the budget ended before a, b and 20 more were
+/// tried: all parameters take at most 20000 trials, …". Empty if all were tried.
 std::string untried_text(const ChangeExplanation& explanation) {
   if (explanation.untried.empty()) return "";
   constexpr std::size_t max_shown = 3;
@@ -225,7 +232,8 @@ std::string explanation_text(const ChangeExplanation& explanation) {
                      fmt::join(texts, ", or "), since, untried_text(explanation));
 }
 
-/// Sentences on what the answer holds for, a line each.
+/// Notes on the answer, one per line: the explanation of the alarm, what was not compared, and the
+/// assumptions under which the answer holds.
 std::string notes_of(Of r) {
   const MachineMonitor& monitor = r.monitor;
   const MonitorSettings& settings = monitor.settings();
@@ -422,7 +430,7 @@ std::vector<LikeValue> like_values(Of r) {
   return all;
 }
 
-/// Of the measure of the first alarm.
+/// Items that describe the first alarm: its measure, the direction and time of the change, and its own time.
 Description<MeasureState> alarm_description() {
   using State = const MeasureState&;
   return Description<MeasureState>()
@@ -436,7 +444,7 @@ Description<MeasureState> alarm_description() {
              [](State s) { return *s.alarm_at; });
 }
 
-/// Of the parameters of the model that may have changed.
+/// Items that say what is known of the parameters of the model that may have changed.
 Description<ChangeExplanation> explanation_description() {
   using Told = const ChangeExplanation&;
   return Description<ChangeExplanation>()

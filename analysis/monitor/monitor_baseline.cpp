@@ -29,7 +29,7 @@ bool has_fixed_targets(const study::Study& study) {
 
 constexpr std::int64_t no_number = std::numeric_limits<std::int64_t>::min();
 
-/// A number to nine digits, so that a target is itself in another unit.
+/// A number rounded to nine digits, so that a target stays equal to itself after conversion of its unit.
 double rounded(double value) {
   constexpr int bits = 30;
   int exponent = 0;

@@ -26,7 +26,7 @@
 namespace zerocount::monitor {
 namespace {
 
-/// "band_settling_time" of "band_settling_time[1]", and the number in the brackets.
+/// Name of a measure, divided at its brackets: "band_settling_time" and 1 for "band_settling_time[1]".
 struct Indexed {
   std::string_view stem;
   std::optional<double> index{};
@@ -45,7 +45,7 @@ Indexed indexed(std::string_view name) {
           text::parse_number<double>(name.substr(bracket + 1, name.size() - bracket - 2))};
 }
 
-/// A table with error bands and a tolerance, whose rows stand for those of all bands and tolerances.
+/// Table of measures with error bands and a tolerance. Their rows represent all bands and tolerances.
 const layout::MeasureTable& table_with_both() {
   study::StudyFeatures features;
   features.tolerances.limits[0] = 1.0;
@@ -53,7 +53,8 @@ const layout::MeasureTable& table_with_both() {
   return layout::measure_table(features);
 }
 
-/// The name of the row's measure of this band or tolerance; nothing if there is none.
+/// Name of the measure of a row for the error band or the tolerance `index`; nothing if no band or tolerance
+/// has this number.
 std::optional<std::string> name_with_index(const layout::Measure& row, std::string_view stem, double index) {
   constexpr double largest = 1e15;  // below which all whole numbers are exact
   if (!(std::abs(index) < largest)) return std::nullopt;
@@ -90,13 +91,14 @@ std::string letters_of(std::string_view name) {
   return letters;
 }
 
-/// Whether the longer name has the shorter one as a part of it.
+/// Whether the name `whole` contains the name `part`. A short part does not count.
 bool is_within(std::string_view part, std::string_view whole) {
   constexpr std::size_t shortest = 5;  // shorter ones are parts of words by chance
   return part.size() >= shortest && whole.find(part) != std::string_view::npos;
 }
 
-/// "; 'Settling_Time' looks like arrival_time" of the first column that is a misspelt measure; or empty.
+/// Hint at the first column that is a misspelt measure, for a message: "; 'Arrival_Time' looks like
+/// arrival_time". Empty if there is none.
 std::string misspelling_in(std::span<const std::string> heads) {
   for (const std::string& head : heads)
     if (const std::optional<std::string> measure = misspelt_measure(head))
@@ -104,7 +106,8 @@ std::string misspelling_in(std::span<const std::string> heads) {
   return "";
 }
 
-/// The number in a cell; nothing if there is none.
+/// The number in a cell; nothing if the cell has no number. A comma may be the decimal mark, unless it
+/// separates cells.
 std::optional<double> number_in(std::string_view cell, Separator separator) {
   if (cell.starts_with('+')) cell.remove_prefix(1);
   std::string text = lower_case(cell);
@@ -113,7 +116,8 @@ std::optional<double> number_in(std::string_view cell, Separator separator) {
   return text::parse_number<double>(text);
 }
 
-/// Likewise, or the value that a word stands for.
+/// The value of the measure in a cell, as a number or as a word such as "true" or the name of an outcome. NaN
+/// if the cell is empty or says that there is no value; nothing if it cannot be read.
 std::optional<double> value_in(std::string_view cell, Separator separator, const MonitoredMeasure& measure) {
   const std::string text = lower_case(cell);
   if (text.empty() || text == "na" || text == "null" || text == "none") return never;
@@ -126,7 +130,7 @@ std::optional<double> value_in(std::string_view cell, Separator separator, const
   return number_in(cell, separator);
 }
 
-/// Whether the measure can have the value. A log need not round what is counted to whole numbers.
+/// Whether the measure can have the value. Counts in a log need not be whole numbers.
 bool is_possible(double value, const MonitoredMeasure& measure) {
   if (std::isnan(value)) return !measure.quality;
   if (measure.quality && measure.name != "outcome") return value == 0.0 || value == 1.0;

@@ -13,136 +13,157 @@
 
 namespace zerocount::monitor {
 
-/// What tells a move from others beside its measures.
+/// Label of a move, by which similar moves are found (Likes).
 struct MoveLabel {
-  std::optional<std::int64_t> number{};  ///< in the sequence of a trial
-  std::optional<double> target{};        ///< counts, or in SI
-  int direction{0};                      ///< of the target less the one before; 0: not known
+  std::optional<std::int64_t> number{};  ///< Number of the move in the sequence of its trial.
+  std::optional<double> target{};        ///< Target in counts or in SI units.
+  int direction{0};  ///< Sign of the target minus the target before; 0 also if it is not known.
 };
 
 /// The labels of the moves of a log, or of a simulated study.
 struct MoveLabels {
-  bool numbered{false};            ///< whether moves have numbers
-  bool targeted{false};            ///< whether moves have targets
-  std::string target_unit{};       ///< empty: not stated
-  double count{0.0};               ///< size of a count in `si_unit`; 0: not known, as of a log
-  std::string si_unit{};           ///< of the axis, where `count` is known
-  std::vector<MoveLabel> moves{};  ///< [move]; empty where moves have no labels
+  bool numbered{false};       ///< Whether moves have numbers.
+  bool targeted{false};       ///< Whether moves have targets.
+  std::string target_unit{};  ///< Unit of the targets as the log or the study states it; empty: not stated.
+  double count{0.0};          ///< Size of a count in `si_unit`; 0: not known, as for every log.
+  std::string si_unit{};      ///< SI unit of positions on the axis; empty unless `count` is known.
+  std::vector<MoveLabel> moves{};  ///< [move] Labels; empty if moves have neither numbers nor targets.
 
   MoveLabel of(std::size_t move) const { return moves.empty() ? MoveLabel{} : moves[move]; }
 };
 
-/// How a change of a measure is stated.
+/// Scale of a measure. It decides how a change of the measure is stated and simulated.
 enum class Scale {
-  proportion,  ///< in [0, 1]: a quality of moves, or a fraction
-  counts,      ///< whole numbers, at least 0
-  plain        ///< any number
+  proportion,  ///< Value in [0, 1]: a quality of moves, or a fraction.
+  counts,      ///< Whole number, at least 0.
+  plain        ///< Any number.
 };
 
-/// A measure of moves, by the row of the table of measures that a column is named after.
+/// A measure of moves, found in the table of measures by the name of a column.
 struct MonitoredMeasure {
-  std::string name;  ///< that of the column: "band_settling_time[1]"
-  std::string unit;  ///< as the table has it: "s"
+  std::string name;  ///< Name as the program writes it: "band_settling_time[1]".
+  std::string unit;  ///< Unit in the table of measures: "s".
+  /// Row of the table of measures. The rows of one error band and of one tolerance serve for all of them.
   const layout::Measure* row{nullptr};
-  bool quality{false};  ///< 1 of moves that have it, 0 of others; an outcome is whether it is zero_count
+  /// Whether the measure is 1 for moves that have a quality and 0 for the others. The quality of an `outcome`
+  /// is zero_count.
+  bool quality{false};
   Scale scale{Scale::plain};
-  /// A state of the simulated friction, which grows from move to move: it is watched only where it is named.
+  /// True for states of the simulated friction that grow from move to move. Such a measure is watched only if
+  /// the settings name it.
   bool accumulates{false};
 };
 
-/// The measure of that name, with any error band or tolerance in brackets; nothing if there is none. Its own
-/// name has the number as the program writes it: that of "band_settling_time[1.0]" has [1].
+/// The measure with this name, with any error band or tolerance in brackets; nothing if there is none.
+/// MonitoredMeasure::name has the number as the program writes it: "band_settling_time[1]" for
+/// "band_settling_time[1.0]".
 std::optional<MonitoredMeasure> measure_named(std::string_view name);
 
-/// The name in the head of a column without its unit, and the unit: "band_settling_time[1] [ms]".
+/// Head of a column, divided into name and unit: "band_settling_time[1]" and "ms" for
+/// "band_settling_time[1] [ms]". The unit stands in square or round brackets.
 struct ColumnHead {
   std::string name;
-  std::string unit;  ///< empty without one
+  std::string unit;  ///< Unit; empty if the head has none.
 };
 ColumnHead column_head(std::string_view text);
 
-/// The column whose name resembles that of the measure: the same letters and digits in any case, one of the
-/// two names within the other, or few letters apart. Nothing if none does.
-/// @param heads of the columns, with their units
+/// Head of the column whose name resembles the name of the measure; nothing if none does. Names resemble each
+/// other if they have the same letters and digits in any case, if one contains the other, or if they differ
+/// in few letters.
+/// @param heads heads of the columns, with their units
 std::optional<std::string> resembling_column(std::string_view measure, std::span<const std::string> heads);
 
-/// The measure that the column's name stands for in another letter case, or with other marks between its
-/// words: arrival_time of "Settling-Time [ms]", and band_settling_time[1] of "BandSettlingTime 1".
+/// Name of the measure that the column means if its name has another letter case, or other marks between its
+/// words: "Arrival-Time [ms]" means arrival_time, and "BandSettlingTime 1" means band_settling_time[1].
+/// Nothing if the column means no measure.
 std::optional<std::string> misspelt_measure(std::string_view head);
 
-/// Factor from the unit of a column to SI, as far as the program knows units; 1 without one.
+/// Factor from the unit to SI units; 1 if the unit is empty or not known to the program.
 double si_factor(std::string_view unit);
-/// Whether numbers of one unit can be compared with those of the other, both in SI. Without a unit: yes.
+/// Whether numbers in these two units can be compared after conversion to SI units. An empty unit can be
+/// compared with any unit, and a unit that is not known to the program only with itself. Counts can be
+/// compared with proportions, because both are plain numbers.
 bool have_same_dimension(std::string_view one, std::string_view other);
 
 /// The unit of the measure on a linear axis.
 std::string linear_unit(const MonitoredMeasure& measure);
 
-/// Whether a column of the measure can have this unit, on an axis of any kind. What is counted has no
-/// multiples of its unit, such as percent. Without a unit: yes.
+/// Whether a column of the measure can have this unit, on a rotary or a linear axis. An empty unit is always
+/// possible. A measure with the unit "count" or "1" that is not a proportion has no multiples of its unit,
+/// such as percent.
 bool can_be_in(const MonitoredMeasure& measure, std::string_view unit);
 
-/// The value that is ranked, of the number that a results file or a log has. NaN is an event that never came,
-/// worse than any number, or nothing to measure (layout::Missing), less than any number.
+/// Value by which a move is ranked, from the number in a results file or in a log. layout::Missing decides
+/// what NaN means: an event that never came, which is worse than any number, or nothing to measure, which is
+/// less than any number. Some measures are ranked by their magnitude. An `outcome` becomes 1 if it is
+/// zero_count, otherwise 0.
 double ranked_value(const MonitoredMeasure& measure, double number);
-/// Whether a ranked value says that there was nothing to measure.
+/// Whether a value of ranked_value() means that there was nothing to measure.
 bool is_nothing(const MonitoredMeasure& measure, double ranked);
 
-/// The rank correlation of successive values, 1 − V/2 with the rank version of von Neumann's ratio
-/// V = Σ(r_t − r_{t+1})²/Σ(r_t − r̄)² (Bartels, J. Amer. Statist. Assoc. 77 (1982) 40); 0 where all are equal.
-/// For n independent values it has about the standard deviation 1/√n.
+/// Rank correlation of successive values: 1 − V/2 with the rank version of von Neumann's ratio
+/// V = Σ(r_t − r_{t+1})²/Σ(r_t − r̄)² (Bartels, J. Amer. Statist. Assoc. 77 (1982) 40). It is 0 if all values
+/// are equal. Its standard deviation for n independent values is about 1/√n.
 double serial_correlation(std::span<const double> values);
 
-/// The value that stands for several: the upper median, or of a quality the proportion that have it.
+/// Typical value of several moves: the upper median or, for a quality, the proportion of moves that have it.
 double typical_value(const MonitoredMeasure& measure, std::vector<double> values);
 
 /// Moves of a machine, or of a simulated study, in their order.
 struct Moves {
   struct Column {
     MonitoredMeasure measure;
-    std::string unit;               ///< in the header; empty: none
-    std::vector<double> values{};   ///< [move] as ranked_value() has them, in SI where the column has a unit
-    std::vector<double> written{};  ///< [move] of final_error: with their signs
+    std::string unit;              ///< Unit in the header; empty: none.
+    std::vector<double> values{};  ///< [move] Values of ranked_value(), in SI units if the column has a unit.
+    /// [move] Values of the column final_error of a log with their signs; empty for all other columns.
+    std::vector<double> written{};
   };
 
-  std::string name{};  ///< of the file
+  std::string name{};  ///< Name of the file.
   std::vector<Column> columns{};
   std::int64_t moves{0};
-  /// By the columns `move` and `target` of a log. The target before is that of the row before; a trial
-  /// (column `trial`) begins at 0. A `move` that is not a whole number is none.
+  /// Labels of the moves. In a log they are read from the columns `move` and `target`. The direction of a
+  /// move is counted from the target in the row before; the first move of a trial (column `trial`) starts at
+  /// 0. A cell of `move` that is not a whole number gives no number.
   MoveLabels labels{};
-  std::vector<std::string> groups{};  ///< [move] the cell of the group, of a log that is read with one
+  std::vector<std::string> groups{};  ///< [move] Group of the move; empty if the log is read without groups.
   /// Heads of the columns of a log that are not measures, with their units.
   std::vector<std::string> other_columns{};
 
-  /// Null if there is none.
+  /// Column of the measure with this name; null if there is none.
   const Column* find(std::string_view measure) const;
 };
 
-/// A log of moves as text: a header with the names of measures, then one row a move in their order. It may be
-/// read in pieces, as it grows.
+/// A log of moves as text: a header with the names of measures, then one row per move in the order of the
+/// moves. The text may be read in pieces as it grows.
 ///
-/// Cells are separated by the first of tab, semicolon and comma that the header has. Lines that begin with
-/// '#' or '%' are skipped. An empty cell, or NaN, is what never happened. A row of one column has no
-/// separator, so that in a log of one column each blank line after the header is a row with an empty cell,
-/// also at the end of the log. In a log of several columns a blank line has too few cells for a row, and is
-/// skipped.
+/// Cells are separated by the first of tab, semicolon and comma that the header contains. Lines that begin
+/// with '#' or '%' are skipped. An empty cell or NaN means that an event never came, or that there was
+/// nothing to measure (ranked_value()).
+///
+/// Rows of a log with one column have no separator. In such a log each blank line after the header is a row
+/// with an empty cell, also at the end of the log. In a log with several columns, a blank line has too few
+/// cells for a row and is skipped.
 class MoveLog : public Moves {
  public:
-  /// @param file its name in messages @param group name of the column whose rows of one value belong
-  /// together; none
+  /// @param file name of the file, for messages
+  /// @param group name of the column with the groups: successive rows with the same cell are one group;
+  /// empty: no groups
   explicit MoveLog(std::string file, std::string group = {})
       : Moves{.name = std::move(file)}, group_(std::move(group)) {}
 
-  /// Reads the lines that end in `text`. @returns the number of its characters that were read
-  /// @throws Failure: bad_input for a header without a measure, with one twice or in a unit that it cannot
-  /// have, or where carriage returns alone end the lines; bad_data for a row of another number of cells, or
-  /// with a value that the measure cannot have
+  /// Reads the lines of `text` that end with a line feed.
+  /// @returns number of characters that were read; the others belong to a line that has not ended
+  /// @throws Failure: bad_input for a header without a measure or without the group, with a column twice,
+  /// with the ambiguous name settling_time or with a unit that a measure cannot have, and for lines that end
+  /// with a carriage return alone; bad_data for a row with another number of cells than the header, with a
+  /// value that the measure cannot have or with an empty group
   std::size_t read(std::string_view text);
-  /// Reads the rest after the last line feed. If it has only blanks, it is a row only where tabs separate its
-  /// cells.
+  /// Reads the last line of the log, which no line feed ends. A line that has only blanks is a row only if
+  /// the log has several columns, and tabs separate the cells.
+  /// @throws Failure as read()
   void read_last(std::string_view line);
-  /// @throws Failure (bad_input) if there was no header
+  /// Checks that a header has been read. @throws Failure (bad_input) if there was none
   void require_header() const;
 
   bool has_header() const { return !heads_.empty(); }
@@ -154,22 +175,22 @@ class MoveLog : public Moves {
   void read_header(std::string_view line);
   [[noreturn]] void refuse_twice(std::string_view column) const;
   void read_row(std::string_view line);
-  /// Remembers the place of a column that is no measure.
+  /// Notes the place of a column that is not a measure, if it is one of the labels move, target and trial.
   void note_label(std::size_t cell, const ColumnHead& head);
   void read_labels(const std::vector<std::string_view>& cells);
 
-  /// Cells of a row that are no measures.
+  /// Indices of the cells of a row that have labels or the group; nothing if the log lacks the column.
   struct LabelCells {
     std::optional<std::size_t> move{}, target{}, trial{}, group{};
   };
 
   std::string group_;
   tables::Separator separator_{tables::Separator::comma};
-  std::vector<std::string> heads_;      ///< of all columns
-  std::vector<std::size_t> column_at_;  ///< [cell] its place among the columns; npos if it has none
+  std::vector<std::string> heads_;      ///< Heads of all columns; empty before the header has been read.
+  std::vector<std::size_t> column_at_;  ///< [cell] Index in `columns`; npos if the cell is not a measure.
   LabelCells label_cells_{};
-  double target_factor_{1.0};  ///< to SI, or counts
-  std::string trial_;          ///< of the last row
+  double target_factor_{1.0};  ///< Factor from the targets of the log to SI units or counts.
+  std::string trial_;          ///< Cell of the column `trial` in the last row.
   std::int64_t line_{0};
 };
 

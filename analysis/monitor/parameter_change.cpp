@@ -22,7 +22,7 @@ constexpr double max_excess = 9.2;                // of a misfit over the least:
 using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
 
-/// Where a change lies between others.
+/// Coordinate of a change for interpolation: the logarithm of a factor, or the amount itself.
 double place_of(ChangeKind kind, double change) {
   return kind == ChangeKind::factor ? std::log(change) : change;
 }
@@ -31,7 +31,7 @@ double change_at(ChangeKind kind, double place) {
   return kind == ChangeKind::factor ? std::exp(place) : place;
 }
 
-/// What is told of the distribution of a measure's ranks.
+/// Aspect of the distribution of a measure's ranks that a feature describes.
 enum class Aspect { place, width };
 
 struct Feature {
@@ -53,7 +53,7 @@ class Features {
     for (std::vector<double>& values : sorted_) std::ranges::sort(values);
   }
 
-  /// [feature, move]
+  /// [feature, move] Features of the moves.
   Matrix of(const MachineMoves& moves, const std::vector<Feature>& features) const {
     const std::size_t measures = sorted_.size();
     const std::size_t count = moves.size() / measures;
@@ -78,8 +78,9 @@ class Features {
 /// Mean of machines, and the covariances between and within them.
 struct Spread {
   Vector mean;
-  Matrix between;  ///< covariance of the machines' means, less what their few moves add
-  Matrix within;   ///< of a move of one machine
+  /// Covariance of the machines' means, without the contribution of their finite numbers of moves.
+  Matrix between;
+  Matrix within;   ///< Covariance of the moves of one machine.
   double freedom;  ///< degrees of freedom of `within`
 };
 
@@ -149,7 +150,8 @@ Distance distance_of(const Vector& observed, const Vector& mean, const Matrix& c
           -factor.diagonal().array().log().sum()};
 }
 
-/// How much more the mean of each feature varies than that of independent moves, for its serial correlation.
+/// [feature] Factor (1 + ρ)/(1 − ρ) on the variance of the feature's mean, because of the serial correlation
+/// ρ of the moves.
 Vector inflation_of(const Matrix& values) {
   constexpr double most = 0.95;
   Vector inflation = Vector::Ones(values.rows());
@@ -205,8 +207,8 @@ Eigen::Index moves_before_change(const Matrix& scores, const Matrix& within) {
 struct Statistic {
   Vector observed;
   double before;     ///< number of moves before the change
-  double after;      ///< number of moves after it
-  Vector inflation;  ///< inflation_of() the moves after it
+  double after;      ///< Number of moves after the change.
+  Vector inflation;  ///< inflation_of() the moves after the change.
 };
 
 std::vector<Matrix> features_of(const Features& features, const std::vector<Feature>& wanted,
@@ -267,7 +269,7 @@ Fit fit_of(const ChangeCandidate& candidate, const std::vector<Expected>& expect
   constexpr int parts = 20;  // between two changes
   struct Point {
     double place;
-    double freedom;  ///< of the covariance at this place
+    double freedom;  ///< Degrees of freedom of the covariance at this place.
     Distance distance;
     double log_likelihood() const { return distance.log_of_distance + distance.log_of_covariance; }
   };
@@ -317,7 +319,7 @@ const SimulatedChange& unchanged_of(const ChangeCandidate& candidate) {
   return *std::ranges::find(candidate.changes, unchanged_by(candidate.kind), &SimulatedChange::change);
 }
 
-/// The part of a row that has its most frequent value.
+/// Proportion of a row that has its most frequent value.
 double part_tied(const Eigen::MatrixXd::ConstRowXpr& row) {
   std::vector<double> values(row.begin(), row.end());
   std::ranges::sort(values);
@@ -329,12 +331,12 @@ double part_tied(const Eigen::MatrixXd::ConstRowXpr& row) {
   return static_cast<double>(most) / static_cast<double>(values.size());
 }
 
-/// Number of machines whose difference the unchanged moves show; 0: they are of one machine.
+/// Number of machines whose differences the unchanged moves show; 0 if all moves belong to one machine.
 std::size_t differing_machines(const std::vector<MachineMoves>& unchanged) {
   return unchanged.size() < 2 ? 0 : unchanged.size();
 }
 
-/// The features to go by, those of the most telling measures first.
+/// The features that are used; those of the most informative measures come first.
 std::vector<Feature> telling_features(const std::vector<MachineMoves>& unchanged, std::size_t measures) {
   constexpr std::size_t most = 16;
   constexpr std::size_t most_measures = 8;
@@ -371,8 +373,8 @@ std::vector<Feature> telling_features(const std::vector<MachineMoves>& unchanged
   return found;
 }
 
-/// Shares the probability among those that explain the moves, or among all where none does. Sorts the
-/// likeliest first.
+/// Sets the probabilities of the parameters that explain the moves, or of all parameters if none does. Sorts
+/// the most likely first.
 void set_probabilities(std::vector<Fit>& fits) {
   double least = std::numeric_limits<double>::max();
   for (const Fit& fit : fits)
@@ -393,7 +395,7 @@ void set_probabilities(std::vector<Fit>& fits) {
   });
 }
 
-/// Whether these moves are the first of those.
+/// Whether the moves `these` are the first moves of `those`.
 bool is_beginning_of(const std::vector<MachineMoves>& these, const std::vector<MachineMoves>& those) {
   if (these.size() > those.size()) return false;
   return std::ranges::equal(

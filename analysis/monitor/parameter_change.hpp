@@ -5,52 +5,55 @@
 #include <string>
 #include <vector>
 
-/// Which parameter of a simulated study has changed, told from the moves of a machine that changed.
+/// Identifies the parameter of a simulated study that has changed, from the moves of a machine that changed.
 namespace zerocount::monitor {
 
 /// Moves of one machine: the values of `measures` measures, move after move.
 using MachineMoves = std::vector<double>;
 
-/// How a parameter changes.
+/// Kind of a parameter's change.
 enum class ChangeKind {
-  factor,  ///< its value is multiplied
-  amount   ///< to its value, which may be 0, something is added
+  factor,  ///< The value is multiplied by a factor.
+  amount   ///< An amount is added to the value, which may be 0.
 };
 
-/// The moves of simulated machines with a parameter changed; the same machines at every change, of which a
-/// change may have the first moves alone.
+/// The moves of simulated machines with a changed parameter. The machines are the same for every change. A
+/// change may contain only the first moves of each.
 struct SimulatedChange {
-  double change{1.0};  ///< factor, or amount in the unit of the parameter
+  double change{1.0};  ///< Factor, or amount in the unit of the parameter.
   std::vector<MachineMoves> machines;
 };
 
 /// A parameter that may have changed.
 struct ChangeCandidate {
-  std::string parameter;                 ///< dotted path
-  std::vector<SimulatedChange> changes;  ///< rising, with unchanged_by(kind) among them
+  std::string parameter;                 ///< Dotted path of the parameter.
+  std::vector<SimulatedChange> changes;  ///< Changes in rising order; unchanged_by(kind) is among them.
   ChangeKind kind{ChangeKind::factor};
-  std::string unit{};  ///< of an amount
+  std::string unit{};  ///< Unit of an amount.
 };
 
 constexpr double unchanged_by(ChangeKind kind) {
   return kind == ChangeKind::factor ? 1.0 : 0.0;
 }
 
-/// How well a change of one parameter explains the moves.
+/// Result for one parameter: its most likely change, and how well that explains the moves.
 struct ParameterChange {
   std::string parameter;
   ChangeKind kind{ChangeKind::factor};
   std::string unit{};  ///< unit of an amount
-  double change{1.0};  ///< most likely factor, or amount
-  double low{1.0};     ///< low end of its 95 % interval by the likelihood, or of the range where it goes on
-  double high{1.0};    ///< high end
-  /// Probability that this parameter changed, if one of those that explain the moves did and all were alike
-  /// before.
+  double change{1.0};  ///< Most likely factor, or amount.
+  /// Low end of the 95 % likelihood interval of the change; the end of the simulated range if the interval
+  /// continues beyond it.
+  double low{1.0};
+  double high{1.0};  ///< High end of that interval or range.
+  /// Probability that this parameter changed, given that one of the explaining parameters did and that all
+  /// had the same prior probability.
   double probability{0.0};
   /// Squared Mahalanobis distance of the moves from those simulated with the most likely change.
   double misfit{0.0};
-  double max_misfit{0.0};   ///< misfit that the right parameter exceeds with the probability 0.01
-  bool explains{false};     ///< Whether it explains the moves, as explain_change() says.
+  double max_misfit{0.0};  ///< Misfit that the right parameter exceeds with the probability 0.01.
+  /// True if the parameter explains the moves in the sense of explain_change().
+  bool explains{false};
   bool beyond_low{false};   ///< The interval reaches the lowest simulated change.
   bool beyond_high{false};  ///< The interval reaches the highest simulated change.
 
@@ -58,24 +61,28 @@ struct ParameterChange {
 };
 
 enum class ChangeTold {
-  one,      ///< One parameter explains the moves.
-  several,  ///< Several explain them, or one does and others were not tried.
-  none,     ///< No single one explains them.
-  unknown   ///< There are too few moves, no candidate acts on the measures, or none was tried.
+  one,  ///< One parameter explains the moves.
+  /// Several parameters explain the moves, or one does and others were not tried.
+  several,
+  none,    ///< No single parameter explains the moves.
+  unknown  ///< There are too few moves, no candidate acts on the measures, or none was tried.
 };
 
 struct ChangeExplanation {
   ChangeTold told{ChangeTold::unknown};
-  std::vector<ParameterChange> parameters{};  ///< those that explain the moves, likeliest first
-  std::vector<ParameterChange> ranked{};      ///< all that act on the measures, likeliest first
+  std::vector<ParameterChange> parameters{};  ///< Parameters that explain the moves, most likely first.
+  /// All parameters that act on the measures, most likely first.
+  std::vector<ParameterChange> ranked{};
   /// First move of the change, from 1; 1: the machine is from its first move on unlike those simulated.
   std::int64_t since{1};
-  double misfit{0.0};                  ///< the smallest misfit of all parameters
-  double max_misfit{0.0};              ///< its limit
-  std::string reason{};                ///< reason for `unknown`
-  std::vector<std::string> tried{};    ///< names of the parameters that act on the measures
-  std::vector<std::string> untried{};  ///< names of those that the budget did not suffice for
-  std::int64_t max_trials{0};          ///< most trials that all parameters take; 0: not known
+  double misfit{0.0};                ///< Smallest misfit of all parameters.
+  double max_misfit{0.0};            ///< Limit of that misfit, see ParameterChange::max_misfit.
+  std::string reason{};              ///< Reason for ChangeTold::unknown.
+  std::vector<std::string> tried{};  ///< Names of the parameters that act on the measures.
+  /// Names of the parameters for which the budget did not suffice.
+  std::vector<std::string> untried{};
+  /// Largest number of trials that all parameters together need; 0: not known.
+  std::int64_t max_trials{0};
 };
 
 inline constexpr std::size_t min_moves_before = 20;

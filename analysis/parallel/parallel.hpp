@@ -12,23 +12,26 @@ class Timeline;
 /// Work on all cores, without the headers of the library that does it.
 namespace zerocount::parallel {
 
-/// Threads that work in parallel at most.
+/// Largest number of threads that work in parallel.
 int threads();
 
 /// Calls `work` for each index below `count`, in parallel. @param name of each call in a timeline, a literal
 void for_each_index(std::size_t count, const std::function<void(std::size_t)>& work,
                     std::string_view name = "task");
 
-/// Whether `holds` is true of all indices below `count`, of which it may pass over some once one is false.
+/// Whether `holds` is true for all indices below `count`. Once it is false for one, further indices may be
+/// skipped.
 bool holds_for_all(std::size_t count, const std::function<bool(std::size_t)>& holds, std::string_view name);
 
-/// Puts what this thread does during its lifetime into a timeline: one span of it all, and spans of each loop
-/// over indices and of each of its calls, on any thread. What is in no loop is work for one thread.
+/// Records the work of this thread during the lifetime of the object in a timeline: one span for the whole, a
+/// span for each loop over indices, and a span for each call in a loop, on any thread. Work outside loops is
+/// work for one thread.
 class Recording {
  public:
-  /// @param timeline null: nothing is recorded @param name of the span of it all, a literal
+  /// @param timeline null: nothing is recorded
+  /// @param name name of the whole span, a literal
   Recording(timeline::Timeline* timeline, std::string_view name);
-  /// A part of what this thread records.
+  /// Records a part of the work as a span of its own, in the timeline to which this thread records.
   explicit Recording(std::string_view name);
   Recording(const Recording&) = delete;
   Recording& operator=(const Recording&) = delete;
@@ -44,7 +47,7 @@ class Recording {
 /// The timeline to which the work of this thread is recorded; null: none.
 timeline::Timeline* recording();
 
-/// Threads that work in parallel at most, during its lifetime.
+/// Limits the number of threads that work in parallel during the lifetime of the object.
 class ThreadLimit {
  public:
   explicit ThreadLimit(int threads);

@@ -16,7 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The quota in microseconds of each period; nothing for "max" and -1, which are none.
+/// Processors that a quota allows: quota/period, both in the same unit. Nothing if either is not a positive
+/// number; the quotas "max" and -1 mean that there is no quota.
 std::optional<double> ratio(const std::string& quota, const std::string& period) {
   const auto time = text::parse_number<double>(quota);
   const auto of = text::parse_number<double>(period);
@@ -32,7 +33,8 @@ std::pair<std::string, std::string> two_words(const fs::path& path) {
   return words;
 }
 
-/// Of one group. A folder of version 2 has no file of version 1, and the other way round.
+/// Quota of one control group, processor time per second; nothing without a quota. A folder of version 2
+/// contains no file of version 1, and the other way round.
 std::optional<double> quota_of_group(const fs::path& folder) {
   const auto [quota, period] = two_words(folder / "cpu.max");
   if (!quota.empty()) return ratio(quota, period);

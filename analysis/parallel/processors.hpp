@@ -5,15 +5,15 @@
 
 namespace zerocount::parallel {
 
-/// Processors that this process may use: those that it may run on, or fewer where its control group, such as
-/// that of a container, gets less of their time.
+/// Number of processors that this process may use: those that it may run on, or fewer if its control group
+/// (such as a container's) gets less processor time.
 int processors();
 
-/// The processor time per second that a process may use by the quotas of its control group and of those above
-/// it; nothing without a quota. Both versions of control groups are known.
+/// Processor time per second that a process may use, by the quotas of its control group and of the groups
+/// above it. Nothing without a quota. Both versions of control groups are supported.
 /// @param group_list /proc/self/cgroup, a line for each hierarchy: "ID:CONTROLLERS:PATH"
-/// @param mount_point of the hierarchies. Groups that are not seen below it, as from inside a container, are
-/// passed over.
+/// @param mount_point mount point of the hierarchies. Groups that are not visible below it, as from inside a
+/// container, are ignored.
 std::optional<double> processor_quota(const std::filesystem::path& group_list,
                                       const std::filesystem::path& mount_point);
 

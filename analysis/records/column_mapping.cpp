@@ -19,7 +19,7 @@ struct QuantityRow {
   std::optional<text::Dimension> dimension;
 };
 
-/// In the order of Quantity.
+/// Names and dimensions of the quantities, in the order of Quantity.
 constexpr std::array<QuantityRow, 8> quantity_rows{{{"time", text::Dimension::time},
                                                     {"torque", text::Dimension::torque},
                                                     {"drive_torque", text::Dimension::torque},

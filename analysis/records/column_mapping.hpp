@@ -11,22 +11,23 @@ namespace zerocount::records {
 /// The quantities to which `--column` can assign a column.
 enum class Quantity {
   time,
-  torque,        ///< commanded, of a rotary axis
-  drive_torque,  ///< of the motor at the sample
+  torque,        ///< Commanded torque of a rotary axis.
+  drive_torque,  ///< Motor torque at the sample.
   angle,
-  force,        ///< commanded, of a linear axis
-  drive_force,  ///< of the motor at the sample
+  force,        ///< Commanded force of a linear axis.
+  drive_force,  ///< Motor force at the sample.
   position,
-  repetition  ///< a new repetition of the test begins where the value changes
+  /// Number of the repetition: a new repetition of the test begins when the value changes.
+  repetition
 };
 
 std::string_view name_of(Quantity quantity);
 /// Names of all quantities, for messages.
 std::string quantity_names();
-/// The dimension of the quantity's values; none for the repetition.
+/// Dimension of the quantity's values; nothing for the repetition.
 std::optional<text::Dimension> dimension_of(Quantity quantity);
-bool is_linear(Quantity quantity);  ///< of a linear axis only
-/// The SI unit of the quantity's values; not of the repetition.
+bool is_linear(Quantity quantity);  ///< True if only linear axes have the quantity.
+/// SI unit of the quantity's values. Must not be called for the repetition.
 text::Unit si_unit(Quantity quantity);
 
 /// The source of the values of a quantity: `torque=current[A]*0.87`.
@@ -38,15 +39,15 @@ text::Unit si_unit(Quantity quantity);
 /// their product is the quantity in its SI unit for one UNIT, 0.87 N m/A here.
 struct ColumnMapping {
   Quantity quantity{Quantity::time};
-  std::string column;                ///< name in the header, #NUMBER from 1, or path of a dataset
-  std::optional<text::Unit> unit{};  ///< none: that of the header, or the SI unit
-  std::optional<double> factor{};    ///< product of the factors; none without any
+  std::string column;                ///< Column: name in the header, #NUMBER from 1, or path of a dataset.
+  std::optional<text::Unit> unit{};  ///< Unit; nothing: the unit in the header, or the SI unit.
+  std::optional<double> factor{};    ///< Product of the factors; nothing if there are none.
 };
 
-/// The mapping, or the reason why the text is none.
+/// A mapping, or the reason why the text is not a mapping.
 struct ParsedMapping {
   ColumnMapping mapping;
-  std::string fault{};  ///< empty if it is a mapping
+  std::string fault{};  ///< Reason why the text is not a mapping; empty if it is one.
 };
 ParsedMapping parse_mapping(std::string_view text);
 

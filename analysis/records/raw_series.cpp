@@ -17,12 +17,12 @@ namespace zerocount::records {
 
 namespace {
 
-/// A column of a source, and how its numbers become a quantity.
+/// A column of a source, and the conversion of its numbers to a quantity.
 struct FoundColumn {
   Quantity quantity;
   std::string column;
   text::Unit unit;
-  double factor{1.0};  ///< of the numbers as they stand, to the quantity's SI unit
+  double factor{1.0};  ///< Factor from the numbers in the column to the quantity's SI unit.
   bool has_factor{false};
 };
 
@@ -239,8 +239,8 @@ std::vector<Value> part_of(const std::vector<Value>& values, std::size_t first, 
           values.begin() + static_cast<std::ptrdiff_t>(end)};
 }
 
-/// First samples of the repetitions. The time restarts where it falls back to within a hundredth of the
-/// duration so far from its first value; what falls back less far is a fault of the time.
+/// First samples of the repetitions. The time restarts if it falls back to within a hundredth of the duration
+/// so far from its first value. A smaller step back is an error of the time.
 std::vector<std::size_t> repetition_starts(const RawSeries& series, const std::vector<double>& repetition) {
   std::vector<std::size_t> starts{0};
   const std::vector<double>& time = series.time;
@@ -276,7 +276,7 @@ std::vector<RawSeries> split(const RawSeries& series, std::vector<std::size_t> s
   return parts;
 }
 
-/// Puts rows of which the newest comes first into the order of time.
+/// Reverses rows that begin with the newest sample, so that they are in order of time.
 void put_oldest_first(RawSeries& series, std::vector<double>& repetition) {
   const auto not_before = [](double time, double next) { return !(next < time); };
   if (series.time.size() < 2 || std::ranges::adjacent_find(series.time, not_before) != series.time.end())

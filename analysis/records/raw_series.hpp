@@ -15,36 +15,41 @@ namespace zerocount::records {
 
 /// Meaning of the torque of a series.
 enum class TorqueKind {
-  commanded,  ///< command to the amplifier at t_k, held until t_{k+1}
-  motor       ///< motor torque at t_k
+  commanded,  ///< Command to the amplifier at t_k, held until t_{k+1}.
+  motor       ///< Motor torque at t_k.
 };
 
-/// A test as read, unchecked.
+/// A test as it was read, before any check.
 struct RawSeries {
-  std::string name;                ///< name in messages
-  std::string file{};              ///< the file, where the series is one repetition of several in it
-  std::vector<std::size_t> lines;  ///< [sample] line in the file; empty for a file without lines
-  std::vector<double> time;        ///< s
-  std::vector<double> torque;      ///< N m; of a linear axis the force, N
+  std::string name;  ///< Name in messages.
+  /// Name of the file if the series is one of several repetitions in it; otherwise empty.
+  std::string file{};
+  std::vector<std::size_t> lines;  ///< [sample] Line in the file; empty for a file without lines.
+  std::vector<double> time;        ///< [sample] Time, s.
+  std::vector<double> torque;      ///< [sample] Torque, N m; for a linear axis the force, N.
   TorqueKind torque_kind{TorqueKind::commanded};
-  double bandwidth{0.0};             ///< of the amplifier, Hz; 0: ideal amplifier
-  double delay{0.0};                 ///< delay of a commanded torque, samples; the torque is 0 before
-  std::vector<double> angle;         ///< whole counts, or rad; of a linear axis the position, m
-  double count_size{0.0};            ///< rad or m of a count; 0 if the angle is in rad or m
-  bool linear{false};                ///< of a linear axis: N for N m and m for rad in all that follows
-  std::vector<double> code;          ///< DAC codes; empty if unknown
-  int dac_bits{0};                   ///< 0 if unknown
-  std::vector<bool> sliding;         ///< whether the hook slid; empty if unknown
-  std::vector<bool> excluded;        ///< [sample] masked readings; empty: none
-  motion::PlantStart start;          ///< initial state of the contact
-  bool units_known{false};           ///< certainly SI units, because this program wrote the file
-  std::vector<std::string> notes{};  ///< what was changed in reading, for the user: sentences without a name
+  double bandwidth{0.0};  ///< Bandwidth of the amplifier, Hz; 0: ideal amplifier.
+  double delay{0.0};      ///< Delay of a commanded torque, samples. The torque is 0 before.
+  /// [sample] Angle in whole counts or rad; for a linear axis the position in counts or m.
+  std::vector<double> angle;
+  double count_size{0.0};  ///< Size of a count, rad or m; 0 if the angle is in rad or m.
+  /// True for a linear axis. Units are then N in place of N m and m in place of rad.
+  bool linear{false};
+  std::vector<double> code;    ///< [sample] DAC code; empty if unknown.
+  int dac_bits{0};             ///< Number of bits of the DAC; 0 if unknown.
+  std::vector<bool> sliding;   ///< [sample] Whether the hook slid; empty if unknown.
+  std::vector<bool> excluded;  ///< [sample] Whether the reading is masked; empty: none is.
+  motion::PlantStart start;    ///< Initial state of the contact.
+  /// True if the units are certainly SI units, because this program wrote the file.
+  bool units_known{false};
+  /// Sentences for the user on changes made while reading, without the name of the series.
+  std::vector<std::string> notes{};
 };
 
 /// "NAME:LINE", or "NAME, sample K".
 std::string place_of(const RawSeries& series, std::size_t sample);
 
-/// An interval of time whose readings are not used, s. Their torque acts all the same.
+/// An interval of time whose readings are not used, s. The torque in it still acts on the axis.
 struct ExcludedTime {
   double from{0.0};
   double to{0.0};
@@ -55,19 +60,20 @@ bool exclude(RawSeries& series, const ExcludedTime& interval);
 
 /// The user's choices for the interpretation of a file.
 struct SeriesChoice {
-  std::vector<ColumnMapping> columns{};          ///< at most one of each quantity
-  std::optional<tables::Separator> separator{};  ///< of a text
-  std::optional<double> sample_time{};           ///< s: the file has no times, sample k is at k·T
-  std::optional<std::string> torque;             ///< column: torque or drive_torque
-  std::optional<std::string> angle;              ///< column: count or theta
-  std::optional<double> count_size;              ///< rad, or m of a linear axis
-  bool linear{false};                            ///< the usual columns are those of a linear axis
-  bool rotary{false};                            ///< they are those of a rotary axis
-  std::optional<double> bandwidth;               ///< Hz
-  std::optional<double> delay;                   ///< of the commanded torque, samples
+  std::vector<ColumnMapping> columns{};          ///< Column mappings, at most one for each quantity.
+  std::optional<tables::Separator> separator{};  ///< Separator of the columns of a text.
+  /// Sampling interval T of a file without times, s: sample k is at k·T.
+  std::optional<double> sample_time{};
+  std::optional<std::string> torque;  ///< Column of the torque: torque or drive_torque.
+  std::optional<std::string> angle;   ///< Column of the angle: count or theta.
+  std::optional<double> count_size;   ///< Size of a count, rad; m for a linear axis.
+  bool linear{false};                 ///< True if the default columns are those of a linear axis.
+  bool rotary{false};                 ///< True if the default columns are those of a rotary axis.
+  std::optional<double> bandwidth;    ///< Bandwidth of the amplifier, Hz.
+  std::optional<double> delay;        ///< Delay of the commanded torque, samples.
   std::optional<int> dac_bits;
-  std::optional<double> preload;    ///< N m
-  std::optional<double> hardening;  ///< rad
+  std::optional<double> preload;    ///< Preload of the contact at the start, N m.
+  std::optional<double> hardening;  ///< Hardening of the contact at the start, rad.
 };
 
 /// The reason why the choices contradict each other; empty if they do not.

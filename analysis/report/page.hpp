@@ -11,32 +11,34 @@ namespace zerocount::report {
 
 /// A section of the page.
 struct PageSection {
-  std::string name;   ///< anchor in the page
-  std::string title;  ///< plain text; empty for the first screen, which follows the title of the page
-  std::string html;   ///< before the figures
+  std::string name;  ///< Anchor in the page.
+  /// Title as plain text; empty for the first screen, which follows the title of the page.
+  std::string title;
+  std::string html;  ///< HTML before the figures.
   std::vector<Figure> figures;
-  std::string html_after{};  ///< after the figures
+  std::string html_after{};  ///< HTML after the figures.
 };
 
-/// Whether a page is the last one of its place.
+/// State of a page: final, or to be replaced by a later one.
 enum class PageState {
   finished,
-  live,       ///< the browser loads it again every live_interval
-  unfinished  ///< the work ended before its answer; a later page takes its place (is_unfinished_page)
+  live,  ///< The browser reloads the page every live_interval.
+  /// The work ended before its answer. A later page replaces this one (is_unfinished_page()).
+  unfinished
 };
 
-/// Between two pages of long work that is shown while it is done, s.
+/// Time between two pages of long work that is shown while it is done, s.
 inline constexpr int live_interval = 2;
 
 /// The contents of a report, before conversion to HTML.
 struct ReportPage {
-  std::string title;     ///< plain text
-  std::string subtitle;  ///< plain text
-  std::string footer;    ///< plain text
+  std::string title;     ///< Title as plain text.
+  std::string subtitle;  ///< Subtitle as plain text.
+  std::string footer;    ///< Footer as plain text.
   std::vector<PageSection> sections;
-  std::string kind{"report"};  ///< the command that wrote it
+  std::string kind{"report"};  ///< Command that wrote the page.
   PageState state{PageState::finished};
-  std::string source{};  ///< Identifies what the page was made from, for is_page_of(); empty: nothing.
+  std::string source{};  ///< Identifies the source of the page, for is_page_of(); empty: none.
 };
 
 /// The report as one self-contained HTML document, without network requests.
@@ -49,13 +51,13 @@ bool is_unfinished_page(const std::filesystem::path& path);
 /// Whether the file is a page that was made from this source.
 bool is_page_of(const std::filesystem::path& path, const std::string& source);
 
-/// HTML below the line `head`, which shows and hides it. It is not printed.
+/// HTML that the line `head` shows and hides. It is not printed.
 std::string html_folded(const std::string& head, const std::string& html);
 
 /// An answer with its figures as a section.
 PageSection answer_section(std::string name, std::string title, const document::Answer& answer);
 
-/// An answer as a section: its headline and its figures, all else folded.
+/// An answer as a section that shows the headline and the figures; the rest is folded.
 PageSection figures_first(std::string name, std::string title, const document::Answer& answer);
 
 /// An answer as a page of its own, with its figures.

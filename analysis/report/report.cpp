@@ -9,7 +9,7 @@
 namespace zerocount::report {
 namespace {
 
-constexpr std::size_t max_history_figures = 12;  ///< of a report
+constexpr std::size_t max_history_figures = 12;  ///< Largest number of history figures in a report.
 
 /// Simulates trials again, and collects their differences from the file.
 struct Replays {

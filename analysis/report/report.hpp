@@ -19,16 +19,17 @@ namespace zerocount::report {
 /// The parts of a page that come from a tuning.
 struct TuningPart {
   FirstScreenParts first_screen{};
-  std::vector<PageSection> sections{};  ///< what follows the first screen
+  std::vector<PageSection> sections{};  ///< Sections that follow the first screen.
 };
 
 /// Options of a report.
 struct ReportOptions {
   std::optional<TuningPart> tuning{};
-  std::optional<comparison::StudyComparison> comparison{};  ///< with a baseline
-  std::optional<history::History> history{};                ///< earlier runs of this study
-  std::optional<std::int64_t> point{};  ///< design point that the page speaks of; default: the best
-  bool jerks{true};  ///< with the figures of jerks; their test of a trend takes most of the time of a report
+  std::optional<comparison::StudyComparison> comparison{};  ///< Comparison with a baseline.
+  std::optional<history::History> history{};                ///< Earlier runs of this study.
+  std::optional<std::int64_t> point{};  ///< Design point that the page describes; default: the best.
+  /// Whether to include the figures of jerks. Their trend test takes most of the time of a report.
+  bool jerks{true};
   /// Compares a repeated trial with its record; returns the differences, one line each.
   std::function<std::vector<std::string>(const ReplayedTrial&)> check{};
 };
@@ -36,7 +37,7 @@ struct ReportOptions {
 /// A report and its warnings.
 struct StudyReport {
   ReportPage page;
-  std::vector<std::string> warnings;  ///< also shown in the page
+  std::vector<std::string> warnings;  ///< Warnings, which the page also shows.
 };
 
 /// The report of a complete results file. Reads the file several times and simulates some of its trials

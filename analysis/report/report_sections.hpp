@@ -19,24 +19,25 @@ struct Conclusions {
   std::vector<std::string> lines;
 };
 
-/// Of a study with a goal: whether it is met at the chosen point, and what the table of requirements does not
-/// say. Otherwise success there with tolerance statements, and zero_counts_html() without its rate. For 100 %
-/// success it states the upper bound of the failure probability.
+/// The conclusions of a study. With a goal: whether it is met at the chosen point, and facts that the table
+/// of requirements does not show. Otherwise: the success at the chosen point with tolerance statements, and
+/// zero_counts_html() without its rate. For 100 % success they state the upper bound of the failure
+/// probability.
 Conclusions conclusions_of(const ReportedStudy& reported);
 
-/// Zero counts at the chosen point of a study with a goal, as its own question: their rate, and the
-/// prediction of the criteria.
+/// Zero counts at the chosen point of a study with a goal, as a separate question: the rate of success, and
+/// the prediction of the criteria.
 std::string zero_counts_html(const ReportedStudy& reported);
 
 /// The provenance: size, design, random parameters, program, manifest.
 std::string run_html(const ReportedStudy& reported);
 
-/// The tables of `summary`: of the points by the question of the study, of zero counts, and of what else the
-/// study has of them; of an open-loop study of its levels. At most 400 rows; a note states if there are more.
+/// The tables of `summary`: the points by the question of the study, the zero counts, and further tables of
+/// the study; for an open-loop study the levels. At most 400 rows; a note states if there are more.
 std::string points_html(const ReportedStudy& reported);
 
-/// The series of a history as figures, those that changed first, and their changes in words. At most
-/// `max_figures`; a note states if there are more.
+/// The series of a history as figures, changed series first, and the changes in words. At most `max_figures`
+/// figures; a note states if there are more.
 PageSection history_section(const history::History& history, std::size_t max_figures);
 
 /// The anchor of sensitivity_section() in the page.

@@ -10,14 +10,16 @@
 
 namespace zerocount::sensitivity {
 
-/// Columns that are not linear combinations of those before them.
+/// The columns of a matrix x that are not linear combinations of the columns before them.
 struct IndependentColumns {
-  Eigen::MatrixXd values;           ///< less their means, over their standard deviations (divisor n)
-  std::vector<std::size_t> places;  ///< [column] where it stands in x
+  /// Standardised columns: minus their means, over their standard deviations (divisor n).
+  Eigen::MatrixXd values;
+  std::vector<std::size_t> places;  ///< [column] Index of the column in x.
 };
 
-/// Those of x. The residual of a regression on the columns before must have at least 10⁻⁸ of the column's
-/// variance. @param x none of its columns is constant.
+/// The independent columns of x. A column is independent if the residual of its regression on the columns
+/// before has at least 10⁻⁸ of its variance.
+/// @param x none of its columns is constant.
 IndependentColumns independent_columns(const Eigen::MatrixXd& x);
 
 /// The empirical mid-distribution function at each value: (number below + ½ number equal, itself included)/n,
@@ -36,20 +38,20 @@ std::vector<double> mid_distribution(std::span<const double> values);
 /// NaN where x or y is constant, or there are fewer than ten values. x and y have the same length.
 BoundedNumber rank_correlation(std::span<const double> x, std::span<const double> y, double confidence);
 
-/// The bounds of atanh ρ ± q·s/(1 − ρ²), back as correlations; ρ itself where it is 1 or −1.
-/// @param standard_error s, of ρ.
+/// The bounds atanh ρ ± q·s/(1 − ρ²) transformed back to correlations. If ρ is 1 or −1, both bounds are ρ.
+/// @param standard_error s, the standard error of ρ.
 BoundedNumber fisher_bounds(double correlation, double standard_error, double confidence);
 
-/// Whether all `values` are equal; true of none.
+/// Whether all `values` are equal; true if there are none.
 bool is_constant(std::span<const double> values);
 
-/// Partial rank correlations of y with each column of x, [column] (PRCC; Iman, Shortencarier & Johnson 1985):
-/// the correlation of what is left of the ranks of the column and of y when the part linear in the ranks of
-/// all other columns is taken from both. With P the inverse of the correlations of the ranks of all columns
-/// and y, −P_jy/√(P_jj·P_yy).
+/// [column] Partial rank correlation of y with the column of x (PRCC; Iman, Shortencarier & Johnson 1985). It
+/// is the correlation of the residuals of two linear regressions on the ranks of all other columns: of the
+/// ranks of the column, and of the ranks of y. With P the inverse of the correlation matrix of the ranks of
+/// all columns and y, it is −P_jy/√(P_jj·P_yy).
 ///
-/// The bounds are fisher_bounds() with s² = Σ ψ_i²/(n(n − k − 2)), ψ = uv − ρ(u² + v²)/2, u and v the two
-/// remainders, each over its root mean square; this takes the ranks as they are.
+/// The bounds are fisher_bounds() with s² = Σ ψ_i²/(n(n − k − 2)), ψ = uv − ρ(u² + v²)/2, where u and v are
+/// the two residuals, each over its root mean square. They ignore the errors of the ranks.
 ///
 /// NaN for a column whose ranks are a linear combination of those before it, and for all where y is constant
 /// or there are fewer than k + 10 rows.
@@ -61,21 +63,23 @@ std::vector<BoundedNumber> partial_rank_correlations(const Eigen::MatrixXd& x, s
 struct LogisticFit {
   enum class Status {
     fitted,
-    separated,  ///< a combination of the factors parts yes from no: the best coefficients are infinite
-    too_few     ///< all trials say the same, or there are fewer than ten beyond the coefficients
+    /// A combination of the factors separates yes from no, so the best coefficients are infinite.
+    separated,
+    /// All trials have the same answer, or fewer than ten trials exceed the number of coefficients.
+    too_few
   };
   Status status{Status::too_few};
   BoundedNumber intercept;
-  /// [column] change of the log odds over one standard deviation of the column. NaN of a column that is a
-  /// linear combination of those before it, and unless the status is fitted.
+  /// [column] Change of the log odds per standard deviation of the column. NaN for a column that is a linear
+  /// combination of the columns before it, and for all columns unless the status is fitted.
   std::vector<BoundedNumber> slopes;
 };
 
-/// ln(p/(1 − p)) = b₀ + Σ b_j z_j, z_j the columns of x standardised: the maximum of the likelihood, by
-/// iteratively reweighted least squares (McCullagh & Nelder, Generalized Linear Models, section 4.4). The
-/// bounds are Wald's, b ± q·s with s² from the inverse of ZᵀWZ. Where yes and no are separated, completely or
-/// but for trials on the border, there is no maximum at a finite place (Albert & Anderson 1984): the steps
-/// then do not become smaller.
+/// Fits ln(p/(1 − p)) = b₀ + Σ b_j z_j, where z_j are the standardised columns of x, by maximum likelihood
+/// with iteratively reweighted least squares (McCullagh & Nelder, Generalized Linear Models, section 4.4).
+/// The bounds are Wald's, b ± q·s with s² from the inverse of ZᵀWZ. If yes and no are separated, completely
+/// or except for trials on the border, the likelihood has no finite maximum (Albert & Anderson 1984), and the
+/// steps do not become smaller.
 /// @param x n × k, finite, no column constant. @param yes n values, 0 or 1.
 LogisticFit logistic_fit(const Eigen::MatrixXd& x, const Eigen::VectorXd& yes, double confidence);
 

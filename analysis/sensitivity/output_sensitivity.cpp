@@ -19,16 +19,20 @@ namespace {
 constexpr std::size_t min_rows = 10;
 constexpr std::int64_t min_of_a_kind = 10;
 
-/// The trials of a point from which the sensitivity of an output comes: those that have a value, of a
-/// saltelli design those whose whole row has.
+/// The trials of a point from which the sensitivity of an output is estimated: trials that have a value. In a
+/// saltelli design every trial of the row must have one.
 struct UsedTrials {
-  std::vector<std::size_t> row_starts;   ///< of the rows of a saltelli design
-  std::vector<std::size_t> independent;  ///< all, or those of A and B of a saltelli design
-  std::int64_t left_out{0};              ///< without a value, or in a row with one such
-  std::int64_t of_machines{0};           ///< not looked at, because they share a machine with one that was
+  /// Index of the first trial of each used row of a saltelli design.
+  std::vector<std::size_t> row_starts;
+  /// Indices of the independent trials: all, or the trials of A and B in a saltelli design.
+  std::vector<std::size_t> independent;
+  std::int64_t left_out{0};  ///< Number of trials without a value, or in a row with such a trial.
+  /// Number of trials that are not used because an earlier trial ran on the same machine.
+  std::int64_t of_machines{0};
 };
 
-/// @param values [trial], NaN where there is none
+/// Selects the trials from which the sensitivity is estimated.
+/// @param values [trial] value of the output; NaN if the trial has none
 UsedTrials used_trials(const PointInputs& point, const std::vector<double>& values) {
   UsedTrials used;
   if (point.design != study::Design::saltelli) {
@@ -55,7 +59,7 @@ UsedTrials used_trials(const PointInputs& point, const std::vector<double>& valu
   return used;
 }
 
-/// The values at these places.
+/// The elements of `values` at the indices `places`.
 std::vector<double> picked(const std::vector<double>& values, const std::vector<std::size_t>& places) {
   std::vector<double> result;
   result.reserve(places.size());
@@ -63,7 +67,7 @@ std::vector<double> picked(const std::vector<double>& values, const std::vector<
   return result;
 }
 
-/// The rows used.
+/// The used rows of a saltelli design as a sample.
 SaltelliSample saltelli_sample(const PointInputs& point, const std::vector<double>& values,
                                const UsedTrials& used) {
   SaltelliSample sample;

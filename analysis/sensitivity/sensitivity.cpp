@@ -27,8 +27,8 @@
 namespace zerocount::sensitivity {
 namespace {
 
-/// Whether every move ran to its end, and its motion is known. Qualities, and times that may be later than
-/// any, need not that.
+/// Whether every move ran to its end and its motion is known. Qualities do not need this, nor do times that
+/// may be later than any.
 bool is_whole(std::span<const trial::MoveOutcome> moves) {
   return std::all_of(moves.begin(), moves.end(), [](const trial::MoveOutcome& move) {
     return !move.stopped && move.outcome != trial::Outcome::nonfinite;
@@ -162,7 +162,7 @@ PointInputs inputs_of_worlds(const study::Study& study, std::int64_t point) {
 
 /// Means of the worlds, and the proportion of the variance of the trials that is between worlds.
 struct WorldMeans {
-  TrialOutputs means;  ///< [world]
+  TrialOutputs means;  ///< Mean output of each world.
   double between{statistics::unknown};
 };
 
@@ -218,8 +218,9 @@ OutputSensitivity between_worlds(const study::Study& study, const PointInputs& w
 struct PointsAsked {
   const SensitivityQuestion& question;
   std::vector<SensitivityOutput> outputs;
-  random::RandomStream bootstrap;  ///< the same for all outputs and points, as the trials are
-  std::function<void()> done;      ///< one output of one point
+  /// Random stream for resampling, the same for all outputs and points, because the trials are the same.
+  random::RandomStream bootstrap;
+  std::function<void()> done;  ///< Called after each output of each point.
 };
 
 /// @param file of the trials under the condition

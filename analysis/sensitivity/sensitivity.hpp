@@ -21,36 +21,39 @@
 #include "results/layout/measure_table.hpp"
 #include "results/reading/all_trials_file.hpp"
 
-/// Which of the random parameters of a study drive what its trials do. Methods, formulas and sources:
-/// README.md of this folder.
+/// Sensitivity analysis: finds the random parameters of a study that influence the results of its trials.
+/// Methods, formulas and sources are in README.md of this folder.
 namespace zerocount::sensitivity {
 
-/// The Sobol' index from which on a factor is said to matter: 1 % of the variance. Below it a factor may have
-/// an influence, which a long enough study shows of any, but too little to be worth knowing.
+/// Smallest Sobol' index at which a factor is said to matter: 1 % of the variance. A factor below it may have
+/// an influence, as a long enough study would show for any factor, but the influence is too small to be worth
+/// knowing.
 inline constexpr double relevant_index = 0.01;
 
-/// The (partial) rank correlation from which on a factor is said to matter: it explains ρ² = 1 % of the
+/// Smallest (partial) rank correlation ρ at which a factor is said to matter: it explains ρ² = 1 % of the
 /// variance of the ranks.
 inline constexpr double relevant_correlation = 0.1;
 
-/// One factor: something that is drawn anew in every trial. All indices are dimensionless.
+/// Sensitivity to one factor, a quantity that is drawn anew in every trial. All indices are dimensionless.
 struct FactorSensitivity {
-  std::string name;  ///< dotted path of the parameter, or within_trial_factor
+  std::string name;  ///< Dotted path of the parameter, or within_trial_factor.
   /// First-order Sobol' index: proportion of the output's variance that this factor explains alone.
   BoundedNumber first_order;
-  /// Total Sobol' index, with the interactions with other factors; only from a saltelli design.
+  /// Total Sobol' index, including the interactions with other factors. Only from a saltelli design.
   BoundedNumber total;
-  BoundedNumber rank_correlation;          ///< Spearman's; in [−1, 1]
-  BoundedNumber partial_rank_correlation;  ///< with the other factors' part taken out; in [−1, 1]
-  /// Change of ln(p/(1 − p)) over one standard deviation of the factor, the others held; only of outputs that
-  /// are yes or no.
+  BoundedNumber rank_correlation;  ///< Spearman's rank correlation of factor and output, in [−1, 1].
+  /// Rank correlation after removing the linear influence of the other factors' ranks, in [−1, 1].
+  BoundedNumber partial_rank_correlation;
+  /// Change of ln(p/(1 − p)) per standard deviation of the factor, with the other factors held constant. Only
+  /// for outputs that are yes or no.
   BoundedNumber log_odds;
-  /// The lower bound of total is above relevant_index; where the design is not saltelli, that of first_order
-  /// is, or the bounds of partial_rank_correlation exclude all up to relevant_correlation.
+  /// True if the factor is shown to influence the output. In a saltelli design: the lower bound of `total` is
+  /// above relevant_index. Otherwise: the lower bound of `first_order` is above relevant_index, or the bounds
+  /// of partial_rank_correlation exclude all values up to relevant_correlation.
   bool matters{false};
 };
 
-/// A factor that has no row, and why.
+/// A factor for which no sensitivity is given, and the reason.
 struct FactorLeftOut {
   std::string name;
   std::string reason;
@@ -58,31 +61,34 @@ struct FactorLeftOut {
 
 /// Sensitivity of one output of the trials at one design point.
 struct OutputSensitivity {
-  std::string output;  ///< as sensitivity_outputs() has it
+  std::string output;  ///< Name of the output, see sensitivity_outputs().
   std::string unit;
-  std::string meaning;               ///< one line, with what was done about trials that have no value
-  std::int64_t trials{0};            ///< used; worlds where `of_worlds`
-  bool of_worlds{false};             ///< of the means of the trials of each world
-  double mean{statistics::unknown};  ///< of the output, in its unit
-  double standard_deviation{statistics::unknown};  ///< of the output, in its unit
-  std::vector<FactorSensitivity> factors;          ///< strongest first
+  /// Meaning of the output in one line, with the treatment of trials that have no value.
+  std::string meaning;
+  std::int64_t trials{0};            ///< Number of trials used; number of worlds if `of_worlds`.
+  bool of_worlds{false};             ///< True if the values are the means of the trials of each world.
+  double mean{statistics::unknown};  ///< Mean of the output, in the output's unit.
+  /// Standard deviation of the output, in the output's unit.
+  double standard_deviation{statistics::unknown};
+  std::vector<FactorSensitivity> factors;  ///< Factors, the strongest first.
   std::vector<FactorLeftOut> left_out;
-  std::vector<std::string> notes;  ///< what limits these numbers, a sentence each
-  std::string conclusion;          ///< which factors matter, which do not, and what stays open
-  bool estimated{false};           ///< there is something in `factors`
+  std::vector<std::string> notes;  ///< Limitations of these numbers, a sentence each.
+  /// Sentence on the factors that matter, the factors that do not, and what stays open.
+  std::string conclusion;
+  bool estimated{false};  ///< True if `factors` is not empty.
 };
 
-/// All outputs asked for, at one design point; under one of the conditions where there are any, so that the
-/// indices say what drives the trials within it.
+/// Sensitivity of all requested outputs at one design point. If the study has conditions, under one
+/// condition, so that the indices describe the trials within it.
 struct PointSensitivity : measures::PointUnderCondition {
   std::vector<OutputSensitivity> outputs;
 };
 
 /// Sensitivity of the trials of a study.
 struct StudySensitivity {
-  std::string name;           ///< of the study
-  bool from_saltelli{false};  ///< its design is saltelli, and the factors have total indices
-  double confidence{0.0};     ///< of all bounds, each by itself
+  std::string name;           ///< Name of the study.
+  bool from_saltelli{false};  ///< True if the design is saltelli. The factors then have total indices.
+  double confidence{0.0};     ///< Confidence of each bound by itself.
   std::vector<PointSensitivity> points;
 };
 
@@ -92,35 +98,41 @@ struct SensitivityOutput {
   std::string unit;
   std::string meaning;
   bool yes_or_no{false};
-  bool of_every_trial{false};  ///< also known where the motion was lost, or the trial was stopped
-  std::string_view never{};    ///< of a time: what a move did that counts with its duration, "never arrived"
-  /// The value of the trial with these moves; NaN where it has none.
-  /// @param duration of a move of the trial, s: for a time that was not reached
+  /// True if the output is also known for a trial that became non-finite or was stopped.
+  bool of_every_trial{false};
+  /// For a time: words for a move that did not reach it and counts with its duration, such as "never
+  /// arrived".
+  std::string_view never{};
+  /// Computes the value of a trial from its moves; NaN if it has none.
+  /// @param duration gives the duration of a move of the trial, s, which is the value of a time that was not
+  /// reached
   std::function<double(std::span<const trial::MoveOutcome> moves, const std::function<double()>& duration)>
       value{};
 };
 
-/// All of them, in the order of the help. The first two are asked about unless told otherwise: `goal` and
-/// `goal_settling_time` of a study with a goal, `success` and `arrival_time` without one. Each of the goals
-/// with names has its own: `goal[large]`, `goal_settling_time[large]`.
+/// All outputs, in the order of the help. The first two are the default: `goal` and `goal_settling_time` for
+/// a study with a goal, otherwise `success` and `arrival_time`. Each named goal has its own outputs:
+/// `goal[large]`, `goal_settling_time[large]`.
 std::vector<SensitivityOutput> sensitivity_outputs(
     const layout::MeasureTable& measures = layout::measure_table(), const goal::Question& question = {});
 
-/// The request for a file.
+/// The outputs and points whose sensitivity is requested from a results file.
 struct SensitivityQuestion {
-  std::vector<std::int64_t> points{};                 ///< empty: all
-  std::vector<std::string> outputs{};                 ///< of sensitivity_outputs(); empty: the first two
-  double confidence{statistics::summary_confidence};  ///< in (0, 0.999]
-  /// The first so many trials of a point are used, of a saltelli design all: more need more time and memory,
-  /// and with these the bounds of a correlation are less than ± 0.01 wide.
+  std::vector<std::int64_t> points{};  ///< Design points; empty: all.
+  std::vector<std::string> outputs{};  ///< Names of sensitivity_outputs(); empty: the first two.
+  double confidence{statistics::summary_confidence};  ///< Confidence of the bounds, in (0, 0.999].
+  /// Number of trials of each point that are used, from the first on; a saltelli design always uses all. More
+  /// trials need more time and memory. With this number the bounds of a correlation are already less than ±
+  /// 0.01 wide.
   std::int64_t max_trials{100000};
   /// Called after each output of each point; may be empty.
   std::function<void(std::int64_t done, std::int64_t all)> progress{};
 };
 
-/// Answers from a complete results file. Deterministic: the resampling is seeded by the study's seed.
-/// @throws Failure: bad_input for a point or an output that there is not, or a confidence outside (0, 0.999];
-/// bad_data where the file is damaged.
+/// Computes the sensitivities from a complete results file. The result is deterministic, because the
+/// resampling is seeded by the study's seed.
+/// @throws Failure: bad_input for a point or an output that does not exist, or a confidence outside (0,
+/// 0.999]; bad_data if the file is damaged.
 StudySensitivity study_sensitivity(const reading::AllTrialsFile& file,
                                    const SensitivityQuestion& question = {});
 
@@ -132,8 +144,10 @@ document::AnswerDescription<StudySensitivity> sensitivity_answer();
 
 /// One output of the trials of a design point.
 struct TrialOutputs {
-  std::vector<double> values;  ///< [trial of the point], in the output's unit; NaN where there is none
-  std::int64_t late{0};        ///< of a time: trials with a move that counts with its duration
+  /// [trial of the point] Value in the output's unit; NaN if the trial has none.
+  std::vector<double> values;
+  /// For a time: number of trials with a move that did not reach it and counts with its duration.
+  std::int64_t late{0};
 };
 
 /// The output with this name.
@@ -141,8 +155,10 @@ struct TrialOutputs {
 SensitivityOutput find_sensitivity_output(std::string_view name, const layout::MeasureTable& measures,
                                           const goal::Question& question = {});
 
-/// @param study of the file. @param trials the first so many of the point. @param output of
-/// sensitivity_outputs().
+/// Values of an output in the trials of a design point.
+/// @param study of the file
+/// @param trials number of trials, from the first one of the point on
+/// @param output one of sensitivity_outputs()
 TrialOutputs trial_outputs(const reading::AllTrialsFile& file, const study::Study& study, std::int64_t point,
                            std::int64_t trials, const SensitivityOutput& output);
 
@@ -152,35 +168,39 @@ struct InputValues {
   std::vector<double> values;  ///< [trial of the point]
 };
 
-/// Unit of the sample whose inputs and outputs are compared.
+/// Kind of the sampling unit: inputs and outputs are compared between trials or between worlds.
 enum class Subject {
   trials,
-  trials_in_worlds,  ///< what differs between worlds is not among the inputs
-  worlds             ///< with the means of their trials
+  /// Trials within worlds. Parameters that differ only between worlds are not among the inputs.
+  trials_in_worlds,
+  worlds  ///< Worlds, with the means of their trials.
 };
 
 /// The inputs of the trials of a design point.
 struct PointInputs {
   study::Design design{study::Design::monte_carlo};
-  std::vector<std::string> factors;  ///< of the design saltelli, in its order; otherwise empty
-  std::vector<InputValues> inputs;   ///< all input columns
-  bool correlated{false};            ///< some inputs are drawn together
-  std::int64_t machines{
-      0};  ///< that the trials run on, the first ones each on another; 0: no trials share a machine
+  /// Factors of a saltelli design, in the order of the design; otherwise empty.
+  std::vector<std::string> factors;
+  std::vector<InputValues> inputs;  ///< All input columns.
+  bool correlated{false};           ///< True if some inputs are drawn together.
+  /// Number of machines that the trials run on; 0: no trials share a machine. The first `machines` trials run
+  /// on different machines.
+  std::int64_t machines{0};
   Subject subject{Subject::trials};
 };
 
-/// Sensitivity of one output. Of a saltelli design the indices come from whole rows, all else from the trials
-/// of A and B, which are independent. Of a study with machines they come from the first trial of every
-/// machine, because the others are not independent of it. Trials without a value are left out, with their
-/// rows.
-/// @param bootstrap where the rows are drawn anew from.
+/// Sensitivity of one output. In a saltelli design the indices come from whole rows, everything else from the
+/// trials of A and B, which are independent. In a study with machines everything comes from the first trial
+/// of every machine, because the other trials are not independent of it. Trials without a value are left out
+/// together with their rows.
+/// @param bootstrap random stream for resampling the rows
 OutputSensitivity output_sensitivity(const PointInputs& inputs, const SensitivityOutput& output,
                                      const TrialOutputs& trials, double confidence,
                                      const random::RandomStream& bootstrap);
 
-/// Which factors matter, which do not, and what the trials leave open. @param from_saltelli they have total
-/// indices. With worlds there is no saltelli design to advise.
+/// Sentence on the factors that matter, the factors that do not, and what the trials leave open.
+/// @param from_saltelli whether the factors have total indices. With worlds no saltelli design is advised,
+/// because there is none.
 std::string sensitivity_conclusion(const OutputSensitivity& sensitivity, bool from_saltelli,
                                    double confidence, Subject subject);
 

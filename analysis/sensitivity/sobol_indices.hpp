@@ -13,7 +13,7 @@
 
 namespace zerocount::sensitivity {
 
-/// A number with its confidence bounds; NaN where there is none.
+/// A number with its confidence bounds; NaN if there is no number or bound.
 struct BoundedNumber {
   double value{statistics::unknown};
   double low{statistics::unknown};
@@ -44,14 +44,15 @@ inline BoundedNumber clamped_index(BoundedNumber number) {
 // C_j, and D of B and C_j is 1 less the first-order index without a control variate. Dimensionless; all
 // bounds are NaN where V is 0.
 
-/// Number of pairs, all values 0 or 1.
+/// Numbers of pairs of yes-or-no values (1 or 0), by the two values.
 struct AnswerPairs {
   std::int64_t both_yes{0};
   std::int64_t different{0};
   std::int64_t both_no{0};
 };
 
-/// @param x, y of the same length, 0 or 1.
+/// Numbers of pairs (x[r], y[r]) by their values: both 1, different, both 0.
+/// @param x, y of the same length; each value is 0 or 1
 inline AnswerPairs answer_pairs(std::span<const double> x, std::span<const double> y) {
   AnswerPairs pairs;
   for (std::size_t r = 0; r < x.size(); ++r) {
@@ -97,10 +98,11 @@ inline BoundedNumber yes_no_difference(const AnswerPairs& pairs, double confiden
   return {value, std::max(low, part(of_u.low) + part(of_v.low)), high};
 }
 
-/// Share of the variance that may come from rows rarer than those seen: without one, an event has at most the
-/// probability −ln(δ)/N with the confidence 1 − δ, δ = (1 − confidence)/2 (Poisson; at 95 % 3.7/N), and
-/// changes the output as much as independent trials that differ do on average. They have the mean square
-/// difference 2V, so the proportion is −ln(δ)/m, m the number of rows in which A and B differ; 1 at most.
+/// Upper bound of the proportion of the variance that may come from events too rare to be among the rows. An
+/// event that was not seen in N rows has at most the probability −ln(δ)/N with the confidence 1 − δ, δ = (1 −
+/// confidence)/2 (Poisson; at 95 % 3.7/N). It is taken to change the output as much as independent trials
+/// that differ do on average. Such trials have the mean square difference 2V, so the proportion is −ln(δ)/m,
+/// where m is the number of rows in which A and B differ; at most 1.
 inline double unseen_index(std::span<const double> a, std::span<const double> b, double confidence) {
   double different = 0.0;
   for (std::size_t r = 0; r < a.size(); ++r) different += a[r] != b[r] ? 1.0 : 0.0;
@@ -108,8 +110,8 @@ inline double unseen_index(std::span<const double> a, std::span<const double> b,
   return events < different ? events / different : 1.0;
 }
 
-/// Bounds by resampling with what it cannot draw, rows rarer than those seen: another independent part, added
-/// as in the method of variance estimates recovery.
+/// Widens bounds from resampling by `unseen`, the proportion of the variance from events too rare to be among
+/// the rows. It is an independent contribution, added by the method of variance estimates recovery.
 inline BoundedNumber with_unseen(const BoundedNumber& resampled, double unseen) {
   const double value = resampled.value;
   const double below = std::fmax(0.0, value - resampled.low);
@@ -150,9 +152,10 @@ BoundedNumber given_data_first_order(std::span<const double> x, std::span<const 
 /// The output of the trials of a saltelli design with k factors and N rows, finite (see
 /// experiments/designs/designs.hpp).
 struct SaltelliSample {
-  std::vector<double> a;               ///< [row] of A
-  std::vector<double> b;               ///< [row] of B
-  std::vector<std::vector<double>> c;  ///< [factor][row] of A with this factor from B
+  std::vector<double> a;  ///< [row] Output for row r of the matrix A.
+  std::vector<double> b;  ///< [row] Output for row r of the matrix B.
+  /// [factor][row] Output for row r of A with this factor taken from B.
+  std::vector<std::vector<double>> c;
 };
 
 /// Sobol' indices of one factor, dimensionless.
@@ -161,12 +164,13 @@ struct SobolIndices {
   BoundedNumber total;
 };
 
-/// As many values as would, each with the same part, make up the variance (Kish's effective number): of
-/// normal ones a third, of skewed ones the largest few. @param values finite
+/// Number of values that would make up the variance if each contributed the same amount (Kish's effective
+/// number). For normal values it is a third of their number, for skewed values the largest few.
+/// @param values finite
 double values_behind_variance(std::span<const double> values);
 
-/// How often rows are drawn again for bounds of this confidence: so often that 25 lie beyond each bound, and
-/// 1000 times at least.
+/// Number of bootstrap replicates for bounds of this confidence: enough that 25 lie beyond each bound, and at
+/// least 1000.
 std::int64_t bootstrap_replicates(double confidence);
 
 /// First-order and total Sobol' indices, [factor]. With m and V the mean and the variance (divisor 2N) of the

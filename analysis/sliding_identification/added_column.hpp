@@ -23,12 +23,13 @@ struct Equations {
 /// Coefficient of a column that one step of Gauss and Newton adds to a fit.
 struct AddedColumn {
   double coefficient{0.0};
-  double gain{0.0};       ///< Squares of the residuals that the column explains.
-  double explained{0.0};  ///< Proportion of the squares of the residuals.
-  double white{0.0};      ///< Variance of the residuals with the column.
+  double gain{0.0};  ///< Decrease of the sum of squares of the residuals by the column.
+  /// Proportion of the sum of squares of the residuals that the column explains.
+  double explained{0.0};
+  double white{0.0};      ///< Variance of the residuals with the column in the fit.
   double clustered{0.0};  ///< Variance of independent residuals that would cause the jackknife's error.
-  double clusters{0.0};   ///< Effective number of the parts behind that error.
-  Eigen::VectorXd shift;  ///< [free parameter] change of the fit with the column.
+  double clusters{0.0};   ///< Effective number of parts behind the jackknife's error.
+  Eigen::VectorXd shift;  ///< [free parameter] Change of the parameter when the column is added.
 };
 
 /// Adds a column to a fit.
@@ -39,14 +40,15 @@ struct AddedColumn {
 /// @param freedom number of samples less all parameters
 AddedColumn added_column(std::span<const Equations> parts, double freedom);
 
-/// Ratio of the coefficient to the jackknife's error, over the ratio that chance exceeds with this
-/// probability for so many degrees of freedom.
+/// Ratio of the coefficient to its jackknife error, divided by the ratio that chance exceeds with the
+/// probability `chance`. Above 1 the coefficient is significant.
 double ratio_to_chance(const AddedColumn& column, double chance, double freedom);
 
-/// The columns less what combinations of others explain of them.
+/// The residuals of the regression of `columns` on `others`.
 Eigen::MatrixXd without(const Eigen::MatrixXd& others, const Eigen::MatrixXd& columns);
 
-/// Derivatives of the residuals of a window by the free parameters, and the residuals in the last column.
+/// Derivatives of the residuals of a window with respect to the free parameters; the last column holds the
+/// residuals.
 Eigen::MatrixXd free_slopes(const WindowSlopes& slopes, const FreeParameters& free);
 
 }  // namespace zerocount::sliding_identification

@@ -20,13 +20,13 @@ namespace {
 struct Instant {
   double direction;
   double velocity;
-  double speed;          ///< |velocity|
-  double place;          ///< position, −1 to 1 over the record
-  double moment;         ///< time, −1 to 1 over the record
-  double torque;         ///< u
-  double torque_before;  ///< u in the interval before
-  double carried;        ///< u + u0 + p
-  double net;            ///< u − u0 − p less the friction
+  double speed;          ///< |velocity|, rad/s or m/s.
+  double place;          ///< Position, scaled to −1 to 1 over the record.
+  double moment;         ///< Time, scaled to −1 to 1 over the record.
+  double torque;         ///< Torque u of the drive, N m or N.
+  double torque_before;  ///< Torque u in the interval before, N m or N.
+  double carried;        ///< Carried torque u + u0 + p, N m or N.
+  double net;            ///< Accelerating torque: u − u0 − p minus the friction, N m or N.
 };
 
 struct TriedTorque {
@@ -82,7 +82,7 @@ std::vector<TriedTorque> torques_to_try(double max_speed) {
   return tried;
 }
 
-/// −1 to 1 from `low` to `high`.
+/// Scales a value linearly from [low, high] to [−1, 1].
 double scaled_to_range(double value, double low, double high) {
   return high > low ? (2.0 * value - low - high) / (high - low) : 0.0;
 }
@@ -115,7 +115,7 @@ double friction_at(const SlidingPoint& point, double direction, double speed) {
                       point[viscous_damping] * speed);
 }
 
-/// [interval] of a window.
+/// [interval] Motion in the intervals of a window.
 std::vector<Instant> instants_of(const FittedWindow& fitted, const SlidingPoint& point,
                                  const Eigen::VectorXd& residual, const Extent& extent) {
   const SlidingRecord& record = *fitted.record;
@@ -166,12 +166,13 @@ Eigen::VectorXd response_to(const std::vector<Instant>& instants, const FittedWi
 
 constexpr double tiny_variance = std::numeric_limits<double>::min();
 
-/// Samples of a stroke that are taken for independent of its others: forces that the law lacks may depend on
-/// each other from one short window to the next.
+/// Smallest number of successive samples of a stroke that form a part which is taken as independent of the
+/// others. Forces that the law lacks may depend on each other from one short window to the next.
 constexpr std::size_t min_block_samples = 64;
 
-/// Columns of a window without its initial state: the free parameters' derivatives, the tried columns, and
-/// the residuals turned round, so that coefficients of the columns make up for them.
+/// Columns of a window after regression on its initial state: the derivatives with respect to the free
+/// parameters, the tried columns, and the negative residuals, so that the coefficients of the columns
+/// compensate for them.
 Eigen::MatrixXd columns_of(const FittedWindow& fitted, const SlidingFit& fit, const Extent& extent,
                            std::span<const TriedTorque> tried) {
   const WindowSlopes slopes = slopes_of(fitted, fit.point);
@@ -320,7 +321,7 @@ double variance_factor(const SlidingFit& fit, const TriedTorque& tried, const Ad
 /// Mean squares of torques over all strokes, (N m)².
 struct MeanSquares {
   double drive{0.0};          ///< Mean square of u.
-  std::vector<double> tried;  ///< [tried torque] mean square with the coefficient 1.
+  std::vector<double> tried;  ///< [tried torque] Mean square with the coefficient 1.
 };
 
 MeanSquares mean_squares(const SlidingFit& fit, std::span<const TriedTorque> tried) {
@@ -342,8 +343,8 @@ MeanSquares mean_squares(const SlidingFit& fit, std::span<const TriedTorque> tri
   return means;
 }
 
-/// A torque that is smaller than this part of the drive's moves no estimate by more than about as much.
-/// Records without noise show such torques, which are those of rounding.
+/// Smallest relevant torque as a proportion of the drive's torque. A smaller one changes no estimate by more
+/// than about this proportion. Records without noise show such torques because of rounding.
 constexpr double negligible_torque = 1e-4;
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 namespace zerocount::sliding_identification {
 
-/// What a torque that the law lacks may go with.
+/// Quantity with which a torque that the law lacks varies.
 enum class TorqueCause { lag, speed, direction, load, position, time };
 
 std::string_view to_string(TorqueCause cause);
@@ -36,10 +36,12 @@ std::vector<std::string> cause_words();
 struct MissingTorque {
   TorqueCause cause{};
   std::string name{};       ///< Name, such as "drag that grows with the square of the speed".
-  double coefficient{0.0};  ///< Its coefficient, in units of the torque.
+  double coefficient{0.0};  ///< Coefficient of the tried torque, in units of the torque.
   double visibility{0.0};   ///< Ratio of the coefficient to its error over the limit of chance.
-  double explained{0.0};    ///< Proportion of the squares of the residuals.
-  double shift{0.0};        ///< Largest change of a parameter with it, in standard errors of the fit.
+  /// Proportion of the sum of squares of the residuals that the torque explains.
+  double explained{0.0};
+  /// Largest change of a parameter when the torque is added to the fit, in standard errors.
+  double shift{0.0};
 };
 
 /// The tried torques, the one that the residuals show best first.

@@ -17,14 +17,14 @@ namespace {
 constexpr int most_periods = 1000;
 constexpr Eigen::Index wave_terms = 2;  // sine and cosine
 
-/// What the torque of a window may depend on.
+/// The quantities of a window that its torque may depend on.
 struct WindowTerms {
-  Eigen::VectorXd known;           ///< acceleration, direction, velocity, 1, and the terms of known waves
-  std::array<double, 5> position;  ///< over its length
-  double torque;                   ///< unexplained
+  Eigen::VectorXd known;           ///< Acceleration, direction, velocity, 1, and the terms of known waves.
+  std::array<double, 5> position;  ///< Positions over the length of the window, rad or m.
+  double torque;                   ///< Unexplained torque, N m or N.
 };
 
-/// Means over the window.
+/// Means of the wave's sine and cosine over the window; the mean position for a slope.
 Eigen::VectorXd wave_means(const WindowTerms& window, const PositionWave& wave) {
   Eigen::VectorXd means = Eigen::VectorXd::Zero(wave_terms);
   for (const double x : window.position) {
@@ -59,14 +59,14 @@ std::vector<WindowTerms> windows_of(const SlidingFit& fit, std::span<const Posit
   return found;
 }
 
-/// Position in the middle between a sample and the next: by the cubic through four of them, at the ends of
-/// the record their mean.
+/// Position in the middle between a sample and the next, by the cubic through four samples; at the ends of
+/// the record the mean of both.
 double position_between(const std::vector<double>& position, std::size_t k) {
   if (k == 0 || k + 2 >= position.size()) return 0.5 * (position[k] + position[k + 1]);
   return (9.0 * (position[k] + position[k + 1]) - position[k - 1] - position[k + 2]) / 16.0;
 }
 
-/// Sum of squares that a regression leaves, with or without one more wave.
+/// Residual sum of squares of a regression with or without one more wave.
 double squares_left(const std::vector<WindowTerms>& windows, const PositionWave* wave) {
   const Eigen::Index known = windows.front().known.size();
   const Eigen::Index all = known + (wave == nullptr ? 0 : wave_terms);

@@ -19,7 +19,8 @@ struct PositionWave {
   double wave_number{0.0};  ///< κ, 1/rad or 1/m
 };
 
-/// Most waves of a fit, and their amplitudes: of sine and cosine in turns.
+/// Largest number of waves in a fit, and the number of their amplitudes: sine and cosine of each wave in
+/// turn.
 inline constexpr std::size_t max_position_waves = 4;
 inline constexpr std::size_t position_terms = 2 * max_position_waves;
 
@@ -31,27 +32,29 @@ PositionShape shape_at(double x, std::span<const PositionWave> waves);
 /// Gives each sample of the records its shape.
 void set_position_waves(std::vector<SlidingRecord>& records, std::span<const PositionWave> waves);
 
-/// The wave, none of the fit's, that the unexplained torque of the windows shows best: of up to 1000 periods
-/// in a revolution or pitch, and of a linear axis proportional to the position. The usual one, once a
-/// revolution or that of a linear axis, unless another one beside it explains visibly more. Nothing if no
-/// wave explains more than chance.
+/// The wave, not yet in the fit, that explains the unexplained torque of the windows best. The tried waves
+/// have up to 1000 periods in a revolution or pitch; for a linear axis a torque proportional to the position
+/// is tried as well. A usual wave (see usual_waves()) is taken unless another one explains visibly more in
+/// addition. Nothing if no wave explains more than chance.
 ///
-/// The torque of the windows is regressed on what the law is linear in, acceleration, direction, velocity, 1
-/// and the fit's waves, with and without the wave, because the law has taken a part of it.
+/// The torque of the windows is regressed on the linear terms of the law (acceleration, direction, velocity,
+/// 1 and the fit's waves), with and without the wave, because the law has absorbed a part of it.
 std::optional<PositionWave> strongest_wave(const SlidingFit& fit);
 
-/// The wave to try before all others: once a revolution, as gravity; of a linear axis proportional to the
-/// position.
+/// The waves to try first. For a rotary axis: once a revolution, like gravity. For a linear axis:
+/// proportional to the position.
 std::vector<PositionWave> usual_waves(const SlidingRecord& record);
 
-/// From 1 on the amplitudes of a wave of the fit exclude 0 together, by their covariance.
+/// Significance of a wave of the fit from the covariance of its amplitudes. From 1 on, the amplitudes
+/// together exclude 0.
 double visibility_of(const SlidingFit& fit, std::size_t wave);
 
-/// A wave of the fit that looks like this one over the travel of the windows: their numbers of periods differ
-/// by less than one in it. Nothing if there is none.
+/// A wave of the fit that cannot be told from wave number `wave` over the travel of the windows, because the
+/// numbers of periods within the travel differ by less than one. Nothing if there is none.
 std::optional<PositionWave> alike_wave(const SlidingFit& fit, std::size_t wave);
 
-/// "ripple.1", with the periods; "slope" of a wave proportional to the position.
+/// Name of a wave: "ripple." and its number of periods, such as "ripple.1"; "slope" if it is proportional to
+/// the position.
 std::string name_of(const PositionWave& wave);
 
 }  // namespace zerocount::sliding_identification

@@ -19,12 +19,15 @@
 namespace zerocount::sliding_identification {
 namespace {
 
-/// A window of a fit, linear about it.
+/// A window of a fit, linearised about the fit.
 struct LinearWindow {
-  Eigen::MatrixXd by_start;         ///< derivatives by the initial position and velocity
-  Eigen::MatrixXd known;            ///< those by the free parameters, and the residuals, without these
-  std::vector<double> interval;     ///< s
-  std::vector<double> per_inertia;  ///< [interval] u/J, steps of the readings/s²
+  /// Derivatives of the residuals with respect to the initial position and velocity.
+  Eigen::MatrixXd by_start;
+  /// Derivatives with respect to the free parameters, and the residuals in the last column, after regression
+  /// on `by_start`.
+  Eigen::MatrixXd known;
+  std::vector<double> interval;     ///< Sampling intervals, s.
+  std::vector<double> per_inertia;  ///< [interval] Acceleration u/J, steps of the readings/s².
 };
 
 LinearWindow linear_window(const FittedWindow& fitted, const SlidingFit& fit) {
@@ -46,7 +49,7 @@ LinearWindow linear_window(const FittedWindow& fitted, const SlidingFit& fit) {
   return linear;
 }
 
-/// q from rest under the first torque, and two free oscillations.
+/// Responses in a window: q from rest under the drive torque, and two free oscillations.
 Eigen::MatrixXd oscillations(const LinearWindow& window, std::complex<double> pole) {
   Eigen::MatrixXd columns(window.known.rows(), 3);
   std::complex<double> driven = -window.per_inertia.front() / pole;
@@ -73,7 +76,7 @@ Equations equations_of(const LinearWindow& window, std::complex<double> pole) {
   return {products.topLeftCorner(size, size), products.topRightCorner(size, 1), products(size, size)};
 }
 
-/// A fit of A.
+/// A fit of the amplitude A at one frequency.
 struct Amplitude {
   double omega{0.0};
   AddedColumn column{};
@@ -93,12 +96,13 @@ Amplitude amplitude_at(const std::vector<LinearWindow>& windows, double omega, d
   return {omega, added_column(parts, freedom)};
 }
 
-/// Variance of independent residuals with which A has its standard error.
+/// Variance of independent residuals that would give A its standard error.
 double variance_of(const AddedColumn& column) {
   return std::max({column.white, column.clustered, std::numeric_limits<double>::min()});
 }
 
-/// By chance A is so many of its errors from 0 once in 1000 records, in any of the places.
+/// Smallest significant ratio of A to its standard error: chance exceeds it in one of 1000 records, at any of
+/// the tried places.
 double least_ratio(std::size_t windows) {
   constexpr double places = 100.0;
   constexpr double chance = 1e-3 / places;
@@ -116,7 +120,7 @@ std::vector<Amplitude> amplitudes_of(const std::vector<LinearWindow>& windows, d
   return amplitudes;
 }
 
-/// The best frequency, Hz, if only its neighbours explain nearly as much; otherwise 0.
+/// The best frequency, Hz, if only neighbouring frequencies explain nearly as much; otherwise 0.
 double well_known_frequency(const std::vector<Amplitude>& amplitudes, const Amplitude& best) {
   double low = best.omega;
   double high = best.omega;

@@ -8,13 +8,15 @@ namespace zerocount::sliding_identification {
 struct SlidingFit;
 struct SlidingRecord;
 
-/// A second mass on a spring, seen in what a fit of one mass leaves.
+/// A second mass on a spring, found in the residuals of a fit with one mass.
 struct SecondMass {
-  double explained{0.0};  ///< part of the squares of the residuals
-  double frequency{0.0};  ///< of the masses against each other, Hz; 0: not well known
+  /// Proportion of the sum of squares of the residuals that the second mass explains.
+  double explained{0.0};
+  /// Frequency at which the two masses oscillate against each other, Hz; 0: not well known.
+  double frequency{0.0};
 };
 
-/// The second mass that the records show; nothing if chance may explain what one mass leaves.
+/// The second mass that the records show; nothing if chance may explain the residuals of one mass.
 ///
 /// Masses J1 and J2 on a spring that a torque u on J1 moves are together one mass and an oscillator:
 ///

@@ -23,19 +23,22 @@ enum class Scale { linear, positive, logarithmic };
 /// A reported parameter: a function of the fitted point.
 struct Quantity {
   std::string name;
-  const char* key;         ///< in a manifest
-  const char* unit;        ///< on a rotary axis
-  std::size_t coordinate;  ///< which must be free
-  double value;            ///< its logarithm, if the scale is logarithmic
-  SlidingPoint gradient;   ///< of the value
+  const char* key;         ///< Manifest key of the parameter.
+  const char* unit;        ///< Unit on a rotary axis.
+  std::size_t coordinate;  ///< Coordinate that must be free in the fit.
+  double value;            ///< Value of the parameter; its logarithm if the scale is logarithmic.
+  SlidingPoint gradient;   ///< Gradient of `value` with respect to the point.
   Scale scale;
-  /// Why it is not identifiable if its interval is too wide; {0} is the interval's upper end, {1} the unit.
+  /// Reason why the parameter is not identifiable if its interval is too wide. {0} is the upper end of the
+  /// interval, {1} the unit.
   const char* vague;
-  std::string alike{};      ///< name of a torque that cannot be told from it
-  bool with_offset{false};  ///< In one direction it cannot be told from the offset.
+  std::string alike{};  ///< Name of a torque that cannot be distinguished from this one.
+  /// True if motion in one direction cannot distinguish the parameter from the offset.
+  bool with_offset{false};
 };
 
-/// Allowed values. The Coulomb level is a breakaway torque times a ratio.
+/// Allowed range of a quantity. The range of the Coulomb level is that of a breakaway torque, because the
+/// level is a breakaway torque times a ratio.
 numerics::Interval range_of(const Quantity& quantity) {
   const std::string key = quantity.name == "coulomb_level" ? "friction.breakaway" : quantity.key;
   const auto row = parameters::find_parameter(key);
@@ -117,7 +120,7 @@ bool is_narrow(const ParameterEstimate& estimate, Scale scale) {
   return true;
 }
 
-/// An estimate that spans so many standard errors to each side.
+/// An estimate whose interval spans the given number of standard errors to each side.
 ParameterEstimate estimate_within(const Quantity& quantity, const SlidingFit& fit, double quantile) {
   ParameterEstimate estimate;
   estimate.value = quantity.value;

@@ -25,17 +25,19 @@ struct FittedWindow {
 struct SlidingFit {
   SlidingPoint point{SlidingPoint::Zero()};
   FreeParameters free{};
-  std::vector<PositionWave> waves{};  ///< whose amplitudes are fitted
+  std::vector<PositionWave> waves{};  ///< Waves whose amplitudes are fitted.
   std::vector<FittedWindow> windows;
   std::size_t samples{0};
-  double misfit{0.0};  ///< root mean square of the residuals, in steps of the readings
+  double misfit{0.0};  ///< Root mean square of the residuals, in steps of the readings.
   /// Covariance of the point; zero for parameters that are not free. See fit_sliding().
   SlidingMatrix covariance{SlidingMatrix::Zero()};
-  std::vector<double> unexplained;  ///< [window] mean torque against the drive that the model lacks, N m or N
-  double unexplained_torque{0.0};   ///< its root mean square
+  /// [window] Mean torque against the drive that the model lacks, N m or N.
+  std::vector<double> unexplained;
+  double unexplained_torque{0.0};  ///< Root mean square of `unexplained`, N m or N.
 };
 
-/// Least number of strokes whose variance counts: with fewer it is known too badly.
+/// Smallest number of strokes from which the variance between strokes is used. With fewer it is known too
+/// badly.
 constexpr std::size_t min_independent_strokes = 12;
 
 /// The starting point: least squares of the torque on acceleration, direction, velocity, 1 and a torque that
@@ -61,7 +63,7 @@ SlidingPoint starting_point(std::span<const SlidingRecord> records, bool both_di
 SlidingFit fit_sliding(std::span<const SlidingRecord> records, const SlidingPoint& start,
                        const FreeParameters& free, const std::vector<PositionWave>& waves = {});
 
-/// The residuals of a window and their derivatives. Row-major, as Ceres writes them.
+/// The residuals of a window and their derivatives, row-major as Ceres writes them.
 struct WindowSlopes {
   Eigen::VectorXd residual;
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> by_point;
@@ -70,19 +72,20 @@ struct WindowSlopes {
 
 WindowSlopes slopes_of(const FittedWindow& fitted, const SlidingPoint& point);
 
-/// How much of the sum of squares a Stribeck excess with this velocity (rad/s or m/s) would explain, by one
-/// Gauss–Newton step from a fit without.
+/// Decrease of the sum of squares by a Stribeck excess with this velocity (rad/s or m/s), from one
+/// Gauss–Newton step after a fit without it.
 double stribeck_gain(const SlidingFit& fit, double velocity);
 
-constexpr double min_excess_ratio = 3.5;  ///< of the Stribeck excess to its standard error
+/// Smallest ratio of the Stribeck excess to its standard error at which the excess is significant.
+constexpr double min_excess_ratio = 3.5;
 
-/// The reported parameters with their 95 % intervals. What the fit has no parameter for, or knows too badly,
-/// is not identifiable, nor is a value outside of the range that the table of parameters allows. An interval
-/// ends where that range does.
+/// The reported parameters with their 95 % intervals. A parameter is not identifiable if the fit does not
+/// contain it, if its interval is too wide, or if its value is outside the range in the table of parameters.
+/// Intervals end where that range ends.
 std::vector<fit::ParameterEstimate> estimates_of(const SlidingFit& fit, parameters::AxisKind axis);
 
-/// A sentence on a parameter of which the errors of the fit leave no allowed value; empty if there is none.
-/// Chance causes it once in 1000 records of an axis at the end of the range.
+/// A sentence on a parameter for which no allowed value lies within the errors of the fit; empty if there is
+/// none. Chance causes it in one of 1000 records of an axis at the end of the range.
 std::string impossible_parameter(const SlidingFit& fit, parameters::AxisKind axis);
 
 }  // namespace zerocount::sliding_identification

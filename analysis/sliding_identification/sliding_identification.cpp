@@ -38,8 +38,8 @@ double torque_rms(std::span<const SlidingRecord> records) {
   return std::sqrt(squares / static_cast<double>(samples));
 }
 
-/// The Stribeck velocity that explains most: of 12 between the slowest velocity and half of the fastest, in
-/// equal ratios. Nothing if none explains what independent residuals hardly do by chance.
+/// The Stribeck velocity that explains most, among 12 velocities in equal ratios between the slowest velocity
+/// and half of the fastest. Nothing if none explains more than independent residuals do by chance.
 std::optional<double> visible_stribeck_velocity(std::span<const SlidingRecord> records,
                                                 const SlidingFit& without) {
   double slowest = records.front().min_velocity;
@@ -99,7 +99,7 @@ SlidingFit best_fit(std::span<const SlidingRecord> records, const std::vector<Po
   }
 }
 
-/// The fit in windows that are as long as the law explains to a step of the readings.
+/// The fit in the longest windows in which the law explains the motion to a step of the readings.
 SlidingFit fit_in_windows(std::vector<SlidingRecord>& records, const std::vector<PositionWave>& waves,
                           bool with_stribeck) {
   set_position_waves(records, waves);
@@ -113,7 +113,7 @@ SlidingFit fit_in_windows(std::vector<SlidingRecord>& records, const std::vector
   return fit;
 }
 
-/// The fit with those of the waves that it shows: the others go, the least visible one first.
+/// The fit with only the waves that are significant. The others are removed, the least visible one first.
 SlidingFit fit_of_shown(std::vector<SlidingRecord>& records, std::vector<PositionWave> waves,
                         bool with_stribeck) {
   for (;;) {
@@ -126,8 +126,8 @@ SlidingFit fit_of_shown(std::vector<SlidingRecord>& records, std::vector<Positio
   }
 }
 
-/// The fit with one more wave, if the records show one: that which the residuals show best, or else the usual
-/// one, which another may have hidden.
+/// The fit with one more wave if the records show one: the wave that the residuals show best, or else the
+/// usual wave, which another may have hidden.
 std::optional<SlidingFit> with_another_wave(std::vector<SlidingRecord>& records, const SlidingFit& fit,
                                             bool with_stribeck) {
   if (fit.waves.size() == max_position_waves) return std::nullopt;
@@ -225,8 +225,8 @@ double predicted_by_chance(const SlidingIdentification& identification) {
   return 3.0 * std::sqrt(20.0) / windows;
 }
 
-/// Proportion of the unexplained torque that the position must predict to be of account: a tenth, and where
-/// the readings alone may leave that torque, what chance does.
+/// Smallest proportion of the unexplained torque that the position must predict to matter: a tenth. If the
+/// readings alone may cause the unexplained torque, it is at least what chance predicts.
 double least_explained(const SlidingIdentification& identification) {
   constexpr double tolerated = 0.1;
   constexpr double of_readings = 0.6;  // steps; independent errors of readings leave 0.3 to 0.5
@@ -234,7 +234,8 @@ double least_explained(const SlidingIdentification& identification) {
   return std::max(tolerated, predicted_by_chance(identification));
 }
 
-/// What predicts most of the unexplained torque, if that is half of it and more than chance does.
+/// The quantity that predicts most of the unexplained torque. Null unless it predicts at least half of its
+/// variance and more than chance does.
 const RepeatingForce* main_part(const SlidingIdentification& identification) {
   constexpr double most_of_it = 0.5;
   const auto most = std::ranges::max_element(identification.forces, {}, &RepeatingForce::predicted);
@@ -261,7 +262,7 @@ std::string advice_on_lag(double lag, double delay) {
   return fmt::format("--delay {:.0f} says so, or record torque and position of the same instant", better);
 }
 
-/// What would help against a torque that goes with this.
+/// Advice against a torque that varies with the cause of `torque`.
 std::string advice_on(const MissingTorque& torque, double delay) {
   switch (torque.cause) {
     case TorqueCause::lag:
@@ -315,8 +316,8 @@ std::string second_mass_text(const SecondMass& mass) {
       percent, advice);
 }
 
-/// Whether a second mass is looked for: other forces that the law lacks would look like one, but one looks
-/// like a lag.
+/// Whether a second mass is searched for. Other forces that the law lacks would look like a second mass, and
+/// a second mass looks like a lag.
 bool may_have_second_mass(const SlidingIdentification& identification) {
   return identification.missing.empty()
              ? reason_of_distrust(identification).empty() || identification.one_direction ||
@@ -324,8 +325,8 @@ bool may_have_second_mass(const SlidingIdentification& identification) {
              : identification.missing.front().cause == TorqueCause::lag;
 }
 
-/// Whether the second mass is named before a lag: its resonance is one that a window of the usual length
-/// shows.
+/// Whether the second mass is reported rather than a lag: a window of the usual length contains a period of
+/// its resonance.
 bool is_better(const SecondMass& mass, const SlidingIdentification& identification) {
   const std::vector<double>& time = identification.records.front().time;
   const double rate = static_cast<double>(time.size() - 1) / time.back();

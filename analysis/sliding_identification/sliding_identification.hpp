@@ -20,23 +20,29 @@ namespace zerocount::sliding_identification {
 /// stribeck_velocity, offset, and for each torque that depends on the position its amplitude and phase, or
 /// its slope.
 struct SlidingIdentification : fit::FitReport {
-  std::vector<SlidingRecord> records;  ///< with the windows of the fit
-  std::vector<PositionWave> waves;     ///< torques that depend on the position
+  std::vector<SlidingRecord> records;  ///< Records with the windows of the fit.
+  std::vector<PositionWave> waves;     ///< Torques that depend on the position.
   /// Whether a torque that acts twice in a revolution or pitch would explain the records as well as one that
   /// acts once.
   bool could_be_two_periods{false};
-  std::optional<SecondMass> second_mass;  ///< that the fit of one mass lacks
-  std::vector<MissingTorque> missing;  ///< Torques that the law lacks and the residuals show, the best first.
-  std::string impossible;              ///< See impossible_parameter().
-  bool one_direction{false};           ///< Whether all strokes have the same direction.
-  double misfit{0.0};                  ///< root mean square of the residuals, in resolutions
-  double unexplained_torque{0.0};      ///< root mean square over the windows, N m or N
-  double torque{0.0};                  ///< root mean square of the torque in the strokes, N m or N
-  std::vector<FreeRun> runs;           ///< of the records
-  std::vector<RepeatingForce> forces;  ///< what the unexplained torque repeats with
-  std::optional<ReversalFriction> reversal;        ///< nothing without a reversal
-  std::vector<std::string> correlated;             ///< names of the fitted parameters
-  std::vector<std::vector<double>> correlation{};  ///< of their errors, in that order
+  /// Second mass that the fit of one mass lacks; nothing if none is found.
+  std::optional<SecondMass> second_mass;
+  /// Torques that the law lacks and the residuals show, most visible first.
+  std::vector<MissingTorque> missing;
+  std::string impossible;     ///< Sentence of impossible_parameter(); empty if there is none.
+  bool one_direction{false};  ///< Whether all strokes have the same direction.
+  double misfit{0.0};         ///< Root mean square of the residuals, in units of the resolution.
+  /// Root mean square of the unexplained torque over the windows, N m or N.
+  double unexplained_torque{0.0};
+  double torque{0.0};                  ///< Root mean square of the drive torque in the strokes, N m or N.
+  std::vector<FreeRun> runs;           ///< Simulated runs, one for each record.
+  std::vector<RepeatingForce> forces;  ///< Quantities with which the unexplained torque repeats.
+  /// Friction at reversals; nothing if the records have none.
+  std::optional<ReversalFriction> reversal;
+  /// Names of the fitted parameters, in the order of `correlation`.
+  std::vector<std::string> correlated;
+  /// Correlation matrix of the errors of the fitted parameters, in the order of `correlated`.
+  std::vector<std::vector<double>> correlation{};
 };
 
 /// Identifies the sliding axis from motion records, under open or closed loop.
@@ -56,10 +62,10 @@ struct SlidingIdentification : fit::FitReport {
 /// fit leaves more than a third of the torque unexplained.
 SlidingIdentification identify_sliding(std::vector<SlidingRecord> records);
 
-/// Why the result must not be trusted, and what would help; empty if it may be.
+/// Reason why the result must not be trusted, and a remedy; empty if it may be trusted.
 ///
-/// The reasons: no parameter is estimated, one came out beyond its allowed range, the strokes are less than a
-/// quarter of the travel, have one direction, or leave residuals that go with something (MissingTorque,
+/// Possible reasons: no parameter is estimated; one came out beyond its allowed range; the strokes are less
+/// than a quarter of the travel, or have one direction; the residuals vary with something (MissingTorque,
 /// RepeatingForce, SecondMass).
 std::string reason_of_distrust(const SlidingIdentification& identification);
 
@@ -67,7 +73,7 @@ std::string reason_of_distrust(const SlidingIdentification& identification);
 /// breakaway torque is taken to be the Coulomb level.
 std::string sliding_fragment(const SlidingIdentification& identification);
 
-/// The parameters, what was used of the records, and the fragment of a manifest.
+/// The answer: the parameters, the used parts of the records, and the fragment of a manifest.
 document::AnswerDescription<SlidingIdentification> sliding_answer();
 
 }  // namespace zerocount::sliding_identification

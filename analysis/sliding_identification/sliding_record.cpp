@@ -258,11 +258,11 @@ class SlidingAxis {
   Number position_;
   Number velocity_;
   friction::StribeckCurveOf<Number> curve_;
-  Number damping_;      ///< cs
-  Number offset_;       ///< u0
-  Number per_inertia_;  ///< 1/J
+  Number damping_;      ///< Damping cs.
+  Number offset_;       ///< Offset u0.
+  Number per_inertia_;  ///< Reciprocal inertia 1/J.
   double direction_;
-  double friction_rate_;  ///< the largest (1/s) at which the friction can change the velocity
+  double friction_rate_;  ///< Largest rate at which the friction can change the velocity, 1/s.
 };
 
 template <std::size_t terms>
@@ -350,8 +350,8 @@ class LevelsByTravel {
     samples_[static_cast<std::size_t>(band)] += 1.0;
   }
 
-  /// Whether the friction in `band` is lower than the level that the bands above it share, and that below it
-  /// lower still.
+  /// Whether the friction in `band` is lower than the common level of the bands above it, and on average as
+  /// low or lower in the bands below it.
   bool is_lower(int band) const {
     std::vector<Eigen::Index> used;
     for (Eigen::Index i = 0; i < balance_terms; ++i) used.push_back(i);
@@ -387,7 +387,7 @@ class LevelsByTravel {
   }
 
   double longest_;
-  double correlated_;  ///< samples whose errors depend on each other
+  double correlated_;  ///< Number of successive samples whose errors depend on each other.
   int bands_;
   Eigen::MatrixXd normal_;
   Eigen::VectorXd right_;

@@ -20,9 +20,9 @@ namespace zerocount::sliding_identification {
 
 /// A stroke, or a part of one, over which the motion is simulated from an initial state of its own.
 struct Window {
-  std::size_t first{0};   ///< sample
-  std::size_t last{0};    ///< sample, included
-  std::size_t stroke{0};  ///< number of the stroke in the record
+  std::size_t first{0};   ///< First sample.
+  std::size_t last{0};    ///< Last sample; it belongs to the window.
+  std::size_t stroke{0};  ///< Number of the stroke in the record.
   double direction{0.0};  ///< −1 or 1: the sign of the velocity
 };
 
@@ -30,28 +30,35 @@ struct Window {
 ///
 /// Lengths are in rad and torques in N m; of a linear axis in m and N.
 struct SlidingRecord {
-  std::string name;  ///< in messages
+  std::string name;  ///< Name in messages.
   parameters::AxisKind axis{};
-  std::vector<double> time;                  ///< [sample], s
-  std::vector<motion::TorqueCourse> torque;  ///< [sample] from t_k to t_{k+1}
-  std::vector<double> position;              ///< [sample] as read, from 0 at the first sample
-  std::vector<double> velocity;  ///< [sample] over `smoothing` samples to both sides, for the start
-  double delay{0.0};             ///< Delay of the torque that the record was read with, samples.
-  double resolution{0.0};        ///< step of the readings, or three standard deviations of their noise
-  double origin{0.0};            ///< reading at the first sample, rad or m
-  double pitch{0.0};     ///< travel with which a torque may repeat: 2π, of a linear axis 0 if unknown
-  bool turns{false};     ///< whether it moves by a fiftieth of the pitch or more
-  std::size_t waves{0};  ///< torques that depend on the position (set_position_waves())
-  std::vector<PositionShape> shape{};          ///< [sample]; empty without such torques
-  std::vector<PositionShape> shape_between{};  ///< [interval] in its middle
+  std::vector<double> time;                  ///< [sample] Time, s.
+  std::vector<motion::TorqueCourse> torque;  ///< [sample] Torque from t_k to t_{k+1}, N m or N.
+  std::vector<double> position;              ///< [sample] Position as read, rad or m; 0 at the first sample.
+  /// [sample] Velocity over `smoothing` samples to both sides, used for the starting point.
+  std::vector<double> velocity;
+  double delay{0.0};  ///< Delay of the torque that the record was read with, samples.
+  /// Step of the readings, or three standard deviations of their noise, rad or m.
+  double resolution{0.0};
+  double origin{0.0};  ///< Reading at the first sample, rad or m.
+  /// Travel with which a torque may repeat: 2π for a rotary axis. For a linear axis the pitch, m, or 0 if
+  /// unknown.
+  double pitch{0.0};
+  bool turns{false};     ///< True if the record moves by a fiftieth of the pitch or more.
+  std::size_t waves{0};  ///< Number of torques that depend on the position, see set_position_waves().
+  std::vector<PositionShape> shape{};  ///< [sample] Shape of the position torques; empty without them.
+  /// [interval] Shape of the position torques in the middle of the interval.
+  std::vector<PositionShape> shape_between{};
   std::size_t smoothing{1};
-  std::size_t window_samples{0};  ///< about which the windows have
-  double presliding_travel{0.0};  ///< from a standstill or a reversal, before the axis slides; 0: not seen
-  double moved{0.0};  ///< Travel of all motions in one direction, rad or m; the strokes are parts of it.
+  std::size_t window_samples{0};  ///< Approximate number of samples of the windows.
+  /// Travel from a standstill or a reversal before the axis slides, rad or m; 0: not seen.
+  double presliding_travel{0.0};
+  /// Total travel of all motions between standstills and reversals, rad or m. The strokes are parts of it.
+  double moved{0.0};
   std::vector<Window> strokes;
   std::vector<Window> windows;
-  double min_velocity{0.0};  ///< smallest |velocity| in the strokes
-  double max_velocity{0.0};  ///< largest |velocity|
+  double min_velocity{0.0};  ///< Smallest |velocity| in the strokes, rad/s or m/s.
+  double max_velocity{0.0};  ///< Largest |velocity| in the strokes, rad/s or m/s.
 };
 
 inline std::size_t samples_of(const Window& window) {

@@ -12,7 +12,7 @@ constexpr Eigen::Index balance_terms = 6;
 constexpr Eigen::Index direction_term = 1;
 constexpr Eigen::Index offset_term = 3;
 
-/// The torque about a sample, and what it is linear in while the axis slides:
+/// The torque about a sample, and the terms on which it depends linearly while the axis slides:
 ///
 ///   u = J·a + d·Fc + cs·v + u0 + g1·sin(2π·x/pitch) + g2·cos(2π·x/pitch)
 ///
@@ -20,11 +20,12 @@ constexpr Eigen::Index offset_term = 3;
 /// The other terms are means with the same triangular weights over 4·smoothing samples, which turn the second
 /// differences of the positions into a mean acceleration: smoothing adds no error to the balance.
 struct TorqueBalance {
-  Eigen::Vector<double, balance_terms> terms;  ///< acceleration, direction, velocity, 1, sine and cosine
-  double torque{0.0};                          ///< N m or N
+  /// Acceleration, direction, velocity, 1, sine and cosine.
+  Eigen::Vector<double, balance_terms> terms;
+  double torque{0.0};  ///< Torque of the drive, N m or N.
 };
 
-/// Samples before and after the sample that a balance is from.
+/// Number of samples before and after a sample that its balance uses.
 inline std::size_t balance_reach(const SlidingRecord& record) {
   return 2 * record.smoothing;
 }

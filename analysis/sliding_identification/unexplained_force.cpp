@@ -95,7 +95,7 @@ struct Sum {
   double windows{0.0};
 };
 
-/// A window: its torque, its stroke, and what it may depend on.
+/// The unexplained torque of a window, its stroke, and the quantities that the torque may depend on.
 struct Residual {
   double torque;
   std::pair<const SlidingRecord*, std::size_t> stroke;
@@ -123,7 +123,8 @@ std::vector<Residual> residuals_of(const SlidingFit& fit) {
 
 using WindowQuantity = std::function<double(const Residual&)>;
 
-/// [residual] its class: a tenth of the range of the quantity, of each direction apart or not.
+/// [residual] Class of the residual: a tenth of the range of the quantity, for each direction separately or
+/// not.
 std::vector<int> classes_of(const std::vector<Residual>& residuals, const WindowQuantity& quantity,
                             bool by_direction) {
   double low = std::numeric_limits<double>::infinity();

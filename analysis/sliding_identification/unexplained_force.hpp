@@ -11,13 +11,14 @@ struct SlidingFit;
 
 /// The simulated motion of the identified axis under the whole torque of a record, beside the readings.
 struct FreeRun {
-  std::string name;  ///< of the record
+  std::string name;  ///< Name of the record.
   parameters::AxisKind axis{};
-  double start{0.0};     ///< time of the record at which it begins, s
-  double duration{0.0};  ///< s
-  double rms{0.0};     ///< root mean square of simulated less read positions, rad or m; NaN where it is lost
-  double max{0.0};     ///< largest difference, rad or m
-  double stroke{0.0};  ///< largest less smallest reading, rad or m
+  double start{0.0};     ///< Time in the record at which the simulation begins, s.
+  double duration{0.0};  ///< Duration of the simulation, s.
+  /// Root mean square of simulated minus read positions, rad or m; NaN if the simulation became non-finite.
+  double rms{0.0};
+  double max{0.0};     ///< Largest difference between simulated and read position, rad or m.
+  double stroke{0.0};  ///< Largest minus smallest reading, rad or m.
 };
 
 /// Simulates each record without a restart, from the state that the fit found at the first sample of its
@@ -30,23 +31,26 @@ std::vector<FreeRun> free_runs(const SlidingFit& fit);
 
 struct SlidingFit;
 
-/// How far the torque that the law leaves unexplained repeats with something.
+/// How well a quantity predicts the torque that the law leaves unexplained.
 struct RepeatingForce {
-  std::string with;  ///< "position", "position and direction", "speed and direction", "acceleration"
-  /// Part of its variance that the means over the other strokes predict; at most 1, 0 or negative where it
-  /// does not repeat.
+  /// Predicting quantity: "position", "position and direction", "speed and direction" or "acceleration".
+  std::string with;
+  /// Proportion of the variance of the unexplained torque that is predicted by the class means over the other
+  /// strokes. At most 1; 0 or negative if the torque does not repeat.
   double predicted{0.0};
-  double low{0.0};   ///< smallest and largest mean over a class with windows of several strokes, N m or N,
-  double high{0.0};  ///< as a torque against the drive
+  /// Smallest mean torque against the drive over a class with windows of several strokes, N m or N.
+  double low{0.0};
+  /// Largest mean torque against the drive over a class with windows of several strokes, N m or N.
+  double high{0.0};
 };
 
-/// What the unexplained torque of the windows repeats with: classes of ten equal parts of the range, each
-/// direction apart where it is said.
+/// The quantities with which the unexplained torque of the windows repeats. The windows are divided into
+/// classes of ten equal parts of the quantity's range; if the name says so, each direction separately.
 ///
 /// Windows of one stroke depend on each other, so the variance within a sample says nothing. Each window is
-/// predicted by the mean of its class over all *other strokes*; predicted = 1 − Σ(r − r̂)²/Σ(r − r̄)² with r̄
-/// the mean over all windows of other strokes. Classes that one stroke alone has are predicted by r̄. Empty
-/// with a single stroke.
+/// predicted by the mean of its class over all *other strokes*: predicted = 1 − Σ(r − r̂)²/Σ(r − r̄)², with
+/// r̄ the mean over all windows of other strokes. Classes that occur in one stroke only are predicted by r̄.
+/// Empty with a single stroke.
 std::vector<RepeatingForce> repeating_forces(const SlidingFit& fit);
 
 }  // namespace zerocount::sliding_identification

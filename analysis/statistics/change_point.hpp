@@ -36,35 +36,39 @@ double kendall_tau(const RankTrend& trend);
 
 /// Kind of a measurement, which determines the likelihood.
 enum class MeasurementKind {
-  mean,       ///< of n values: normal, with a variance that is known for each measurement
-  proportion  ///< of n trials: binomial, with a design effect where trials depend on each other
+  /// Mean of n values. The likelihood is normal; the variance of each measurement is known.
+  mean,
+  /// Proportion of n trials. The likelihood is binomial, with a design effect if trials depend on each other.
+  proportion
 };
 
 /// One measurement of a sequence, in the order of time.
 struct Measurement {
   double value{0.0};
-  double size{1.0};        ///< n > 0, the number of values or trials
-  double dispersion{1.0};  ///< of a mean: variance of one value; of a proportion: the design effect, ≥ 1
-  std::size_t draws{0};    ///< measurements with the same number were made with the same random numbers
+  double size{1.0};        ///< Number n > 0 of values or trials.
+  double dispersion{1.0};  ///< For a mean: variance of one value. For a proportion: design effect, ≥ 1.
+  /// Identifies the random numbers: measurements with the same value were made with the same random numbers.
+  std::size_t draws{0};
 };
 
 /// A change that became significant.
 struct LevelChange {
   std::size_t first{0};     ///< first measurement after the change, as estimated
   std::size_t detected{0};  ///< measurement at which the change became significant
-  double before{unknown};   ///< mean of the measurements before `first`
-  double after{unknown};    ///< mean of those from `first` up to `detected`
+  double before{unknown};   ///< Mean of the measurements before `first`.
+  double after{unknown};    ///< Mean of the measurements from `first` up to `detected`.
   double z{0.0};            ///< signed root of the likelihood ratio statistic
 };
 
-/// A mean of n values with bounds of this confidence, taken for those of a normal distribution: its
-/// dispersion is n·((high − low)/2z)². Nothing unless the bounds are finite, low < high and n > 0.
+/// Converts a mean of n values with confidence bounds to a measurement. The bounds are taken as those of a
+/// normal distribution, so the dispersion is n·((high − low)/2z)². Nothing unless the bounds are finite, low
+/// < high and n > 0.
 std::optional<Measurement> measured_mean(double value, double n, const ConfidenceInterval& bounds,
                                          double confidence);
 
-/// A proportion of n trials with bounds of this confidence: its design effect is the square of their width
-/// over that of the Clopper–Pearson bounds for independent trials, at least 1. Nothing unless 0 ≤ value ≤ 1
-/// and n > 0.
+/// Converts a proportion of n trials with confidence bounds to a measurement. The design effect is the
+/// squared ratio of the width of the bounds to the width of the Clopper–Pearson bounds for independent
+/// trials; it is at least 1. Nothing unless 0 ≤ value ≤ 1 and n > 0.
 std::optional<Measurement> measured_proportion(double value, double n, const ConfidenceInterval& bounds,
                                                double confidence);
 

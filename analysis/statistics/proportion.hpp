@@ -68,7 +68,8 @@ double proportion_at_most(std::int64_t successes, std::int64_t trials, double co
 ConfidenceInterval wilson(std::int64_t successes, std::int64_t trials,
                           double confidence = summary_confidence);
 
-/// The formula above for the proportion p of n independent events, n > 0 and not necessarily whole.
+/// The Wilson score interval (see wilson()) for a proportion p of n independent events. n > 0 need not be
+/// whole.
 ConfidenceInterval wilson_interval(double p, double n, double z);
 
 }  // namespace zerocount::statistics

@@ -32,7 +32,7 @@ RankBounds quantile_rank_bounds(std::int64_t observations, double probability,
 
 /// A sample quantile with its bounds, in the values' unit.
 struct Quantile {
-  double value{0.0};  ///< NaN of an empty histogram
+  double value{0.0};  ///< Sample quantile; NaN for an empty histogram.
   double low{0.0};    ///< NaN if there are too few observations for a bound
   double high{0.0};   ///< NaN if there are too few observations for a bound
 };
@@ -52,12 +52,13 @@ Quantile quantile(const Histogram<Value>& histogram, double probability,
 /// The value of rank 1 … n of n values.
 double order_statistic(std::vector<double> values, std::int64_t rank);
 
-/// The sample quantile by the same definition, of n ≥ 1 values in any order.
+/// The sample quantile of n ≥ 1 values in any order: the value of rank quantile_rank().
 double sample_quantile(std::vector<double> values, double probability);
 
-/// The sample quantile of n ≥ 1 sorted values that is interpolated linearly between the order statistics with
-/// the ranks on either side of p·(n + 1) (definition 6 of Hyndman and Fan): for errors in resamples, of which
-/// the order statistics have the mean probability k/(n + 1). Beside an infinite value the farther one.
+/// The sample quantile of n ≥ 1 sorted values, interpolated linearly between the order statistics with the
+/// ranks on either side of p·(n + 1) (definition 6 of Hyndman and Fan). It suits errors in resamples, whose
+/// order statistics have the mean probability k/(n + 1). If one of both is infinite, the value with the
+/// larger magnitude is taken.
 double interpolated_quantile(std::span<const double> sorted, double probability);
 
 /// The upper median: the value of rank ⌊n/2⌋ + 1 of n ≥ 1 values.

@@ -19,7 +19,7 @@
 namespace zerocount::summary {
 namespace {
 
-/// A point, judged where its study has a goal.
+/// A design point with its verdict and settling times, if the study has a goal.
 struct Point {
   const StudySummary& summary;
   const measures::PointSummary& statistics;
@@ -34,14 +34,14 @@ struct Point {
   }
 };
 
-/// Conditions that follow one another, such as those at one age.
+/// Consecutive conditions, such as all conditions at one age.
 struct Conditions {
   std::size_t first, count;
 
   bool contains(std::size_t condition) const { return condition >= first && condition < first + count; }
 };
 
-/// The proportion of trials that succeed; with worlds in the worst of them.
+/// The proportion of trials that succeed; with worlds, the lowest value and bounds over the worlds.
 goal::BoundedProportion success_of(const std::vector<measures::MoveCounts>& worlds, double confidence) {
   const double each = statistics::confidence_of_each(confidence, worlds.size());
   goal::BoundedProportion lowest;
@@ -67,7 +67,7 @@ std::optional<double> known(double value) {
   return std::isnan(value) ? std::nullopt : std::optional(value);
 }
 
-/// What the verdict says of a claim.
+/// Copies goal, proportions and status of a verdict into the cell.
 void judge(CellOfPoint& cell, const goal::Question& question, const goal::ClaimVerdict& verdict) {
   const study::Goal& goal = *question.parts[verdict.goal].claim;
   if (!goal.name.empty()) cell.goal = goal.name;
@@ -77,8 +77,8 @@ void judge(CellOfPoint& cell, const goal::Question& question, const goal::ClaimV
   cell.status = verdict.status;
 }
 
-/// All trials under these conditions: the worst claim gives the rates and the verdict, the slowest goal the
-/// settling time.
+/// The cell of all trials under these conditions. Proportions, verdict and settling time are those of the
+/// worst claim.
 CellOfPoint cell_under(const Point& point, const Conditions& conditions) {
   CellOfPoint cell;
   std::size_t worst_condition = conditions.first;
@@ -381,7 +381,7 @@ std::vector<double> rates_of(const worlds::PointWorlds& point) {
   return rates;
 }
 
-/// One value for each world's verdict; nothing without a goal.
+/// [world] the results of `value` for the verdicts on the worlds; empty without a goal.
 template <class Value>
 auto of_verdicts(const worlds::PointWorlds& point, Value value) {
   using Values = std::vector<std::invoke_result_t<Value, const goal::WorldVerdict&>>;
@@ -412,7 +412,7 @@ void add_judged_rates(Description<WorldsReading>& description, const goal::Quest
       .value(column("best"), [](Reading r) { return r.point.asked.worlds[r.point.asked.best].value; });
 }
 
-/// @param in_csv whether summaries have a column of it
+/// Adds the number of worlds with this status. @param in_csv whether the CSV has a column for the number
 void add_number_of_worlds(Description<WorldsReading>& description, goal::Status status, bool in_csv) {
   const std::string word(goal::text_of(status));
   description.value({.key = word,
@@ -435,7 +435,7 @@ std::string same_text(const worlds::WorldRule& rule, const std::vector<worlds::W
   return fmt::format(", or where {}, which are the same worlds", fmt::join(conditions, ", or "));
 }
 
-/// "; creep_rate: speed at which …" of each derived quantity in the rule.
+/// "; creep_rate: speed at which …" for each derived quantity in the rule.
 std::string meanings_text(const worlds::WorldRule& rule, const std::vector<worlds::WorldInput>& inputs) {
   std::string text;
   for (const std::vector<worlds::Condition>* conditions : {&rule.conditions, &rule.same}) {

@@ -11,95 +11,103 @@
 #include "analysis/summary/summary.hpp"
 #include "analysis/worlds/world_statistics.hpp"
 
-/// What the trials of a design point show of each goal, under each condition and at each age.
+/// The verdicts and proportions of a design point for each goal, under each condition and at each age.
 namespace zerocount::summary {
 
-/// Some of the trials of a point, and what is judged of them. Bounds are one-sided, each with the confidence
-/// of the goal (of the summary without a goal); with worlds the rates are those of the worst world.
+/// A subset of the trials of a point (for one claim, condition or age) with its verdict. Bounds are
+/// one-sided, each with the confidence of the goal; without a goal, of the summary. With worlds the
+/// proportions are those of the worst world.
 struct CellOfPoint {
-  std::optional<std::string> goal{};       ///< the only one of the cell, or its worst; none without names
-  std::optional<std::string> condition{};  ///< none without conditions, and where the cell has several
-  /// The worst condition of the cell, which rate, verdict and settling time are under; none where it has one.
+  std::optional<std::string> goal{};       ///< Name of the only or the worst goal; empty without names.
+  std::optional<std::string> condition{};  ///< Condition of the trials; empty if there is none or several.
+  /// The worst condition of a cell with several. Rate, verdict and settling time hold under this condition.
+  /// Empty if the cell has a single condition.
   std::optional<std::string> worst_condition{};
-  double age{0.0};  ///< in the unit of Question::ages; 0 without ages
+  double age{0.0};  ///< Age, in the unit of Question::ages; 0 without ages.
   std::int64_t trials{0};
-  std::int64_t success{0};           ///< trials all of whose moves ended at zero error
-  std::int64_t goal_met{0};          ///< trials all of whose moves meet the goals
-  std::int64_t moves{0}, met{0};     ///< that the goal asks, and of them those that meet it
-  goal::BoundedProportion rate{};    ///< of moves of the worst goal and condition; without a goal of
-                                     ///< trials that succeed, under the worst condition
-  goal::BoundedProportion judged{};  ///< of machines, moves or trials, as judged_head() says
-  std::optional<goal::BoundedProportion> machines{};  ///< that meet the goal; none if it is not on machines
-  std::optional<goal::BoundedProportion> living{};    ///< machines that meet it at every age up to this one
-  std::optional<double>
-      settling_time_p95{};  ///< s, of the same goal and condition; none: not within the hold
-  double within{0.0};       ///< s from the start, that the goal allows; the longest of its moves
-  goal::Status status{goal::Status::undecided};  ///< of the worst goal and condition
+  std::int64_t success{0};        ///< trials all of whose moves ended at zero error
+  std::int64_t goal_met{0};       ///< trials all of whose moves meet the goals
+  std::int64_t moves{0}, met{0};  ///< Moves that the goal judges, and those that meet it; for claims only.
+  /// Proportion of moves that meet the worst goal under the worst condition. Without a goal: proportion of
+  /// trials that succeed under the worst condition.
+  goal::BoundedProportion rate{};
+  goal::BoundedProportion judged{};  ///< Proportion of machines, moves or trials; see judged_head().
+  /// Proportion of machines that meet the goal; empty if the goal is not about machines, except for ages.
+  std::optional<goal::BoundedProportion> machines{};
+  /// Proportion of machines that meet the goal at every age up to this one; for ages only.
+  std::optional<goal::BoundedProportion> living{};
+  /// 95 % quantile of the settling time for the worst goal and condition, s; empty: not reached within the
+  /// hold.
+  std::optional<double> settling_time_p95{};
+  double within{0.0};  ///< Longest time that the goal allows a move, s from its start; for claims only.
+  goal::Status status{goal::Status::undecided};  ///< Verdict on the worst goal and condition.
 };
 
-/// By what cells differ.
+/// The property by which the cells of a table differ.
 enum class CellsBy { claim, condition, age };
 
-/// The claims on a point, by goal and condition; empty without a goal. The bounds are those of verdict_on().
-/// @param points that the point was chosen from
+/// The claims on a point, one cell for each goal and condition; empty without a goal. The bounds are those of
+/// verdict_on(). @param points number of points from which the point was chosen
 std::vector<CellOfPoint> claims_of_point(const StudySummary& summary, std::int64_t point,
                                          std::size_t points = 1);
 
-/// The conditions of a point, [condition], with ages each at each age; empty without conditions, and of a
-/// point without judged trials. A goal is missed under a condition where this is shown with the error
-/// probability divided by their number, so that one missed condition shows the goal to be missed.
+/// [condition] the cells of a point; with ages one for each condition at each age. Empty without conditions,
+/// and for a point without judged trials. The upper bounds divide the error probability by the number of
+/// conditions (Bonferroni), so a single missed condition shows that the goal is missed.
 std::vector<CellOfPoint> conditions_of_point(const StudySummary& summary, std::int64_t point,
                                              std::size_t points = 1);
 
-/// The ages of a point, [age]; empty without ages, and of a point without judged trials.
+/// [age] the cells of a point; empty without ages, and for a point without judged trials.
 std::vector<CellOfPoint> ages_of_point(const StudySummary& summary, std::int64_t point,
                                        std::size_t points = 1);
 
 document::Description<CellOfPoint> cell_description(const goal::Question& question, CellsBy by);
 
-/// The cell with the smallest standing of the proportion that is judged. @param cells not empty, of a study
-/// without a goal
+/// Index of the cell with the smallest standing of CellOfPoint::judged. @param cells at least one, from a
+/// study without a goal
 std::size_t worst_cell(const std::vector<CellOfPoint>& cells);
 
-/// The last age up to and including which the goal is met, in the unit of ages; none if not at the first.
+/// The last age up to and including which the goal is met, in the unit of ages; empty if it is not met at the
+/// first age.
 std::optional<double> met_until(const std::vector<CellOfPoint>& ages);
-/// The first age at which the goal is missed; none where that is not shown.
+/// The first age at which the goal is shown to be missed; empty if there is none.
 std::optional<double> missed_from(const std::vector<CellOfPoint>& ages);
 
-/// "the goal is met up to 100000 cycles, and missed from 1000000 cycles on"; without a goal, or ages, empty.
+/// "the goal is met up to 100000 cycles, and missed from 1000000 cycles on"; empty without a goal or ages.
 std::string ages_sentence(const goal::Question& question, const std::vector<CellOfPoint>& ages);
 
-/// "on average over the worlds and conditions: ", for what is of all trials; empty where they are all alike.
+/// "on average over the worlds and conditions: ", a prefix for numbers over all trials; empty if the study
+/// has neither worlds nor conditions.
 std::string averaged_over(const StudySummary& summary);
 
-/// The worlds at a point; nothing for a study without worlds, or where a world has no trials yet.
-/// @param chosen_from number of points that it was chosen from
+/// The worlds at a point; empty if the study has no worlds, or a world has no trials yet.
+/// @param chosen_from number of points from which the point was chosen
 std::optional<worlds::PointWorlds> worlds_of_point(const StudySummary& summary, std::int64_t point,
                                                    std::size_t chosen_from = 1);
 
-/// Parameters, and quantities derived from them, that differ between the worlds at a point of a study with
-/// worlds.
+/// Parameters that differ between the worlds at a point, and quantities derived from them. @param summary
+/// summary of a study with worlds
 inline const std::vector<worlds::WorldInput>& world_inputs_of(const StudySummary& summary,
                                                               std::int64_t point) {
   return summary.world_inputs[static_cast<std::size_t>(point)];
 }
 
 /// "5 of 30 worlds fall short of the goal: where friction.alpha > 1.4 1/s (5 of these 5, and 1 of the other
-/// 25; by chance with probability 0.0025); what separates them need not be the cause", with the other
-/// quantities that separate the same worlds, and what derived ones mean.
+/// 25; by chance with probability 0.0025); what separates them need not be the cause". The sentence also
+/// names other quantities that separate the same worlds, and explains derived quantities.
 std::string bad_worlds_sentence(const worlds::PointWorlds& point,
                                 const std::vector<worlds::WorldInput>& inputs,
                                 const goal::Question& question);
 
-/// The worlds at a design point, and what differs between them.
+/// The worlds at a design point, with the parameters that differ between them.
 struct WorldsReading {
   const worlds::PointWorlds& point;
   const std::vector<worlds::WorldInput>& inputs;
   const goal::Question& question;
 };
 
-/// Rates and verdicts by world, the bad worlds and the rule that tells them apart; people are shown the rates
-/// that the study is judged by.
+/// The items of WorldsReading: proportions and verdicts by world, the bad worlds, and the rule that separates
+/// them. People are shown the proportions by which the study is judged.
 document::Description<WorldsReading> worlds_description(const goal::Question& question);
 
 }  // namespace zerocount::summary

@@ -28,7 +28,7 @@
 namespace zerocount::summary {
 namespace {
 
-/// Swept parameters of the point that are other than 0 or none: the fewer, the simpler.
+/// Number of swept parameters of the point that differ from 0 or "none". A point with fewer is simpler.
 std::int64_t parts_in_use(const StudySummary& summary, std::size_t point) {
   return std::ranges::count_if(summary.axes, [&](const study::SweepAxis& axis) {
     if (axis.kind != study::SweepAxis::Kind::number) return false;
@@ -50,7 +50,8 @@ const measures::PointSummary& point_of(const StudySummary& summary, std::int64_t
   return summary.points[static_cast<std::size_t>(point)];
 }
 
-/// [machine] what the machine adds to the rate that points are compared by; empty without machines.
+/// [machine] contribution of the machine to the proportion by which points are compared: the proportion of
+/// its moves, or 1 or 0 if the goal is about machines. Empty without machines.
 std::vector<double> rates_of_machines(const goal::Question& question, const measures::MoveCounts& counts) {
   std::vector<double> rates;
   for (const statistics::MachineMoves& machine : counts.machines) {
@@ -70,10 +71,10 @@ bool differ(std::span<const double> better, std::span<const double> worse) {
                                 differences.sd() / std::sqrt(machines);
 }
 
-/// A rate of independent events, with one more event of each kind.
+/// A proportion of independent events, with one success and one failure added (Agresti and Caffo).
 struct AdjustedRate {
   double value{0.5};
-  double variance{0.0};  ///< of the value
+  double variance{0.0};  ///< estimated variance of `value`
 
   explicit AdjustedRate(const statistics::ClusterSums& sums) {
     const double events = statistics::effective_events(sums) + 2.0;
@@ -82,8 +83,7 @@ struct AdjustedRate {
   }
 };
 
-/// Whether by one goal the worst world of `other` is shown to be worse than that of `best`, by the bounds of
-/// both.
+/// Whether the bounds show that the worst world of `other` is worse than the worst world of `best`.
 bool has_worse_world(const goal::Question& question, const measures::PointSummary& best,
                      const measures::PointSummary& other) {
   const auto alone = [&](const measures::PointSummary& point) {
@@ -218,7 +218,7 @@ std::string competition_text(const StudySummary& summary, const ChosenPoint& cho
 
 namespace {
 
-/// Whether any two points have different values, or one of them a distribution.
+/// Whether the values of any two points differ, or a point has a distribution (NaN).
 bool varies(const study::SweepAxis& axis) {
   const auto differs = [](const auto& values) {
     return std::any_of(values.begin(), values.end(), [&](const auto& v) { return !(v == values.front()); });
@@ -287,12 +287,12 @@ const measures::PointSummary& statistics_of(const StudySummary& summary, std::in
   return summary.points[static_cast<std::size_t>(point)];
 }
 
-/// The goal that the verdict is of.
+/// The goal of the worst claim.
 const study::Goal& worst_goal(const StudySummary& summary, const goal::Verdict& verdict) {
   return *summary.question.parts[verdict.goal].claim;
 }
 
-/// "'large' and 'small'"; empty where fewer than two goals are missed.
+/// Names of the goals that are missed: "'large' and 'small'". Empty if fewer than two are missed.
 std::string missed_goals(const goal::Question& question, const goal::Verdict& verdict) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < question.parts.size(); ++i) {

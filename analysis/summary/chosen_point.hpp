@@ -14,94 +14,99 @@
 #include "experiments/study/grouping.hpp"
 #include "experiments/study/study.hpp"
 
-/// The design point that all outputs of a study speak of.
+/// The choice of the design point that all outputs of a study report on, and the verdict on it.
 namespace zerocount::summary {
 
-/// The points that have trials, the best first: by goal::merits_of(); among equals the one with fewer swept
-/// parameters other than 0 or none; then the first. Points of an open-loop study keep their order.
+/// The points that have trials, the best first. They are ranked by goal::merits_of(). Ties go to the point
+/// with fewer swept parameters that differ from 0 or "none", then to the first. Points of an open-loop study
+/// keep their order.
 std::vector<std::int64_t> points_by_merit(const StudySummary& summary);
 
-/// The first of them.
+/// The first of points_by_merit().
 std::int64_t best_point(const StudySummary& summary);
 
-/// A swept number at the end of its range: beyond it better values may lie.
+/// A swept number that is at the end of its range. Better values may lie beyond the end.
 struct EndOfRange {
-  std::size_t axis{0};  ///< of StudySummary::axes
-  bool lowest{false};   ///< otherwise it is the highest
+  std::size_t axis{0};  ///< Index in StudySummary::axes.
+  bool lowest{false};   ///< True at the lowest value of the range, false at the highest.
 };
 
-/// The value of the parameter at the point.
+/// The value of the parameter `end.axis` at the point.
 double value_at(const StudySummary& summary, const EndOfRange& end, std::int64_t point);
 
-/// The chosen point, and its competitors.
+/// The chosen point and its competitors.
 struct ChosenPoint {
   std::int64_t point{0};
   std::int64_t chosen_from{1};              ///< points with trials; 1 for a point that was named beforehand
   std::optional<std::int64_t> runner_up{};  ///< the best of the other points
   std::vector<std::int64_t> as_good{};      ///< other points that are not shown to be worse, in their order
-  std::vector<EndOfRange> ends{};  ///< where the point is the best; 0 is no end, as gains have no less
+  /// Swept numbers whose value at the best point is at an end of their range. The value 0 is not an end,
+  /// because a gain cannot be lower.
+  std::vector<EndOfRange> ends{};
 };
 
 /// Chooses the best point, or takes `point`.
 ///
-/// Another point is shown to be worse if the one-sided 95 % bound of the difference of their rates is above
-/// zero: the rate of success, or of the goal. With machines it is Student's bound for the differences of the
-/// rates of each machine, which are the same machines at both points. Without machines, rates are compared as
-/// if their trials were independent, with one success and one failure added to each (Agresti and Caffo, Amer.
-/// Statist. 54 (2000) 280); trials of the same random numbers differ less. With worlds and a goal, a point
-/// is shown to be worse if the upper bound of its worst world is below the lower bound of the other's.
+/// Another point is shown to be worse if the one-sided 95 % lower bound of the difference of the two
+/// proportions (of successes, or of moves or machines in the goal) is above zero. With machines this is
+/// Student's bound for the differences of each machine's proportions; both points have the same machines.
+/// Without machines the trials are treated as independent, with one success and one failure added to each
+/// point (Agresti and Caffo, Amer. Statist. 54 (2000) 280); the trials in fact share random numbers, so they
+/// differ less. With worlds and a goal, a point is shown to be worse if the upper bound of its worst world is
+/// below the lower bound of the best point's worst world.
 ChosenPoint choose_point(const StudySummary& summary, std::optional<std::int64_t> point = {});
 
-/// "best of 8 points: 3 (kp=400)", or only the name of the point.
+/// "best of 8 points: 3 (kp=400)", or only the name of the point if it was not chosen from several.
 std::string name_of_chosen(const StudySummary& summary, const ChosenPoint& chosen);
 
-/// The success of the chosen point, in one sentence: what its trials show of all axes. The bound allows for
-/// the choice of the point by these trials.
+/// One sentence with the bound that the trials of the chosen point give for the success of all machines. The
+/// bound accounts for the choice of the point by these trials.
 std::string claim_of_chosen_point(const StudySummary& summary, const ChosenPoint& chosen);
 
-/// What stands beside the verdict on the chosen point: points as good, and ends of swept ranges. Whole lines,
-/// or empty.
+/// Remarks beside the verdict on the chosen point: points that are as good, and swept ranges at whose ends it
+/// lies. Whole lines, or empty.
 std::string competition_text(const StudySummary& summary, const ChosenPoint& chosen);
 
-/// The swept parameters with different values at different points, or with a distribution; without "case".
+/// The swept parameters whose values differ between points or that have a distribution, without "case".
 std::vector<const study::SweepAxis*> varying_parameters(std::span<const study::SweepAxis> axes);
 
-/// The end of the dotted path of the axis that no other swept parameter has: "ki", or "coarse.kp" beside a
-/// "kp".
+/// The shortest end of the dotted path of the axis that no other swept parameter has: "ki", or "coarse.kp" if
+/// another path ends in "kp".
 std::string short_name(std::span<const study::SweepAxis> axes, const study::SweepAxis& axis);
 
-/// [point] its label as tables show it: the paths in the labels of a grid are shortened to their ends, as in
+/// [point] labels for tables: the paths in the labels of a grid are shortened to their ends, as in
 /// "kp=400 ki=8e4".
 std::vector<std::string> short_labels(std::vector<std::string> labels,
                                       std::span<const study::SweepAxis> axes);
 
-/// [point] its number and short label: "3 (kp=400 ki=8e4)". Only the label where it does not name swept
-/// values, as that of a case.
+/// [point] number and short label: "3 (kp=400 ki=8e4)". Only the label if it does not name swept values, such
+/// as the label of a case.
 std::vector<std::string> point_names(const StudySummary& summary);
 
 /// A design point judged by the goal of its study.
 struct JudgedPoint {
-  ChosenPoint chosen;  ///< the bounds allow for its choice (Bonferroni)
-  goal::Verdict verdict;
-  std::optional<goal::Needs> needs{};  ///< of a verdict that is undecided
+  ChosenPoint chosen;
+  goal::Verdict verdict;  ///< Verdict; the bounds account for the choice of the point (Bonferroni).
+  std::optional<goal::Needs> needs{};  ///< Study size that would decide the goal; set if undecided.
 };
 
-/// @param summary of a study with a goal
+/// Judges the chosen point by the goal. @param summary summary of a study with a goal
 JudgedPoint judge_point(const StudySummary& summary, const ChosenPoint& chosen);
 
 /// "best of 8 points: 3 (kp=400): the goal is met".
 std::string judgement_headline(const StudySummary& summary, const JudgedPoint& judged);
 
-/// The reasons of the verdict, a line each: its bounds, what would decide it, the competitors of the point.
+/// The reasons for the verdict, one line each: its bounds, the study size that would decide it, and the
+/// competitors of the point.
 std::string judgement_details(const StudySummary& summary, const JudgedPoint& judged);
 
 /// The judgement as a paragraph: the goal, judgement_headline() and judgement_details().
 std::string judgement_text(const StudySummary& summary, const JudgedPoint& judged);
 
-/// In how many moves that miss a goal, and in how many that meet it, the converter clipped.
+/// Number of moves that miss and that meet a goal, each with the number in which the converter clipped.
 struct SaturatedMoves {
-  std::int64_t missed{0}, missed_saturated{0};
-  std::int64_t met{0}, met_saturated{0};
+  std::int64_t missed{0}, missed_saturated{0};  ///< moves that miss the goal; those in which it clipped
+  std::int64_t met{0}, met_saturated{0};        ///< moves that meet the goal; those in which it clipped
 
   double of_missed() const { return static_cast<double>(missed_saturated) / static_cast<double>(missed); }
   double of_met() const { return static_cast<double>(met_saturated) / static_cast<double>(met); }
@@ -114,12 +119,13 @@ struct JudgedClaim {
   std::size_t condition;
 };
 
-/// The moves of a results file that the claim is about; nothing where the file does not keep every trial.
+/// Counts the moves of a results file that the claim is about. Empty if the file does not keep every trial.
 std::optional<SaturatedMoves> saturated_moves(const std::filesystem::path& path, const study::Study& study,
                                               const JudgedClaim& claim);
 
-/// "of the 80 moves that miss the goal 78 saturate the converter, of the 20 others 1: …"; empty unless most
-/// of the moves that miss it saturate, and more of them than of the others.
+/// "of the 80 moves that miss the goal 78 saturate (of the 20 others 1): …". Empty unless at least half of
+/// the moves that miss the goal saturate, and this proportion exceeds that of the other moves by at least
+/// 0.1.
 std::string saturation_sentence(const SaturatedMoves& moves);
 
 }  // namespace zerocount::summary

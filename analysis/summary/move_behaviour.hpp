@@ -12,52 +12,58 @@
 
 namespace zerocount::summary {
 
-/// Of the values of some moves, of which 95 % are at most `p95`; NaN without values.
+/// The 95 % quantile and the maximum of a quantity over some moves; NaN without values.
 struct UpperValues {
   double p95{std::numeric_limits<double>::quiet_NaN()};
   double max{std::numeric_limits<double>::quiet_NaN()};
 };
 
-/// The torque decided while moves are at rest (MoveOutcome::rest_torque_power), over these moves.
+/// The commanded torque while the moves are at rest (MoveOutcome::rest_torque_power).
 struct RestTorque {
-  double rms{0.0};       ///< root of the mean of its mean square, N m
-  double changes{0.0};   ///< likewise of its changes from sample to sample, N m
-  double of_range{0.0};  ///< the changes as a proportion of the converter's largest torque
+  double rms{0.0};       ///< Rms of the torque over all moves, N m.
+  double changes{0.0};   ///< Rms over all moves of the torque's change from sample to sample, N m.
+  double of_range{0.0};  ///< Rms of the changes as a proportion of the converter's largest torque.
 };
 
-/// How the moves that a goal asks are made under a condition: what an engineer looks at beside the goal.
+/// Behaviour, under one condition, of the moves that a goal judges: quantities that an engineer looks at
+/// beside the goal.
 struct MoveBehaviour {
-  std::optional<std::string> goal{};       ///< its name; "no goal" for moves that none of several asks
-  std::optional<std::string> condition{};  ///< none without conditions
-  std::size_t number{0};                   ///< of the goal in the study; their number for other moves
+  std::optional<std::string> goal{};       ///< Name of the goal; "no goal" for moves that no goal judges.
+  std::optional<std::string> condition{};  ///< Name of the condition; empty without conditions.
+  /// Index of the goal in the study; the number of goals for moves that no goal judges.
+  std::size_t number{0};
   std::int64_t moves{0};
-  /// Counts: of the readings, or of the position where the goal is of the mass that does not close the loop.
+  /// Overshoot in counts: of the readings, or of the true position if the goal is about the mass that does
+  /// not close the loop.
   UpperValues overshoot;
-  UpperValues overshoot_length;   ///< the same, rad
-  UpperValues overshoot_of_step;  ///< the same as a proportion of the move's step; NaN where nothing steps
+  UpperValues overshoot_length;   ///< Overshoot, rad.
+  UpperValues overshoot_of_step;  ///< Overshoot as a proportion of the move's step; NaN if no move is a step.
   double smallest_step{std::numeric_limits<double>::infinity()};  ///< counts
   UpperValues peak_torque;                                        ///< N m
-  UpperValues peak_of_range;  ///< the same as a proportion of the converter's largest torque
-  double range{std::numeric_limits<double>::infinity()};  ///< that torque, the smallest of the machines', N m
-  double saturated{0.0};             ///< proportion of moves in which the converter clipped
-  std::optional<RestTorque> rest{};  ///< where it is measured, and some move comes to rest
+  UpperValues peak_of_range;  ///< Peak torque as a proportion of the converter's largest torque.
+  /// Largest torque of the converter, N m: the minimum over the trials.
+  double range{std::numeric_limits<double>::infinity()};
+  double saturated{0.0};  ///< proportion of moves in which the converter clipped
+  /// Empty if the torque at rest is not measured, or no move comes to rest.
+  std::optional<RestTorque> rest{};
 };
 
-/// What the measures of a trial's moves are held against.
+/// Reference values to which the measures of a trial's moves are related.
 struct TrialScale {
-  double resolution{0.0};      ///< of the fine encoder, rad
-  double largest_torque{0.0};  ///< of the converter, N m
-  std::vector<double> steps;   ///< [move] counts; empty for a sine
+  double resolution{0.0};      ///< Resolution of the fine encoder, rad.
+  double largest_torque{0.0};  ///< Largest torque of the converter, N m.
+  std::vector<double> steps;   ///< [move] size of the step, counts; empty for a sine
 };
 TrialScale scale_of(const trial::TrialParameters& p);
 
-/// Counts the moves of trials by goal and condition; moves that no goal asks are a row of their own.
+/// Collects the moves of trials in rows, one for each goal and condition. Moves that no goal judges have rows
+/// of their own.
 class BehaviourCounter {
  public:
   explicit BehaviourCounter(const study::Study& study);
 
   void add(const TrialScale& scale, std::int64_t condition, std::span<const trial::MoveOutcome> moves);
-  /// By goal and condition, without rows that have no moves.
+  /// The rows ordered by goal, then by condition; rows without moves are left out.
   std::vector<MoveBehaviour> behaviour() const;
 
  private:
@@ -68,7 +74,7 @@ class BehaviourCounter {
     std::int64_t saturated{0};
     double smallest_step{std::numeric_limits<double>::infinity()};
     double range{std::numeric_limits<double>::infinity()};
-    double power{0.0}, noise{0.0}, noise_of_range{0.0};  ///< sums of squares
+    double power{0.0}, noise{0.0}, noise_of_range{0.0};  ///< sums of mean squares over the moves at rest
     std::int64_t at_rest{0};
 
     void add(const trial::MoveOutcome& move, const TrialScale& scale, bool of_other_mass);
@@ -80,10 +86,10 @@ class BehaviourCounter {
   const study::Study& study_;
   std::vector<measures::CountedGoal> goals_;
   std::size_t conditions_;
-  std::vector<RowValues> rows_;  ///< [goal, then moves that none asks][condition]
+  std::vector<RowValues> rows_;  ///< [goal][condition]; the last goal stands for moves that no goal judges
 };
 
-/// That of the trials of a point in a results file. @param study of the file
+/// The behaviour of the moves of a point in a results file. @param study study of the file
 std::vector<MoveBehaviour> behaviour_in(const reading::AllTrialsFile& file, const study::Study& study,
                                         std::int64_t point = 0);
 

@@ -12,10 +12,10 @@
 namespace zerocount::summary {
 namespace {
 
-/// The simulated trials of a point, each as one move that meets what the study asks.
+/// The simulated trials of a point. Each counts as one move, which is met if the trial meets the question.
 struct AskedTrials {
   measures::MoveCounts all;
-  std::vector<measures::MoveCounts> worlds;  ///< empty without worlds
+  std::vector<measures::MoveCounts> worlds;  ///< [world] trials in the world; empty without worlds
 };
 
 AskedTrials asked_trials(const goal::Question& question, const measures::PointSummary& point) {
@@ -32,8 +32,8 @@ statistics::ObservedTest test_of(const statistics::Successes& observed, const me
   return statistics::machine_rank_test(observed, successes, trials.machines.front().trials);
 }
 
-/// The test in the world that is most like the real machine. It lives in one world, which nobody knows: it
-/// differs from the simulation if it differs from each world.
+/// The test in the world that is most like the real machine. The world of the real machine is unknown, so the
+/// machine differs from the simulation only if it differs from every world.
 ObservedComparison compare_with_worlds(ObservedComparison comparison, const statistics::Successes& observed,
                                        const std::vector<measures::MoveCounts>& worlds) {
   comparison.in_worlds = true;

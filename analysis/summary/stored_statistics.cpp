@@ -16,9 +16,10 @@
 namespace zerocount::summary {
 namespace {
 
-constexpr std::size_t points_at_once = 256;  ///< that are held with all their statistics
+/// Number of points that are held in memory with all their statistics.
+constexpr std::size_t points_at_once = 256;
 
-/// Adds the columns of the points that follow.
+/// Appends the values of the next points to the columns.
 void add_columns(std::vector<layout::PointColumn>& columns, std::vector<layout::PointColumn>&& next) {
   if (columns.empty()) columns.resize(next.size());
   for (std::size_t i = 0; i < next.size(); ++i) {
@@ -29,9 +30,10 @@ void add_columns(std::vector<layout::PointColumn>& columns, std::vector<layout::
   }
 }
 
-/// Adds the trials of a point in the rows of its groups: worlds, conditions or ages; of an open loop none is
-/// judged.
-/// @param groups the counts by world, or by condition @param row_of the row in which a group is counted
+/// Adds the trials of a point to the rows of its groups: worlds, conditions or ages. An open-loop study has
+/// no judged trials.
+/// @param groups member that returns the counts by world, or by condition
+/// @param row_of returns the row to which a group is added
 void add_groups(layout::GroupCounts& stored, const measures::PointSummary& point, std::int64_t rows,
                 std::vector<measures::MoveCounts> (measures::CellCounts::*groups)() const,
                 const std::function<std::size_t(std::size_t group)>& row_of) {
@@ -58,8 +60,8 @@ void add_machines(layout::GroupCounts& stored, const measures::PointSummary& poi
   stored.success.back().resize(machines);  // empty in an open loop
 }
 
-/// Adds the machines of a point that meet the goal at each age, and the life of each machine. @param study
-/// with a claim
+/// Adds the proportion of machines of a point that meet the goal at each age, and the life of each machine.
+/// @param study study with a claim
 void add_machines(layout::GroupCounts& ages, layout::GroupCounts& machines,
                   const measures::PointSummary& point, const study::Study& study) {
   if (ages.statistics.empty()) {
@@ -106,7 +108,7 @@ void add_counts(layout::StoredStatistics& stored, const measures::PointSummary& 
   if (!study.goals.empty()) add_machines(stored.groups["age"], stored.groups["machine"], point, study);
 }
 
-/// Adds the statistics of the points that follow. @param first number of the first of them
+/// Adds the statistics of the next points. @param first number of the first of these points
 void add_points(layout::StoredStatistics& stored, std::span<const measures::PointSummary> points,
                 const study::Study& study, std::span<const theory::PointPrediction> predictions,
                 const layout::MeasureTable& table, std::int64_t first) {

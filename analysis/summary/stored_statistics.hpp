@@ -15,17 +15,17 @@
 namespace zerocount::summary {
 
 /// The stored statistics of consecutive points: point_columns, prediction_columns, the levels of an open-loop
-/// study, and the counts of machines and worlds. All bounds have 95 %.
-/// @param points, predictions [point] of all their trials.
+/// study, and the counts of machines and worlds. All bounds have the confidence 95 %.
+/// @param points, predictions [point] statistics and predictions over all trials of the point
 layout::StoredStatistics stored_statistics(std::span<const measures::PointSummary> points,
                                            const study::Study& study,
                                            std::span<const theory::PointPrediction> predictions,
                                            const layout::MeasureTable& table);
 
-/// Gives those of all points of a file to `take`, in blocks of a chunk of the file: the memory does not grow
-/// with the number of points.
+/// Passes the stored statistics of all points of a file to `take`, in blocks that fill a chunk of the file.
+/// The memory does not grow with the number of points.
 /// @param file holds all trials of `study`. @param predictions see theory::study_predictions
-/// @param timeline gets spans of the stages; null: none
+/// @param timeline receives spans of the stages; may be null
 void take_stored_statistics(const reading::AllTrialsFile& file, const study::Study& study,
                             std::span<const theory::PointPrediction> predictions,
                             const std::function<void(const layout::StoredStatistics&)>& take,

@@ -121,8 +121,8 @@ constexpr std::int64_t points_of_block = 32;  // whose sums take 30 kB each
   throw Failure(ExitCode::bad_data, fmt::format("{}: {}", file.path().string(), what));
 }
 
-/// The jerks of some trials of a file, in their order, read in blocks of fixed size: a trial that never comes
-/// to rest may have thousands.
+/// The jerks of some trials of a file, in their order. They are read in blocks of fixed size, because a trial
+/// that never comes to rest may have thousands.
 class JerkStream {
  public:
   JerkStream(const reading::AllTrialsFile& file, layout::RowRange rows)
@@ -158,7 +158,7 @@ class JerkStream {
   }
 
   const reading::AllTrialsFile& file_;
-  std::int64_t end_;   ///< position in the table
+  std::int64_t end_;   ///< index, in the table of jerks, after the last jerk of the trials
   std::int64_t read_;  ///< index of the first jerk that is not in the block
   std::vector<layout::JerkRecord> block_;
   std::size_t next_{0};
@@ -171,43 +171,43 @@ std::int64_t jerks_of(std::span<const trial::MoveOutcome> moves) {
   return count;
 }
 
-/// Trials of a file in one chunk of it, which its blocks share.
+/// The trials in one chunk of a file. Blocks in the same chunk share this object.
 struct Chunk {
   reading::StoredOutcomes stored;
   std::once_flag once;
   reading::OutcomeColumns columns;
 };
 
-/// Trials of a file that follow one another, in one chunk, on their way to their sums.
+/// Consecutive trials in one chunk of a file, with the state of their summation.
 struct Block {
   layout::RowRange rows;
   std::shared_ptr<Chunk> chunk;
-  std::vector<std::int64_t> jerk_counts;  ///< [trial]
-  std::vector<trial::Jerk> jerks;         ///< until they are summed
-  std::vector<SummedPoint> sums;          ///< [point, from that of the first trial]
+  std::vector<std::int64_t> jerk_counts;  ///< [trial] number of jerks
+  std::vector<trial::Jerk> jerks;         ///< jerks of the trials, kept until they are summed
+  std::vector<SummedPoint> sums;          ///< [i] sums of the i-th point from that of the first trial on
   bool is_summed{false};
-  std::exception_ptr failure;  ///< why there are no sums
+  std::exception_ptr failure;  ///< the failure that prevented the sums; otherwise null
 };
 
 /// The sums of the trials `rows` of a file, in blocks that pass through the stages one after the other:
 ///
-///     fetch     one block at a time: read the bytes of the chunk that it begins
-///     decode    any thread: decode them, and how many jerks each trial has
-///     add_jerks one block at a time, in order: read its jerks; sum it where they are many
+///     fetch     one block at a time: if the block begins a chunk, read the bytes of the chunk
+///     decode    any thread: decode the bytes, and count the jerks of each trial
+///     add_jerks one block at a time, in order: read the jerks; if they are many, sum the block at once
 ///     sum       any thread: sum the trials at each point
-///     gather    one block at a time, in order: the sums of several blocks
-///     add       any thread: add them; one thread: add them to those of all trials
+///     gather    one block at a time, in order: collect the sums of several blocks
+///     add       any thread: add the collected sums; one thread: add the results to the sums of all trials
 ///
-/// A block has all trials of a chunk, or those of some points. What fails is kept for who takes the sums in
-/// order, so that it is the failure of the first trial.
+/// A block has all trials of a chunk, or those of some points. A failure is stored in its block and thrown
+/// when the sums are taken in order, so the failure of the first trial is reported.
 class BlockStages {
  public:
-  /// @param study, file and wanted stay as long as this
+  /// @param file, study, wanted must outlive this object
   BlockStages(const reading::AllTrialsFile& file, const study::Study& study, const Wanted& wanted,
               layout::RowRange rows)
       : file_(file), study_(study), wanted_(wanted), rows_(rows), end_(rows.end()), jerks_(file, rows) {}
 
-  /// The next block; null behind the last one, or one that failed.
+  /// The next block; null after the last block, or after a failure.
   std::shared_ptr<Block> fetch() {
     if (rows_.count == 0 || has_failed_) return nullptr;
     if (chunk_rows_.count == 0) {
@@ -304,7 +304,8 @@ class BlockStages {
     }
   }
 
-  /// @param jerks those from the first trial of the piece on; those of its trials are removed
+  /// Adds the trials of a piece to the sums. @param jerks jerks from the first trial of the piece on; the
+  /// jerks of the piece are removed
   void add_piece(SummedPoint& sums, layout::RowRange piece, const std::vector<trial::MoveOutcome>& outcomes,
                  std::span<const trial::Jerk>& jerks) const {
     const auto of_trial = static_cast<std::size_t>(file_.moves());
@@ -327,17 +328,17 @@ class BlockStages {
   const reading::AllTrialsFile& file_;
   const study::Study& study_;
   const Wanted& wanted_;
-  layout::RowRange rows_;        ///< in no block yet
-  std::int64_t end_;             ///< of all rows
-  layout::RowRange chunk_rows_;  ///< of the chunk, in no block yet
+  layout::RowRange rows_;        ///< rows that are not in a block yet
+  std::int64_t end_;             ///< end of all rows
+  layout::RowRange chunk_rows_;  ///< rows of chunk_ that are not in a block yet
   std::shared_ptr<Chunk> chunk_;
   JerkStream jerks_;
-  std::mutex library_;  ///< of the files: two stages call it
+  std::mutex library_;  ///< Guards the library that reads files; two stages call it.
   std::atomic<bool> has_failed_{false};
 };
 
-/// Number of blocks on their way. Each may hold a decoded chunk, of 6 MB with the usual measures; the other
-/// ones of many threads help to decode.
+/// Number of blocks in the pipeline at once. Each may hold a decoded chunk, 6 MB with the usual measures.
+/// Threads beyond that number help to decode.
 std::size_t blocks_at_once(std::size_t threads) {
   return std::min(threads + 2, threads / 4 + 6);
 }
@@ -346,7 +347,7 @@ std::size_t blocks_at_once(std::size_t threads) {
 using Sums = std::vector<SummedPoint>;
 constexpr std::size_t sums_added_at_once = 8;
 
-/// Adds those of the same point.
+/// The sums with consecutive elements of the same point added together.
 Sums added(Sums&& sums) {
   Sums all;
   for (SummedPoint& next : sums) {

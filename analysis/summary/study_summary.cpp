@@ -30,7 +30,7 @@
 namespace zerocount::summary {
 namespace {
 
-/// The hold of the moves at a point, s; NaN where trials differ in it.
+/// The hold of the moves at a point, s; NaN if the trials differ in it, or if the study is open-loop.
 double hold_of(const study::Study& study, std::int64_t point) {
   if (study.open_loop) return statistics::unknown;
   const bool recorded =
@@ -46,7 +46,7 @@ double hold_of(const study::Study& study, std::int64_t point) {
   return hold;
 }
 
-/// The unknowns, and what follows from those of the friction.
+/// The unknown parameters of the worlds, and the quantities derived from those of the friction.
 std::vector<worlds::WorldInput> inputs_of_worlds(const study::Study& study, std::int64_t point,
                                                  const measures::PointSummary& statistics) {
   std::vector<worlds::WorldInput> inputs = worlds::unknowns_of(study, point);
@@ -59,7 +59,7 @@ std::vector<worlds::WorldInput> inputs_of_worlds(const study::Study& study, std:
   return inputs;
 }
 
-/// Leaves the first `points` points.
+/// Removes all but the first `points` points.
 void shorten(StudySummary& summary, std::size_t points) {
   summary.labels.resize(points);
   for (study::SweepAxis& axis : summary.axes) {
@@ -68,12 +68,12 @@ void shorten(StudySummary& summary, std::size_t points) {
   }
 }
 
-/// Whether the statistics of a point need its trials from the first on, without gaps.
+/// Whether the statistics of a point need its trials from the first trial on, without gaps.
 bool depend_on_order(const study::Study& study) {
   return study.machines > 0 || study.worlds > 0 || study.design != study::Design::monte_carlo;
 }
 
-/// The points of a summary, as they are completed.
+/// An accumulator that appends each completed point to the summary.
 StudyAccumulator accumulator_of(const study::Study& study, StudySummary& summary, const Wanted& wanted) {
   return StudyAccumulator(study, wanted, [&summary, wanted](PointResults&& point) {
     summary.points.push_back(std::move(point.statistics));
@@ -106,7 +106,7 @@ class TrialsSoFar {
     }
   }
 
-  /// Nothing where no trial is finished.
+  /// The summary of the trials; empty if no trial is finished.
   std::optional<StudySummary> summary() {
     if (count_ == 0) return std::nullopt;
     accumulator_.finish();
@@ -117,8 +117,9 @@ class TrialsSoFar {
   }
 
  private:
-  /// Takes the trials that were not taken before. Where trials depend on one another, those that follow them:
-  /// every machine then has as many as there can be, and a design is spread as evenly.
+  /// Takes the trials of a file that were not taken before. If the statistics depend on the order of trials
+  /// (depend_on_order()), only trials that continue those taken are used: machines then have equal numbers of
+  /// trials, and a design is spread evenly.
   /// @param divisible whether some trials of a point can be taken without the others
   template <class Take>
   void add(const reading::ResultsFile& file, bool divisible, const Take& take) {
@@ -140,7 +141,7 @@ class TrialsSoFar {
   bool in_order_;
   std::vector<std::int64_t> counts_;  ///< [point]
   std::int64_t count_{0};
-  std::int64_t next_row_{0};  ///< after the rows that were taken
+  std::int64_t next_row_{0};  ///< global row after those that were taken
   StudySummary summary_;
   StudyAccumulator accumulator_;
 };

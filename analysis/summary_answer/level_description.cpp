@@ -16,18 +16,19 @@ using Level = const LevelReading&;
 
 constexpr double micro = 1e6;
 
-/// Decimals that show two digits of an uncertainty; none below 0, at most 9.
+/// Number of decimals that show two significant digits of an uncertainty, between 0 and 9.
 int decimals_below(double uncertainty) {
   return std::clamp(1 - static_cast<int>(std::floor(std::log10(uncertainty))), 0, 9);
 }
 
-/// `value` as precisely as its bounds allow; with four digits where they say nothing.
+/// `value` with the decimals that its uncertainty justifies; with four digits if the uncertainty is unknown
+/// or 0.
 std::string bounded_number(double value, double uncertainty) {
   if (!(uncertainty > 0.0)) return text::short_number(value);
   return fmt::format("{:.{}f}", value, decimals_below(uncertainty));
 }
 
-/// The position with its bounds, in the small unit.
+/// The mean position with its bounds, scaled by `micro`.
 std::string position_text(const measures::MeasureStatistics& position) {
   const statistics::ConfidenceInterval& bounds = position.mean_bounds;
   const double uncertainty = 0.5 * micro * (bounds.high - bounds.low);

@@ -16,25 +16,26 @@
 #include "analysis/summary/summary.hpp"
 #include "analysis/worlds/world_statistics.hpp"
 
-/// The parts that descriptions of a summary are put together of. Each adds what the study has of it: to a
-/// point its items, to the summary its table for people and the sentences on it.
+/// The parts of which the description of a summary is composed. Each part adds what the study has of it:
+/// items to a point, and to the summary a table for people with sentences.
 namespace zerocount::summary_answer {
 
-/// A design point, with what is found out of it alone.
+/// A design point with the results that depend on it alone.
 struct PointReading {
   const summary::StudySummary& summary;
   std::int64_t point{0};
-  bool marked{false};                      ///< it is the chosen one of several
-  std::optional<goal::Verdict> verdict{};  ///< with a goal, of a point with trials
+  bool marked{false};                      ///< The point was chosen from several.
+  std::optional<goal::Verdict> verdict{};  ///< Empty without a goal, and for a point without trials.
   std::optional<worlds::PointWorlds> worlds{};
-  std::optional<summary::ObservedComparison> observed{};  ///< where counts were observed on the real machine
+  /// Comparison with the counts on the real machine; empty without observed counts.
+  std::optional<summary::ObservedComparison> observed{};
 
   std::size_t index() const { return static_cast<std::size_t>(point); }
   const std::string& label() const { return summary.labels[index()]; }
   const measures::PointSummary& statistics() const { return summary.points[index()]; }
 };
 
-/// The level of a point of an open-loop study.
+/// A torque level at a point of an open-loop study.
 struct LevelReading {
   const PointReading& point;
   std::size_t level{0};
@@ -47,23 +48,23 @@ struct Confirmation {
   std::int64_t point{0};
   std::uint64_t seed{0};
   std::int64_t trials{0};
-  std::int64_t machines{0};                   ///< 0: no trials share one that they were drawn for
-  std::int64_t successes{0};                  ///< trials all of whose moves ended at zero error
-  std::vector<measures::CellCounts> goals{};  ///< [goal]
+  std::int64_t machines{0};   ///< Number of machines on which the trials run; 0: no trials share one.
+  std::int64_t successes{0};  ///< trials all of whose moves ended at zero error
+  std::vector<measures::CellCounts> goals{};  ///< [goal] counts of the moves that meet the goal
 };
 
-/// How a summary is shown.
+/// Options for showing a summary.
 struct SummaryForm {
-  std::vector<std::int64_t> points{};    ///< that are shown, in their order; empty: all
-  std::optional<std::int64_t> chosen{};  ///< point that the headline is of; nothing: the best
-  bool legend{false};                    ///< the columns of the tables are explained
+  std::vector<std::int64_t> points{};    ///< Numbers of the points to show, in their order; empty: all.
+  std::optional<std::int64_t> chosen{};  ///< Point of the headline; empty: the best point.
+  bool legend{false};                    ///< Explain the columns of the tables.
 };
 
-/// A summary with all that its answer needs.
+/// A summary with all results that its answer needs.
 struct SummaryReading {
   const summary::StudySummary& summary;
   summary::ChosenPoint chosen;
-  std::vector<PointReading> points;  ///< those that are shown, in their order
+  std::vector<PointReading> points;  ///< The points that are shown, in their order.
   bool legend{false};
   std::optional<Confirmation> confirmation{};
 
@@ -72,8 +73,8 @@ struct SummaryReading {
 
 PointReading read_point(const summary::StudySummary& summary, std::int64_t point);
 
-/// @param summary stays as long as the reading
-/// @throws Failure (bad_data) unless the summary is consistent
+/// Computes the results for the answer of a summary. @param summary must outlive the result
+/// @throws Failure (bad_data) if the summary is inconsistent
 SummaryReading read_summary(const summary::StudySummary& summary, const SummaryForm& form = {});
 
 /// An item that is shown in JSON only.
@@ -87,86 +88,88 @@ inline document::Item in_json(std::string key, std::string meaning, std::string 
 using PointDescription = document::Description<PointReading>;
 using SummaryDescription = document::Description<SummaryReading>;
 
-/// A design point in data, by names as in datasets.md, and as a row for people: what the study has. A column
-/// for people has its line of the legend as its meaning, or none.
-/// @param summary of the study; its points decide which columns people are shown
+/// The items of a design point: in data with the names of datasets.md, and as a row for people. A column for
+/// people has its line of the legend as Item::meaning, or no meaning.
+/// @param summary summary of the study; its points decide which columns people are shown
 PointDescription point_description(const summary::StudySummary& summary);
 
-/// A level of a point of an open-loop study, likewise.
+/// The items of a torque level: in data, and as a row for people.
 document::Description<LevelReading> level_description(const summary::StudySummary& summary);
 
-/// The meanings of the columns for people, a line each.
+/// The legend: the meanings of the columns for people, one line each.
 std::string legend_of(const std::vector<document::Item>& columns);
 
-/// A quantile of the settling times of all moves of a point, or a bound of it, as text: four significant
-/// digits, "> 1 s" if it is not reached within the hold, "> hold" if trials differ in theirs, "–" if there is
-/// no move with a target.
-/// @param time s; NaN if not reached
+/// Text of a quantile of the settling times of all moves of a point, or of a bound of it: four significant
+/// digits;
+/// "> 1 s" if the quantile is not reached within the hold, "> hold" if trials differ in their hold; "–" if no
+/// move has a target.
+/// @param time the quantile, s; NaN if not reached
 std::string settling_text(const measures::PointSummary& point, double time);
 
-/// A number, or the name of a case.
+/// Value of a swept parameter: a number, or the name of a case.
 using AxisValue = std::variant<double, std::string>;
 AxisValue value_at(const study::SweepAxis& axis, const PointReading& point);
 
-/// What tells points apart: number, label, and the swept parameters, with a column for each where these are
-/// few. In a grid, whose labels only repeat the swept values, people are shown the number of the point in
-/// place of the label. A star marks the chosen point among several.
+/// Adds the items that identify a point: number, label, and the swept parameters. If there are few swept
+/// parameters, each has a column. The labels of a grid only repeat the swept values, so people see the number
+/// of the point instead. A star marks the chosen point among several.
 void add_axes(PointDescription& point, const summary::StudySummary& summary);
 
 /// "95 % bounds", with the confidence of the summary.
 std::string bounds_head(const summary::StudySummary& summary);
 
-/// The number of trials of every point; nothing where points differ in it.
+/// The number of trials of every point; empty if the points have different numbers.
 std::optional<std::int64_t> trials_of_each(const summary::StudySummary& summary);
 
-/// The columns for people of a study with targets, the most important first: what the study is judged by,
-/// then zero counts, arrival, jerks, stability and the paper's criteria, in a table of their own where the
-/// study has a goal.
+/// Adds the columns for people of a study with targets, the most important ones first: the criteria by which
+/// the study is judged, then zero counts, arrival, jerks, stability and the paper's criteria. If the study
+/// has a goal, the latter are in a separate table, zero_count_table().
 void add_question_columns(PointDescription& point, const summary::StudySummary& summary);
 
-/// The title of that table; empty where a study is judged by zero counts.
+/// Title of the table of zero counts; empty if the study is judged by zero counts and needs no separate
+/// table.
 inline const char* zero_count_table(const summary::StudySummary& summary) {
   return summary.question.claim() ? "zero counts" : "";
 }
 
-/// The short labels of the points.
+/// A function that returns the short label of a point.
 std::function<std::string(const PointReading&)> short_label(const summary::StudySummary& summary);
 
-/// The description of the table of a part, with the column "point".
+/// The description of a part's table, begun with the column "point".
 PointDescription labelled_points(const summary::StudySummary& summary);
 
 void add_goal(PointDescription& point, const summary::StudySummary& summary);
 document::Description<goal::ClaimVerdict> verdict_description(const goal::Question& question,
                                                               bool on_machines);
 
-/// Moves that are off target: their numbers, and the hold that would decide them.
+/// Adds the undecided moves: their numbers, and the hold that would decide them.
 void add_undecided(PointDescription& point, const summary::StudySummary& summary);
 
-/// Whether the counts on the real machine are consistent with the simulated trials.
+/// Adds whether the counts on the real machine are consistent with the simulated trials.
 void add_observed(PointDescription& point, const summary::StudySummary& summary);
 
-/// The rates of the worlds, and what the bad ones have in common; the point under each condition, at each
-/// age; and of a study with several claims each goal under each condition.
+/// Adds the proportions of the worlds with what the bad worlds have in common, the point under each condition
+/// and at each age, and, for a study with several claims, each goal under each condition.
 void add_cells(PointDescription& point, const summary::StudySummary& summary);
-/// Whether the study claims several things: goals, or one under several conditions.
+/// Whether the study has several claims: several goals, or a goal under several conditions.
 bool has_several_claims(const summary::StudySummary& summary);
-/// The claims on the chosen point, for people.
+/// Adds the claims on the chosen point, for people.
 void add_claims(SummaryDescription& answer, const summary::StudySummary& summary);
 
-/// The bounds of the success rate that hold although the study looked after every block and decided itself
-/// how many trials it took (`stop`).
+/// Adds bounds of the success rate that hold although the study looked at the outcomes after every block and
+/// decided the number of trials itself (`stop`).
 ///
-/// With machines they are bounds of the mean over the machines of the study, whose trials the rule is about:
-/// every machine has run equally many at each look, and the product of the likelihood ratios of trials with
-/// different probabilities pᵢ is no larger on average than that of trials which all have their mean (the
-/// geometric mean is not above the arithmetic). How far other machines differ, more trials on these do not
-/// tell.
+/// With machines they bound the mean over the machines of the study, because the rule is about the trials of
+/// these machines. Every machine has run equally many trials at each look. The product of the likelihood
+/// ratios of trials with different probabilities pᵢ is on average no larger than for trials that all have the
+/// mean probability (the geometric mean does not exceed the arithmetic mean). The bounds do not cover other
+/// machines: more trials on the same machines do not tell how far others differ.
 void add_stopping(PointDescription& point, const summary::StudySummary& summary);
 
-/// What the trials of a point show of all axes that the manifest describes, as tolerance statements.
+/// Adds tolerance statements: what the trials of a point show about all machines that the manifest describes.
 void add_assurance(PointDescription& point, const summary::StudySummary& summary);
 
-/// The values of ISO 230-2 of a study with a sequence.
+/// Adds the values of ISO 230-2 for a study with a sequence.
 void add_repeatability(PointDescription& point, const summary::StudySummary& summary);
 void add_repeatability(SummaryDescription& answer, const summary::StudySummary& summary);
 

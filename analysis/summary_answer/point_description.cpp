@@ -28,7 +28,8 @@ namespace {
 using document::Shown;
 using Point = const PointReading&;
 
-/// More swept parameters than this make the table too wide: the labels alone tell the points apart.
+/// Largest number of swept parameters with columns of their own. With more, the table would be too wide, and
+/// only the labels identify the points.
 constexpr std::size_t max_swept_columns = 4;
 
 std::string shown_value(const study::SweepAxis& axis, Point p) {
@@ -40,7 +41,7 @@ std::string shown_value(const study::SweepAxis& axis, Point p) {
   return fmt::format("{:.6g}", value);
 }
 
-/// Whether the labels are those of a grid, which name its values: "fast, controller.kp=0.0003".
+/// Whether the labels name swept values, as those of a grid do: "fast, controller.kp=0.0003".
 bool labels_name_values(const summary::StudySummary& summary,
                         const std::vector<const study::SweepAxis*>& swept) {
   return std::ranges::any_of(swept, [&](const study::SweepAxis* axis) {
@@ -68,7 +69,7 @@ void add_statistics(PointDescription& point, const summary::StudySummary& summar
   measures::add_by_limit(point, of_tolerances, measures::list_of_tolerances(axis), axis, statistics_of);
 }
 
-/// A move of the trials of a point.
+/// A move, over all trials of a point.
 struct MoveReading {
   const measures::PointSummary& point;
   std::size_t move;
@@ -107,14 +108,14 @@ theory::PointPrediction prediction_at(Point p) {
   return p.summary.predictions.empty() ? theory::PointPrediction{} : p.summary.predictions[p.index()];
 }
 
-/// The proportion of trials to which the criteria apply.
+/// A function that returns these trials as a proportion of the trials to which the criteria apply.
 auto proportion_of(std::int64_t theory::PointPrediction::*trials) {
   return [trials](const theory::PointPrediction& prediction) {
     return statistics::rate(prediction.*trials, theory::predicted_trials(prediction));
   };
 }
 
-/// Columns for people where the criteria apply to some trial.
+/// Adds the predictions of the criteria; people see their columns if the criteria apply to some trial.
 void add_prediction(PointDescription& point, const summary::StudySummary& summary) {
   using P = theory::PointPrediction;
   const auto proportion = [](const char* heading, std::string_view column, const char* key,
@@ -153,7 +154,7 @@ std::optional<std::string> observed_on_machine(Point p) {
   return seen.empty() ? std::nullopt : std::optional(seen);
 }
 
-/// Columns for people that explain themselves, with their meaning; those of a group stand in the group.
+/// Appends the meanings of the columns for people, including the columns of objects, to the legend.
 void add_legend(std::string& legend, const std::vector<document::Item>& columns) {
   for (const document::Item& column : columns) {
     if (!document::is_shown(column.shown, document::Audience::people)) continue;
@@ -252,7 +253,7 @@ using Point = const PointReading&;
 using Statistics = const measures::PointSummary&;
 using summary::StudySummary;
 
-/// Whether some point of the table `is` so.
+/// Whether `is` returns true for any point of the table.
 template <typename Is>
 bool any_point(const StudySummary& summary, Is is) {
   return std::ranges::any_of(summary::complete_points(summary), [&](std::int64_t point) {
@@ -264,8 +265,8 @@ bool any_undecided(const StudySummary& summary) {
   return any_point(summary, [](Statistics point) { return point.outcomes.off_target > 0; });
 }
 
-/// An outcome of a trial, that of its worst move, that is not stable. With the stable trials and the
-/// undecided ones, which ended off target, these are all.
+/// An outcome of a trial (that of its worst move) that is not stable. Every trial is either stable, undecided
+/// (ended off target), or has one of these outcomes.
 struct NotStable {
   const char* head;
   std::int64_t (*trials)(Statistics point);
@@ -286,7 +287,7 @@ constexpr std::array<NotStable, 2> not_stable{
       "end, "
       "or that was lost"}}};
 
-/// Whether these are many enough at some point to have a column.
+/// Whether these trials are frequent enough at some point to have a column.
 bool is_shown(const StudySummary& summary, const NotStable& reason) {
   constexpr double min_proportion = 0.02;
   return any_point(summary, [&](Statistics point) {
@@ -294,14 +295,15 @@ bool is_shown(const StudySummary& summary, const NotStable& reason) {
   });
 }
 
-/// With one trial per machine, machines without a failure are the trials without one.
+/// Whether machines have several trials at some point. With one trial per machine, a column for machines
+/// without a failure would repeat that of trials.
 bool has_several_trials_of_machines(const StudySummary& summary) {
   return any_point(summary,
                    [](Statistics point) { return point.machines.n > 0 && point.trials > point.machines.n; });
 }
 
-/// A column of text that is made of the statistics of a point. @param table its title; empty: that of the
-/// points
+/// Adds a column of text made from the statistics of a point. @param table title of the table; empty: the
+/// table of points
 template <typename Cell>
 void add_cells(PointDescription& point, const std::string& table, const std::string& heading,
                const std::string& meaning, Cell cell) {
@@ -325,7 +327,7 @@ void add_success(PointDescription& point, const StudySummary& summary) {
       });
 }
 
-/// Machines without a failure by the question; with a claim those without a miss of the worst claim.
+/// Percentage of machines without a failure; with a claim, of machines without a miss of the worst claim.
 std::string faultless_machines(Point p, const goal::Question& question) {
   if (question.claim() && p.verdict)
     return text::percentage(p.verdict->machines_without_miss, p.statistics().machines.n);
@@ -364,7 +366,7 @@ void add_outcomes(PointDescription& point, const StudySummary& summary) {
   add_machines(point, table, summary, goal::success(summary.question));
 }
 
-/// Only where points differ in it.
+/// Adds the column of the number of trials, if points differ in it.
 void add_trials(PointDescription& point, const StudySummary& summary) {
   if (trials_of_each(summary)) return;
   point.value({.heading = "trials"}, [](Point p) { return p.statistics().trials; });
@@ -397,7 +399,7 @@ std::string cell_text(layout::CellText text, Statistics point, double value) {
   return text::short_number(value);
 }
 
-/// " [low, high]", with percent signs only in the cell before; nothing without bounds.
+/// " [low, high]", without percent signs, which the cell before has. Empty without bounds.
 std::string bounds_text(const layout::SummaryColumn& column, const measures::MeasureStatistics& statistics) {
   if (!column.bounds) return "";
   const double low = measures::value_of(column.bounds->low, statistics);
@@ -407,7 +409,8 @@ std::string bounds_text(const layout::SummaryColumn& column, const measures::Mea
   return fmt::format(" [{}, {}]", text::short_number(low), text::short_number(high));
 }
 
-/// The lines of a legend, joined. With a second mass the rotor is the mass whose encoder closes the loop.
+/// The legend of a measure as one line. On an axis with two masses, "the rotor" is replaced by the mass whose
+/// encoder closes the loop.
 std::string legend_line(const StudySummary& summary, const layout::Measure& measure) {
   std::string legend = parameters::text_on(summary.features.axis, measure.summary.legend);
   std::string_view mass = summary.question.of_mass;
@@ -431,7 +434,7 @@ void add_measure(PointDescription& point, const std::string& table, const StudyS
   }
 }
 
-/// Whether the settling times of the goal are those of a measure of all moves.
+/// Whether the settling times of the goal are those of a measure over all moves.
 bool asks_all_moves_alike(const goal::Question& question) {
   return !has_several(question) && question.conditions.empty() && question.counted().on.empty();
 }

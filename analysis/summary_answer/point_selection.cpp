@@ -32,7 +32,8 @@ namespace {
 
 using summary::StudySummary;
 
-/// "band_settling_time_p95[1]" for "band_settling_time[1].p95".
+/// Name of the CSV column for the name of a value: "band_settling_time_p95[1]" for
+/// "band_settling_time[1].p95".
 std::string column_name(std::string_view name) {
   std::string column(name);
   const std::size_t open = column.find('[');
@@ -46,7 +47,7 @@ std::string column_name(std::string_view name) {
   return column;
 }
 
-/// The swept parameter of this name, in full or short; null if there is none.
+/// The swept parameter with this full or short name; null if there is none.
 const study::SweepAxis* find_axis(const StudySummary& summary, std::string_view name) {
   for (const study::SweepAxis& axis : summary.axes) {
     if (axis.name == name || summary::short_name(summary.axes, axis) == name) return &axis;
@@ -60,7 +61,7 @@ std::string known_names(const StudySummary& summary) {
   return names + "label, point, success_rate, arrival_time_p95 and the other columns of --format csv";
 }
 
-/// [point] the numbers in the column of the CSV; nothing where it has no such column.
+/// [point] the numbers in a column of the CSV; empty if the CSV has no such column.
 std::optional<std::vector<double>> csv_values(const StudySummary& summary, const std::string& name) {
   const document::Description<PointReading> description = point_description(summary);
   const auto is_column = [&](const auto& cell) { return cell.first == name; };
@@ -82,7 +83,7 @@ std::optional<std::vector<double>> csv_values(const StudySummary& summary, const
 
 using KnownValues = std::map<std::string, std::vector<double>>;
 
-/// [point] the value of this name.
+/// [point] the value with this name.
 std::vector<double> values_of(const StudySummary& summary, std::string_view name, const KnownValues& known) {
   const study::SweepAxis* const axis = find_axis(summary, name);
   if (axis != nullptr && axis->kind == study::SweepAxis::Kind::number) return axis->numbers;
@@ -96,15 +97,15 @@ std::vector<double> values_of(const StudySummary& summary, std::string_view name
                 fmt::format("unknown value '{}'; expected {}", name, known_names(summary)));
 }
 
-/// [point] the text of this name: a swept choice of names, or the labels; null where the name is not of
-/// texts.
+/// [point] the text with this name: the names of a swept choice, or the labels. Null if the name does not
+/// stand for texts.
 const std::vector<std::string>* texts_of(const StudySummary& summary, std::string_view name) {
   if (const study::SweepAxis* const axis = find_axis(summary, name))
     return axis->kind == study::SweepAxis::Kind::text ? &axis->texts : nullptr;
   return name == "label" ? &summary.labels : nullptr;
 }
 
-/// [point] the place of each text among all in alphabetical order.
+/// [point] rank of the text among all texts in alphabetical order.
 std::vector<double> ranks_of(const std::vector<std::string>& texts) {
   std::vector<std::string> sorted = texts;
   std::ranges::sort(sorted);
@@ -128,14 +129,14 @@ text::Relation parts_of_condition(std::string_view condition) {
   return *parts;
 }
 
-/// Without the quotation marks around it.
+/// The text without quotation marks around it.
 std::string_view unquoted(std::string_view text) {
   const bool quoted =
       text.size() >= 2 && text.front() == text.back() && (text.front() == '"' || text.front() == '\'');
   return quoted ? text.substr(1, text.size() - 2) : text;
 }
 
-/// Some of the different texts, in their order.
+/// The first few distinct texts, in their order.
 std::string names_among(const std::vector<std::string>& texts) {
   constexpr std::size_t shown = 8;
   std::vector<std::string> names;
@@ -148,7 +149,8 @@ std::string names_among(const std::vector<std::string>& texts) {
   return fmt::format("{}{}", fmt::join(names, ", "), more ? ", …" : "");
 }
 
-/// [point] whether the text is that of the condition, or is not.
+/// [point] whether the condition on a text, = or !=, holds.
+/// @throws Failure (bad_input) if no point has the text, or for another relation
 std::vector<bool> texts_hold(const std::vector<std::string>& texts, const text::Relation& condition) {
   const std::string_view wanted = unquoted(condition.limit);
   const bool equal = condition.sign == text::Sign::equal;
@@ -250,11 +252,12 @@ namespace {
 
 using summary::StudySummary;
 
-/// Points whose statistics are computed one by one; with more it is quicker to read the file from end to end.
+/// Largest number of points whose statistics are computed one by one. For more points it is quicker to read
+/// the file from end to end.
 constexpr std::size_t max_selected = 200;
 
-/// A statistic of the points in the file: [point], or of an error band "NAME[b]". Nothing where the file does
-/// not have it.
+/// [point] a statistic that the file stores; "NAME[b]" for the statistic of an error band. Empty if the file
+/// does not store it.
 std::optional<std::vector<double>> stored_statistic(const reading::AllTrialsFile& file,
                                                     const std::string& name) {
   const std::size_t open = name.find('[');
@@ -282,7 +285,7 @@ std::optional<std::vector<double>> stored_statistic(const reading::AllTrialsFile
   return values;
 }
 
-/// The only measure by which points are compared.
+/// A table with the only measure by which points are compared: settling_measure().
 std::shared_ptr<const layout::MeasureTable> measures_of_merit(const reading::AllTrialsFile& file,
                                                               const goal::Question& question) {
   auto table = std::make_shared<layout::MeasureTable>();
@@ -313,7 +316,7 @@ void count_goal(StudySummary& summary, const reading::AllTrialsFile& file, const
   }
 }
 
-/// Whether more than the settling times of all moves is asked.
+/// Whether the goal depends on more than the settling times of all moves in its band.
 bool needs_outcomes(const measures::CountedGoal& goal) {
   return !goal.on.empty() || !goal.limits.empty() || goal.tolerance || goal.within.after_profile;
 }
@@ -365,7 +368,7 @@ bool read_predictions(StudySummary& summary, const reading::AllTrialsFile& file)
   return true;
 }
 
-/// The summary of these points alone; its axes are those of all points.
+/// The summary of these points alone. Its axes are still those of all points.
 StudySummary summary_of_points(const StudySummary& summary, const reading::AllTrialsFile& file,
                                const study::Study& study, std::span<const std::int64_t> numbers,
                                bool bootstrap) {

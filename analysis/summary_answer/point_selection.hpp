@@ -11,42 +11,42 @@
 #include "analysis/summary/summary.hpp"
 #include "results/layout/measure_table.hpp"
 
-/// Which design points a table shows, and in which order.
+/// Selection and order of the design points that a table shows.
 namespace zerocount::summary_answer {
 
 /// The points that a user asks for.
 struct PointSelection {
-  std::optional<std::string> sort{};  ///< name of a value, with a leading '-' from the largest on; or "best"
-  std::vector<std::string> where{};   ///< conditions, such as "kp > 0" or "success_rate ≥ 0.9"
-  std::optional<std::int64_t> top{};  ///< so many of them, by points_by_merit() unless sorted otherwise
+  std::optional<std::string> sort{};  ///< Name of a value, with '-' in front for descending order; or "best".
+  std::vector<std::string> where{};   ///< Conditions, such as "kp > 0" or "success_rate ≥ 0.9".
+  std::optional<std::int64_t> top{};  ///< Number of points: the first by `sort`, or by points_by_merit().
 };
 
-/// The values that a selection needs: the names of swept parameters left out.
+/// The names of the values that a selection needs, without the names of swept parameters.
 std::vector<std::string> columns_needed(const summary::StudySummary& summary,
                                         const PointSelection& selection);
 
-/// Whether it names a bound of a mean by resampling ("arrival_time.mean_low").
+/// Whether the selection names a bound of a mean by resampling ("arrival_time.mean_low").
 bool needs_mean_bounds(const PointSelection& selection);
 
-/// @throws Failure (bad_input) where the summary has no value of a name that is needed
+/// @throws Failure (bad_input) if the summary lacks a value that the selection needs
 void require_columns(const summary::StudySummary& summary, const PointSelection& selection);
 
-/// The points that meet all conditions, in their order; `top` is left out of account. Values have the names
-/// of the columns of the CSV, where a '.' may stand for '_' ("arrival_time.p95"), and those of swept
-/// parameters, which may be shortened to an end that no other has ("ki"). A number may be written as answers
-/// show it, rounded (text::values_as_written). A value that is NaN comes last, and meets no condition. Names,
-/// such as those of cases and labels, are equal (= or ==) or not (!=), and are sorted by the alphabet.
-/// @throws Failure (bad_input) for an unknown name or a condition that is none, (inconclusive) if no point
-/// is left
-/// @param known [name of a column][point] values that the file stores, in place of those of the statistics
+/// The points that meet all conditions, in the order of the selection; `top` is ignored. Values are named
+/// like the columns of the CSV, with '.' allowed for '_' ("arrival_time.p95"), or like swept parameters,
+/// which may be shortened to a unique end ("ki"). A number may be rounded as answers show it
+/// (text::values_as_written). NaN is sorted last and meets no condition. Texts, such as names of cases and
+/// labels, can be compared by =, == and !=, and are sorted alphabetically.
+/// @throws Failure (bad_input) for an unknown name or an invalid condition, (inconclusive) if no point is
+/// left
+/// @param known [name of a column][point] values that the file stores; they replace those of the statistics
 std::vector<std::int64_t> matching_points(const summary::StudySummary& summary,
                                           const PointSelection& selection,
                                           const std::map<std::string, std::vector<double>>& known = {});
 
-/// The first of the points, as many as the selection asks for.
+/// The first PointSelection::top points; all points if `top` is empty.
 std::vector<std::int64_t> first_points(std::vector<std::int64_t> points, const PointSelection& selection);
 
-/// The first_points() of the matching_points().
+/// The selected points: first_points() of matching_points().
 std::vector<std::int64_t> selected_points(const summary::StudySummary& summary,
                                           const PointSelection& selection);
 
@@ -59,14 +59,14 @@ struct SelectedSummary {
   std::shared_ptr<const layout::MeasureTable> measures{};
 };
 
-/// The summary of few of the points of a complete results file: the points are selected, and the one that the
-/// text speaks of is chosen, by the statistics that the file stores. All others are computed of the selected
-/// ones and the chosen one alone, so that a few of 10⁵ points take seconds and bytes of each.
-/// @param point the one that the text speaks of; nothing: the best
-/// @returns nothing where all points are to be summarised: without a selection, or with many selected points,
-/// where the file does not store what they are selected by, and for studies with worlds, `stop`, torque
-/// levels or a sequence
-/// @throws Failure as summarise() and selected_points()
+/// The summary of a few points of a complete results file. The points are selected, and the point of the
+/// headline is chosen, by the statistics that the file stores. All other statistics are computed only for
+/// these points, so a selection from 10⁵ points takes seconds, and a few bytes per point.
+/// @param point the point of the headline; empty: the best
+/// @returns empty if all points must be summarised: without a selection, with many selected points, if the
+/// file does not store the values used for the selection, and for studies with worlds, `stop`, torque levels
+/// or a sequence
+/// @throws Failure in the cases of summarise() and selected_points()
 std::optional<SelectedSummary> summarise_selected(const std::filesystem::path& path, bool bootstrap,
                                                   const PointSelection& selection,
                                                   std::optional<std::int64_t> point);

@@ -32,14 +32,14 @@ const PointRepeatability& repeatability_of(Point p) {
   return p.summary.repeatability->points[p.index()];
 }
 
-/// The values of a point, and of one of its targets, by one scale.
+/// The repeatability values of a point, and of one of its targets, from one source of deviations.
 struct SourceReading {
   const PointReading& point;
   std::size_t source;
   std::size_t target{0};
 
   const DeviationSource& from() const { return (*point.summary.repeatability->sources)[source]; }
-  /// The mass whose positions these are. Nothing on an axis with one mass, or where trials of the point
+  /// The mass to which the positions belong. Empty on an axis with one mass, and if trials of the point
   /// differ.
   std::optional<motion::EncoderPlace> mass() const {
     return from().other ? from().other : repeatability_of(point).closing;
@@ -57,7 +57,7 @@ std::span<const ValueStatistics> of_target(Source s) {
   return s.values().targets[s.target];
 }
 
-/// An object for each value, with its statistics over the trials.
+/// Adds an object for each value, with the statistics of the value over the trials.
 template <class Values>
 void add_values(SourceDescription& description, std::span<const RepeatabilityField<Values>> fields,
                 bool of_targets, std::span<const ValueStatistics> (*statistics)(Source)) {
@@ -144,7 +144,7 @@ void add_csv_columns(PointDescription& point, const iso230::RepeatabilitySummary
   }
 }
 
-/// Positions are shown as the trade states them: in seconds of arc, or µm.
+/// The unit in which people see positions: seconds of arc, or µm, as is usual in the trade.
 std::string shown_unit(const DeviationSource& source, parameters::AxisKind axis) {
   return source.unit == "rad" ? parameters::unit_on(axis, "arcsec") : source.unit;
 }
@@ -155,7 +155,7 @@ double in_shown_unit(const DeviationSource& source, parameters::AxisKind axis, d
   return value / (axis == parameters::AxisKind::linear ? micrometre : arcsec);
 }
 
-/// Three digits, or all of a larger whole part.
+/// The value with three significant digits; larger values as whole numbers.
 std::string three_digits(double value) {
   return std::abs(value) < 999.5 ? fmt::format("{:.3g}", value) : fmt::format("{:.0f}", value);
 }
@@ -167,14 +167,16 @@ std::string median_and_p95(const DeviationSource& source, parameters::AxisKind a
                      three_digits(in_shown_unit(source, axis, value.p95.value)));
 }
 
-/// Whether the source repeats another at its point: the mass closes the loop there, or there is one mass.
+/// Whether the source repeats another one at the point, because its mass closes the loop there or the axis
+/// has only one mass.
 bool is_repeated(const SourceReading& reading) {
   const std::optional<motion::EncoderPlace> other = reading.from().other;
   const PointRepeatability& point = repeatability_of(reading.point);
   return other && (!point.has_load || point.closing == other);
 }
 
-/// The readings of all points and sources; in a table of targets of all targets.
+/// The readings of all points and sources, for each of the first `targets` targets. @param targets 1 for
+/// tables without targets
 std::vector<SourceReading> rows_of(const SummaryReading& s, std::size_t targets) {
   std::vector<SourceReading> rows;
   for (const PointReading& point : s.points) {
@@ -198,7 +200,7 @@ void add_source(SourceDescription& columns, parameters::AxisKind axis) {
   });
 }
 
-/// The values that the directions of the sequence define, the most telling ones of them.
+/// The most informative of the values that the approach directions of a sequence define.
 template <typename Values>
 struct ShownValues {
   std::vector<double Values::*> of_both, of_positive, of_negative;
@@ -210,7 +212,7 @@ struct ShownValues {
   }
 };
 
-/// A column for each shown value: its median and 95 % quantile over the trials.
+/// Adds a column for each shown value, with the median and 95 % quantile of the value over the trials.
 template <typename Values>
 void add_columns(SourceDescription& columns, std::span<const RepeatabilityField<Values>> fields,
                  const ShownValues<Values>& shown, const iso230::RepeatabilitySummary& summary,
@@ -224,7 +226,8 @@ void add_columns(SourceDescription& columns, std::span<const RepeatabilityField<
   }
 }
 
-/// The proportion of trials that repeat exactly, with its bounds; only of the encoder.
+/// The proportion of trials that repeat exactly, with bounds. Only for readings of the encoder; otherwise
+/// empty.
 std::optional<document::Bounded> zero_proportion(Source s) {
   const PointRepeatability& point = repeatability_of(s.point);
   if (s.from().unit != "count" || !point.zero_repeatability) return std::nullopt;
@@ -277,7 +280,7 @@ std::string title_of_repeatability(const SequenceShape& shape) {
                      text::counted(shape.targets, "target"), from, text::counted(shape.cycles, "cycle"));
 }
 
-/// A line for each point at which all trials repeat exactly: what 100 % is worth.
+/// A line for each point at which all trials repeat exactly, with the bound that this demonstrates.
 std::string exact_points(const SummaryReading& s) {
   const auto label = short_label(s.summary);
   const double confidence = s.summary.repeatability->confidence;

@@ -28,14 +28,14 @@ const SummaryReading& same_summary(Summary s) {
   return s;
 }
 
-/// Machines that have trials; of an unfinished run, at the point with most of them.
+/// Number of machines with trials; in an unfinished run, at the point with the most machines.
 std::int64_t machines_of(const StudySummary& summary) {
   std::int64_t machines = 0;
   for (const measures::PointSummary& point : summary.points) machines = std::max(machines, point.machines.n);
   return machines;
 }
 
-/// "paper-gains: 8 points × 2000 trials on 100 machines".
+/// The size of the study: "paper-gains: 8 points × 2000 trials on 100 machines".
 std::string size_line(const StudySummary& summary) {
   std::string line =
       fmt::format("{}: {}", text::printable(summary.name), text::counted(summary.points.size(), "point"));
@@ -52,7 +52,7 @@ std::string headline(Summary s) {
   return summary::claim_of_chosen_point(s.summary, s.chosen);
 }
 
-/// What the headline rests on.
+/// The reasons for the headline; empty for an open-loop study.
 std::string details(Summary s) {
   if (s.summary.features.open_loop) return {};
   if (s.summary.question.claim())
@@ -69,8 +69,8 @@ std::string study_lines(Summary s) {
          (unfinished.empty() ? "" : unfinished + "\n") + design_line(s.summary);
 }
 
-/// A line for every point with trials whose motion was lost: they count as failures, and the reader must
-/// know.
+/// A line for every point with trials whose motion was lost. The reader must know of them because they count
+/// as failures.
 std::string nonfinite_lines(Summary s) {
   std::string lines;
   for (const PointReading& point : s.points) {
@@ -96,7 +96,7 @@ document::Description<summary::UnfinishedStudy> unfinished_description() {
              &Unfinished::trials);
 }
 
-/// A swept number at the end of its range, at the chosen point.
+/// A swept number that is at the end of its range at the chosen point.
 struct EndReading {
   const StudySummary& summary;
   std::int64_t point;
@@ -138,7 +138,7 @@ struct ConfirmationReading {
   const StudySummary& summary;
   const Confirmation& confirmed;
 
-  /// The new trials as those of a point.
+  /// A point summary with only the goal counts of the new trials.
   measures::PointSummary point() const {
     measures::PointSummary point;
     point.goals = confirmed.goals;
@@ -153,8 +153,8 @@ struct ConfirmationReading {
                                                      : fmt::format(" on {} machines", confirmed.machines),
                        summary.question.worlds > 0 ? ", on average over new worlds" : "");
   }
-  /// Clopper–Pearson bounds, where the trials are independent: unless they share machines, in a study with a
-  /// goal.
+  /// Clopper–Pearson bounds of the success rate. Empty if the trials are dependent: if several share a
+  /// machine, or the study has conditions.
   std::optional<statistics::ConfidenceInterval> bounds() const {
     if (confirmed.machines > 0 && !has_one_trial_per_machine()) return std::nullopt;
     if (!summary.conditions.empty()) return std::nullopt;  // a machine has a trial under each
@@ -199,7 +199,7 @@ document::Description<ConfirmationReading> confirmation_description(const StudyS
   return description;
 }
 
-/// The items in JSON of both types of answers; what one of them lacks is optional.
+/// The items in JSON of two types of answers. Items that one of them lacks are optional.
 std::vector<document::Item> united(std::vector<document::Item> all, const std::vector<document::Item>& more) {
   const auto find = [](auto& items, const std::string& key) {
     return std::ranges::find(items, key, &document::Item::key);
@@ -222,7 +222,7 @@ std::vector<document::Item> united(std::vector<document::Item> all, const std::v
   return all;
 }
 
-/// A study that has everything but torque levels.
+/// A summary of a made-up study with all features except torque levels.
 StudySummary full_study() {
   StudySummary full;
   full.features.motion = full.features.steps = full.features.following = full.features.reversals = true;

@@ -7,18 +7,18 @@
 
 namespace zerocount::summary_answer {
 
-/// The answer of the summary of a study: the verdict on the chosen point, the points (of an open-loop study
-/// their torque levels), and what else the study has of them.
-/// @param summary of the study; stays as long as the description
+/// The description of the answer that summarises a study: the verdict on the chosen point, the points (for an
+/// open-loop study their torque levels), and the parts that the study has.
+/// @param summary summary of the study; must outlive the description
 document::AnswerDescription<SummaryReading> summary_description(const summary::StudySummary& summary);
 
-/// The table of the points with what their columns mean, and the tables of what the study has of them.
+/// The description of the table of points with its legend, and of the tables of the parts that the study has.
 document::Description<SummaryReading> point_tables(const summary::StudySummary& summary);
 
-/// The type of the answers of all studies: what only some have is optional.
+/// The type of the answers for all studies. Items that only some studies have are optional.
 document::AnswerType summary_type();
 
-/// The answer for everyone.
+/// The answer for all audiences (document::Audience::all).
 document::Answer summary_answer(const summary::StudySummary& summary, const SummaryForm& form = {});
 
 /// "unfinished: of the 12000 of 50000 trials that the run has finished so far; 3 of 5 points have none yet";

@@ -14,8 +14,8 @@
 #include "analysis/summary_answer/parts.hpp"
 #include "analysis/text/text.hpp"
 
-/// What the trials of a point show beside their statistics: each part is an object of the point in data, and
-/// for people a table below that of the points.
+/// Parts on the trials of a point beyond their statistics. Each part is an object of the point in data, and a
+/// table below that of the points for people.
 namespace zerocount::summary_answer {
 namespace {
 
@@ -26,7 +26,8 @@ const PointReading& same_point(Point p) {
   return p;
 }
 
-/// A converter that clips keeps moves from their targets, too.
+/// The sentence on undecided moves, with a remark if the converter clipped, because clipping can also keep
+/// moves from their targets. Empty without undecided moves.
 std::string undecided_text(Point p) {
   if (!measures::any_undecided(p.statistics().undecided)) return {};
   const std::int64_t clipped = p.statistics().of(&trial::MoveOutcome::saturated).trials;
@@ -54,7 +55,7 @@ statistics::ConfidenceInterval stopped_bounds(Point p, double confidence) {
   return statistics::confidence_sequence_bounds(point.outcomes.zero_count, point.judged, confidence);
 }
 
-/// Half the width of the bounds at the confidence of the rule.
+/// Half the width of the bounds at the confidence of the stopping rule.
 double halfwidth(Point p) {
   const statistics::ConfidenceInterval judged = stopped_bounds(p, p.summary.stop->confidence);
   return 0.5 * (judged.high - judged.low);
@@ -78,7 +79,8 @@ std::string note_on_stopping(const summary::StudySummary& summary) {
                         machines));
 }
 
-/// With one trial per machine, nothing is known of the moves of a machine.
+/// Whether machines have several trials each. With one trial per machine, little is known of a single
+/// machine.
 bool shows_machines(const summary::StudySummary& summary) {
   return summary.features.machines && !summary.points.empty() &&
          summary.points.front().trials > summary.points.front().machines.n;
@@ -114,7 +116,7 @@ std::string note_on_assurance(const summary::StudySummary& summary) {
       shows_machines(summary) ? "; of machines: their moves that end at zero error" : "");
 }
 
-/// "settling_within_95", "settling_within_99_9".
+/// Key of a tolerance limit by its content: "settling_within_95", "settling_within_99_9".
 std::string key_of_limit(double content) {
   std::string name = fmt::format("settling_within_{:.6g}", 100.0 * content);
   std::ranges::replace(name, '.', '_');

@@ -11,7 +11,7 @@
 namespace zerocount::text {
 namespace {
 
-constexpr std::size_t gap = 2;  ///< columns of the terminal between the columns of a table
+constexpr std::size_t gap = 2;  ///< Number of terminal columns between the columns of a table.
 constexpr std::string_view rule = "─";
 
 std::vector<std::string_view> lines_of(std::string_view text) {
@@ -37,7 +37,7 @@ std::string_view fitting_part(std::string_view word, std::size_t width) {
   return word.substr(0, bytes);
 }
 
-/// The end of the word that begins there; a percent sign belongs to its number.
+/// End of the word that begins at a position. A percent sign belongs to its number.
 std::size_t end_of_word(std::string_view text, std::size_t begin) {
   constexpr std::string_view percent = " %";
   std::size_t end = std::min(text.find(' ', begin), text.size());
@@ -75,8 +75,8 @@ void append_line(std::string& text, std::string line) {
   text += line + "\n";
 }
 
-/// Where a line that is too long continues: below its text if that follows a name and a gap, as in a list of
-/// options, otherwise a little further in.
+/// Indent at which a line that is too long continues. If the text of the line follows a name and a gap, as in
+/// a list of options, it continues below the text, otherwise a little further in.
 std::size_t hanging_indent(std::string_view line, std::size_t indent, std::size_t width) {
   std::size_t hanging = std::min(indent + gap, width / 2);
   for (std::size_t at = line.find("  ", indent); at != std::string_view::npos; at = line.find("  ", at)) {
@@ -96,11 +96,11 @@ void append_prose(std::string& text, std::string_view line, std::size_t width) {
     append_line(text, std::string(i == 0 ? indent : later, ' ') + lines[i]);
 }
 
-/// A column as wide as it is shown: narrower than its cells where they are wrapped.
+/// A column with its width in the table. It is narrower than its cells if they are wrapped.
 struct ShownColumn {
   const TextColumn* column;
-  std::size_t wide;   ///< its widest cell
-  std::size_t width;  ///< that it is shown with
+  std::size_t wide;   ///< Width of the widest cell.
+  std::size_t width;  ///< Width in the table.
 };
 
 /// Width of a column of text on a terminal without limits: a long cell is wrapped between its words.

@@ -15,13 +15,13 @@ namespace {
 constexpr double rounding = 1e-9;  // of the last digit: 99.9 % with a rounding error is shown as 99.9 %
 constexpr int max_decimals = 9;
 
-/// Decimals that show two significant digits of `percent`; one from 1 % on.
+/// Number of decimals that shows two significant digits of `percent`; one decimal from 1 % on.
 int percent_decimals(double percent) {
   if (!(percent > 0.0)) return 1;
   return std::clamp(1 - static_cast<int>(std::floor(std::log10(percent) + rounding)), 1, max_decimals);
 }
 
-/// Without trailing zeros.
+/// A percentage with at most `decimals` decimals, without trailing zeros.
 std::string percent_with(double percent, int decimals) {
   std::string number = fmt::format("{:.{}f}", percent, decimals);
   number.erase(number.find_last_not_of('0') + 1);
@@ -94,7 +94,7 @@ constexpr std::array small_prefixes{Prefix{1e-12, "p"}, Prefix{1e-9, "n"}, Prefi
                                     Prefix{1e-3, "m"}, Prefix{1.0, ""}};
 constexpr std::array large_prefixes{Prefix{1.0, ""}, Prefix{1e3, "k"}, Prefix{1e6, "M"}};
 
-/// The prefixes that the field writes with a unit that begins with this one.
+/// The prefixes that are usual with a unit that begins with this one.
 std::span<const Prefix> prefixes_of(std::string_view unit) {
   const std::string_view first = unit.substr(0, unit.find_first_of("/^"));
   if (unit.find('^') < unit.find('/')) return {};  // a prefix would be squared too
@@ -103,8 +103,8 @@ std::span<const Prefix> prefixes_of(std::string_view unit) {
   return {};
 }
 
-/// The largest prefix that leaves at least 1 before the decimal point; of 0 and of units without prefixes
-/// none.
+/// The largest prefix with which the number is at least 1, or the smallest prefix if there is none. No prefix
+/// for 0 and for units without prefixes.
 Prefix prefix_for(double largest, std::string_view unit) {
   const std::span<const Prefix> prefixes = prefixes_of(unit);
   Prefix chosen =
@@ -125,7 +125,8 @@ bool is_counted(std::string_view unit) {
   return unit == "count" || unit == "sample";
 }
 
-/// " nm", " m/s²", "" without a unit. @param value the last before it
+/// The unit as text after a number: " nm", " m/s²"; empty without a unit.
+/// @param value last number before the unit
 std::string unit_text(std::string_view prefix, std::string_view unit, double value) {
   if (unit.empty() || unit == "1") return "";
   std::string text = fmt::format(" {}{}{}", prefix, unit, is_counted(unit) && value != 1.0 ? "s" : "");

@@ -14,7 +14,7 @@
 namespace zerocount::text {
 namespace {
 
-/// A sign that begins with another one stands before it.
+/// The signs as written. A sign that begins with another sign comes before it.
 constexpr std::array<std::pair<std::string_view, Sign>, 10> signs{{{"<=", Sign::at_most},
                                                                    {"≤", Sign::at_most},
                                                                    {"<", Sign::below},

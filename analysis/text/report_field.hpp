@@ -14,25 +14,28 @@ namespace zerocount::text {
 /// summaries and in the results file.
 template <class Subject>
 struct ReportField {
-  std::string group;      ///< JSON object that holds it, such as "arrival_time"; empty at the top
-  std::string name;       ///< within its group
-  std::string unit;       ///< "1" where dimensionless
-  std::string long_name;  ///< what it is, with the denominator of a proportion or mean
-  bool whole{false};      ///< a whole number
-  std::function<double(const Subject&)> value;  ///< in `unit`; NaN if undefined
-  std::optional<std::int64_t> band{};  ///< error band that it is of, counts; its group is in that of the band
-  std::optional<double> tolerance{};   ///< of the position error that it is of, rad; likewise
+  /// JSON object that contains the field, such as "arrival_time"; empty at the top.
+  std::string group;
+  std::string name;                             ///< Name within the group.
+  std::string unit;                             ///< Unit; "1" if dimensionless.
+  std::string long_name;                        ///< Meaning, with the denominator of a proportion or mean.
+  bool whole{false};                            ///< True if the value is a whole number.
+  std::function<double(const Subject&)> value;  ///< Value in `unit`; NaN if undefined.
+  /// Error band to which the value belongs, counts. The group is nested in the group of the band.
+  std::optional<std::int64_t> band{};
+  /// Tolerance of the position error to which the value belongs, rad. The group is nested in the group of the
+  /// tolerance.
+  std::optional<double> tolerance{};
 };
 
-/// The largest error within the field's band, or tolerance; nothing of another field.
+/// Largest error within the field's band (counts) or tolerance (rad); nothing if the field has neither.
 template <class Subject>
 std::optional<double> limit_of(const ReportField<Subject>& field) {
   return field.band ? static_cast<double>(*field.band) : field.tolerance;
 }
 
-/// "group_name", or "name" without a group: the field's name in flat formats. That of an error band is
-/// "band_group_name[1]", that of a tolerance "tolerance_group_name[1e-08]", with the name of a mass before
-/// it.
+/// Name of the field in flat formats: "group_name", or "name" without a group. For an error band it is
+/// "band_group_name[1]", for a tolerance "tolerance_group_name[1e-08]". The name of a mass precedes it.
 template <class Subject>
 std::string flat_name(const ReportField<Subject>& field) {
   const std::string name = field.group.empty() ? field.name : field.group + "_" + field.name;

@@ -6,7 +6,7 @@
 
 namespace zerocount::text {
 
-inline constexpr int one_line = -1;  ///< as the indent of JSON
+inline constexpr int one_line = -1;  ///< Indent of json_text() for JSON on one line.
 
 /// A JSON object as text, ending with a line break. Bytes that are not UTF-8 are replaced.
 inline std::string json_text(const nlohmann::ordered_json& json, int indent = 2) {

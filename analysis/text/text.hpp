@@ -25,18 +25,18 @@ std::string shortened(std::string_view line, std::size_t width);
 /// and it ends no entry of a list (;).
 std::string unwrapped(std::string_view text, std::size_t width);
 
-/// Lines of sentences are not wider than this, on any terminal: longer ones are hard to read.
+/// Largest width of lines of sentences on any terminal. Longer lines are hard to read.
 inline constexpr std::size_t width_of_prose = 120;
 
 // Proportions as percentages. No bound is ever rounded towards what it does not show: a lower bound is
 // rounded down, an upper bound up.
 
-/// A proportion that was given, as a percentage with as many digits as it takes to tell it from 0 and 1:
-/// "95 %", "99.99999 %".
+/// A given proportion as a percentage, with as many digits as distinguish it from 0 and 1: "95 %", "99.99999
+/// %".
 std::string percent(double proportion);
 
-/// A proportion that was observed, rounded to as many digits as tell it from 0 and 1, at least one decimal:
-/// "97.4 %", "99.96 %"; "0 %" and "100 %" are exact.
+/// An observed proportion, rounded to as many digits as distinguish it from 0 and 1, with at least one
+/// decimal: "97.4 %", "99.96 %"; "0 %" and "100 %" are exact.
 std::string percent_near(double proportion);
 
 /// A lower bound, rounded down to two significant digits of the smaller of p and 1 − p, and to one decimal if
@@ -47,7 +47,7 @@ std::string percent_at_least(double proportion);
 /// is 0.
 std::string percent_at_most(double proportion);
 
-/// A number rounded down or up to so many decimals; what rounding errors add is not rounded.
+/// A number rounded down or up to `decimals` decimals. Digits that come from rounding errors do not count.
 std::string rounded_down(double value, int decimals);
 std::string rounded_up(double value, int decimals);
 
@@ -56,7 +56,7 @@ std::string percent_bounds(double low, double high, int decimals = 1, const char
 
 // Numbers with their units, as people write them.
 
-/// A number with so many significant digits and a short exponent: "5.9e6", "0.0125"; "–" for NaN.
+/// A number with `digits` significant digits and a short exponent: "5.9e6", "0.0125"; "–" for NaN.
 std::string number_text(double value, int digits = 4);
 
 /// A number with its unit; lengths, angles, times and frequencies with a prefix: "10 nm", "1.2 mm/s",
@@ -71,21 +71,21 @@ std::string list_text(std::span<const double> values, std::string_view unit);
 
 // Texts such as "arrival_time > 0.5" and "success_rate ≥ 0.995": what options and margins ask of a value.
 
-/// How a value lies to its limit.
+/// Relation of a value to its limit.
 enum class Sign : std::uint8_t { below, at_most, above, at_least, equal, unequal };
 
-/// The parts of such a text, without the blanks around them.
+/// The parts of a text such as "arrival_time > 0.5", without the blanks around them.
 struct Relation {
   std::string_view name;
   Sign sign;
-  std::string_view written;  ///< the sign as it stands: "≥" or ">="
+  std::string_view written;  ///< The sign as written: "≥" or ">=".
   std::string_view limit;
 };
 
 /// The parts of the text by the first sign in it, one of < <= ≤ > >= ≥ = == != ≠; nothing without one.
 std::optional<Relation> parse_relation(std::string_view text);
 
-/// Whether the value lies so; never of NaN.
+/// Whether the value has this relation to the limit; false for NaN.
 bool holds(Sign sign, double value, double limit);
 
 /// The values, in which each that is shown as the limit is replaced by the limit, so that a number copied
@@ -120,8 +120,8 @@ std::string printable(std::string_view text);
 /// A column of a table.
 struct TextColumn {
   std::string head;
-  bool numeric{false};             ///< aligned to the right
-  std::vector<std::string> cells;  ///< [row], without the header
+  bool numeric{false};             ///< True if the cells are aligned to the right.
+  std::vector<std::string> cells;  ///< [row] Cells without the header.
 };
 
 /// A table as text: columns of equal length, two spaces apart, with underlined headers.

@@ -24,7 +24,7 @@ using Complex = std::complex<double>;
 
 constexpr double degrees = 180.0 / std::numbers::pi;
 
-/// L at z = exp(i·angle).
+/// Value of the open loop L at z = exp(i·angle).
 struct ResponseSample {
   double angle{0.0};
   Complex value{};
@@ -35,12 +35,12 @@ double turn(const ResponseSample& from, const ResponseSample& to) {
   return std::arg(to.value / from.value) * degrees;
 }
 
-/// False at an undamped pole or zero.
+/// Whether the sample has a phase; false at an undamped pole or zero.
 bool has_phase(const ResponseSample& sample) {
   return std::isfinite(std::abs(sample.value)) && sample.value != 0.0;
 }
 
-/// Whether a straight line between the samples stands for the curve.
+/// Whether a straight line between the samples represents the curve.
 bool are_near(const ResponseSample& a, const ResponseSample& b) {
   constexpr double small_turn = 5.0;    // degrees
   constexpr double small_ratio = 0.12;  // of ln|L|: 1 dB
@@ -63,7 +63,7 @@ void add_until(const OpenLoop& loop, const ResponseSample& from, const ResponseS
   samples.push_back(to);
 }
 
-/// L from a millionth of half the sample rate on, at the angles `also` too.
+/// Dense samples of L from a millionth of half the sample rate on, including the angles `also`.
 std::vector<ResponseSample> dense_samples(const FrozenLoop& loop, const std::vector<double>& also) {
   std::vector<double> angles = search_angles(loop);
   angles.insert(angles.end(), also.begin(), also.end());
@@ -104,8 +104,8 @@ std::vector<double> unwrapped(const std::vector<ResponseSample>& samples) {
   return phases;
 }
 
-/// How far the curve is from the straight line between two of its points, at the point `at`: 1 is about what
-/// one sees in the figure.
+/// Distance of the curve at the point `at` from the straight line between two of its points. 1 is about the
+/// smallest distance that is visible in the figure.
 double distance_from_line(const BodePoint& from, const BodePoint& to, const BodePoint& at) {
   constexpr double visible_magnitude = 0.25;  // dB
   constexpr double visible_phase = 1.0;       // degrees
@@ -162,7 +162,8 @@ constexpr int halvings = 40;
 struct Criterion {
   const char* name;
   double IntegralGainBounds::*bound;
-  bool first;  ///< the trial that reaches the criterion at the lowest gain; otherwise at the highest
+  /// True for the trial that reaches the criterion at the lowest gain; false for the highest.
+  bool first;
 };
 
 constexpr Criterion criteria[] = {
@@ -218,7 +219,7 @@ class CriterionTrials {
 
   parameters::StudyUnits units_;
   std::vector<trial::TrialParameters> trials_;
-  std::vector<Given> given_;  ///< [trial]
+  std::vector<Given> given_;  ///< [trial] Given values of the trial.
   std::function<void(trial::TrialParameters&, double)> set_x_;
   std::function<void(trial::TrialParameters&, double)> set_y_;
 };

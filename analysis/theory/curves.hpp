@@ -13,9 +13,9 @@ namespace zerocount::theory {
 
 /// A value of an open loop L.
 struct BodePoint {
-  double frequency{0.0};  ///< Hz
-  double magnitude{0.0};  ///< 20·lg|L|, dB
-  double phase{0.0};      ///< arg L without jumps of 360°, degrees
+  double frequency{0.0};  ///< Frequency, Hz.
+  double magnitude{0.0};  ///< Magnitude 20·lg|L|, dB.
+  double phase{0.0};      ///< Phase arg L without jumps of 360°, degrees.
 };
 
 inline constexpr std::size_t max_bode_points = 200;
@@ -36,7 +36,7 @@ struct PlaneAxis {
   double low{0.0}, high{1.0};
   bool by_ratio{false};  ///< logarithmic axis
 
-  /// The value at a fraction of the axis from `low` to `high`.
+  /// The value at a fraction (0 to 1) of the axis from `low` to `high`.
   double at(double fraction) const {
     return by_ratio ? low * std::pow(high / low, fraction) : low + fraction * (high - low);
   }
@@ -53,8 +53,9 @@ struct CurvePoint {
 /// Curve on which ki equals the bound of one of the paper's criteria.
 struct CriterionCurve {
   std::string criterion;  ///< "(6)" or "(7)"
-  bool first{true};       ///< for the trial with the lowest bound; otherwise for the trial with the highest
-  std::vector<CurvePoint> points;  ///< along the curve
+  /// True for the trial with the lowest bound; false for the trial with the highest.
+  bool first{true};
+  std::vector<CurvePoint> points;  ///< Points in order along the curve.
 };
 
 /// The curves on which controller.ki equals the bound of (6) and of (7), for the trials of the point with the

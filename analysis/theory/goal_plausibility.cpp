@@ -33,7 +33,7 @@ double outside(double bound, double deviation) {
 
 constexpr double negligible = 1e-6;  // of the samples or moves; smaller proportions are written as this
 
-/// An upper bound in %.
+/// Text of an upper bound in percent.
 std::string percent_at_most(double proportion) {
   return fmt::format("{:.3g} %", 100.0 * std::max(proportion, negligible));
 }
@@ -42,7 +42,8 @@ std::string percent_text(double proportion) {
   return (proportion < negligible ? "less than " : "") + percent_at_most(proportion);
 }
 
-/// How zero counts lie about a target: a target in SI units is not in the middle of its count.
+/// Doubt about a tolerance below the error that zero counts allow: half a count; a whole count if targets in
+/// SI units are rounded to counts, because such a target is not in the middle of its count.
 Doubt zero_counts_are_wider(const GoalOfTrial& of) {
   if (!of.goal.tolerance) return {};
   const trial::CommandParameters& command = of.trial.command;
@@ -67,10 +68,12 @@ Doubt zero_counts_are_wider(const GoalOfTrial& of) {
                       of.length(*of.goal.tolerance / held))};
 }
 
-/// What noise does to an axis that stays where it is, or that the loop moves.
+/// Effect of encoder noise on an axis that stands still or is moved by the loop.
 struct NoisyLoop {
-  double deviation;    ///< of what must stay within, counts
-  double independent;  ///< number of independent values in the samples that must
+  /// Standard deviation of the error or position that must stay within the bound, counts.
+  double deviation;
+  /// Number of independent values in the samples that must stay within the bound.
+  double independent;
 };
 
 /// Proportion of moves of which all samples are within ±`bound` (counts).
@@ -78,8 +81,9 @@ double rate_within(double bound, const NoisyLoop& loop) {
   return std::exp(loop.independent * std::log1p(-outside(bound, loop.deviation)));
 }
 
-/// That of all loops which lets most moves stay within ±`bound` (counts) at all samples, with the error that
-/// the loop reads, or with the axis. Contacts that stick; without friction the loop of the axis.
+/// The loop with which the largest proportion of moves stays within ±`bound` (counts) at all samples. What
+/// must stay within is the error that the loop reads, or the axis, as `at` says. Contacts that stick are
+/// considered; without friction the loops of the free axis. Nothing without a stable loop.
 std::optional<NoisyLoop> quietest_loop(const GoalOfTrial& of, NoiseAt at, double bound) {
   const loop::EncoderErrors& errors = of.errors();
   std::optional<NoisyLoop> quietest;
@@ -154,7 +158,8 @@ Doubt code_leaves_the_band(const GoalOfTrial& of) {
                   of.band_text(), of.torque(stiffness * of.width()))};
 }
 
-/// The loop holds the motor, and nothing tells it where the load is.
+/// Doubt about a goal of the motor on an axis with a load: the encoder of the motor closes the loop, so
+/// nothing tells the loop where the load is.
 Doubt load_hangs_behind(const GoalOfTrial& of) {
   const motion::PlantParameters& plant = of.trial.plant;
   if (of.goal.of != motion::EncoderPlace::motor || !motion::has_load(plant) ||
@@ -172,7 +177,9 @@ struct GoalTest {
   Doubt (*of_move)(const MoveOfTrial&){nullptr};
   bool needs_goal{true};
   bool holds_for_any_controller{false};
-  bool is_obstacle{true};   ///< to meeting the goal, not only a doubt about what it says
+  /// True if a failure is an obstacle to meeting the goal, and not only a doubt about the meaning of the
+  /// goal.
+  bool is_obstacle{true};
   bool needs_trial{false};  ///< Counts for a move only if the simulated move misses the band or tolerance.
 };
 constexpr std::array<GoalTest, 14> goal_tests{
@@ -192,10 +199,11 @@ constexpr std::array<GoalTest, 14> goal_tests{
      {nullptr, encoder_misplaces_the_target, true, true}}};
 
 constexpr std::int64_t max_simulated_samples = std::int64_t{1} << 20;  // of all trials
-/// Samples that a point may take under a condition, however many of them there are.
+/// Smallest number of samples that may be simulated for a point under a condition, however many points there
+/// are.
 constexpr std::int64_t min_simulated_samples_of_cell = std::int64_t{1} << 14;
 
-/// A trial, and its outcome where a test has needed it.
+/// A trial, with its outcome if a test has needed it.
 struct ExaminedTrial {
   trial::TrialParameters parameters;
   std::optional<trial::TrialOutcome> outcome{};
@@ -204,7 +212,7 @@ struct ExaminedTrial {
 /// The examined trials under one condition of a point.
 struct ExaminedTrials {
   std::span<ExaminedTrial> trials;
-  std::int64_t& samples_left;  ///< that may still be simulated
+  std::int64_t& samples_left;  ///< Number of samples that may still be simulated.
 };
 
 /// Whether the move is within the band or tolerance in time.
@@ -228,7 +236,8 @@ bool settles(const study::Study& study, const study::Goal& goal, const trial::Tr
   return time <= goal.within.from_start(move.travel_time) * rounding;  // not NaN
 }
 
-/// Simulates the trial, unless that has been done. @returns false where it has too many samples
+/// Simulates the trial unless it has been simulated.
+/// @returns false if it has too many samples
 bool simulate(ExaminedTrial& trial, std::int64_t& samples_left) {
   if (trial.outcome) return true;
   const std::int64_t samples = trial::samples_of_trial(trial.parameters);
@@ -238,7 +247,7 @@ bool simulate(ExaminedTrial& trial, std::int64_t& samples_left) {
   return true;
 }
 
-/// Out of reach of whole trials: in each of those examined.
+/// Doubt by a test of whole trials: the goal is out of reach in each examined trial. Nothing otherwise.
 std::optional<Doubt> doubt_of_trials(const GoalTest& test, const study::Study& study, const study::Goal& goal,
                                      const ExaminedTrials& of) {
   std::optional<Doubt> smallest;
@@ -251,7 +260,8 @@ std::optional<Doubt> doubt_of_trials(const GoalTest& test, const study::Study& s
   return smallest;
 }
 
-/// Out of reach of more moves than the goal permits, by more than chance.
+/// Doubt by a test of moves: the goal is out of reach in more moves than it permits, by more than chance.
+/// Nothing otherwise.
 std::optional<Doubt> doubt_of_moves(const GoalTest& test, const study::Study& study, const study::Goal& goal,
                                     const ExaminedTrials& examined) {
   Doubt worst;
@@ -287,8 +297,8 @@ std::optional<Doubt> doubt_of_moves(const GoalTest& test, const study::Study& st
   return worst;
 }
 
-/// The worst line of each test, [test]; empty where it does not fail.
-/// @param is_wanted tests that count
+/// [test] Warning at the worst point; empty if the test does not fail.
+/// @param is_wanted selects the tests
 std::vector<std::string> worst_lines(const study::Study& study, bool (*is_wanted)(const GoalTest&)) {
   if (study.open_loop) return {};
   std::array<Doubt, goal_tests.size()> worst;

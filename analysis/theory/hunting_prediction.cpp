@@ -23,9 +23,10 @@ namespace zerocount::theory {
 namespace {
 
 constexpr std::int64_t first_judged = 1 << 13;  // samples
-/// Samples that are judged first, in multiples of the longest time that the controller waits.
+/// Length of the first judged record, in multiples of the longest time that the controller waits; it has at
+/// least first_judged samples.
 constexpr double waits_judged = 8.0;
-/// Torque that does not move a standing axis, as a part of the breakaway torque.
+/// Torque that does not move a standing axis, as a proportion of the breakaway torque.
 constexpr double part_of_breakaway = 0.05;
 
 bool has_load_friction(const trial::TrialParameters& p) {
@@ -90,7 +91,7 @@ double negligible_torque(const trial::TrialParameters& p) {
   return std::max(part_of_breakaway * breakaway, 0.5 * p.dac.resolution);
 }
 
-/// The motion of a loop from the end of its reference on, and what it comes to.
+/// The motion of a loop after the end of the reference, and its judgement as rest or hunting.
 class HeldLoop {
  public:
   HeldLoop(const trial::TrialParameters& p, std::int64_t reference_ends)
@@ -101,7 +102,8 @@ class HeldLoop {
                        static_cast<double>(max_samples_held)))))),
         has_load_(motion::has_load(p.plant)) {}
 
-  /// Takes the next sample. @returns whether it is still undecided
+  /// Takes the next sample.
+  /// @returns whether the prediction is still undecided
   bool add(const trial::LoopSample& sample, HuntingPrediction& prediction) {
     prediction.duration = sample.record.t;
     if (sample.steps > max_steps_held) return false;
@@ -141,7 +143,7 @@ class HeldLoop {
   std::int64_t reference_ends_;  ///< Number of the first sample that is kept.
   std::int64_t next_judged_;     ///< Samples kept at which the motion is judged next.
   bool has_load_;
-  double target_{0.0};  ///< Where the reference rests, counts.
+  double target_{0.0};  ///< Position at which the reference rests, counts.
   // Of each sample: positions from the target, counts, and the wanted torque within the range of the
   // converter, N m.
   std::vector<float> motor_{}, load_{}, torque_{};

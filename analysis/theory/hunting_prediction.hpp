@@ -13,19 +13,20 @@ namespace zerocount::theory {
 
 enum class Hunting : std::uint8_t {
   rests,     ///< The axis comes to rest, wherever it stands, or stays within a range of two counts.
-  hunts,     ///< It oscillates for good.
+  hunts,     ///< The axis oscillates for good.
   diverges,  ///< The motion leaves the finite numbers.
   undecided  ///< The simulation ends before either is seen.
 };
 
 struct HuntingPrediction {
   Hunting state{Hunting::undecided};
-  std::int64_t step{0};   ///< Length of the move, counts.
-  double amplitude{0.0};  ///< If it hunts: half of the range of the position, counts of the loop's encoder.
-  double period{0.0};     ///< If it hunts: s.
-  double duration{0.0};   ///< Time that was simulated, from the start of the move, s.
-  /// If it hunts and there are two masses: the one that oscillates. If both do: the one whose encoder closes
-  /// the loop.
+  std::int64_t step{0};  ///< Length of the move, counts.
+  /// If the axis hunts: half of the range of the position, counts of the loop's encoder.
+  double amplitude{0.0};
+  double period{0.0};    ///< If the axis hunts: period, s.
+  double duration{0.0};  ///< Time that was simulated, from the start of the move, s.
+  /// If the axis hunts and has two masses: the mass that oscillates. If both do: the mass whose encoder
+  /// closes the loop.
   std::optional<motion::EncoderPlace> mass{};
 };
 
@@ -49,7 +50,7 @@ inline constexpr std::int64_t max_steps_held = 1 << 21;
 /// None for an open loop, a reference without end, and an axis with neither friction nor gap.
 std::optional<HuntingPrediction> predict_hunting(const trial::TrialParameters& trial);
 
-/// For data each number, for people a sentence.
+/// The prediction: for data each number, for people a sentence.
 document::Description<HuntingPrediction> hunting_description();
 
 }  // namespace zerocount::theory

@@ -42,7 +42,8 @@ double mean_of(Series values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// @param before number of octaves between it and the last one
+/// An octave of a record of samples.
+/// @param before number of octaves between this one and the last one
 Series octave(Series values, int before) {
   const std::size_t end = values.size() >> before;
   return values.subspan(end / 2, end - end / 2);
@@ -101,7 +102,7 @@ double drift_to_come(Series torques) {
   return sum;
 }
 
-/// Whether it oscillates quickly, between the same ends.
+/// Whether the torque oscillates quickly between the same extremes.
 bool oscillates_quickly(Series torques) {
   const Series last = octave(torques, 0);
   const Extent before = extent_of(octave(torques, 1));

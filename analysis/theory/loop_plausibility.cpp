@@ -27,7 +27,8 @@ constexpr double min_delay_margin = 1.0;   // samples
 /// The longest move of a trial against its pre-sliding range, counts.
 struct Travel {
   double move{0.0};
-  double range{std::numeric_limits<double>::infinity()};  ///< infinite without a spring
+  /// Pre-sliding range, counts; infinite without a spring.
+  double range{std::numeric_limits<double>::infinity()};
 
   bool slides() const { return move > range; }
 };
@@ -48,10 +49,11 @@ struct ExaminedLoop {
   const TrialLoop& of_trial;
   Travel travel;
   LoopStability stability{LoopStability::stable};
-  Margin phase{std::numeric_limits<double>::quiet_NaN(), 0.0};  ///< degrees, Hz; NaN if it does not matter
+  /// Phase margin, degrees, and its frequency, Hz; NaN if it does not matter.
+  Margin phase{std::numeric_limits<double>::quiet_NaN(), 0.0};
 };
 
-/// Whether the control is what criteria (6) and (7) are about, with integral action alone.
+/// Whether criteria (6) and (7) apply to the control, and it has integral action alone.
 bool is_integral_alone(const trial::TrialParameters& p) {
   return p.controller.kp == 0.0 && p.controller.kd == 0.0 &&
          left_out_of_criteria(p.plant, p.controller).empty();
@@ -95,7 +97,7 @@ double presliding_range_over_move(const ExaminedLoop& loop) {
 /// One row of the table of tests.
 struct LoopTest {
   Measure measure;
-  double least;  ///< value below which the loop is doubtful
+  double least;  ///< Value below which the loop is doubtful.
   std::string (*text)(const ExaminedLoop&, double value);
 };
 

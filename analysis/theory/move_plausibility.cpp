@@ -31,11 +31,11 @@ double largest_torque(const loop::DacParameters& dac) {
   return std::max(given_for(loop::lowest_torque(dac)), given_for(loop::highest_torque(dac)));
 }
 
-/// The largest torque, and what bounds it.
+/// The largest torque, and the part that limits it.
 struct TorqueBound {
-  double torque;         ///< N m
-  std::string text;      ///< "the ±4 N m of the converter"
-  const char* expected;  ///< what lets the torque be larger
+  double torque;         ///< Largest torque, N m.
+  std::string text;      ///< Description, such as "the ±4 N m of the converter".
+  const char* expected;  ///< Setting that would allow a larger torque.
 };
 
 TorqueBound torque_bound(const GoalOfTrial& of) {
@@ -52,9 +52,9 @@ TorqueBound torque_bound(const GoalOfTrial& of) {
 
 /// Friction as a bound of motion.
 struct FrictionBound {
-  double sliding{0.0};    ///< least torque while it slides, N m
-  double breakaway{0.0};  ///< largest torque, N m
-  double travel{0.0};     ///< before it slides, rad
+  double sliding{0.0};    ///< Smallest friction torque while the axis slides, N m.
+  double breakaway{0.0};  ///< Largest friction torque, N m.
+  double travel{0.0};     ///< Travel before the axis slides, rad.
 };
 
 FrictionBound friction_bound(const trial::TrialParameters& p) {
@@ -79,10 +79,10 @@ double viscous_damping(const trial::TrialParameters& p) {
   return law.has_presliding_damping ? p.plant.presliding_damping : 0.0;
 }
 
-/// The torques of a move at their best.
+/// The most favourable torques of a move.
 struct BestTorques {
-  double driving;  ///< N m, without friction
-  double braking;  ///< N m, with friction
+  double driving;  ///< Driving torque without friction, N m.
+  double braking;  ///< Braking torque including friction, N m.
 };
 
 BestTorques best_torques(const MoveOfTrial& move, const FrictionBound& friction) {
@@ -97,8 +97,8 @@ BestTorques best_torques(const MoveOfTrial& move, const FrictionBound& friction)
   return {favour + along, favour - along + friction.breakaway};
 }
 
-/// Inertia that the torque has to move. A coupling with a gap, or soft for so short a move, lets the motor
-/// move without its load.
+/// Inertia that the torque has to move. A coupling with a gap, or one that is soft for such a short move,
+/// lets the motor move without its load.
 double moved_inertia(const MoveOfTrial& move) {
   const motion::PlantParameters& plant = move.of.trial.plant;
   if (!(plant.load.inertia > 0.0)) return plant.inertia;
@@ -109,7 +109,8 @@ double moved_inertia(const MoveOfTrial& move) {
          (is_soft && plant.load.encoder == motion::EncoderPlace::motor ? 0.0 : plant.load.inertia);
 }
 
-/// Over a travel before it slides the axis gains all the energy that the torque has.
+/// A lower bound of the time of the move, s. Over the travel before it slides, the axis is taken to gain the
+/// whole work of the torque, without losses to friction.
 double shortest_time(const MoveOfTrial& move) {
   const trial::TrialParameters& p = move.of.trial;
   const FrictionBound friction = friction_bound(p);
@@ -133,7 +134,7 @@ double standing_torque(const trial::DisturbanceParameters& of, const trial::Tria
   return of.torque + motion::value(trial::ripples_of(of.ripple, p.initial.position), theta);
 }
 
-/// The torque that the friction of a load holds at most, N m. The bristle of dahl yields at the Coulomb
+/// Largest torque that the friction of a load holds, N m. The bristle of the law `dahl` yields at the Coulomb
 /// level.
 double friction_of_load(const friction::LoadFrictionParameters& friction) {
   switch (friction.model) {
@@ -155,7 +156,7 @@ const loop::CascadeParameters* cascade_of(const trial::TrialParameters& p) {
   return has_cascade ? &blocks.cascade : nullptr;
 }
 
-/// That of the rotor and of a load that is there too.
+/// Constant torque and ripple at an angle on the rotor and the load together, N m.
 double standing_torque(const trial::TrialParameters& p, double theta) {
   return standing_torque(p.disturbance, p, theta) + standing_torque(p.load_side.disturbance, p, theta);
 }

@@ -15,17 +15,17 @@ namespace zerocount::theory {
 /// A goal and a trial that is to meet it.
 struct GoalOfTrial {
   const study::Study& study;
-  const study::Goal& goal;  ///< of a study without one: zero counts at the end of the move
+  const study::Goal& goal;  ///< Goal of the study. If it has none: zero counts at the end of the move.
   const trial::TrialParameters& trial;
 
   bool feeds_back_coarse() const { return trial.controller.encoder == loop::EncoderChoice::coarse; }
-  double count() const;  ///< of the encoder that closes the loop, rad
+  double count() const;  ///< Resolution of the encoder that closes the loop, rad.
   const loop::EncoderErrors& errors() const {
     return feeds_back_coarse() ? trial.encoder.coarse_errors : trial.encoder.fine_errors;
   }
-  /// From one end of the band or tolerance to the other, rad.
+  /// Width from one end of the band or tolerance to the other, rad.
   double width() const;
-  /// Samples of the shortest move of the goal at which it must be within the band.
+  /// Number of samples of the goal's shortest move at which it must be within the band.
   double samples_within() const;
 
   std::string unit(const char* rotary) const;
@@ -34,25 +34,26 @@ struct GoalOfTrial {
   std::string band_text() const;
 };
 
-/// A move of the trial that the goal asks.
+/// A move of the trial that the goal judges.
 struct MoveOfTrial {
   const GoalOfTrial& of;
   std::size_t number;
-  double from, to;  ///< targets from the start of the trial, before rounding to counts, rad
+  /// Previous target and target, relative to the start of the trial, before rounding to counts, rad.
+  double from, to;
 
   double distance() const;
   double direction() const { return to < from ? -1.0 : 1.0; }
   loop::Reference reference() const;
-  double allowed() const;  ///< s from its start, by goal
-  double within() const;   ///< s from its start, by goal and hold
+  double allowed() const;  ///< Time from the start of the move that the goal allows, s.
+  double within() const;   ///< Time from the start of the move that goal and hold allow together, s.
   std::string name() const { return "move " + std::to_string(number); }
 };
 
 /// "point 2 (kp = 3), condition warm: ", the place of a warning.
 std::string place_text(const study::Study& study, std::int64_t point, std::int64_t condition);
 
-/// The moves that the goal asks, without those of no length; of very many the first ones. Empty without
-/// targets, and where the reference does not end.
+/// The moves that the goal judges, without moves of length zero. If there are very many, only the first ones.
+/// Empty without targets, and if the reference does not end.
 std::vector<MoveOfTrial> moves_of(const GoalOfTrial& of);
 
 /// Result of a test: a factor that is above 1 where the goal is out of reach, and the reason.
@@ -63,13 +64,13 @@ struct Doubt {
 
 // Moves that the drive, the reference or the encoder keeps from their goal.
 
-/// A tolerance or band of half of a step or more: the move is within it on its way.
+/// The tolerance or band is half of a step or more, so a move is within it while still on its way.
 Doubt band_is_half_a_step(const GoalOfTrial& of);
 
 /// The hold ends before the time that the goal allows the move: the goal is judged at the end of the hold.
 Doubt hold_ends_before_the_goal(const MoveOfTrial& move);
 
-/// At `within` the reference of the move is still farther from its end than the band or tolerance.
+/// The reference is still farther from its end than the band or tolerance at MoveOfTrial::within().
 Doubt reference_is_on_its_way(const MoveOfTrial& move);
 
 /// The move takes longer than it may, even at the largest torque (shortest_move): with the inertia that it
@@ -94,12 +95,12 @@ Doubt other_mass_is_elsewhere_unseen(const MoveOfTrial& move);
 /// the axis may run on into the tolerance.
 Doubt velocity_command_is_too_coarse(const MoveOfTrial& move);
 
-/// At the limit of the velocity command the move takes longer than it may. Only a doubt: the velocity loop
-/// may overshoot.
+/// The move takes longer than allowed at the limit of the velocity command. Only a doubt, because the
+/// velocity loop may overshoot.
 Doubt velocity_is_too_small_for_the_move(const MoveOfTrial& move);
 
-/// The systematic errors of the encoder (eccentricity, interpolation): nowhere within the tolerance does it
-/// read the target.
+/// Because of its systematic errors (eccentricity, interpolation), the encoder reads the target nowhere
+/// within the tolerance.
 Doubt encoder_misplaces_the_target(const MoveOfTrial& move);
 
 // Goals that are allowed but that the encoder, its noise or the converter keeps an axis from meeting.
@@ -124,21 +125,24 @@ struct FrozenLoop;
 /// for more of their moves than the goal permits, by more than chance.
 std::vector<std::string> doubtful_goals(const study::Study& study);
 
-/// Those of the tests that say why a goal is not met.
+/// Warnings like doubtful_goals(), but only from the tests that explain why a goal is not met.
 std::vector<std::string> obstacles_to_goals(const study::Study& study);
 
-/// Those of the tests that no value of the controller changes: the torque is too small for a move, its
-/// reference is still on its way at `within`, or the encoder misplaces its target.
+/// Warnings like doubtful_goals(), but only from the tests that no value of the controller changes: the
+/// torque is too small for a move, the reference is still on its way at MoveOfTrial::within(), or the encoder
+/// misplaces the target.
 std::vector<std::string> goals_out_of_reach(const study::Study& study);
 
 enum class NoiseAt {
-  axis,  ///< L/(1 + L): how the noise moves the axis
-  error  ///< 1/(1 + L): the error that the loop reads
+  axis,  ///< L/(1 + L): response of the axis to the noise.
+  error  ///< 1/(1 + L): response of the error that the loop reads.
 };
 
 struct NoiseResponse {
-  double gain;                ///< standard deviation by that of the noise
-  double correlated_samples;  ///< after which values are nearly independent (correlation at most 0.1)
+  /// Standard deviation of the response over the standard deviation of the noise.
+  double gain;
+  /// Number of samples after which values are nearly independent (correlation at most 0.1).
+  double correlated_samples;
 };
 
 /// The response G of a linear loop to noise of the encoder with the spectrum S, of mean 1:
@@ -150,7 +154,7 @@ NoiseResponse response_to_noise(const FrozenLoop& loop, NoiseAt at, double bandw
 
 // Loops that are allowed but that nobody would build on purpose.
 
-/// Trials whose loops are examined at most, over all design points.
+/// Largest number of trials whose loops are examined, over all design points.
 inline constexpr std::int64_t max_trials_doubted = 100;
 
 /// A warning for each test that fails, at the design point where it fails worst:

@@ -32,7 +32,7 @@ bool acts_by_observer(const loop::ControllerParameters& controller) {
   return controller.blocks.observer.bandwidth > 0.0 && controller.kp > 0.0;
 }
 
-/// An integral gain (N m/count, of a cascade N m/rad) in the unit of the manifest.
+/// Converts an integral gain (N m/count; for a cascade N m/rad) to the unit of the manifest.
 double as_given(const parameters::StudyUnits& units, const trial::TrialParameters& p, double ki) {
   if (units.gains == parameters::GainUnits::count || is_cascade(p)) return ki;
   loop::ControllerParameters controller = p.controller;
@@ -110,7 +110,8 @@ void add_sampled_bound(const study::Study& study, const trial::TrialParameters& 
   gain.sampled_stable.insert(integral_gain(p.controller) < bound);
 }
 
-/// The ranges of this loop, at the end of `loops` if it is new: not every trial has a coarse phase.
+/// The ranges of a loop. A loop that is new is appended to `loops`, because not every trial has a coarse
+/// phase.
 LoopRanges& ranges_of(std::vector<LoopRanges>& loops, const TrialLoop& of_trial) {
   const auto found = std::ranges::find(loops, of_trial.name, &LoopRanges::name);
   if (found != loops.end()) return *found;
@@ -171,15 +172,16 @@ void add_arrivals(Approach& approach, const trial::TrialParameters& p,
   }
 }
 
-/// Whether criteria (6) and (7) speak of this loop.
+/// Whether criteria (6) and (7) apply to the loop of this trial.
 bool criteria_apply(const trial::TrialParameters& p) {
   return left_out_of_criteria(p.plant, p.controller).empty();
 }
 
-/// The lowest k1 of a trial's rotor, and criterion (6) for it.
+/// The lowest k1 of a trial's rotor, and the bound of criterion (6) for that k1.
 struct LowEnd {
-  double k1;                           ///< N m/rad
-  std::optional<double> stable_below;  ///< in the unit of the manifest, where the criterion applies
+  double k1;  ///< Lowest k1, N m/rad.
+  /// Bound of criterion (6), in the unit of the manifest. Empty if the criterion does not apply.
+  std::optional<double> stable_below;
 };
 
 LowEnd low_end_at(const study::Study& study, const trial::TrialParameters& p, double k1) {
@@ -198,7 +200,7 @@ struct ExaminedPoint {
   std::int64_t point;
   std::int64_t condition;
 
-  /// The parameters of its trial with this draw (TrialTurns).
+  /// Parameters of the trial of this point and condition with the given draw (TrialTurns).
   trial::TrialParameters trial(std::int64_t draw) const {
     return study::study_trial(study, point, study::turns_of(study).trial_of(draw, condition)).parameters;
   }
@@ -211,8 +213,8 @@ void know_rotor(const friction::FrictionAlongRotor& friction, KnownRotor& known)
   if (known.k1 != k1->profile) known = {k1->profile, lowest_k1(friction)};
 }
 
-/// Examines the lowest k1 of the rotors of all machines (draw j is of machine j mod machines). The bound of
-/// the sampled loop, which takes longer, is computed only at the lowest of them.
+/// Examines the lowest k1 of the rotors of all machines (draw j belongs to machine j mod machines). The bound
+/// of the sampled loop, which takes longer, is computed only at the lowest of them.
 void examine_rotors(const ExaminedPoint& at, LowestStiffness& lowest, std::vector<KnownRotor>& known) {
   const study::Study& study = at.study;
   lowest.machines = std::min(study.machines, max_machines_examined);
@@ -235,8 +237,8 @@ void examine_rotors(const ExaminedPoint& at, LowestStiffness& lowest, std::vecto
   lowest.sampled_below.add(as_given(study.units, p, sampled_bound(softest->k1, p)));
 }
 
-/// Adds what takes longer to compute and the paper does not treat: the sampled loop, its time constants and
-/// margins, and the loop at the lowest k1.
+/// Adds results that take longer to compute and are not in the paper: the sampled loop, its time constants
+/// and margins, and the loop at the lowest k1.
 void examine_closely(const study::Study& study, const trial::TrialParameters& p, PointTheory& theory) {
   const friction::FrictionParameters contact = friction::friction_at(p.friction, p.initial.position);
   add_sampled_bound(study, p, contact.k1, theory.gain);

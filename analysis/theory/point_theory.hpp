@@ -17,33 +17,37 @@
 
 namespace zerocount::theory {
 
-/// Trials of a point that are examined at most.
+/// Largest number of trials of a point that are examined.
 inline constexpr std::int64_t max_trials_examined = 200;
-/// Trials whose time constants, margins and bounds of the sampled loop are computed at most.
+/// Largest number of trials for which time constants, margins and bounds of the sampled loop are computed.
 inline constexpr std::int64_t max_trials_examined_closely = 20;
 
 using document::Range;
 
 /// The integral gain and its bounds, in the unit of the manifest.
 struct GainTheory {
-  std::string name;  ///< "ki", or that of a cascade
+  std::string name;  ///< Name of the gain: "ki", or the name of the cascade's integral gain.
   std::string unit;
   Range value;
-  std::string_view left_out;  ///< of the controller, by criteria (6) and (7); empty: they apply
-  Range stable_below;         ///< (6)
-  Range unstable_above;       ///< (7)
-  Range sampled_below;        ///< bound of the sampled loop about k1, or without a spring
+  /// Part of the loop that criteria (6) and (7) do not model, see left_out_of_criteria(). Empty if they
+  /// apply.
+  std::string_view left_out;
+  Range stable_below;    ///< Bound of criterion (6): the loop is stable below it.
+  Range unstable_above;  ///< Bound of criterion (7): the loop is unstable above it.
+  Range sampled_below;   ///< Bound of the sampled loop about k1, or of the loop without a spring.
   PointPrediction prediction;
-  std::set<bool> sampled_stable;  ///< values of `value < sampled_below` in the trials
-  bool observes{false};           ///< a disturbance observer takes the place of the integral
+  /// Values that the comparison `value < sampled_below` takes in the trials.
+  std::set<bool> sampled_stable;
+  bool observes{false};  ///< True if a disturbance observer takes the place of the integral.
 };
 
 /// The paper's rules for the DAC and the sample rate.
 struct DesignRules {
-  Range dac_resolution, dac_bound;  ///< torque_unit
+  Range dac_resolution, dac_bound;  ///< Resolution of the DAC and its bound, in `torque_unit`.
   std::string torque_unit;
-  bool coarse_feedback{false};   ///< the bound uses the resolution Δx of the coarse encoder
-  Range frequency, sample_rate;  ///< Hz
+  bool coarse_feedback{false};  ///< True if the bound uses the resolution Δx of the coarse encoder.
+  /// Natural frequency on k1 + k2, from which the rule for the sample rate follows, and sample rate, Hz.
+  Range frequency, sample_rate;
   std::int64_t trials{0};
   std::int64_t fine_enough{0};  ///< trials in which the DAC satisfies the bound
   std::int64_t fast_enough{0};  ///< trials in which the sample rate satisfies the rule
@@ -52,50 +56,57 @@ struct DesignRules {
 /// Criterion (6) and the sampled loop at the lowest k1 of the study.
 struct LowestStiffness {
   study::LowEnd source;
-  std::int64_t machines{0};  ///< machines with profiles that were examined; 0 without machines
-  Range k1;                  ///< minimum of the profiles, or the low end of the distribution, N m/rad
-  Range stable_below, sampled_below;  ///< in the unit of the gain
+  /// Number of machines with profiles that were examined; 0 without machines.
+  std::int64_t machines{0};
+  Range k1;  ///< Minimum of the profiles, or low end of the distribution, N m/rad.
+  /// Bounds of criterion (6) and of the sampled loop at the lowest k1, in the unit of the gain.
+  Range stable_below, sampled_below;
 };
 
-/// How fast the loop brings the error to zero.
+/// Time in which the loop brings the error to zero.
 struct Approach {
-  Range time_constant;  ///< slowest of the loop, s
-  /// Slowest time constants that hold up a move, s: without friction all of them; about a spring those
-  /// without oscillation, because its hysteresis ends an oscillation that the linear loop lets ring.
+  Range time_constant;  ///< Slowest time constant of the loop, s.
+  /// Slowest time constants that delay a move, s. Without friction all time constants count. About a spring
+  /// only those without oscillation count, because the spring's hysteresis ends an oscillation that the
+  /// linear loop lets ring.
   Range of_moves;
-  double hold{0.0};              ///< of the shortest move, s
-  std::int64_t longest_step{0};  ///< of the slowest move, counts; 0: no step
-  double longest_time{0.0};      ///< from its start until it has arrived, with the dwell, s
+  double hold{0.0};              ///< Hold of the shortest move, s.
+  std::int64_t longest_step{0};  ///< Step length of the slowest move, counts; 0: no step.
+  /// Time from the start of the slowest move until it has arrived, including the dwell, s.
+  double longest_time{0.0};
 
   /// Whether moves may end before the loop has brought them to their targets.
   bool exceeds_hold() const { return of_moves.high > hold || longest_time > hold; }
 };
 
-/// A loop of trial_loops over the trials. A trial without a crossover does not change its ranges.
+/// Ranges of the margins of one loop of trial_loops() over the trials. A trial in which the loop has no
+/// crossover does not change the ranges.
 struct LoopRanges {
   std::string name;
   bool slides{false};
-  Range bandwidth;        ///< Hz, of a loop that slides
-  Range gain, gain_at;    ///< margin, dB, and its frequency, Hz
-  Range phase, phase_at;  ///< margin, degrees, and its frequency, Hz
+  Range bandwidth;        ///< Crossover frequency, Hz; only if the loop slides.
+  Range gain, gain_at;    ///< Gain margin, dB, and its frequency, Hz.
+  Range phase, phase_at;  ///< Phase margin, degrees, and its frequency, Hz.
   std::set<LoopStability> stability;
-  Range slow;                      ///< slowest time constants longer than the hold, s
-  bool no_gain_stabilises{false};  ///< In some trial the loop is unstable with every factor of its gain.
+  Range slow;  ///< Slowest time constants that are longer than the hold, s.
+  /// True if in some trial the loop is unstable with every factor of its gain.
+  bool no_gain_stabilises{false};
 };
 
 /// Results of the theory (section 3 of the paper) for the trials of a design point.
 struct PointTheory {
-  std::string outside;  ///< reason why (6) and (7) do not apply; empty if they do
-  bool free{false};     ///< no spring: `gain` and `approach` are of the loop without friction
+  std::string outside;  ///< Reason why criteria (6) and (7) do not apply; empty if they do.
+  /// True without a spring. `gain` and `approach` then describe the loop without friction.
+  bool free{false};
   GainTheory gain;
   DesignRules rules;
   LowestStiffness lowest;
   Approach approach;
-  std::vector<LoopRanges> loops;  ///< in the order of trial_loops
-  std::vector<std::string> cut;   ///< states_without_loop of the first trial
+  std::vector<LoopRanges> loops;  ///< Loops in the order of trial_loops().
+  std::vector<std::string> cut;   ///< states_without_loop() of the first trial.
 };
 
-/// The lowest k1 (N m/rad) of a rotor, and the profile that it is of.
+/// The lowest k1 (N m/rad) of a rotor, and the profile from which it was found.
 struct KnownRotor {
   std::shared_ptr<const friction::Profile> k1;
   double lowest{0.0};
@@ -104,8 +115,8 @@ struct KnownRotor {
 /// Examines the first trials of the point.
 PointTheory examine(const study::Study& study, std::int64_t point);
 
-/// Examines them under a condition.
-/// @param rotors [machine] of the call before: a rotor that is the same again is not searched again
+/// Examines the first trials of the point under a condition.
+/// @param rotors [machine] result of the previous call; a rotor with the same profile is not searched again
 PointTheory examine(const study::Study& study, std::int64_t point, std::int64_t condition,
                     std::vector<KnownRotor>& rotors);
 

@@ -18,7 +18,7 @@ using document::range_text;
 using std::optional;
 using std::string;
 
-/// "18 dB at 40 Hz"; nothing where no trial has a crossover.
+/// Text of a margin: "18 dB at 40 Hz"; nothing if no trial has a crossover.
 optional<string> margin_text(const Range& margin, const char* unit, const Range& frequency) {
   const optional<string> found = range_text(margin, unit);
   if (!found) return {};
@@ -108,7 +108,7 @@ Description<GainTheory> gain_description() {
   return description;
 }
 
-/// "holds", "holds in 3 of 200 trials", "holds in no trial".
+/// Text on the trials in which a rule holds: "holds", "holds in 3 of 200 trials", "holds in no trial".
 string holds_text(std::int64_t holding, std::int64_t trials) {
   if (holding == trials) return "holds";
   return holding == 0 ? "holds in no trial" : fmt::format("holds in {} of {} trials", holding, trials);
@@ -185,7 +185,7 @@ Description<PointTheory> lowest_description() {
       .shown_as([=](Of t) { return in_unit(t, t.lowest.sampled_below.low); });
 }
 
-/// "a move of 30 counts needs about 1 s"; nothing where no move is a step.
+/// Text on the slowest move: "a move of 30 counts needs about 1 s"; nothing if no move is a step.
 optional<string> arrival_text(const Approach& approach) {
   if (approach.longest_step == 0) return {};
   return fmt::format("a move of {} count{} needs about {:.2g} s", approach.longest_step,

@@ -20,11 +20,13 @@ namespace zerocount::theory {
 /// k1 and k2 are those at the start of the trial: within one pre-sliding range they do not change (paper,
 /// QN2). The paper's advice to use the lowest k1 of the working area is for a design.
 struct TrialPrediction {
-  /// Whether the criteria apply: not is_outside_theory(), and left_out_of_criteria() is empty.
+  /// True if the criteria apply: is_outside_theory() is false and left_out_of_criteria() is empty.
   bool applies{true};
-  IntegralGainBounds bounds;  ///< N m/count
-  bool stable{false};         ///< (6): 0 < ki < bounds.stable_below
-  bool unstable{false};  ///< (7): ki > bounds.unstable_above; also ki < 0, which no PID loop is stable with
+  IntegralGainBounds bounds;  ///< Bounds of the integral gain by criteria (6) and (7), N m/count.
+  bool stable{false};         ///< True if criterion (6) holds: 0 < ki < bounds.stable_below.
+  /// True if criterion (7) of the paper is exceeded, ki > bounds.unstable_above, or if ki < 0, because no PID
+  /// loop is stable then. Always false if `applies` is false.
+  bool unstable{false};
 };
 
 TrialPrediction predict(const trial::TrialParameters& parameters);
@@ -33,9 +35,9 @@ TrialPrediction predict(const trial::TrialParameters& parameters);
 /// predicts nothing.
 struct PointPrediction {
   std::int64_t trials{0};
-  std::int64_t stable{0};    ///< (6) holds
-  std::int64_t unstable{0};  ///< (7) is exceeded
-  std::int64_t outside{0};   ///< trials to which the criteria do not apply
+  std::int64_t stable{0};    ///< Number of trials in which criterion (6) holds.
+  std::int64_t unstable{0};  ///< Number of trials in which criterion (7) is exceeded.
+  std::int64_t outside{0};   ///< Number of trials to which the criteria do not apply.
 
   void add(const TrialPrediction& trial);
   PointPrediction operator+(const PointPrediction& other) const;
@@ -70,7 +72,7 @@ struct TargetStep {
   std::int64_t length() const { return std::abs(to - from); }
 };
 
-/// Those of all moves, in their order.
+/// Target steps of all moves, in order.
 std::vector<TargetStep> target_steps(const trial::CommandParameters& command);
 
 // Linear loops that approximate a trial at rest and while its rotor slides.
@@ -82,14 +84,15 @@ bool has_no_linear_loop(const trial::TrialParameters& parameters);
 /// pre-sliding spring. It is equal in all trials of a point.
 bool is_outside_theory(const trial::TrialParameters& parameters);
 
-/// Why it is outside: "the loop is open", …; empty if it is not.
+/// Reason why is_outside_theory() is true: "the loop is open", …; empty if it is false.
 std::string why_outside_theory(const trial::TrialParameters& parameters);
 
 /// The linear model of the trial's converter and amplifier.
 LinearDrive drive_of(const trial::TrialParameters& parameters);
 
-/// The plant with its inertia in two halves, motor and load, that swing against each other; the encoder is on
-/// the motor, and the coupling's damping is 1 % of the critical one. The sum of the inertias is kept.
+/// The plant with its inertia split into two halves, motor and load, that oscillate against each other. The
+/// sum of the inertias is kept. The encoder is on the motor, and the damping of the coupling is 1 % of the
+/// critical damping.
 /// @param plant without a second mass
 /// @param frequency of the free mode, Hz
 motion::PlantParameters with_load_mode(motion::PlantParameters plant, double frequency);

@@ -32,7 +32,7 @@ std::pair<double, double> stiffness_range(const trial::TrialParameters& paramete
 struct LoadState {
   std::string name;           ///< ", the load stands", …; empty: the masses move together, or there is one
   bool motor_alone{false};    ///< The motor moves and the load does not.
-  FrozenFriction friction{};  ///< Added to that of the motor.
+  FrozenFriction friction{};  ///< Friction of the load that is added to the friction of the motor.
 };
 
 /// The states of the second mass of a trial:
@@ -50,23 +50,24 @@ struct TrialLoop {
   double stiffness{0.0};  ///< Stiffness of the motor's contact, N m/rad.
   FrozenLoop loop;
   loop::ControlPhase phase{loop::ControlPhase::fine};
-  std::size_t load{0};  ///< Index of its state in load_states().
+  std::size_t load{0};  ///< Index of the load's state in load_states().
 };
 
-/// The loops about each of these contacts of the motor, in each state of the load: in the fine phase with the
-/// gains of motion and at standstill, and of a contact that slides also in the coarse phase. Where a state
-/// cuts the loop, there is none. Empty if has_no_linear_loop().
+/// The loops about each of these contacts of the motor, in each state of the load. In the fine phase there
+/// are loops with the gains of motion and with the gains at standstill. A contact that slides also has the
+/// loop of the coarse phase. A state that cuts the loop has none. Empty if has_no_linear_loop().
 std::vector<TrialLoop> loops_about(const friction::LinearContacts& contacts,
                                    const trial::TrialParameters& parameters);
 
 /// The loops about each of linear_contacts_of(): before sliding, then while sliding.
 std::vector<TrialLoop> trial_loops(const trial::TrialParameters& parameters);
 
-/// The names of the states of the load in which no encoder that the controller reads sees the motor, which
-/// moves alone: the loop is cut there.
+/// Names of the states of the load in which the motor moves alone and the controller reads no encoder on the
+/// motor, so that the loop is cut.
 std::vector<std::string> states_without_loop(const trial::TrialParameters& parameters);
 
-/// The loop about a contact in a state of the load with this control; nothing where it is cut.
+/// The loop about a contact in a state of the load with the given control; nothing if the loop is cut in that
+/// state.
 std::optional<FrozenLoop> loop_in_state(const friction::LinearContact& contact, const LoadState& state,
                                         const trial::TrialParameters& parameters,
                                         const loop::ControllerParameters& controller);

@@ -16,11 +16,17 @@ constexpr std::uint32_t continuation_key = 0x636f6e74;
 
 /// The sums of a sample. Pairs have differences d, other samples the values v of one file.
 enum Sum : std::size_t {
-  units = 0,        ///< with a value
-  values = 1,       ///< Σd or Σv; of failures their number, of pairs those of the current file alone
-  squares = 2,      ///< Σd² or Σv²; of pairs of failures those of the baseline alone
-  worse_rank = 3,   ///< pairs: Σ of the signed ranks; else values up to the place of the largest excess
-  better_rank = 4,  ///< pairs: Σ of the squared ranks; else likewise of the opposite excess
+  units = 0,  ///< Number of units with a value.
+  /// Σd or Σv. For failures: their number; for pairs of failures: the pairs that failed only in the current
+  /// file.
+  values = 1,
+  /// Σd² or Σv². For pairs of failures: the pairs that failed only in the baseline.
+  squares = 2,
+  /// For pairs: Σ of the signed ranks. Otherwise: number of values up to the place of the largest excess.
+  worse_rank = 3,
+  /// For pairs: Σ of the squared ranks. Otherwise: number of values up to the place of the largest opposite
+  /// excess.
+  better_rank = 4,
 };
 
 std::vector<Sums> pairs_of(const Sample& sample) {
@@ -114,7 +120,7 @@ double excess_p(const Sums& one, const Sums& other, std::size_t place) {
   return std::exp(-2.0 * excess * excess * one[units] * other[units] / (one[units] + other[units]));
 }
 
-/// Takes `effect` from each of the units.
+/// Subtracts `effect` from the value of each unit.
 void shift(Sums& sums, double effect) {
   sums[squares] += effect * (effect * sums[units] - 2.0 * sums[values]);
   sums[values] -= effect * sums[units];
@@ -148,7 +154,8 @@ Change change_of_pairs(const PairedFailures& failures, double confidence) {
           upper_tail_of_count(better, 0.5 * differing, 0.25 * differing)};
 }
 
-/// By the hypergeometric variance.
+/// Change of the failures of two independent samples. The p-values come from the normal approximation with
+/// the hypergeometric variance.
 Change change_of_failures(const FailureCounts& failures, double confidence) {
   const auto n1 = static_cast<double>(failures.baseline_trials);
   const auto n2 = static_cast<double>(failures.current_trials);
@@ -195,13 +202,13 @@ QuickMean quick_mean(const Sums& sums) {
   return {sums[values] / n, sum_of_squares / (n - 1.0) / n, n - 1.0};
 }
 
-/// With one value more, `distance` beyond the mean.
+/// The mean with one more value, `distance` beyond the present mean.
 QuickMean with_one_more(const Sums& sums, double distance) {
   const double value = sums[values] / sums[units] + distance;
   return quick_mean({sums[units] + 1.0, sums[values] + value, sums[squares] + value * value});
 }
 
-/// Welch's difference.
+/// Welch's difference of two means.
 QuickMean difference_of(const QuickMean& baseline, const QuickMean& current) {
   const double variance = baseline.variance + current.variance;
   const double spread = baseline.variance * baseline.variance / baseline.degrees_of_freedom +

@@ -7,8 +7,8 @@
 
 #include "analysis/two_samples/sample.hpp"
 
-/// How a sample might go on: simulated further units from what the seen ones say of their population, and the
-/// change that all units together show.
+/// Simulated continuation of a sample: further units are drawn from the population that the observed units
+/// suggest, and the change of all units together is computed.
 namespace zerocount::two_samples {
 
 /// Purpose of a random number of a continuation.
@@ -20,7 +20,7 @@ enum class ContinuationDraw : std::uint32_t {
   unseen_units
 };
 
-/// Random bits of a simulation: a function of these four numbers alone.
+/// Random bits of a simulation, a function of the four arguments only.
 std::uint64_t continuation_bits(std::uint32_t simulation, std::uint32_t stream, std::uint64_t index,
                                 ContinuationDraw draw);
 
@@ -62,14 +62,14 @@ class Continuation {
 using Sums = std::array<double, 6>;
 void add(Sums& sums, const Sums& more);
 
-/// Sums of both files; pairs have theirs in the first.
+/// Sums of both files. The sums of pairs are in the first.
 using FileSums = std::array<Sums, 2>;
 
 /// The weights of blocks of both files.
 using FileWeights = std::array<std::vector<double>, 2>;
 
-/// Units by the blocks of a continuation: each block has the mean sums of one of its units. The memory does
-/// not grow with the units.
+/// Units in the blocks of a continuation. A block holds the mean sums of one of its units. The memory does
+/// not grow with the number of units.
 class BlockedSums {
  public:
   BlockedSums() = default;
@@ -77,7 +77,7 @@ class BlockedSums {
   BlockedSums(const std::vector<Sums>& units, const Continuation& continuation);
 
   const Sums& seen() const { return seen_; }
-  /// With so many units like each block.
+  /// Sums over `weights` units like each block.
   Sums weighted(const std::vector<double>& weights) const;
 
  private:
@@ -85,7 +85,7 @@ class BlockedSums {
   Sums seen_{};
 };
 
-/// A sample as the sums that its change follows from.
+/// A sample reduced to the sums from which its change is computed.
 class ContinuedSample {
  public:
   ContinuedSample(const Sample& sample, const std::array<Continuation, 2>& continuations);
@@ -99,13 +99,14 @@ class ContinuedSample {
   /// Takes the effect that `population` has (sums of one unit) out of `more` further units.
   void remove_effect(FileSums& further, const FileSums& population) const;
 
-  /// Adds units that are of a kind that the sample has none of: pairs of which one failed, either way, or
-  /// failures and successes. @param sums of failures
+  /// Adds units of two kinds of which the sample may have none: pairs of which only one failed, in either
+  /// direction, or failures and successes.
+  /// @param sums sums of failures
   void add_unseen(Sums& sums, double first_kind, double second_kind) const;
 
   /// change_of() a sample with these sums, quick enough for simulations: the p-values are approximations by
   /// the normal distribution, ranks keep the scores that they have in the sample, and the bounds of failures
-  /// are exact. @param ranks whether the rank test speaks too
+  /// are exact. @param ranks whether the rank test counts too
   Change change_of(const FileSums& sums, double confidence, bool ranks, double margin = 0.0) const;
 
  private:

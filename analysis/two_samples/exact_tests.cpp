@@ -44,7 +44,7 @@ constexpr std::int64_t max_exact_lattice = 4'000'000;
 /// Twice the mean ranks of the sizes of these differences, which are whole.
 struct DoubledRanks {
   std::vector<std::int64_t> ranks;
-  std::int64_t positive{0};  ///< their sum over the positive differences
+  std::int64_t positive{0};  ///< Sum of the doubled ranks over the positive differences.
 };
 
 DoubledRanks doubled_ranks(std::span<const double> differences) {
@@ -95,8 +95,8 @@ double normal_tail(const DoubledRanks& doubled) {
                                        std::sqrt(variance));
 }
 
-/// How the pooled samples rise: the sizes of the groups of equal values, as where they end, and the largest
-/// excess of the baseline over the current sample there, in units of 1/(n₁n₂).
+/// The groups of equal values in the pooled samples, and the largest excess of the baseline's empirical
+/// distribution over the current sample's at the end of a group, in units of 1/(n₁n₂).
 struct PooledGroups {
   std::vector<bool> ends;  ///< [number of pooled values]: a group ends there
   std::int64_t excess{0};

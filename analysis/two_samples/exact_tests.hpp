@@ -5,16 +5,15 @@
 
 #include "analysis/statistics/proportion.hpp"
 
-/// Exact tests of a baseline and what is compared with it: of the proportions of trials that fail something,
-/// and of ranks. Effects and alternatives are for the worse: more failures, or larger values, than in the
-/// baseline.
+/// Exact tests of a baseline against a current sample: of the proportions of failed trials, and of ranks.
+/// Effects and alternatives are for the worse: more failures, or larger values, than in the baseline.
 namespace zerocount::two_samples {
 
-/// Failures of both, trial by trial.
+/// Failures of paired samples, counted trial by trial.
 struct PairedFailures {
   std::int64_t pairs{0};
-  std::int64_t only_current{0};   ///< pairs that failed in the current file alone
-  std::int64_t only_baseline{0};  ///< pairs that failed in the baseline alone
+  std::int64_t only_current{0};   ///< Number of pairs that failed only in the current file.
+  std::int64_t only_baseline{0};  ///< Number of pairs that failed only in the baseline.
 };
 
 /// Failures of two independent samples.

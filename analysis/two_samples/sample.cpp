@@ -77,7 +77,8 @@ DirectionalP p_of_failures(const Sample& sample) {
 }
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double bound_precision = 1e-3;  ///< of a bound, as a proportion of the largest value
+/// Precision of a bound, as a proportion of the largest value.
+constexpr double bound_precision = 1e-3;
 
 /// Whether every cluster has a single value: its proportion is 0 or 1.
 bool are_single(const ClusteredValues& values) {

@@ -7,8 +7,8 @@
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/statistics/unknown.hpp"
 
-/// The change of one statistic between a baseline and what is compared with it: whatever the statistic is, it
-/// is a value of each of the units that are independent. A larger value, and a positive change, is worse.
+/// The change of one statistic between a baseline and a current sample. The statistic has one value for each
+/// independent unit. A larger value, and a positive change, is worse.
 ///
 /// Tests and bounds of a difference of quantiles. A positive difference is for the worse.
 ///
@@ -20,44 +20,49 @@
 /// probability; Conover, Practical Nonparametric Statistics (1999), section 4.3.
 namespace zerocount::two_samples {
 
-/// A statistic in both: the values of the trials, or of the machines or worlds where trials share these.
+/// A statistic in both files. The units are the trials; if trials share machines or worlds, these are the
+/// units.
 struct Sample {
-  bool failures{false};               ///< each value is 1 (failed) or 0: for the exact tests of counts
-  bool paired{false};                 ///< unit i of both drew the same random numbers
-  double plausible{1.0};              ///< difference of a single unit, the `unit` of cautious_bounds()
-  std::vector<double> baseline{};     ///< [unit]; NaN where the unit has no value
-  std::vector<double> current{};      ///< [unit]
-  std::vector<double> differences{};  ///< [unit] current − baseline; of pairs only
+  /// True if each value is 1 (failed) or 0, so that the exact tests of counts apply.
+  bool failures{false};
+  bool paired{false};                 ///< True if unit i of both files drew the same random numbers.
+  double plausible{1.0};              ///< Plausible difference of a single unit: `unit` of cautious_bounds().
+  std::vector<double> baseline{};     ///< [unit] Value; NaN if the unit has none.
+  std::vector<double> current{};      ///< [unit] Value; NaN if the unit has none.
+  std::vector<double> differences{};  ///< [unit] current − baseline; only for pairs.
 };
 
 /// One-sided p-values of no change, or of a change within a margin.
 struct DirectionalP {
-  double worse{1.0};   ///< against a change for the worse
-  double better{1.0};  ///< against a change for the better
+  double worse{1.0};   ///< p-value against a change for the worse.
+  double better{1.0};  ///< p-value against a change for the better.
 };
 
 /// A change, current − baseline, tested against a margin of 0 or more. Its members are unknown where it was
 /// not tested.
 struct Change {
   double effect{statistics::unknown};
-  statistics::ConfidenceInterval bounds{statistics::unknown, statistics::unknown};  ///< each one-sided
-  double p{statistics::unknown};              ///< of no change, against one for the worse
-  double improvement_p{statistics::unknown};  ///< of no change, against one for the better
+  /// One-sided bounds of the effect.
+  statistics::ConfidenceInterval bounds{statistics::unknown, statistics::unknown};
+  double p{statistics::unknown};  ///< One-sided p-value of no change, against a change for the worse.
+  /// One-sided p-value of no change, against a change for the better.
+  double improvement_p{statistics::unknown};
   /// p-values of a change within the margin: p_beyond().
   DirectionalP beyond{statistics::unknown, statistics::unknown};
 };
 
-/// The p-values of no change. Of failures by McNemar's exact test, or Fisher's. Of other values the larger p
-/// of a rank test and a t-test, because both must show a change: signed ranks and the paired t, or Smirnov's
-/// test and Welch's t.
+/// The p-values of no change. For failures: McNemar's exact test if paired, otherwise Fisher's. For other
+/// values: the larger p of a rank test and a t-test, because both must show a change. These are signed ranks
+/// and the paired t if paired, otherwise Smirnov's test and Welch's t.
 DirectionalP p_of(const Sample& sample);
 
 /// The p-values of a change within ± margin: the larger one of p_of() and of the level at which a bound of
 /// change_of() reaches the margin.
 DirectionalP p_beyond(const Sample& sample, double margin);
 
-/// The change with p_of(), p_beyond() and bounds, each with `confidence`: of failures tango(), or newcombe();
-/// of other values cautious_bounds(). @param sample with two values or more
+/// The change with p_of(), p_beyond() and one-sided bounds, each with `confidence`. For failures the bounds
+/// are tango() if paired, otherwise newcombe(). For other values: cautious_bounds().
+/// @param sample with two values or more
 Change change_of(const Sample& sample, double confidence, double margin = 0.0);
 
 /// The values without NaN.
@@ -66,7 +71,7 @@ std::vector<double> known(std::span<const double> values);
 /// The mean of known values; NaN without any.
 double mean_of(std::span<const double> values);
 
-/// Difference of the means, and what its bounds come from.
+/// Difference of the means, with the standard error and the degrees of freedom for its bounds.
 struct MeanDifference {
   double value{0.0};
   double standard_error{0.0};
@@ -82,7 +87,8 @@ MeanDifference mean_difference(std::span<const double> differences);
 /// @param baseline two or more, @param current two or more
 MeanDifference mean_difference(std::span<const double> baseline, std::span<const double> current);
 
-/// Of the known values of the sample.
+/// Mean difference of the known values of the sample: paired or of independent samples, as Sample::paired
+/// says.
 MeanDifference mean_difference(const Sample& sample);
 
 /// P(t ≥ value/standard error): one-sided, against a difference for the worse. Without any spread 0, ½ or 1.
@@ -99,29 +105,30 @@ statistics::ConfidenceInterval cautious_bounds(std::span<const double> baseline,
                                                std::span<const double> current, double unit,
                                                double confidence);
 
-/// The values of one file: `values_of_trial` of each trial after the other; trial i in cluster i mod
-/// `clusters`, or each in one of its own (0). Independent are the clusters.
+/// The values of one file, trial by trial, `values_of_trial` for each. Trial i belongs to cluster i mod
+/// `clusters`; if `clusters` is 0, each trial is a cluster. The clusters are independent.
 struct ClusteredValues {
   std::span<const double> values{};
   std::int64_t values_of_trial{1};
   std::int64_t clusters{0};
 };
 
-/// Both files.
+/// The values of both files, and the probability of the compared quantile.
 struct QuantileSample {
   ClusteredValues baseline{};
   ClusteredValues current{};
-  bool paired{false};  ///< trial i, and each of its values, of both drew the same random numbers
+  /// True if trial i of both files, and each of its values, drew the same random numbers.
+  bool paired{false};
   double probability{0.5};
 };
 
 /// The sample quantile of one file.
 double quantile_of(const ClusteredValues& values, double probability);
 
-/// The change of the sample quantile: infinite where one of them is, NaN where both are. Its bounds are the
-/// differences δ that the test does not reject of the baseline's values + δ and the current ones; infinite
-/// where the test rejects no, or every, difference. Its p-values beyond the margin are those of the test of a
-/// shift by ± margin.
+/// The change of the sample quantile: infinite if one of the quantiles is, NaN if both are. The bounds
+/// enclose the differences δ for which the test does not reject that the baseline's values + δ and the
+/// current values have the same quantile. They are infinite if the test rejects no difference, or every
+/// difference. The p-values beyond the margin are those of the test of a shift by ± margin.
 Change change_of(const QuantileSample& sample, double confidence, double margin = 0.0);
 
 /// A sample of means that varies as the change of the quantile does, for a forecast. A quantile is to first

@@ -11,14 +11,14 @@
 
 namespace zerocount::worlds {
 
-/// A property of a contact that follows from several of its parameters, and that a record shows more directly
-/// than each of them: k1, k2, β, α, λ and n are coefficients of a law, of which λ even has a unit that
-/// depends on n.
+/// A property of a contact that follows from several of its parameters. A record shows it more directly than
+/// each parameter, because k1, k2, β, α, λ and n are coefficients of a law; the unit of λ even depends on n.
 struct DerivedQuantity {
   std::string_view name;
-  std::string_view unit;       ///< on a rotary axis
-  std::string_view meaning;    ///< its formula in words, with the placeholders of parameters::text_on
-  std::string_view parameter;  ///< that the same record of `zerocount identify` tells, see record_of()
+  std::string_view unit;     ///< Unit on a rotary axis.
+  std::string_view meaning;  ///< Formula in words, with the placeholders of parameters::text_on().
+  /// Parameter that `zerocount identify` estimates from the same record, see record_of().
+  std::string_view parameter;
   bool (*exists)(friction::FrictionModel model);
   /// @param torque that the contact carries at rest, N m, above 0
   double (*value)(const friction::FrictionParameters& contact, double torque);

@@ -13,16 +13,17 @@
 namespace zerocount::worlds {
 namespace {
 
-/// The other worlds that remain possible if one is the truth: neighbours in the order of their values.
+/// The worlds that remain possible if one of them is the truth: a range of neighbours in the order of their
+/// values.
 struct Possible {
   std::size_t first;
-  std::size_t end;  ///< exclusive; the world itself is among them
+  std::size_t end;  ///< End of the range, exclusive. The range includes the true world itself.
 };
 
 /// The worlds in the order of one input, and those that remain possible at each place.
 struct Neighbours {
-  std::vector<std::size_t> order;  ///< [place] world
-  std::vector<Possible> possible;  ///< [place]
+  std::vector<std::size_t> order;  ///< [place] Index of the world at this place.
+  std::vector<Possible> possible;  ///< [place] Worlds that remain possible.
 
   Neighbours(const std::vector<double>& values, double precision) : order(values.size()) {
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -75,7 +76,8 @@ std::int64_t net_of(const Learned& learned) {
   return learned.decided() - learned.misjudged();
 }
 
-/// Share of the values that are at least as large as one of them. @param sorted ascending
+/// Proportion of the values that are at least as large as a given one of them.
+/// @param sorted values in ascending order
 double proportion_from(const std::vector<std::int64_t>& sorted, std::int64_t value) {
   return static_cast<double>(sorted.end() - std::ranges::lower_bound(sorted, value)) /
          static_cast<double>(sorted.size());

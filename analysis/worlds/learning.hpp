@@ -16,11 +16,15 @@ inline constexpr std::size_t min_possible_worlds = 4;
 /// reached.
 struct Learned {
   std::size_t input{0};
-  std::int64_t decided_good{0};   ///< worlds in which the goal is reached, and in all that remain possible
-  std::int64_t decided_bad{0};    ///< worlds that fall short, as all that remain possible
-  std::int64_t rejected_good{0};  ///< good worlds, of which all others that remain possible fall short
-  std::int64_t missed_bad{0};     ///< bad worlds, in all others of which that remain possible it is reached
-  std::int64_t open{0};           ///< worlds with both kinds among those that remain possible
+  /// Number of worlds in which the goal is reached, as it is in all worlds that remain possible.
+  std::int64_t decided_good{0};
+  /// Number of worlds that miss the goal, as do all worlds that remain possible.
+  std::int64_t decided_bad{0};
+  /// Number of good worlds for which all other worlds that remain possible miss the goal.
+  std::int64_t rejected_good{0};
+  /// Number of bad worlds for which all other worlds that remain possible reach the goal.
+  std::int64_t missed_bad{0};
+  std::int64_t open{0};  ///< Number of worlds for which worlds of both kinds remain possible.
   /// Probability of as many decided, less misjudged, for this or any other parameter, if good and bad worlds
   /// had nothing to do with any of them: an unknown that does not matter decides too where few worlds are
   /// bad.

@@ -32,12 +32,12 @@ constexpr std::size_t max_thresholds = 31;
 constexpr std::size_t max_inputs_in_pairs = 8;
 constexpr std::int64_t worlds_worth_a_condition = 2;
 
-using Labels = std::vector<std::uint8_t>;  ///< [world] 1: bad
+using Labels = std::vector<std::uint8_t>;  ///< [world] 1 if the world is bad, otherwise 0.
 using Conditions = std::vector<Condition>;
 
 /// The thresholds of one parameter, and the interval between them in which each world lies.
 struct Bins {
-  std::vector<double> thresholds;  ///< ascending
+  std::vector<double> thresholds;  ///< Thresholds in ascending order.
   std::vector<std::size_t> of_world;
 };
 
@@ -65,13 +65,13 @@ struct Named {
   std::int64_t good{0};
 };
 
-/// A rule, and how well it tells bad worlds from others. The first parameter of a single condition is also
-/// the second.
+/// A rule, and how well it separates bad worlds from the others. If it has a single condition, both
+/// parameters are the same.
 struct Candidate {
   std::vector<Condition> conditions;
   bool all{true};
   Named named;
-  double error{1.0};  ///< mean of the two error rates
+  double error{1.0};  ///< Mean of the two error rates.
   std::int64_t wrong{0};
 
   bool is_better_than(const Candidate& other) const {
@@ -113,7 +113,8 @@ class Search {
   }
 
  private:
-  /// Takes the rule for the best if it is better. @param conditions makes its conditions
+  /// Replaces `best` by the rule if the rule is better.
+  /// @param conditions makes the conditions of the rule
   void consider(Candidate& best, const Named& named, bool all, const auto& conditions) const {
     Candidate candidate{{}, all, named, 1.0, all_.bad - named.bad + named.good};
     candidate.error = 0.5 * (static_cast<double>(all_.bad - named.bad) / static_cast<double>(all_.bad) +
@@ -201,7 +202,7 @@ class Search {
   std::vector<Named> below_;
 };
 
-/// Ranks from 0, of ties their mean, less the mean of all ranks, with the sum of squares 1.
+/// Ranks of values minus the mean of all ranks, scaled to a sum of squares of 1. Ties have their mean rank.
 std::vector<double> scaled_ranks(const std::vector<double>& values) {
   std::vector<std::size_t> order(values.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -220,11 +221,11 @@ std::vector<double> scaled_ranks(const std::vector<double>& values) {
   return ranks;
 }
 
-/// The worlds as the search for a rule needs them.
+/// The worlds in the form that the search for a rule needs.
 struct RankedWorlds {
-  std::vector<Bins> bins;                   ///< [input]
-  std::vector<std::vector<double>> inputs;  ///< [input] scaled ranks
-  std::vector<double> rates;                ///< scaled ranks
+  std::vector<Bins> bins;                   ///< [input] Bins of the worlds.
+  std::vector<std::vector<double>> inputs;  ///< [input] Scaled ranks of the worlds' values.
+  std::vector<double> rates;                ///< Scaled ranks of the worlds' rates.
   Labels bad;
 };
 
@@ -235,8 +236,8 @@ double correlation(const std::vector<double>& input, const std::vector<double>& 
   return sum;
 }
 
-/// Whether the rates fall towards the side of the parameter that the condition names, and how strongly:
-/// Spearman's correlation with the sign of that.
+/// Trend of the rates towards the side of the parameter that the condition names: Spearman's correlation,
+/// positive if the rates fall towards that side.
 double trend_of(const Condition& condition, const RankedWorlds& worlds) {
   std::vector<std::size_t> same(worlds.rates.size());
   std::iota(same.begin(), same.end(), std::size_t{0});
@@ -247,7 +248,7 @@ double trend_of(const Condition& condition, const RankedWorlds& worlds) {
 /// The results of the permutations.
 struct Permuted {
   std::vector<Candidate> rules;
-  std::vector<double> strongest_trends;  ///< largest |ρ| of all parameters
+  std::vector<double> strongest_trends;  ///< [permutation] Largest |ρ| of all parameters.
 
   Permuted(const RankedWorlds& worlds, std::uint64_t seed) {
     const random::RandomKey key = designs::random_key(seed, "worlds/permutations");
@@ -298,7 +299,7 @@ std::vector<Condition> same_as(const WorldRule& rule, std::vector<Condition> sin
   return singles;
 }
 
-/// The threshold in as few digits as leave every world on its side.
+/// The threshold with as few digits as possible so that every world stays on its side.
 std::string number_text(double threshold, const std::vector<double>& values) {
   for (int digits = 2; digits < 17; ++digits) {
     const double rounded = text::round_to_digits(threshold, digits);

@@ -18,17 +18,17 @@ inline constexpr int permutations = 399;
 /// 0, 1, …, size − 1 in a random order (Fisher and Yates), with the numbers of one permutation.
 std::vector<std::size_t> permutation_of(std::size_t size, const random::RandomKey& key, std::uint32_t number);
 
-/// The p-value of a statistic that so many permutations reach: (1 + as_good)/(1 + permutations).
+/// The p-value of a statistic that `as_good` permutations reach: (1 + as_good)/(1 + permutations).
 inline double p_value_of_permutations(std::int64_t as_good) {
   return static_cast<double>(1 + as_good) / static_cast<double>(1 + permutations);
 }
 
 /// A quantity that differs between worlds: an unknown parameter, or a DerivedQuantity.
 struct WorldInput {
-  std::string name;  ///< dotted path of a parameter, name of a derived quantity
+  std::string name;  ///< Dotted path of a parameter, or name of a derived quantity.
   std::string unit;
-  std::vector<double> values;  ///< [world]
-  std::string meaning{};       ///< of a derived quantity; empty for a parameter
+  std::vector<double> values;  ///< [world] Value.
+  std::string meaning{};       ///< Meaning of a derived quantity; empty for a parameter.
 
   bool is_derived() const { return !meaning.empty(); }
 };
@@ -36,26 +36,28 @@ struct WorldInput {
 /// The unknown parameters of a study at a design point.
 std::vector<WorldInput> unknowns_of(const study::Study& study, std::int64_t point);
 
-/// "friction.alpha > 1.4".
+/// A condition of a rule, such as "friction.alpha > 1.4".
 struct Condition {
   std::size_t input{0};
   bool above{false};
-  double threshold{0.0};  ///< halfway between the values of two worlds
+  double threshold{0.0};  ///< Threshold halfway between the values of two worlds.
 };
 
-/// A rule on one or two parameters that tells bad worlds from the others. It names what separates them, which
-/// need not be the cause: what varies together separates alike.
+/// A rule on one or two parameters that separates bad worlds from the others. The parameters need not be the
+/// cause, because parameters that vary together separate the worlds alike.
 struct WorldRule {
   std::vector<Condition> conditions;
-  bool all{true};                 ///< worlds are named where all conditions hold; otherwise where one holds
-  std::vector<Condition> same{};  ///< on other inputs, each of which alone names the same worlds
-  std::int64_t bad{0};            ///< bad worlds
-  std::int64_t bad_named{0};      ///< of them, those that the rule names
-  std::int64_t good{0};           ///< other worlds
-  std::int64_t good_named{0};     ///< of them, those that the rule names wrongly
-  /// Probability of such a rule if the worlds' rates had nothing to do with these parameters: twice the
-  /// smaller of two p-values, of as good a rule, and of as strong a trend (Spearman) of the rates over each
-  /// parameter of the rule, in its direction.
+  /// True if the rule names worlds in which all conditions hold; false if one suffices.
+  bool all{true};
+  /// Conditions on other inputs. Each of them alone names the same worlds.
+  std::vector<Condition> same{};
+  std::int64_t bad{0};         ///< Number of bad worlds.
+  std::int64_t bad_named{0};   ///< Number of bad worlds that the rule names.
+  std::int64_t good{0};        ///< Number of other worlds.
+  std::int64_t good_named{0};  ///< Number of other worlds that the rule names wrongly.
+  /// Probability of such a rule if the worlds' rates did not depend on these parameters. It is twice the
+  /// smaller of two p-values: for a rule that is as good, and for trends (Spearman) of the rates over the
+  /// parameters of the rule that are as strong in its direction.
   double p_value{1.0};
 
   double error_rate() const {
@@ -63,7 +65,7 @@ struct WorldRule {
   }
 };
 
-/// Largest p-value of a rule that is told.
+/// Largest p-value of a rule that is reported.
 inline constexpr double significance_of_rules = 0.05;
 
 /// Finds the rule that separates the bad worlds best.

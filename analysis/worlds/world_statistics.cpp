@@ -34,7 +34,7 @@ RatesOfWorlds judged_rates(const goal::Question& question, const goal::Verdict& 
   return rates;
 }
 
-/// [world] the worst verdict of the claims on it.
+/// [world] Worst status of the claims on the world.
 std::vector<goal::Status> worst_statuses(const goal::Verdict& verdict) {
   std::vector<goal::Status> worst(verdict.worlds.size(), goal::Status::met);
   for (const goal::ClaimVerdict& claim : verdict.claims) {
@@ -45,7 +45,7 @@ std::vector<goal::Status> worst_statuses(const goal::Verdict& verdict) {
   return worst;
 }
 
-/// [world] whether it falls short of a claim, as observed.
+/// [world] Whether the observed rate of the world falls short of a claim.
 std::vector<bool> short_of_claims(const goal::Question& question, const goal::Verdict& verdict) {
   std::vector<bool> bad(verdict.worlds.size(), false);
   for (const goal::ClaimVerdict& claim : verdict.claims) {
@@ -59,7 +59,7 @@ std::vector<bool> short_of_claims(const goal::Question& question, const goal::Ve
   return bad;
 }
 
-/// [world] whether it is shown to succeed less often than the median world.
+/// [world] Whether the world is shown to succeed less often than the median world.
 std::vector<bool> below_median(const PointWorlds& point, const std::vector<measures::MoveCounts>& succeeded,
                                double confidence) {
   std::vector<bool> bad;

@@ -13,12 +13,13 @@
 /// Statistics of a design point by world.
 namespace zerocount::worlds {
 
-/// The proportion in each world, and its worst, median and best.
+/// The proportion in each world, and the worst, median and best of them.
 struct RatesOfWorlds {
-  std::vector<goal::BoundedProportion> worlds;  ///< [world], each bound alone
-  std::size_t worst{0};                         ///< world of the lowest rate
-  std::size_t best{0};
-  double median{0.0};  ///< of the rates
+  /// [world] Rate with bounds that hold for each world alone.
+  std::vector<goal::BoundedProportion> worlds;
+  std::size_t worst{0};  ///< World with the lowest rate.
+  std::size_t best{0};   ///< World with the highest rate.
+  double median{0.0};    ///< Median of the rates.
   /// The lowest rate of all worlds; its bounds are the lowest of the bounds of each world (Bonferroni).
   goal::BoundedProportion lowest{};
 };
@@ -28,13 +29,15 @@ RatesOfWorlds rates_of_worlds(const std::vector<measures::MoveCounts>& worlds, d
 
 /// A design point by world.
 struct PointWorlds {
-  RatesOfWorlds success;  ///< trials all of whose moves ended at zero error
-  RatesOfWorlds asked;    ///< by the question: of machines, moves or trials; without a goal success
-  std::optional<goal::Verdict> goal;  ///< of a study with a goal
-  /// [world] the worst verdict of all goals under all conditions; empty without a goal
+  RatesOfWorlds success;  ///< Proportion of trials in which all moves ended at zero error.
+  /// Rates by the question of the study: proportions of machines, moves or trials. Without a goal: `success`.
+  RatesOfWorlds asked;
+  std::optional<goal::Verdict> goal;  ///< Verdict on the goal; nothing without a goal.
+  /// [world] Worst status of all goals under all conditions; empty without a goal.
   std::vector<goal::Status> statuses;
-  std::vector<bool> bad;          ///< [world]
-  std::optional<WorldRule> rule;  ///< what the bad worlds have in common
+  std::vector<bool> bad;  ///< [world] Whether the world is bad, see point_worlds().
+  /// Rule that separates the bad worlds from the others; nothing if none is found.
+  std::optional<WorldRule> rule;
 };
 
 /// A world is bad if fewer of its moves (or machines) than a goal asks for meet it, under any condition.

@@ -30,21 +30,21 @@ std::string_view name_of(InstructionSet instructions);
 
 /// One sampling instant of a trial in a batch, as SampleRecord has it.
 struct BatchSample {
-  std::size_t trial{0};   ///< number in the batch
-  std::int64_t k{0};      ///< sample number from the start of the trial
-  std::int64_t count{0};  ///< fine encoder, counts
+  std::size_t trial{0};   ///< Index of the trial in the batch.
+  std::int64_t k{0};      ///< Sample number from the start of the trial
+  std::int64_t count{0};  ///< Fine encoder, counts
   std::int64_t code{0};   ///< DAC code
-  double theta{0.0};      ///< rotor angle, rad
-  double xp{0.0};         ///< plastic extension, rad
+  double theta{0.0};      ///< Rotor angle, rad
+  double xp{0.0};         ///< Plastic extension, rad
   double xh{0.0};         ///< hardening, rad
 };
 
 /// Callbacks while a batch runs; an empty function is not called. Calls for one trial come in order of time,
 /// interleaved with those for other trials.
 struct BatchObservers {
-  std::function<void(std::size_t trial, const trial::Jerk&)> jerk;  ///< at the end of every jerk
-  std::function<void(const BatchSample&)> sample;                   ///< at every sampling instant
-  std::stop_token stop{};  ///< a request to stop ends the batch by trial::Interrupted
+  std::function<void(std::size_t trial, const trial::Jerk&)> jerk;  ///< Called at the end of every jerk
+  std::function<void(const BatchSample&)> sample;                   ///< Called at every sampling instant
+  std::stop_token stop{};  ///< A request to stop ends the batch by trial::Interrupted.
 };
 
 /// Gives the parameters of a trial of a batch when a lane begins it. They stay as they are until the next
@@ -52,7 +52,7 @@ struct BatchObservers {
 using TrialSource = std::function<const trial::TrialParameters&(std::size_t trial, std::size_t slot)>;
 
 struct BatchSettings {
-  int lanes{128};  ///< trials in work at the same time, 1 to 128
+  int lanes{128};  ///< Trials in work at the same time, 1 to 128
   InstructionSet instructions{widest_instruction_set()};
 };
 
@@ -81,12 +81,12 @@ class BatchEngine {
   /// trials that have ended are complete, and the others have no moves.
   void run(const TrialSource& source, std::span<trial::TrialOutcome> outcomes,
            const BatchObservers& observers = {});
-  /// @param trials not changed while this runs.
+  /// Runs these trials. @param trials must not change during the run.
   void run(std::span<const trial::TrialParameters* const> trials, std::span<trial::TrialOutcome> outcomes,
            const BatchObservers& observers = {});
 
-  /// Rounds of the last run: with one lane, the steps of its trials, and their samples where none passes
-  /// them.
+  /// Number of rounds of the last run. With one lane, rounds measure the work: steps of its trials, and
+  /// samples that no step passes over.
   std::int64_t rounds() const;
 
  private:

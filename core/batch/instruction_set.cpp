@@ -12,7 +12,7 @@ struct BuiltKernels {
   const Kernels* kernels;
 };
 
-/// The widest first.
+/// Kernels in this build, the widest instruction set first.
 constexpr std::array built{
 #ifdef ZEROCOUNT_KERNELS_AVX512
     BuiltKernels{InstructionSet::avx512, &avx512_kernels},

@@ -17,11 +17,11 @@ namespace zerocount::friction {
 /// Selects a parameter of a contact.
 using ContactField = double FrictionParameters::*;
 
-/// How a law begins to slide.
+/// Manner in which a law begins to slide.
 enum class Breakaway {
-  never,    ///< without a contact
-  of_hook,  ///< at an instant; breakaways() counts these
-  gradual   ///< by degrees; sliding() is evaluated at the sampling instants
+  never,    ///< The law has no contact that could break away.
+  of_hook,  ///< At one instant. breakaways() counts these instants.
+  gradual   ///< Gradually. sliding() is evaluated at the sampling instants.
 };
 
 /// A friction law between rotor and bearing (README.md): its state, including the rotor's, and its motion. A

@@ -13,7 +13,8 @@ namespace zerocount::friction {
 template <FrictionLaw... Laws>
 struct LawList {
   template <template <class> class Of>
-  using Variant = std::variant<Of<Laws>...>;  ///< for instance of a plant with each law
+  /// One alternative for each law, for instance a plant with that law.
+  using Variant = std::variant<Of<Laws>...>;
   static constexpr std::array traits{traits_of<Laws>()...};
 };
 

@@ -13,14 +13,14 @@ struct LinearContact {
   std::string_view name;
   double stiffness;    ///< N m/rad
   double damping;      ///< N m s/rad
-  bool slides{false};  ///< the contact yields: no stiffness
+  bool slides{false};  ///< The contact yields, so that it has no stiffness.
 };
 
 /// The contacts that approximate a law, from the softest to the stiffest before it slides, and while it
 /// slides.
 using LinearContacts = std::vector<LinearContact>;
 
-/// The stiffest contact; one without stiffness and damping where there is none before it slides.
+/// The stiffest contact before sliding. If there is none, a contact without stiffness and damping.
 inline LinearContact stiffest_of(const LinearContacts& contacts) {
   LinearContact stiffest{"", 0.0, 0.0};
   for (const LinearContact& contact : contacts)

@@ -9,7 +9,7 @@
 namespace zerocount::friction {
 namespace {
 
-/// The direction in which a load at rest begins to move; 0 if it does not.
+/// Direction in which a load at rest begins to move; 0 if it stays at rest.
 double heading_from_rest(const numerics::Series& omega) {
   for (const double coefficient : omega)
     if (coefficient != 0.0) return numerics::sign_of(coefficient);

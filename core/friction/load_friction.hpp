@@ -19,8 +19,8 @@ struct LoadFrictionParameters {
   FrictionParameters contact{};
 };
 
-/// The load stands until the torque on it passes the breakaway torque, and slides by Slide until ωL = 0. The
-/// rules at the level of breakaway are those of stand_step().
+/// The load stands until the torque on it passes the breakaway torque, and slides by Slide until ωL = 0. A
+/// torque at the breakaway level is treated as in stand_step().
 class CoulombOnLoad final : public motion::LoadFriction {
  public:
   CoulombOnLoad(const FrictionParameters& contact, double inertia, double velocity);
@@ -49,7 +49,7 @@ class CoulombOnLoad final : public motion::LoadFriction {
   StandingSeries standing_series_{};
 };
 
-/// The bristle of Dahl or LuGre (BristleMotion).
+/// A bristle by the law of Dahl or LuGre (BristleMotion), between load and frame.
 class BristleOnLoad final : public motion::LoadFriction {
  public:
   BristleOnLoad(const BristleParameters& parameters, double inertia)
@@ -77,12 +77,13 @@ class BristleOnLoad final : public motion::LoadFriction {
 
 using FrictionOfLoad = std::variant<std::monostate, CoulombOnLoad, BristleOnLoad>;
 
-/// Null without friction.
+/// The friction as an interface; null without friction.
 inline motion::LoadFriction* to_load_friction(FrictionOfLoad& friction) {
   if (auto* const coulomb = std::get_if<CoulombOnLoad>(&friction)) return coulomb;
   return std::get_if<BristleOnLoad>(&friction);
 }
 
+/// Friction of a load in its initial state.
 /// @param inertia JL, kg m². @param velocity ωL at the start, rad/s.
 FrictionOfLoad friction_of_load(const LoadFrictionParameters& friction, double inertia, double velocity);
 

@@ -16,28 +16,30 @@ namespace zerocount::friction {
 /// in a loop without delay its five gains all behave as it says only between about 7e4 and 1.4e5 /rad (study
 /// beta-from-outcomes).
 struct FrictionParameters {
-  double k1{110.0};                ///< lowest tangent stiffness of the spring, N m/rad
-  double k2{750.0};                ///< highest tangent stiffness less k1, N m/rad
-  double beta{1.0e5};              ///< rate at which a branch softens from k1 + k2 to k1, 1/rad
-  double alpha{0.5};               ///< rate of creep, 1/s
-  double lambda{10.0};             ///< hardening modulus λ, (N m)ⁿ/rad
-  double n{2.0};                   ///< exponent of the torque in the creep law, dimensionless, at least 1
-  double breakaway{0.3};           ///< torque at which the hook starts to slide, N m
-  double coulomb_ratio{0.8};       ///< Coulomb level over breakaway, dimensionless, in (0, 1]
-  double stribeck_velocity{0.01};  ///< velocity over which sliding friction falls to the Coulomb level, rad/s
-  double sigma0{860.0};            ///< σ0, stiffness of the bristles (Dahl, LuGre), N m/rad; k1 + k2
-  double sigma1{0.2};  ///< σ1, damping of the bristles (LuGre), N m s/rad; that of the paper's contact
-  double gms_attraction{30.0};  ///< C, rate at which a slipping element's torque goes to its level, N m/s
+  double k1{110.0};                ///< Lowest tangent stiffness of the spring, N m/rad
+  double k2{750.0};                ///< Highest tangent stiffness minus k1, N m/rad
+  double beta{1.0e5};              ///< Rate at which a branch softens from k1 + k2 to k1, 1/rad
+  double alpha{0.5};               ///< Rate of creep, 1/s
+  double lambda{10.0};             ///< Hardening modulus λ, (N m)ⁿ/rad
+  double n{2.0};                   ///< Exponent of the torque in the creep law, dimensionless, at least 1
+  double breakaway{0.3};           ///< Torque at which the hook starts to slide, N m
+  double coulomb_ratio{0.8};       ///< Coulomb torque divided by breakaway torque, dimensionless, in (0, 1]
+  double stribeck_velocity{0.01};  ///< Velocity over which sliding friction falls to the Coulomb level, rad/s
+  double sigma0{860.0};  ///< Stiffness σ0 of the bristles (Dahl, LuGre), N m/rad; by default k1 + k2
+  /// Damping σ1 of the bristles (LuGre), N m s/rad; by default the damping of the paper's contact
+  double sigma1{0.2};
+  double gms_attraction{30.0};  ///< Rate C at which a slipping element's torque goes to its level, N m/s
 };
 
 /// An element of the generalised Maxwell-slip model.
 struct GmsElement {
   double stiffness{0.0};  ///< κ, N m/rad
-  double weight{0.0};     ///< η, part of the level that the element carries, dimensionless; they sum to 1
+  /// Fraction η of the friction level that the element carries, dimensionless; all η sum to 1
+  double weight{0.0};
 };
 
-/// Four elements whose virgin curve is near that of the spring with its default parameters: one of k1, and
-/// three of k2/3 each, which slip at 1.1, 3.8 and 10 µrad.
+/// Four elements whose virgin curve is near the virgin curve of the spring with its default parameters: one
+/// of stiffness k1, and three of stiffness k2/3 each, which slip at 1.1, 3.8 and 10 µrad.
 std::vector<GmsElement> gms_like_the_spring();
 
 /// A friction parameter that varies along the rotor.
@@ -47,11 +49,12 @@ struct ProfiledParameter {
 };
 
 /// A friction parameter that is drawn anew for every contact of a trial. Contact 0, at t = 0, has its value
-/// in FrictionAlongRotor::uniform. Contact k ≥ 1 forms at the k-th re-stick. It depends on its number alone,
-/// not on the course of the trial.
+/// in FrictionAlongRotor::uniform. Contact k ≥ 1 forms at the k-th re-stick. The value depends only on the
+/// number of the contact, not on the course of the trial.
 struct ContactParameter {
   double FrictionParameters::*parameter{nullptr};
-  std::function<double(std::uint64_t contact)> value;  ///< in the parameter's unit
+  /// Value in contact number `contact`, in the parameter's unit.
+  std::function<double(std::uint64_t contact)> value;
 };
 
 /// The random number, in (0, 1), of contact `contact` of trial `trial`.
@@ -67,7 +70,7 @@ struct FrictionAlongRotor {
   std::vector<ProfiledParameter> profiled;
   FrictionModel model{FrictionModel::presliding};
   std::vector<ContactParameter> per_contact{};
-  std::vector<GmsElement> gms_elements{};  ///< of FrictionModel::gms; empty: gms_like_the_spring()
+  std::vector<GmsElement> gms_elements{};  ///< Elements of FrictionModel::gms; empty: gms_like_the_spring()
 };
 
 /// The elements of FrictionModel::gms.
@@ -77,7 +80,7 @@ inline std::vector<GmsElement> gms_elements_of(const FrictionAlongRotor& frictio
 
 /// The parameters of a contact that forms at the rotor angle `angle` (rad, absolute, from the profile's
 /// origin).
-/// @param contact_number its number in the trial, 0 at t = 0.
+/// @param contact_number number of the contact in the trial, 0 at t = 0.
 inline FrictionParameters friction_at(const FrictionAlongRotor& friction, double angle,
                                       std::int64_t contact_number = 0) {
   FrictionParameters contact = friction.uniform;

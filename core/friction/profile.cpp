@@ -28,7 +28,7 @@ double field_at(const Profile& profile, double position) {
 
 namespace {
 
-/// The normal value that the marginal transforms: the value itself, or its logarithm.
+/// The normally distributed value that the marginal transforms: the value itself, or its logarithm.
 double normal_value(const Profile& profile, double field) {
   return profile.location + profile.scale * field;
 }
@@ -55,13 +55,13 @@ namespace {
 constexpr std::size_t block_size = 16;
 using Block = std::array<double, block_size>;
 
-/// The field at θ, π − θ, π + θ and −θ, in parts of a period.
+/// The field at θ, π − θ, π + θ and −θ. Angles are fractions of a period.
 struct FourFields {
   Block ahead, mirrored, opposite, behind;
 };
 
 /// The field at four times `block_size` angles, from `first` on, `spacing` apart: field_at() in vectors, to
-/// rounding. cos mθ and sin mθ are the same at all four, but for signs.
+/// rounding. cos mθ and sin mθ at the four angles differ only in sign.
 FourFields fields_from(const Profile& profile, double first, double spacing) {
   Block turn_real;
   Block turn_imaginary;
@@ -103,7 +103,7 @@ FourFields fields_from(const Profile& profile, double first, double spacing) {
   return fields;
 }
 
-/// Positions of the extreme values among those that are searched.
+/// Positions of the extreme values among the searched positions.
 struct ExtremePositions {
   double lowest{0.0};   // rad or m
   double highest{0.0};  // rad or m
@@ -145,7 +145,7 @@ ExtremePositions find_extremes(const Profile& profile) {
   return found;
 }
 
-/// The lowest of sign·value within `spacing` of `position`, times sign.
+/// Extreme value within `spacing` of `position`: the lowest value if sign is 1, the highest if it is −1.
 double refined(const Profile& profile, double position, double spacing, double sign) {
   constexpr int bits = 26;  // of the position; the value is flat there, so this is far more than it needs
   const auto signed_value = [&](double at) { return sign * value_at(profile, at); };

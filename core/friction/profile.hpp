@@ -16,10 +16,10 @@ enum class Marginal { normal, lognormal };
 /// scale·g) (lognormal), in the parameter's unit.
 struct Profile {
   Marginal marginal{Marginal::lognormal};
-  double location{0.0};                   ///< mean of the normal, or of the logarithm
-  double scale{0.0};                      ///< standard deviation of the normal, or of the logarithm
-  std::vector<double> cosine;             ///< [m], dimensionless
-  std::vector<double> sine;               ///< [m], dimensionless; sine[0] has no effect
+  double location{0.0};        ///< Mean of the normal distribution, or of the logarithm
+  double scale{0.0};           ///< Standard deviation of the normal distribution, or of the logarithm
+  std::vector<double> cosine;  ///< [m], dimensionless
+  std::vector<double> sine;    ///< [m], dimensionless; sine[0] has no effect
   double period{2.0 * std::numbers::pi};  ///< rad, or m
 };
 
@@ -29,7 +29,7 @@ double field_at(const Profile& profile, double position);
 /// The parameter's value at `position` (rad or m, in any period), in the parameter's unit.
 double value_at(const Profile& profile, double position);
 
-/// The profile whose value is `factor` (> 0) times as large everywhere.
+/// The profile with all values multiplied by `factor` (> 0).
 Profile scaled(Profile profile, double factor);
 
 /// Lowest and highest value, in the parameter's unit.
@@ -39,10 +39,10 @@ struct ValueRange {
 };
 
 /// The extreme values of a profile over a revolution: searched at 16 points per shortest wavelength, and the
-/// extremes found then refined to 1e-6 relative. Of extremes that are nearly equal another one may be
-/// refined, which is less extreme by some thousandths of the range.
+/// extremes found then refined to 1e-6 relative. If several extremes are nearly equal, the one that is
+/// refined may be less extreme than another by some thousandths of the range.
 ValueRange range_over_revolution(const Profile& profile);
-/// The low end of range_over_revolution(), in half the time.
+/// Lowest value over a revolution, as in range_over_revolution() but in half the time.
 double lowest_over_revolution(const Profile& profile);
 
 }  // namespace zerocount::friction

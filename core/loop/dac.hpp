@@ -10,19 +10,20 @@ namespace zerocount::loop {
 std::int64_t lowest_code(const DacParameters& dac);   ///< −2^(bits−1)
 std::int64_t highest_code(const DacParameters& dac);  ///< 2^(bits−1) − 1
 
-/// The least torque that is wanted of the motor, N m: that of the lowest code, lowest_code·Δu, or −limit.
+/// Lowest torque that the motor can be asked for, N m: lowest_code·Δu, or −limit.
 double lowest_torque(const DacParameters& dac);
-double highest_torque(const DacParameters& dac);  ///< the largest, N m: highest_code·Δu, or limit
+double highest_torque(const DacParameters& dac);  ///< Highest torque that the motor can be asked for, N m:
+                                                  ///< highest_code·Δu, or limit.
 
 /// The converter's output for a wanted torque.
 struct DacOutput {
   std::int64_t code{0};
   double torque{0.0};   ///< code·Δu, N m
-  bool clipped{false};  ///< the wanted code was out of range, or the wanted torque beyond the limit
+  bool clipped{false};  ///< The wanted code was out of range, or the wanted torque beyond the limit
 };
 
 /// code = round-half-even(torque/Δu), clipped to the converter's range.
-/// @param torque wanted, N m.
+/// @param torque wanted torque, N m.
 DacOutput convert(const DacParameters& dac, double torque);
 
 /// A converter from sample to sample, which clips the wanted torque to ± the limit of the amplifier before it
@@ -50,10 +51,10 @@ class Converter {
   double remainder_{0.0};  ///< r, N m; 0 without sigma-delta
 };
 
-/// Whether the output differs from code·Δu.
+/// Whether the output of the converter differs from code·Δu.
 bool has_errors(const DacParameters& dac);
 
-/// The output for `code`, without noise, N m:
+/// Output of the converter for `code`, without noise, N m:
 ///
 ///   Δu·(1 + gain_error)·(code + INL(code)) + offset,
 ///   INL(code) = nonlinearity·4·(code − lowest)·(highest − code)/(highest − lowest)²   codes,

@@ -52,7 +52,8 @@ Drive::Part Drive::part(double duration) const {
   return {duration, rate_ == 0.0 ? 1.0 : numerics::exp(-rate_ * duration)};
 }
 
-/// Between two samples, which are less than two sample times apart, at most three torques become due.
+/// Sends a torque with late samples. At most three torques become due between two samples, because these are
+/// less than two sample times apart.
 void Drive::apply_late(double torque, const Lateness& late) {
   changes_.push_back({delay_time_ + late.now, torque});
   const double end = sample_time_ + late.next;

@@ -13,11 +13,11 @@
 
 namespace zerocount::loop {
 
-/// The decided torques on their way through a delay of n + f samples, n whole, 0 ≤ f < 1.
+/// A delay of n + f samples for the decided torques, n whole, 0 ≤ f < 1.
 class TorqueDelay {
  public:
-  /// The torques that leave the delay during sample k: for the fraction f of it the one decided at k − n − 1,
-  /// then the one decided at k − n.
+  /// Torques that leave the delay during sample k. For the fraction f of the sample it is `before`, the
+  /// torque decided at k − n − 1; then it is `after`, the torque decided at k − n.
   struct Leaving {
     double before;
     double after;
@@ -65,19 +65,19 @@ class ConverterErrors {
 /// 2πf, 1/s: the rate at which the amplifier's torque approaches its input; 0 without an amplifier.
 double lag_rate(const AmplifierParameters& amplifier);
 
-/// How late this sample and the next one are, s.
+/// Lateness of this sample and of the next one, s.
 struct Lateness {
   double now{0.0};
   double next{0.0};
 };
 
-/// From the decided torque to the motor's: the converter with its errors, the delay, the amplifier.
+/// The path from the decided torque to the motor's torque: converter with its errors, delay, amplifier.
 ///
-/// The converter gives what ConverterErrors says for the code decided at sample k. What leaves the delay is
-/// the amplifier's input v: the torque decided at k acts over [t_k + delay·T, t_{k+1} + delay·T). Until the
-/// first decided torque has passed the delay, v is exactly the torque held at the start, without rounding,
-/// offset and noise: 0, unless the loop holds a load. The amplifier, of bandwidth f, follows from that torque
-/// at the start by
+/// ConverterErrors gives the output of the converter for the code decided at sample k. The output of the
+/// delay is the amplifier's input v: the torque decided at k acts over [t_k + delay·T, t_{k+1} + delay·T).
+/// Until the first decided torque has passed the delay, v is exactly the torque held at the start, without
+/// rounding, offset and noise: 0, unless the loop holds a load. The amplifier, of bandwidth f, follows from
+/// that torque at the start by
 ///
 ///   du/dt = 2πf·(v − u),   so u(t_k + t) = v + (u(t_k) − v)·exp(−2πf·t);
 ///
@@ -111,7 +111,7 @@ class Drive {
   double torque() const { return pieces_.front().course.now; }
 
  private:
-  /// A duration (s) and how far the amplifier's lag decays in it.
+  /// A duration (s) and the factor by which the amplifier's lag decays in it.
   struct Part {
     double duration;
     double decay;

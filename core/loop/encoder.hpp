@@ -14,7 +14,8 @@ inline double fine_resolution(const EncoderParameters& encoders) {
   return encoders.fine_length / encoders.fine;
 }
 
-/// Δx of the encoder read beside it, rad per count (m on a linear axis).
+/// Δx of the coarse encoder, which is read beside the one that closes the loop, rad per count (m on a linear
+/// axis).
 inline double coarse_resolution(const EncoderParameters& encoders) {
   return encoders.coarse_length / encoders.coarse;
 }
@@ -28,7 +29,8 @@ inline bool has_other(const EncoderParameters& encoders) {
   return encoders.other.counts > 0.0;
 }
 
-/// Δx of the encoder of the other mass, rad per count (m on a linear axis); that of the fine one without it.
+/// Δx of the encoder on the other mass, rad per count (m on a linear axis). Without such an encoder: Δx of
+/// the fine encoder.
 inline double other_resolution(const EncoderParameters& encoders) {
   return has_other(encoders) ? encoders.other.length / encoders.other.counts : fine_resolution(encoders);
 }
@@ -41,7 +43,7 @@ inline double velocity_resolution(const EncoderParameters& encoders, const Contr
 /// An incremental encoder: count = floor(θ/Δx + phase), θ measured from the start of the trial.
 struct Encoder {
   double resolution{1.0};  ///< Δx, rad per count
-  double phase{0.0};       ///< where in a count θ = 0 lies, in [0, 1)
+  double phase{0.0};       ///< Position of θ = 0 within a count, in [0, 1)
 };
 
 /// Readings of the encoders at a sampling instant.
@@ -51,7 +53,7 @@ struct EncoderReading {
   std::int64_t other{0};   ///< counts of the encoder of the other mass; 0 without it
 };
 
-/// The ideal encoders of a trial. @param phase of either, in [0, 1).
+/// The ideal encoders of a trial. @param phase position of θ = 0 within a count of either encoder, in [0, 1).
 inline Encoder fine_encoder(const EncoderParameters& encoders, double phase) {
   return {fine_resolution(encoders), phase};
 }
@@ -64,23 +66,25 @@ inline std::int64_t read_count(const Encoder& encoder, double theta) {
   return static_cast<std::int64_t>(ideal_count(theta, encoder.resolution, encoder.phase));
 }
 
-/// The counts before the first sample: those of a motion at the constant velocity v₀ up to the angle θ₀,
+/// The counts before the first sample, as of a motion at the constant velocity v₀ up to the angle θ₀:
 ///
-///   n_{−j} = n_0 − (⌊θ₀/Δx + phase⌋ − ⌊(θ₀ − j·v₀·T)/Δx + phase⌋),
+///   n_{−j} = n_0 − (⌊θ₀/Δx + phase⌋ − ⌊(θ₀ − j·v₀·T)/Δx + phase⌋).
 ///
-/// n_0 the first reading. Where v₀ = 0 they are n_0.
+/// Here n_0 is the first reading. If v₀ = 0, all of them are n_0.
 struct CountsBefore {
   Encoder encoder{};
   double theta{0.0};        ///< θ₀, rad
   double velocity{0.0};     ///< v₀, rad/s
   double sample_time{1.0};  ///< T, s
-  double unit{1.0};         ///< one count of this encoder, in the counts that the controller reads
+  double unit{1.0};         ///< One count of this encoder, in the counts that the controller reads
 };
 
-/// Most counts that pass before the first sample. A finite number keeps the torque one, at whatever velocity.
+/// Largest number of counts that pass before the first sample. The limit keeps the torque finite at any
+/// velocity.
 inline constexpr double max_counted = 0x1p52;
 
-/// n_0 − n_{−j}, in the counts that the controller reads. @param samples j
+/// Counts n_0 − n_{−j} passed in the j samples before the first one, in the counts that the controller reads.
+/// @param samples j.
 inline double counted_since(const CountsBefore& before, std::size_t samples) {
   const auto& [encoder, theta, velocity, sample_time, unit] = before;
   const double earlier = theta - static_cast<double>(samples) * velocity * sample_time;
@@ -89,7 +93,7 @@ inline double counted_since(const CountsBefore& before, std::size_t samples) {
   return unit * clamped(counted, -max_counted, max_counted);
 }
 
-/// v₀·T/Δx, in the counts that the controller reads: what n_0 − n_{−1} is on average.
+/// Mean number of counts per sample before the first one, v₀·T/Δx, in the counts that the controller reads.
 inline double counts_per_sample(const CountsBefore& before) {
   const double counted = before.velocity * before.sample_time / before.encoder.resolution;
   return before.unit * clamped(counted, -max_counted, max_counted);

@@ -12,15 +12,15 @@ ZEROCOUNT_ALWAYS_INLINE Number ideal_count(const Number& theta, const Number& re
   return floor(theta / resolution + phase);
 }
 
-/// Noise of an encoder (ImperfectEncoder).
+/// Constants of the noise of an encoder (ImperfectEncoder).
 template <class Number>
 struct NoiseConstants {
-  Number deviation;  ///< sd, counts
-  Number retention;  ///< a
-  Number renewal;    ///< √(1 − a²)
+  Number deviation;  ///< Standard deviation sd, counts
+  Number retention;  ///< Factor a by which a noise value enters the next one
+  Number renewal;    ///< Factor √(1 − a²) of the random number
 };
 
-/// w_k = a·w_{k−1} + √(1 − a²)·z_k, w_0 = z_0. @param first whether k = 0. @param drawn z_k.
+/// Noise w_k = a·w_{k−1} + √(1 − a²)·z_k, w_0 = z_0. @param first whether k = 0. @param drawn z_k.
 template <class Number, class Mask>
 ZEROCOUNT_ALWAYS_INLINE Number next_noise(const NoiseConstants<Number>& c, const Number& last,
                                           const Mask& first, const Number& drawn) {
@@ -28,7 +28,7 @@ ZEROCOUNT_ALWAYS_INLINE Number next_noise(const NoiseConstants<Number>& c, const
 }
 
 /// Whether two ideal encoders show these counts at one and the same rotor angle (counts_agree).
-/// @param from where the fine count begins, (c − phase)·q + phase, in coarse counts. @param ratio q.
+/// @param from begin of the fine count, (c − phase)·q + phase, in coarse counts. @param ratio q.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE auto counts_may_coincide(const Number& from, const Number& ratio,
                                                  const Number& coarse) {
@@ -41,7 +41,8 @@ ZEROCOUNT_ALWAYS_INLINE Number clamped(const Number& value, const Number& lowest
   return min(max(value, lowest), highest);
 }
 
-/// I + kp·e − kd·d, N m. @param d the difference of successive counts, filtered or not.
+/// Torque of the PID law, I + kp·e − kd·d, N m. @param d the difference of successive counts, filtered or
+/// not.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number pid_torque(const Number& integral, const Number& kp, const Number& error,
                                           const Number& kd, const Number& d) {
@@ -60,7 +61,7 @@ struct PidState {
 template <class Number>
 struct PidConstants {
   Number kp, ki, kd;       ///< N m/count
-  Number lowest, highest;  ///< of I, N m
+  Number lowest, highest;  ///< Range of I, N m
 };
 
 /// I ← clamp(I + ki·(e_k + e_{k−1})),   u = I + kp·e_k − kd·(count_k − count_{k−1}).
@@ -89,7 +90,8 @@ ZEROCOUNT_ALWAYS_INLINE Number clipped_code(const Number& wanted, const Number& 
 }
 
 /// The rounding error that a sigma-delta converter adds to the next torque, N m.
-/// @param torque wanted, with the error of the sample before. @param converted code·Δu, N m.
+/// @param torque wanted torque, including the rounding error of the sample before, N m. @param converted
+/// code·Δu, N m.
 template <class Number, class Mask>
 ZEROCOUNT_ALWAYS_INLINE Number rounding_remainder(const Number& torque, const Number& converted,
                                                   const Mask& clipped) {

@@ -10,16 +10,16 @@
 
 namespace zerocount::loop {
 
-/// Whether the encoder reads anything else than an ideal one.
+/// Whether these errors make the readings differ from those of an ideal encoder.
 bool has_errors(const EncoderErrors& errors);
 
 /// @param sample_time T, s.
 NoiseConstants<double> noise_constants(const EncoderErrors& errors, double sample_time);
 
-/// Whether the two counts are possible at one and the same rotor angle: whether two ideal encoders show them
-/// anywhere. In coarse counts, the fine count c stands for the range [(c − phase)·q + phase, that + q) with q
-/// the coarse counts in a fine one, and the coarse count n for [n, n + 1): they must overlap, and by more
-/// than 16·2⁻⁵²·(1 + |n|), so that edges which coincide are not told apart by rounding.
+/// Whether two ideal encoders can show these two counts at one and the same rotor angle. Let q be the number
+/// of coarse counts in a fine one and a = (c − phase)·q + phase. In coarse counts, the fine count c stands
+/// for the interval [a, a + q) and the coarse count n for [n, n + 1). The intervals must overlap by more than
+/// 16·2⁻⁵²·(1 + |n|), so that rounding does not separate edges that coincide.
 bool counts_agree(const Encoder& fine, const Encoder& coarse, const EncoderReading& reading);
 
 /// An encoder with errors. The count at sample k, where the rotor is at θ, by these steps:
@@ -49,7 +49,7 @@ class ImperfectEncoder {
 
  private:
   double interpolation_error(double x) const;
-  double next_noise(std::int64_t k);  ///< sd·w_k, counts
+  double next_noise(std::int64_t k);  ///< Noise sd·w_k of sample k, counts
   void miss_counts(std::int64_t k, std::int64_t raw);
 
   Encoder encoder_;
@@ -68,18 +68,19 @@ class ImperfectEncoder {
   std::int64_t lost_{0};
 };
 
-/// The encoders of a trial. Without errors their readings are those of read_count.
+/// The encoders of a trial. Without errors, read_count() gives their readings.
 class Measurement {
  public:
-  /// @param phase where in a count, of the fine and the coarse encoder, θ = 0 lies, in [0, 1).
-  /// @param other_phase that of the encoder of the other mass.
-  /// @param position rotor angle (rad) of θ = 0.
+  /// @param phase position of θ = 0 within a count of the fine and of the coarse encoder, in [0, 1).
+  /// @param other_phase position of θ = 0 within a count of the encoder on the other mass.
+  /// @param position position on the rotor (rad) at θ = 0.
   /// @param sample_time T, s, for the bandwidth of the encoders' noise.
   Measurement(const EncoderParameters& encoders, double phase, double position,
               const random::TrialRandomness& randomness, double sample_time = 1.0, double other_phase = 0.5);
 
   /// The readings at sample k. Call with ascending k.
-  /// @param theta angle of the mass that closes the loop, rad. @param other_theta of the other mass.
+  /// @param theta angle of the mass that closes the loop, rad. @param other_theta angle of the other mass,
+  /// rad.
   EncoderReading read(std::int64_t k, double theta, double other_theta = 0.0) {
     EncoderReading reading = ideal_ ? EncoderReading{read_count(fine_, theta), read_count(coarse_, theta)}
                                     : read_with_errors(k, theta);
@@ -87,13 +88,14 @@ class Measurement {
     return reading;
   }
 
-  double fine_resolution() const { return fine_.resolution; }  ///< rad per count
-  double finest_resolution() const { return finest_; }         ///< of all encoders, rad per count
-  double fine_per_coarse() const { return fine_per_coarse_; }  ///< fine counts in a coarse one
+  /// Resolution of the fine encoder, rad per count
+  double fine_resolution() const { return fine_.resolution; }
+  double finest_resolution() const { return finest_; }  ///< Finest resolution of all encoders, rad per count
+  double fine_per_coarse() const { return fine_per_coarse_; }  ///< Number of fine counts in a coarse one
 
-  /// Samples so far at which the coarse count was impossible given the fine one: counts_agree was false, and
-  /// ideal encoders at this angle would not read the two counts, which rounding at an edge allows. Always 0
-  /// without errors of the encoders.
+  /// Number of samples so far at which the coarse count was impossible given the fine one: counts_agree() was
+  /// false, and ideal encoders at this angle would not read the two counts either (rounding at an edge allows
+  /// that). Always 0 if the encoders have no errors.
   std::int64_t disagreements() const { return disagreements_; }
 
  private:

@@ -11,7 +11,8 @@ namespace zerocount::loop {
 
 namespace {
 
-constexpr double rounding_of_time = 1e-12;  ///< of a duration: k·T and a written time differ by rounding
+constexpr double rounding_of_time = 1e-12;  ///< Rounding error allowed for, as a fraction of a duration: k·T
+                                            ///< and a written time differ by rounding.
 
 double position_of(const ReferenceRecord& record, std::size_t row) {
   return record.position[row];
@@ -32,7 +33,7 @@ double acceleration_of(const ReferenceRecord& record, std::size_t row) {
   return 2.0 * change / (record.time[row + 1] - record.time[row - 1]);
 }
 
-/// The value at the time t (s) of a quantity of the rows, straight between them.
+/// Value at the time t (s) of a quantity given by the rows, interpolated linearly between them.
 template <class OfRow>
 double between_rows(const ReferenceRecord& record, double t, OfRow of_row) {
   const auto after = std::upper_bound(record.time.begin(), record.time.end(), t) - record.time.begin();

@@ -7,7 +7,8 @@
 
 namespace zerocount::loop {
 
-/// When the samples of a trial are taken, and at which of them the controller runs. Sample k is taken at
+/// Instants at which the samples of a trial are taken, and samples at which the controller runs. Sample k is
+/// taken at
 ///
 ///   t_k + δ_k,   t_k = k·T,   δ_k = jitter·u_k,   u_k uniform in (0, 1), number k of its key,
 ///

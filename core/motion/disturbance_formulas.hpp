@@ -9,15 +9,15 @@ namespace zerocount::motion {
 
 /// Taylor series of s = sin(q·θ + φ) and its cosine c along a motion,
 ///
-///   ds/dt = q·ω·c,   dc/dt = −q·ω·s,
+///   ds/dt = q·ω·c,   dc/dt = −q·ω·s.
 ///
-/// of which the coefficients 0 are given. @tparam Series an array of the coefficients.
+/// The coefficients of order 0 are given. @tparam Series an array of the coefficients.
 template <class Series>
 struct WaveSeriesOf {
   Series sine;
   Series cosine;
 
-  /// Computes the coefficients k ≥ 1 from those of ω up to k − 1. @param per_angle q.
+  /// Computes the coefficients k ≥ 1, given the coefficients of ω up to k − 1. @param per_angle q.
   template <class Number>
   ZEROCOUNT_ALWAYS_INLINE void expand(const Number& per_angle, const Number* omega, std::size_t k) {
     Number of_sine(0.0);

@@ -18,12 +18,13 @@ class LoadFriction {
  public:
   virtual ~LoadFriction() = default;
   virtual void start(const Load& load) = 0;
-  /// @param omega ωL up to coefficient k. @param torque coefficient k of the torque on the load without
-  /// friction, N m. @returns coefficient k of JL·dωL/dt, N m.
+  /// Expands the friction by one order. @param omega ωL up to coefficient k. @param torque coefficient k of
+  /// the torque on the load without friction, N m. @returns coefficient k of JL·dωL/dt, N m.
   virtual double expand(const numerics::Series& omega, double torque, std::size_t k) = 0;
   /// The longest step that keeps the friction's own state within `tolerance` (rad), s.
   virtual double step_within(double tolerance, double duration) = 0;
-  /// The first event within `step`, s. One at 0 means that the series are not those of the motion to come.
+  /// The first event within `step`, s. An event at 0 means that the series do not describe the motion to
+  /// come.
   virtual std::optional<double> next_event(const numerics::Series& omega, double step) = 0;
   /// Advances the state, through the event of that time if `at_event`.
   virtual void go_to(double time, bool at_event, Load& load) = 0;
@@ -40,15 +41,16 @@ class LoadFriction {
 struct Load {
   LoadParameters parameters;
   double twist{0.0};                ///< δ, rad
-  double omega{0.0};                ///< ωL, rad/s
-  std::vector<Ripple> error{};      ///< ε, by the rotor's angle
-  Disturbance disturbance{};        ///< dist, by the load's angle
+  double omega{0.0};                ///< Angular velocity ωL of the load, rad/s
+  std::vector<Ripple> error{};      ///< Kinematic error ε as a function of the rotor's angle
+  Disturbance disturbance{};        ///< Disturbance `dist`, with ripples as functions of the load's angle
   double rotor_theta{0.0};          ///< θ, rad; set before each step
   double time{0.0};                 ///< t of the disturbance, s; set before each step
-  LoadFriction* friction{nullptr};  ///< may be null; set before each step
+  LoadFriction* friction{nullptr};  ///< May be null; set before each step
 };
 
-/// What acts on a load beside a coupling without gap and error, and where it starts.
+/// Load side of the plant, apart from a plain coupling: kinematic error, disturbance of the load, and initial
+/// twist.
 struct LoadSide {
   std::vector<Ripple> error{};
   Disturbance disturbance{};
@@ -62,12 +64,12 @@ inline bool is_plain(const Load& load) {
          load.disturbance.torque == 0.0 && !varies(load.disturbance) && load.friction == nullptr;
 }
 
-/// θL, rad. @param theta θ, rad.
+/// Angle θL of the load, rad. @param theta θ, rad.
 inline double load_theta(const Load& load, double theta) {
   return load.error.empty() ? theta - load.twist : theta + value(load.error, theta) - load.twist;
 }
 
-/// 1 + ε′(θ): velocity at the coupling by that of the rotor.
+/// Ratio of the velocity at the coupling to the velocity of the rotor, 1 + ε′(θ).
 inline double transmission(const Load& load) {
   return load.error.empty() ? 1.0 : 1.0 + slope(load.error, load.rotor_theta);
 }
@@ -89,15 +91,15 @@ inline double coupling_torque(const Load& load, double rotor_omega) {
   return ratio * (p.stiffness * (load.twist - 0.5 * p.gap * side) + p.damping * rate);
 }
 
-/// √(kL·J·JL/(J + JL)) + dL, N m s/rad: the largest coupling torque of an oscillation by its largest relative
-/// velocity. @param inertia J of the rotor, kg m².
+/// Largest coupling torque of an oscillation, divided by its largest relative velocity: √(kL·J·JL/(J + JL)) +
+/// dL, N m s/rad. @param inertia J of the rotor, kg m².
 inline double torque_by_velocity(const LoadParameters& load, double inertia) {
   const double reduced = inertia * load.inertia / (inertia + load.inertia);
   return std::sqrt(load.stiffness * reduced) + load.damping;
 }
 
-/// Whether the coupling torque of any oscillation between load and rotor stays below `torque` (N m). Only
-/// that of a plain load is known to.
+/// Whether the coupling torque of any oscillation between load and rotor stays below `torque` (N m). False
+/// for a load that is not plain, because its oscillation has no known bound.
 /// @param inertia J of the rotor, kg m². @param steady coupling torque of the motion without the oscillation,
 /// N m.
 inline bool is_quiet(const Load& load, double rotor_omega, double inertia, double torque, double steady) {
@@ -107,7 +109,7 @@ inline bool is_quiet(const Load& load, double rotor_omega, double inertia, doubl
              torque;
 }
 
-/// A plain load moves as the rotor does from now on.
+/// Lets a plain load move with the rotor from now on.
 inline void follow_rotor(Load& load, double rotor_omega) {
   load.twist = 0.0;
   load.omega = rotor_omega;
@@ -119,21 +121,20 @@ struct LoadSeries {
   numerics::Series omega;         ///< ωL, rad/s
   numerics::Series torque;        ///< Ts, N m
   numerics::Series transmission;  ///< 1 + ε′(θ); unused without an error
-  int side{0};                    ///< of the gap
+  int side{0};                    ///< Side of the gap: 1 above, −1 below, 0 in it
   bool plain{true};
   std::optional<RippleSeries> error{};
   std::optional<DisturbanceSeries> disturbance{};
 };
 
-/// Sets the coefficients 0. @param heading sign of the change of δ.
+/// Sets the coefficients of order 0. @param heading sign of the change of δ.
 void start_series(LoadSeries& series, const Load& load, double heading);
 
-/// Computes the coefficients k + 1 from those of ω up to k. @returns coefficient k of the torque of the
-/// coupling on the rotor, N m.
+/// Computes the coefficients k + 1, given the coefficients of ω up to k. @returns coefficient k of the torque
+/// of the coupling on the rotor, N m.
 double expand(LoadSeries& series, const Load& load, const numerics::Series& rotor_omega, std::size_t k);
 
-/// The direction in which δ leaves the edge of the gap on which it starts exactly; 0 where it starts
-/// elsewhere.
+/// Direction in which δ leaves the edge of the gap; 0 if δ does not start exactly on an edge.
 double heading_from_edge(const LoadSeries& series, const LoadParameters& load);
 
 /// The first time within `step` (s) at which δ comes to an edge of the gap.

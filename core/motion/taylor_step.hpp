@@ -27,10 +27,10 @@ struct MotionTolerance {
 /// law's events with a value `none`.
 template <class Event>
 struct NextEvent {
-  double time;  ///< s from the start of the step; its end without an event
+  double time;  ///< Time of the event from the start of the step, s; without an event, the end of the step
   Event event{Event::none};
 
-  /// Takes the event at `candidate` (s), if any, unless it is later than the present one.
+  /// Replaces the present event by the one at `candidate` (s), if any, unless that is later.
   void offer(std::optional<double> candidate, Event what) {
     if (!candidate || *candidate > time) return;
     time = *candidate;
@@ -66,7 +66,8 @@ concept SmoothMotion = requires(Motion motion, const Motion now, typename Motion
 };
 
 /// The Taylor series of a motion from its present state.
-/// @param inertia J, kg m². @param torque on the rotor. @param load_series of its load; unused without one.
+/// @param inertia J, kg m². @param torque torque on the rotor. @param load_series series of the load of
+/// `torque`; unused without a load.
 template <SmoothMotion Motion>
 typename Motion::Expansion motion_series(const Motion& motion, double inertia, const TorqueCourse& torque,
                                          LoadSeries& load_series) {
@@ -120,8 +121,8 @@ double step_within(const numerics::Series& position, const numerics::Series& vel
 
 /// Advances the motion, and the load of `torque`, to the end of a Taylor step, to the motion's first event or
 /// to an edge of the gap, whichever comes first.
-/// @param tolerance of the position, rad. @param duration longest step, s. @returns the time used and the
-/// event.
+/// @param tolerance tolerance of the position, rad. @param duration longest step, s. @returns the time used
+/// and the event.
 template <SmoothMotion Motion>
 NextEvent<typename Motion::Event> step_along(const typename Motion::Expansion& series,
                                              const LoadSeries& load_series, const TorqueCourse& torque,
@@ -157,7 +158,7 @@ NextEvent<typename Motion::Event> step_along(const typename Motion::Expansion& s
   return next;
 }
 
-/// taylor_step() with the series from the present state.
+/// Computes the series from the present state and advances the motion along them by step_along().
 template <SmoothMotion Motion>
 NextEvent<typename Motion::Event> taylor_step(Motion& motion, double inertia, const TorqueCourse& torque,
                                               double tolerance, double duration) {
@@ -166,7 +167,7 @@ NextEvent<typename Motion::Event> taylor_step(Motion& motion, double inertia, co
   return step_along(series, load_series, torque, motion, tolerance, duration);
 }
 
-/// First time in (0, end] at which `series` changes sign, where a start at exactly zero does not count.
+/// First time in (0, end] at which `series` changes sign. A start at exactly zero is not a change of sign.
 std::optional<double> next_sign_change(std::span<const double> series, double end);
 
 }  // namespace zerocount::motion

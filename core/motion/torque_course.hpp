@@ -9,14 +9,15 @@ namespace zerocount::motion {
 struct Load;
 struct VaryingTorque;
 
-/// The torque on the rotor from now on: that of the motor and of a constant disturbance, u(t) = settled +
-/// (now − settled)·exp(−rate·t), minus that of a load's coupling, plus a varying disturbance, if any. u is
-/// monotonic: constant if now equals settled, otherwise the response of a first-order amplifier.
+/// The torque on the rotor from now on. It is the torque of the motor plus a constant disturbance, u(t) =
+/// settled + (now − settled)·exp(−rate·t), minus the coupling torque of a load, if any, plus a varying
+/// disturbance, if any. u is monotonic: constant if now equals settled, otherwise the response of a
+/// first-order amplifier.
 struct TorqueCourse {
-  double now{0.0};      ///< N m
-  double settled{0.0};  ///< N m
-  double rate{0.0};     ///< 1/s, not negative
-  Load* load{nullptr};  ///< moves with the rotor
+  double now{0.0};      ///< u at this instant, N m
+  double settled{0.0};  ///< Final value of u, N m
+  double rate{0.0};     ///< Rate at which u approaches its final value, 1/s, not negative
+  Load* load{nullptr};  ///< Load that moves with the rotor; null without one
   const VaryingTorque* disturbance{nullptr};
 };
 
@@ -36,7 +37,7 @@ inline double time_to_settle(const TorqueCourse& course) {
   return 37.0 / course.rate;
 }
 
-/// Whether the applied torque, without that of a load, is `now` for ever.
+/// Whether the applied torque, without the coupling torque of a load, is `now` for ever.
 inline bool is_steady(const TorqueCourse& course) {
   return course.disturbance == nullptr && motor_is_constant(course);
 }
@@ -54,19 +55,20 @@ inline bool is_coupled(const TorqueCourse& course) {
 /// The torque on the rotor at this instant, N m. @param omega ω of the rotor, rad/s.
 double torque_on_rotor(const TorqueCourse& course, double omega);
 
-/// Where the torque on the rotor goes from its present value: its rate of change without the coupling of a
-/// plain load, N m/s; with another load, its first derivative that is not 0, of a rotor that stands.
+/// Direction in which the torque on the rotor changes, given by the sign of the result. Without a load, or
+/// with a plain one, it is the rate of change without the coupling, N m/s. With another load it is the first
+/// non-zero derivative for a rotor that stands.
 /// @param omega ω of the rotor, rad/s.
 double change_of_torque(const TorqueCourse& course, double omega);
 
-/// The sign of ω from now on: that of ω or, at ω = 0, of its first derivative that is not 0.
-/// @param friction torque of the friction at ω = 0, N m.
+/// Sign of ω from now on: the sign of ω or, at ω = 0, of its first non-zero derivative.
+/// @param friction friction torque at ω = 0, N m.
 double heading_under(const TorqueCourse& course, double omega, double friction);
 
 /// Whether any oscillation between load and rotor has a coupling torque below `torque` (N m); true without a
 /// load.
-/// @param omega ω of the rotor, rad/s. @param inertia J, kg m². @param acceleration of the slow motion
-/// without the oscillation, rad/s²; up to a tenth of the coupling torque that it needs may be missing.
+/// @param omega ω of the rotor, rad/s. @param inertia J, kg m². @param acceleration acceleration of the slow
+/// motion without the oscillation, rad/s². Up to a tenth of the coupling torque that it needs may be missing.
 bool load_is_quiet(const TorqueCourse& course, double omega, double inertia, double torque,
                    double acceleration = 0.0);
 

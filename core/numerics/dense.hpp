@@ -29,7 +29,8 @@ Eigen::MatrixXd inverse_of_positive_definite(const Eigen::MatrixXd& a);
 /// L⁻ᵀ·b, L a lower triangular factor of cholesky_factor().
 Eigen::VectorXd solve_transposed_factor(const Eigen::MatrixXd& factor, const Eigen::VectorXd& b);
 
-/// x of minimal |x| among those of minimal |A·x − b|, for A of any shape and rank.
+/// Least-squares solution: the x of minimal |x| among all x of minimal |A·x − b|, for A of any shape and
+/// rank.
 Eigen::MatrixXd least_squares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
 /// The Moore–Penrose inverse.

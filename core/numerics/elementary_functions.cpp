@@ -23,7 +23,7 @@ struct ScaledExponential {
   double excess;
 };
 
-/// @param x_error added to x, far smaller.
+/// @param x_error correction to x, far smaller than x.
 ScaledExponential scaled_exponential(double x, double x_error = 0.0) noexcept {
   constexpr double to_whole = 0x1.8p52;  // a number so large that its last bit is 1
   const double shifted = x * steps_per_unit + to_whole;
@@ -45,7 +45,7 @@ double small_expm1(double x) noexcept {
   return x + x2 * ((1.0 / 2.0 + x * (1.0 / 6.0)) + x2 * high);
 }
 
-/// A number as a sum: `high` is it, rounded.
+/// A number as the sum of two doubles; `high` is the rounded number.
 struct Sum {
   double high;
   double low;
@@ -57,7 +57,7 @@ Sum exact_sum(double a, double b) noexcept {
   return {high, (a - high) + b};
 }
 
-/// The first 26 bits of a number, and the other 27.
+/// A number split into its first 26 bits and the other 27.
 Sum halves(double x) noexcept {
   constexpr std::uint64_t upper = ~((std::uint64_t{1} << 27) - 1);
   const double high = std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) & upper);

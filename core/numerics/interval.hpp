@@ -25,10 +25,11 @@ bool contains(const Interval& interval, double value);
 /// Whether every number of `inner` is in `outer`.
 bool contains(const Interval& outer, const Interval& inner);
 
-/// In mathematical notation: "(0, 1]", "[1, inf)".
+/// The interval in mathematical notation: "(0, 1]", "[1, inf)".
 std::string notation(const Interval& interval);
 
-/// In words, for messages: "greater than 0 and at most 1"; "any finite number" without limits.
+/// The interval in words, for messages: "greater than 0 and at most 1", or "any finite number" if neither end
+/// is finite.
 std::string range_text(const Interval& interval);
 
 }  // namespace zerocount::numerics

@@ -27,8 +27,8 @@ std::int64_t first_where(std::int64_t low, std::int64_t end, const Condition& ho
   return end;
 }
 
-/// As first_where(), for a number that is probably small: doubles from `low` on before it bisects, so that
-/// `holds` is asked for numbers up to twice the result only.
+/// Gives the result of first_where() for a result that is probably small. It doubles from `low` on before it
+/// bisects, so that `holds` is asked only for numbers up to twice the result.
 template <class Condition>
 std::int64_t first_where_by_doubling(std::int64_t low, std::int64_t end, const Condition& holds) {
   std::int64_t high = std::min(std::max<std::int64_t>(low, 1), end);
@@ -49,8 +49,8 @@ inline double geometric_mean(double a, double b) {
 
 /// Two numbers, in either order, between which a condition changes.
 struct Bracket {
-  double holds;  ///< where the condition holds
-  double fails;  ///< where it does not
+  double holds;  ///< End at which the condition holds
+  double fails;  ///< End at which the condition does not hold
 };
 
 /// Bisection:
@@ -70,12 +70,12 @@ Bracket bisect(Bracket bracket, const Condition& condition, Narrow narrow,
   return bracket;
 }
 
-/// For bisect(): a bracket is narrow after so many halvings.
+/// Criterion for bisect(): the bracket is narrow after `count` halvings.
 inline auto after_halvings(int count) {
   return [left = count](const Bracket&) mutable { return left-- == 0; };
 }
 
-/// For bisect(): a bracket is narrow if its ends differ by `width` or less.
+/// Criterion for bisect(): the bracket is narrow if its ends differ by `width` or less.
 inline auto within(double width) {
   return [width](const Bracket& bracket) { return std::abs(bracket.holds - bracket.fails) <= width; };
 }
@@ -92,8 +92,8 @@ std::optional<double> first_sign_change(std::span<const double> coefficients, do
 /// The root in [low, high] of a polynomial with opposite signs at the ends, to about the last bit.
 double bracketed_root(std::span<const double> coefficients, double low, double high);
 
-/// A minimum of f between `low` and `high`, (x, f(x)), by Brent's method; of several one of them.
-/// @param bits of x; the method stops at 2^-bits of |x|, and at about that absolutely
+/// A local minimum of f between `low` and `high`, (x, f(x)), by Brent's method.
+/// @param bits accuracy of x in bits: the method stops at 2^-bits of |x|, and at about 2^-bits absolutely.
 std::pair<double, double> minimum_between(double low, double high, int bits,
                                           const std::function<double(double)>& f);
 

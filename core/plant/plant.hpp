@@ -12,10 +12,10 @@
 
 namespace zerocount::plant {
 
-/// With more steps than this in one torque step, of any length, the motion counts as lost.
+/// Largest number of steps in one torque step of any length. With more, the motion counts as lost.
 inline constexpr int max_steps = 200000;
-/// The limit within a sample of a trial. A ringing trial of the paper's machine needs about three steps; one
-/// with ten thousand in each sample would run for hours.
+/// Largest number of steps in one sample of a trial. A ringing trial of the paper's machine needs about
+/// three; a trial with ten thousand in each sample would run for hours.
 inline constexpr int max_steps_of_sample = 10000;
 
 /// A rotor with a friction law under a motor's torque.
@@ -87,7 +87,8 @@ class PlantWith : public Law {
   std::optional<motion::Load>& load() { return load_; }
 
  private:
-  /// @returns the time used, at most `duration`.
+  /// Advances by one step.
+  /// @returns the time used, at most `duration` (s).
   double step_on(const motion::TorqueCourse& torque, double duration) {
     if constexpr (motion::SmoothMotion<Law>) {
       return motion::taylor_step<Law>(*this, inertia_, torque, tolerance_, duration).time;
@@ -110,11 +111,11 @@ class PlantWith : public Law {
 struct PlantReading {
   double theta{0.0};             ///< θ, rad
   double omega{0.0};             ///< ω, rad/s
-  friction::CreepState creep{};  ///< of the present contact, or of the last one while sliding
-  std::int64_t depth{0};         ///< of the stack of reversal points
+  friction::CreepState creep{};  ///< Creep in the present contact, or in the last one while the hook slides
+  std::int64_t depth{0};         ///< Number of reversal points on the stack
   bool sliding{false};
-  double load_theta{0.0};  ///< θL, rad; θ without a load
-  double load_omega{0.0};  ///< ωL, rad/s; ω without a load
+  double load_theta{0.0};  ///< Angle θL of the load, rad; θ without a load
+  double load_omega{0.0};  ///< Velocity ωL of the load, rad/s; ω without a load
 };
 
 /// The plant of a trial, with the law that its friction.model selects.
@@ -157,12 +158,14 @@ class PlantOf {
         },
         plant_);
   }
+  /// rad
   double theta() const {
     return std::visit([](const auto& plant) { return plant.theta(); }, plant_);
-  }  ///< rad
+  }
+  /// rad/s
   double omega() const {
     return std::visit([](const auto& plant) { return plant.omega(); }, plant_);
-  }  ///< rad/s
+  }
   bool sliding() const {
     return std::visit([](const auto& plant) { return plant.sliding(); }, plant_);
   }
@@ -174,9 +177,9 @@ class PlantOf {
   std::int64_t steps() const {
     return std::visit([](const auto& plant) { return plant.steps(); }, plant_);
   }
-  /// How the law begins to slide.
+  /// Manner in which the law begins to slide.
   friction::Breakaway breakaway() const { return breakaway_; }
-  /// Since the start.
+  /// Number of breakaways since the start.
   std::int64_t breakaways() const {
     return std::visit([](const auto& plant) { return plant.breakaways(); }, plant_);
   }

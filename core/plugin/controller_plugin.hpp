@@ -16,15 +16,15 @@ struct PluginParameter {
   std::string unit;
   std::string meaning;
   double default_value{0.0};
-  double lowest{0.0};   ///< allowed value; may be infinite
-  double highest{0.0};  ///< allowed value; may be infinite
+  double lowest{0.0};   ///< Lowest value allowed; may be infinite
+  double highest{0.0};  ///< Highest value allowed; may be infinite
 };
 
 /// Description of a user's controller. A study has it even if the library is not loaded.
 struct PluginDescription {
   std::string name;
   std::string version;
-  std::string sha256;  ///< of the library's bytes
+  std::string sha256;  ///< SHA-256 checksum of the library's bytes
   std::vector<PluginParameter> parameters;
 };
 
@@ -36,8 +36,9 @@ struct ControllerPlugin {
   PluginDescription description;
   /// Null if the library is not loaded: then no trial can be run, unless there is `start`.
   const zerocount_controller* functions{nullptr};
-  /// A control law of this process in place of a library: called before the first sample of each trial, and
-  /// what it returns at each sample. It may throw, which ends the trial by that exception.
+  /// A control law of this process in place of a library. It is called before the first sample of each trial,
+  /// and the function that it returns is called at each sample. Either may throw, which ends the trial by
+  /// that exception.
   std::function<StepFunction(const zerocount_setup&)> start{};
 };
 
@@ -48,9 +49,10 @@ struct PluginFault {
 };
 
 inline constexpr std::size_t max_plugin_parameters = 128;
-inline constexpr std::size_t max_plugin_state = std::size_t{1} << 20;  ///< bytes
+/// Largest size of a plugin's state, bytes
+inline constexpr std::size_t max_plugin_state = std::size_t{1} << 20;
 
-/// Checks what zerocount_controller_entry() returned. @param sha256 of the library
+/// Checks the description that zerocount_controller_entry() returned. @param sha256 checksum of the library.
 std::variant<ControllerPlugin, PluginFault> checked_plugin(const zerocount_controller* entry,
                                                            std::string sha256);
 

@@ -18,10 +18,10 @@ using RandomKey = std::array<std::uint32_t, 2>;
 
 /// Purpose of a random number: the third counter word.
 enum class Draw : std::uint32_t {
-  trial = 0,  ///< the value of a trial (or machine); the place inside its stratum with the Latin hypercube
-  sobol_shift = 1,     ///< digital shift of a Sobol dimension, index 0
-  profile_cosine = 2,  ///< cosine coefficient of a profile; the index is the harmonic + 2³²·machine
-  profile_sine = 3,    ///< sine coefficient of a profile; index as for the cosine
+  trial = 0,        ///< Value of a trial or machine; with the Latin hypercube, the place inside its stratum
+  sobol_shift = 1,  ///< Digital shift of a Sobol dimension; the index is 0
+  profile_cosine = 2,  ///< Cosine coefficient of a profile; the index is the harmonic + 2³²·machine
+  profile_sine = 3,    ///< Sine coefficient of a profile; the index is the harmonic + 2³²·machine
   latin_round =
       16  ///< + r: round r of the Latin hypercube's permutation; the index is the half that is hashed
 };
@@ -36,8 +36,8 @@ struct RandomStream {
 std::uint64_t random_bits(const RandomStream& stream, std::uint64_t index, std::uint32_t draw);
 std::uint64_t random_bits(const RandomStream& stream, std::uint64_t index, Draw draw);
 
-/// 64 random bits w of number `k`, usually that of the sample, drawn while trial number `trial` runs. No
-/// other numbers have this key, so that the counter needs no Draw:
+/// 64 random bits w with number `k`, usually the number of the sample, drawn while trial number `trial` runs.
+/// No other numbers have this key, so that the counter needs no Draw:
 ///
 ///   counter words {trial mod 2³², trial div 2³² + 2²⁴·(k div 2³²), k mod 2³², stream}.
 ///
@@ -66,7 +66,7 @@ class NumberSource {
  public:
   explicit NumberSource(const RandomKey& key, std::uint32_t stream = 0) : stream_{key, stream} {}
 
-  /// In (0, 1).
+  /// Uniform number in (0, 1).
   double uniform() { return open_uniform(next()); }
   double normal() { return standard_normal(next()); }
   std::vector<double> normals(std::size_t count) {

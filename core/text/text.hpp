@@ -12,7 +12,8 @@
 
 namespace zerocount::text {
 
-/// "1 trial", "2 trials", "0 trials". @param noun in the singular, of which the plural ends in s
+/// A number with its noun: "1 trial", "2 trials", "0 trials". @param noun noun in the singular; its plural
+/// must end in s.
 std::string counted(std::integral auto count, std::string_view noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
@@ -28,7 +29,8 @@ constexpr std::string_view trimmed(std::string_view text, std::string_view blank
 // library (strtod, printf …) and streams take the decimal separator of the process, which an application that
 // loads the extension of the Python package may have set to a comma.
 
-/// The number that is the whole text, in the form of C; nothing if it is none or does not fit.
+/// The number that the whole text represents, in the notation of C; empty if it is not a number or does not
+/// fit.
 template <class Number>
 std::optional<Number> parse_number(std::string_view text) {
   Number number{};
@@ -53,7 +55,8 @@ std::string csv_field(std::string_view text);
 /// `word` for a POSIX shell: as it is, or in single quotes.
 std::string shell_word(const std::string& word);
 
-/// The path as a word of a command. No option begins like it: "-x.yaml" is "./-x.yaml".
+/// The path as one word of a POSIX shell command, quoted if necessary. A path that begins with "-" gets "./"
+/// before it, so that it is not taken for an option: "./-x.yaml". "-" alone is not changed.
 std::string shell_path(const std::string& path);
 
 /// U+FFFD, the replacement character.

@@ -44,7 +44,7 @@ constexpr std::array units{
     Unit{"%", Dimension::proportion, 1e-2},
 };
 
-/// Other spellings, without blanks.
+/// Other spellings of unit names, without blanks.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 5> spellings{
     {{"°", "deg"}, {"\"", "arcsec"}, {"'", "arcmin"}, {"1", "count"}, {"sec", "s"}}};
 

@@ -15,15 +15,15 @@ enum class Dimension {
   length,      ///< m
   current,     ///< A
   voltage,     ///< V
-  count,       ///< steps of an encoder or of a converter; no SI unit
-  proportion,  ///< of a rated value; no SI unit
+  count,       ///< Steps of an encoder or of a converter; no SI unit
+  proportion,  ///< Fraction of a rated value; no SI unit
 };
 
 /// A unit of the columns of a record.
 struct Unit {
   std::string_view name;
   Dimension dimension;
-  double si;  ///< one of it in the SI unit of its dimension
+  double si;  ///< Value of one unit in the SI unit of its dimension
 };
 
 /// The unit of that name, or none. Blanks, '·' and '*' inside are ignored: "N m", "Nm" and "N·m" are the

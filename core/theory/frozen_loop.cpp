@@ -22,7 +22,7 @@ double growth_of(const Eigen::VectorXcd& poles) {
   return std::log(poles.cwiseAbs().maxCoeff());
 }
 
-/// The chain where these signals are constant.
+/// The chain with these signals held constant.
 loop::LinearChain without(loop::LinearChain chain, std::initializer_list<loop::LoopSignal> constant) {
   for (loop::LinearBlock& block : chain) {
     std::erase_if(block, [&](const loop::SignalPath& path) {

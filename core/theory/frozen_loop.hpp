@@ -20,42 +20,45 @@ struct FrozenLoop {
   HeldPlant plant;
   loop::LinearChain controller;
   double sample_time{0.0};  ///< T, s
-  /// Whether the loop holds a position. A velocity loop alone leaves it free: G is then what this loop reads.
+  /// Whether the loop controls a position. A velocity loop alone leaves the position free; G then leads to
+  /// the count that the velocity loop reads.
   bool closes_position{true};
 };
 
-/// The loop in which the masses move together, each against its spring and damper. While the rotor slides
-/// its stiffness is 0 and its damping that of sliding.
+/// The loop in which the masses move together, each against its spring and damper. While the rotor slides,
+/// its spring has stiffness 0 and its damper the sliding damping.
 /// @param controller a control without phases.
 FrozenLoop frozen_loop(const FrozenFriction& friction, const motion::PlantParameters& plant,
                        const loop::EncoderParameters& encoder, const loop::ControllerParameters& controller,
                        const LinearDrive& drive = {});
-/// @param stiffness, damping between rotor and frame, N m/rad and N m s/rad.
+/// frozen_loop() with one spring and one damper between rotor and frame.
+/// @param stiffness, damping N m/rad and N m s/rad.
 FrozenLoop frozen_loop(double stiffness, double damping, const motion::PlantParameters& plant,
                        const loop::EncoderParameters& encoder, const loop::ControllerParameters& controller,
                        const LinearDrive& drive = {});
 
-/// The loop in which the motor moves and the load does not: in an open gap, or on the coupling of a load that
-/// stands. What reads the load gives a constant, so that only the paths from the motor's encoder close the
-/// loop. Nothing where the controller does not read the motor: the loop is then cut.
-/// @param friction that of the motor, and the coupling where it is in contact
+/// The loop in which the motor moves and the load does not, because the gap is open or the load stands. An
+/// encoder on the load then reads a constant, so that only the paths from the motor's encoder close the loop.
+/// Empty if the controller does not read the motor, because the loop is then cut.
+/// @param friction spring and damper of the motor's friction, and of the coupling if it is in contact.
 std::optional<FrozenLoop> loop_of_motor_alone(const FrozenFriction& friction,
                                               const motion::PlantParameters& plant,
                                               const loop::EncoderParameters& encoder,
                                               const loop::ControllerParameters& controller,
                                               const LinearDrive& drive = {});
 
-/// L of the loop.
+/// Open loop L of the frozen loop.
 OpenLoop open_loop(const FrozenLoop& loop);
 
-/// The poles z of the closed loop: the eigenvalues of loop_map, without that of a free position.
+/// The poles z of the closed loop: the eigenvalues of loop_map, without the one of a free position.
 Eigen::VectorXcd poles_of(const FrozenLoop& loop);
 
 /// Behaviour, within a move, of the motion that grows fastest or dies out last.
 enum class LoopStability {
-  stable,    ///< it dies out, by more than a thousandth within the hold, however slowly
-  marginal,  ///< it changes by less than a thousandth within the hold: an eigenvalue of 1, for practical use
-  unstable   ///< it grows, by more than a thousandth within the hold
+  stable,    ///< The motion dies out, by more than a thousandth within the hold, however slowly.
+  marginal,  ///< The motion changes by less than a thousandth within the hold: for practical use, an
+             ///< eigenvalue of 1.
+  unstable   ///< The motion grows by more than a thousandth within the hold.
 };
 
 /// The stability of a loop with these poles over a move of `hold` (s). The pole z of largest magnitude has
@@ -64,7 +67,7 @@ LoopStability stability_of(const Eigen::VectorXcd& poles, double sample_time, do
 LoopStability stability_of(const FrozenLoop& loop, double hold);
 
 /// The logarithm of the factor by which the motion that grows fastest, or dies out last, changes within
-/// `hold` (s); below 0 where it dies out.
+/// `hold` (s); below 0 if it dies out.
 double log_growth(const FrozenLoop& loop, double hold);
 
 /// Time constant of the motion that dies out last, oscillating or not, s: −T/ln|z| of the pole z of largest

@@ -14,11 +14,11 @@ struct AnalogueGains {
   double kd{0.0};  ///< N m s/rad
 };
 
-/// T = 1/sample rate, s.
+/// Sample time T = 1/sample rate, s.
 double sample_time(const loop::ControllerParameters& controller);
 
-/// The continuous gains that a sampled controller stands for. Δx is that of the fine encoder, whichever
-/// closes the loop; the count of the coarse one is converted to fine counts.
+/// The continuous gains that a sampled controller stands for. Δx belongs to the fine encoder, whichever
+/// encoder closes the loop, because the count of the coarse one is converted to fine counts.
 ///
 /// kP = kp/Δx, kI = 2·ki/(Δx·T), kD = kd·T/Δx: the proportional term counts the error, the trapezoidal rule
 /// adds kI·Δx·T/2 for each of two successive errors, and the difference of successive counts is the velocity
@@ -31,7 +31,7 @@ AnalogueGains analogue_gains(const loop::ControllerParameters& controller,
 loop::PidGains sampled_gains(const AnalogueGains& gains, const loop::ControllerParameters& controller,
                              const loop::EncoderParameters& encoder);
 
-/// `controller` with these gains: the inverse of analogue_gains.
+/// `controller` with its gains replaced by these: the inverse of analogue_gains.
 loop::ControllerParameters with_analogue_gains(loop::ControllerParameters controller,
                                                const AnalogueGains& gains,
                                                const loop::EncoderParameters& encoder);

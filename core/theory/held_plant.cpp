@@ -8,7 +8,8 @@ namespace zerocount::theory {
 
 namespace {
 
-/// F of d(x, v)/dt = F·(x, v), with x = (measured angle, its rate, …), v the drive's input and time in s.
+/// Matrix F of d(x, v)/dt = F·(x, v), with x = (measured angle, its rate, …), v the drive's input, and time
+/// in s.
 Eigen::MatrixXd generator_of(const FrozenFriction& friction, double inertia,
                              const motion::LoadParameters& load, const LinearDrive& drive) {
   const auto [stiffness, damping, load_stiffness, load_damping] = friction;

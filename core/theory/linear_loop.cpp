@@ -44,7 +44,7 @@ bool knows_torque_in_force(const Blocks& blocks) {
   return false;
 }
 
-/// The wanted torque where the signals are `count`, `velocity_count` and `in_force`, the torque in force.
+/// The wanted torque for the signals `count`, `velocity_count` and `in_force`, the torque in force.
 /// @param pass returns the output of a group of paths for its input signals.
 template <class Signal, class Pass>
 Signal wanted_torque(const Blocks& blocks, const Signal& count, const Signal& velocity_count,
@@ -96,12 +96,12 @@ Row realise(const PathGroup& group, const Input& input, Eigen::Index state, Eige
   return output;
 }
 
-/// a/b without the care for extreme exponents that the language takes.
+/// Quotient a/b without the protection against overflow that the language requires.
 Complex quotient(Complex a, Complex b) {
   return a * std::conj(b) * (1.0 / std::norm(b));
 }
 
-/// Σ c[k]·w^k.
+/// Value of the polynomial Σ c[k]·w^k.
 Complex value_at(const std::vector<double>& c, Complex w) {
   Complex value = 0.0;
   for (auto k = c.rbegin(); k != c.rend(); ++k) value = value * w + *k;
@@ -136,7 +136,7 @@ void eliminate(Equations& equations) {
   }
 }
 
-/// The unknown k of equations that eliminate() has made ready.
+/// Solves for unknown k after eliminate().
 Complex unknown(const Equations& equations, Eigen::Index k) {
   const auto& [size, left, right] = equations;
   Complex rest = right[k];
@@ -231,8 +231,8 @@ Complex OpenLoop::at(Complex z) const {
   return controller_.at(z, 1.0, velocity_per_count) * power(inverse, plant_.delay) * count;
 }
 
-/// The count per torque decided, but for whole delays: the first element of (z·I − A)⁻¹·(b + b_before/z).
-/// And the count that the velocity loop reads per count.
+/// Two responses of the plant. First: count per torque decided, without the delay of whole samples, the first
+/// element of (z·I − A)⁻¹·(b + b_before/z). Second: count that the velocity loop reads, per count.
 std::pair<Complex, Complex> OpenLoop::plant_at(Complex z, Complex inverse) const {
   const Eigen::Index states = plant_.A.rows();
   const auto m = [&](Eigen::Index i, Eigen::Index j) { return (i == j ? z : 0.0) - plant_.A(i, j); };

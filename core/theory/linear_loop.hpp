@@ -20,40 +20,42 @@ namespace zerocount::theory {
 /// not read, its angle relative to the measured one; with an amplifier its torque), v the decided torques (N
 /// m).
 struct HeldPlant {
-  Eigen::MatrixXd A;         ///< of counts and N m
-  Eigen::VectorXd b;         ///< counts/(N m); 1 for the torque
-  Eigen::VectorXd b_before;  ///< 0 for a delay of whole samples
-  int delay{0};              ///< whole samples between deciding a torque and applying it
-  /// Counts of the encoder of the other mass in one of the fine one, where the velocity loop reads it; else
-  /// 0.
+  Eigen::MatrixXd A;  ///< State matrix, in units of counts and N m
+  Eigen::VectorXd b;  ///< Input vector of v[k − delay], counts/(N m); dimensionless in the row of the torque
+  Eigen::VectorXd b_before;  ///< Input vector of v[k − delay − 1]; 0 for a delay of whole samples
+  int delay{0};              ///< Whole samples between deciding a torque and applying it
+  /// Counts of the encoder on the other mass per count of the fine one, if the velocity loop reads that
+  /// encoder; otherwise 0.
   double other_per_count{0.0};
 };
 
 /// Springs and dampers between the masses and the frame, in place of their friction.
 struct FrozenFriction {
-  double stiffness{0.0};       ///< Between motor and frame, N m/rad.
-  double damping{0.0};         ///< Between motor and frame, N m s/rad.
-  double load_stiffness{0.0};  ///< Between load and frame, N m/rad.
-  double load_damping{0.0};    ///< Between load and frame, beside its damping to ground, N m s/rad.
+  double stiffness{0.0};       ///< Stiffness between motor and frame, N m/rad
+  double damping{0.0};         ///< Damping between motor and frame, N m s/rad
+  double load_stiffness{0.0};  ///< Stiffness between load and frame, N m/rad
+  /// Damping between load and frame, besides the load's damping to ground, N m s/rad
+  double load_damping{0.0};
 };
 
 /// Exact discretisation of J·θ¨ + damping·θ˙ + stiffness·θ = u − Ts, with the load of `plant`, and the
 /// drive's input held over each sample. The coupling is in contact and without an error.
-/// @param plant its inertia and load.
+/// @param plant inertia of the rotor, and its load.
 /// @param count_angle Δx, rad. @param sample_time T, s.
 /// @param delay samples between deciding a torque and applying it, whole or not.
 HeldPlant hold_plant(const FrozenFriction& friction, const motion::PlantParameters& plant, double count_angle,
                      double sample_time, const LinearDrive& drive, double delay = 0.0);
-/// @param stiffness, damping between motor and frame, N m/rad and N m s/rad.
+/// hold_plant() for a spring and a damper between motor and frame.
+/// @param stiffness, damping N m/rad and N m s/rad.
 inline HeldPlant hold_plant(double stiffness, double damping, const motion::PlantParameters& plant,
                             double count_angle, double sample_time, const LinearDrive& drive,
                             double delay = 0.0) {
   return hold_plant(FrozenFriction{stiffness, damping}, plant, count_angle, sample_time, drive, delay);
 }
 
-/// The one-sample map x ← M·x of the loop. Its states are those of the driven rotor, of the blocks' transfer
-/// functions (direct form II transposed; paths of a stage with the same poles share them), and the torques
-/// decided and not yet applied.
+/// The one-sample map x ← M·x of the loop. Its states are the states of the driven rotor, the states of the
+/// blocks' transfer functions (direct form II transposed; paths of a stage with the same poles share them),
+/// and the torques decided and not yet applied.
 Eigen::MatrixXd loop_map(const HeldPlant& plant, const loop::LinearChain& controller);
 
 /// max |eigenvalue| of the loop's map; below 1 the loop is stable.
@@ -67,14 +69,14 @@ struct PathGroup {
   Eigen::Index order() const;
 };
 
-/// C(z): the torque decided per count of error, N m/count, the torque in force that blocks use being that of
-/// the controller itself.
+/// Frequency response C(z) of the controller: torque decided per count of error, N m/count. Blocks that use
+/// the torque in force get the controller's own output.
 class ControllerResponse {
  public:
   explicit ControllerResponse(const loop::LinearChain& controller);
 
-  /// @param error_gain of the error before the chain, such as the describing function of its dead zone.
-  /// @param velocity_per_count of the count of the velocity loop's encoder per count of the position loop's.
+  /// @param error_gain gain on the error before the chain, such as the describing function of a dead zone.
+  /// @param velocity_per_count count that the velocity loop reads per count of the position loop.
   std::complex<double> at(std::complex<double> z, double error_gain = 1.0,
                           std::complex<double> velocity_per_count = 1.0) const;
 

@@ -78,8 +78,8 @@ double sign_change(const Sought& f, double low, double high, double at_low) {
   return 0.5 * (before + after);
 }
 
-/// An angle between low and high at which f, that has the sign of `side` at both, has the other sign; NaN
-/// if there seems to be none. By golden sections of |f|.
+/// An angle between low and high at which f has the other sign than at both ends, where it has the sign of
+/// `side`. The search minimises |f| by golden sections; NaN if it finds no such angle.
 double other_side(const Sought& f, double low, double high, double side) {
   constexpr double section = 0.381966011250105;
   constexpr int steps = 40;
@@ -208,7 +208,7 @@ void adopt_nearer(Margin& margin, double& distance, const Margin& other, double 
   distance = of_other;
 }
 
-/// The response of a loop between its search_angles.
+/// The open-loop response of a loop, sampled at its search_angles.
 SampledResponse response_of(const FrozenLoop& loop) {
   return sampled([open = open_loop(loop)](double angle) { return open.at_angle(angle); },
                  search_angles(loop));
@@ -218,19 +218,21 @@ double frequency_at(const FrozenLoop& loop, double angle) {
   return angle / (2.0 * std::numbers::pi * loop.sample_time);
 }
 
-/// 180° + arg L.
+/// Phase margin 180° + arg L, degrees.
 double phase_margin(Complex value) {
   return std::arg(-value) * 180.0 / std::numbers::pi;
 }
 
-/// @param crossovers all angles at which the response has gain 1, increasing
+/// The highest crossover.
+/// @param crossovers all angles at which the response has gain 1, increasing.
 GainCrossover highest_of(const FrozenLoop& loop, const SampledResponse& response,
                          const std::vector<double>& crossovers) {
   if (crossovers.empty() || std::abs(response.at(std::numbers::pi)) >= 1.0) return {none, none};
   return {frequency_at(loop, crossovers.back()), phase_margin(response.at(crossovers.back()))};
 }
 
-/// Whether the loop is stable with this factor of its gain, or on the edge by rounding.
+/// Whether the loop is stable with its gain multiplied by `factor`, or on the edge of stability within
+/// rounding.
 bool is_stable_with(FrozenLoop loop, double factor) {
   constexpr double rounding = 2e-8;  // of a double eigenvalue of exactly 1
   loop.plant.b *= factor;

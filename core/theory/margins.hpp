@@ -26,7 +26,7 @@ using Response = std::function<std::complex<double>(double angle)>;
 /// pole on the circle, where L is infinite, there is none.
 std::vector<double> search_angles(const FrozenLoop& loop);
 
-/// Adds angles around those of these poles or zeros, in increasing order.
+/// Adds angles around the angles of these poles or zeros, in increasing order.
 void add_angles_around(const Eigen::VectorXcd& roots, std::vector<double>& angles);
 
 /// A frequency response, and its values at angles that show its shape.
@@ -37,8 +37,8 @@ struct SampledResponse {
 };
 SampledResponse sampled(Response response, std::vector<double> angles);
 
-/// The angles at which |response| passes 1. Also between angles at which |response| comes near 1 from the
-/// same side.
+/// The angles at which |response| passes 1. Pairs of crossings between two sampled angles are sought if
+/// |response| comes near 1 there.
 std::vector<double> gain_crossovers(const SampledResponse& response);
 
 /// The angles at which the response passes the real axis, other than through infinity.
@@ -57,12 +57,13 @@ struct GainCrossover {
   /// Highest frequency with |L| = 1, Hz: the bandwidth of the loop. NaN where |L| < 1 throughout, or |L| ≥ 1
   /// up to half the sample rate.
   double frequency;
-  /// 180° + arg L there, in (−180, 180]; negative: the loop is unstable while it slides. NaN without a
-  /// crossover.
+  /// Phase margin 180° + arg L at this frequency, in (−180, 180]. If it is negative, the loop is unstable
+  /// while it slides. NaN without a crossover.
   double phase_margin;
 };
 
-/// Where a loop has several crossovers, each margin is that of the one nearest to instability.
+/// Gain and phase margins of a loop. If there are several crossovers, each margin belongs to the crossover
+/// nearest to instability.
 struct StabilityMargins {
   /// 1/|L| where L is negative: the factor of the gain at which the loop is on the edge of stability, the
   /// nearest to 1 by ratio. A factor below 1 limits a decrease of the gain, or is the decrease that an
@@ -80,10 +81,11 @@ struct StabilityMargins {
 /// 2006, section 4.6.
 Margin peak_sensitivity(const FrozenLoop& loop);
 
-/// The crossovers are searched between the search_angles, then bisected to 1e-12.
+/// Computes the margins of a loop. The crossovers are searched between the search_angles, then bisected to
+/// 1e-12.
 StabilityMargins stability_margins(const FrozenLoop& loop);
 
-/// StabilityMargins::crossover alone.
+/// Computes StabilityMargins::crossover alone.
 GainCrossover gain_crossover(const FrozenLoop& loop);
 
 }  // namespace zerocount::theory

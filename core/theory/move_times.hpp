@@ -43,9 +43,9 @@ double chatter_time(const motion::PlantParameters& plant, const friction::Fricti
 /// An axis that bounded torques move.
 struct DrivenAxis {
   double inertia;  ///< J, N m s²/rad
-  double damping;  ///< c, viscous, N m s/rad
-  double driving;  ///< largest torque in the direction of the move, friction subtracted, N m
-  double braking;  ///< largest torque against it, friction added, N m
+  double damping;  ///< Viscous damping c, N m s/rad
+  double driving;  ///< Largest torque in the direction of the move minus friction, N m
+  double braking;  ///< Largest torque against the move plus friction, N m
 };
 
 /// The shortest time (s) in which the axis moves by `distance` (rad) from rest to rest: all of the driving
@@ -53,7 +53,7 @@ struct DrivenAxis {
 ///
 ///     J·dω/dt = driving − c·ω,   then   J·dω/dt = −braking − c·ω.
 ///
-/// Infinite where one of the torques is not above 0. Source: Bryson and Ho, "Applied Optimal Control", 1975,
+/// Infinite if one of the torques is not above 0. Source: Bryson and Ho, "Applied Optimal Control", 1975,
 /// section 3.9 (the double integrator).
 double shortest_move(const DrivenAxis& axis, double distance);
 

@@ -16,8 +16,8 @@ namespace zerocount::theory {
 
 /// Linear model of converter and amplifier.
 struct LinearDrive {
-  double gain{1.0};       ///< torque per torque decided: 1 + dac.gain_error
-  double bandwidth{0.0};  ///< of the amplifier, Hz; 0: it follows at once
+  double gain{1.0};       ///< Torque per torque decided: 1 + dac.gain_error
+  double bandwidth{0.0};  ///< Bandwidth of the amplifier, Hz; 0: the torque follows at once
 };
 
 /// Spectral radius (dimensionless) of the sampled loop about a spring of `stiffness` (N m/rad); below 1 it is
@@ -39,7 +39,7 @@ double slowest_time_constant(double stiffness, const motion::PlantParameters& pl
                              const loop::EncoderParameters& encoder,
                              const loop::ControllerParameters& controller, const LinearDrive& drive = {});
 
-/// Integral gain of the control law: ki (N m/count), or that of a cascade (N m/rad).
+/// Integral gain of the control law: ki of the PID law (N m/count), or ki of the cascade (N m/rad).
 double integral_gain(const loop::ControllerParameters& controller);
 
 /// Integral gain, in the unit of integral_gain, below which the sampled loop about a spring of `stiffness` (N
@@ -56,8 +56,8 @@ double sampled_critical_integral_gain(double stiffness, const motion::PlantParam
 
 struct FrozenLoop;
 
-/// The bound of any frozen loop.
-/// @param loop_with the loop with a controller that differs in its integral gain alone
+/// Critical integral gain of any frozen loop, as for a loop about a spring.
+/// @param loop_with gives the loop with a controller that differs only in its integral gain.
 /// @param scale static stiffness of the loop without integral, in the unit of integral_gain
 double sampled_critical_integral_gain(
     const std::function<FrozenLoop(const loop::ControllerParameters&)>& loop_with,
@@ -87,8 +87,8 @@ double critical_integral_gain(double stiffness, const motion::PlantParameters& p
 
 /// The paper's two criteria for one contact, as bounds on the digital integral gain.
 struct IntegralGainBounds {
-  double stable_below{0.0};    ///< (6), k = k1: stable for all histories below it, N m/count
-  double unstable_above{0.0};  ///< (7), k = k1 + k2: unstable above it, N m/count
+  double stable_below{0.0};    ///< Bound (6), for k = k1: stable for all histories below it, N m/count
+  double unstable_above{0.0};  ///< Bound (7), for k = k1 + k2: unstable above it, N m/count
 };
 
 /// The bounds of (6) and (7) for the contact `contact`.
@@ -106,11 +106,12 @@ double lowest_k1(const friction::FrictionAlongRotor& friction);
 double dac_resolution_bound(double k1, const loop::EncoderParameters& encoder,
                             loop::EncoderChoice feedback = loop::EncoderChoice::fine);
 
-/// √(stiffness/J)/2π, Hz. With k1 + k2 it is the highest natural frequency of the pre-sliding motion.
+/// Natural frequency √(stiffness/J)/2π, Hz. For k1 + k2 it is the highest natural frequency of the
+/// pre-sliding motion.
 double natural_frequency(double stiffness, const motion::PlantParameters& plant);
 
-/// Lowest advisable sample rate (Hz): ten times the highest natural frequency, as on the paper's machine (its
-/// section 4).
+/// Lowest advisable sample rate (Hz): ten times the highest natural frequency, as on the paper's machine
+/// (section 4 of the paper).
 double advised_sample_rate(const motion::PlantParameters& plant, const friction::FrictionParameters& contact);
 
 }  // namespace zerocount::theory

@@ -13,8 +13,8 @@ namespace zerocount::trial {
 /// periods·(θ + p) or, with a pitch, 2π·(θ + p)/pitch, p the initial position.
 struct RippleParameters {
   double amplitude{0.0};  ///< N m; rad of a kinematic error
-  double periods{0.0};    ///< per revolution
-  double pitch{0.0};      ///< of one period, m; 0: by `periods`
+  double periods{0.0};    ///< Periods per revolution
+  double pitch{0.0};      ///< Length of one period, m; 0: `periods` applies
   double phase{0.0};      ///< rad
 };
 
@@ -32,30 +32,31 @@ struct SpectrumPoint {
 };
 
 /// A random vibration with a given spectrum, drawn anew in each trial: a sum of lines, one in each of `lines`
-/// bands of equal ratio of their ends. A line has the mean square of its band, ∫S df, with S straight between
-/// the points on logarithmic axes (on linear ones at a zero), its frequency is drawn evenly in the logarithm
-/// from the band, its phase from [0, 2π).
+/// bands whose ends have equal ratios. A line has the mean square of its band, ∫S df. S is interpolated
+/// linearly between the points on logarithmic axes, or on linear axes next to a zero. The frequency of a line
+/// is drawn evenly on a logarithmic scale from its band, its phase from [0, 2π).
 struct SpectrumParameters {
-  std::vector<SpectrumPoint> density;  ///< at least two, at ascending frequencies
+  std::vector<SpectrumPoint> density;  ///< Points of the spectrum: at least two, at ascending frequencies
   int lines{100};
 };
 
 /// The disturbance of the rotor, or of the load.
 struct DisturbanceParameters {
-  double torque{0.0};  ///< constant, N m
+  double torque{0.0};  ///< Constant torque, N m
   std::vector<RippleParameters> ripple{};
   std::vector<VibrationParameters> vibration{};
   std::vector<std::shared_ptr<const SpectrumParameters>> spectra{};
 };
 
-/// ∫S df from `low` to `high` (Hz), (N m)²: the mean square of the vibration in a band. 0 outside the points.
+/// Mean square of the vibration in the band from `low` to `high` (Hz): ∫S df, (N m)². S is 0 outside the
+/// points.
 double mean_square(const SpectrumParameters& spectrum, double low, double high);
 
 /// The ripples along an angle, without those of amplitude 0. @param position p, rad.
 std::vector<motion::Ripple> ripples_of(const std::vector<RippleParameters>& ripples, double position);
 
 /// The disturbance of a trial, without the terms of amplitude 0. @param position p, rad.
-/// @param lines random lines of the disturbances before.
+/// @param lines number of random lines that preceding disturbances of the trial have used.
 motion::Disturbance disturbance_of(const DisturbanceParameters& parameters, double position,
                                    const random::TrialRandomness& randomness, std::uint64_t lines = 0);
 

@@ -12,20 +12,20 @@
 namespace zerocount::trial {
 
 /// Whether a move has diverged at a sample with the error e = `error`, counts. Always false without
-/// `verdict.stop`; otherwise true if
+/// `verdict.stop`. Otherwise it has diverged if
 ///
 ///   |e| > limit + |e_0|,
 ///
-/// e_0 = `first_error` being the error at the move's first sample. That is the size of the step, whatever the
-/// reference does, and a move that settles may overshoot by nearly as much.
+/// where e_0 = `first_error` is the error at the move's first sample. |e_0| is the size of the step, whatever
+/// the reference does, and a move that settles may overshoot by nearly as much.
 inline bool diverged(const VerdictParameters& verdict, std::int64_t first_error, std::int64_t error) {
   return verdict.stop &&
          static_cast<double>(std::abs(error)) > verdict.limit + static_cast<double>(std::abs(first_error));
 }
 
-/// The outcome of a move after one that was ended. It was not run, because its initial state is unknown. It
-/// counts as oscillating and stopped; real measures are NaN, whole ones 0. @param number of the move in its
-/// trial
+/// The outcome of a move that follows a diverged move. It was not run, because its initial state is unknown.
+/// It counts as oscillating and stopped; its real measures are NaN, its whole ones 0. @param number number of
+/// the move in its trial.
 inline MoveOutcome move_not_run(std::size_t number = 0) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   MoveOutcome move;

@@ -14,7 +14,7 @@ class Jerks {
  public:
   explicit Jerks(std::int64_t move = 0, double sample_time = 0.0) : move_(move), sample_time_(sample_time) {}
 
-  /// Takes the error at sample k after the dwell. Samples may be left out where it is 0 outside a jerk.
+  /// Takes the error at sample k after the dwell. Samples with error 0 may be left out outside a jerk.
   /// @returns whether a jerk ended before this sample; then it is in last().
   bool add(std::int64_t k, std::int64_t error) {
     if (error == 0) return end(k);
@@ -39,10 +39,10 @@ class Jerks {
 
   bool in_jerk() const { return in_jerk_; }
   const Jerk& last() const { return jerk_; }
-  std::int64_t count() const { return up_ + down_; }  ///< ended jerks
-  std::int64_t up() const { return up_; }             ///< ended jerks in the positive direction
-  std::int64_t down() const { return down_; }         ///< ended jerks in the negative direction
-  std::int64_t samples() const { return samples_; }   ///< in ended jerks
+  std::int64_t count() const { return up_ + down_; }  ///< Ended jerks
+  std::int64_t up() const { return up_; }             ///< Ended jerks in the positive direction
+  std::int64_t down() const { return down_; }         ///< Ended jerks in the negative direction
+  std::int64_t samples() const { return samples_; }   ///< Samples in ended jerks
 
  private:
   std::int64_t move_;

@@ -25,8 +25,8 @@ class LastHalf {
  public:
   static constexpr std::size_t max_rises = 131'072;
 
-  /// Starts the last half of a move of `samples` samples. Keeps the allocated memory; the first rise
-  /// allocates all that the half can need.
+  /// Starts the last half of a move of `samples` samples. Keeps the allocated memory. The first rise of the
+  /// count allocates all the memory that the half can need.
   void start(std::int64_t samples);
 
   /// Takes the count at sample k ≥ h; `before` is the count at sample k − 1, or `count` itself at sample h.
@@ -46,7 +46,8 @@ class LastHalf {
     if (!begun_) begin(count);
   }
 
-  std::int64_t first() const { return first_; }  ///< the count at sample h; once add() or finish() was called
+  /// Count at sample h; valid once add() or finish() was called
+  std::int64_t first() const { return first_; }
 
   /// Whether sgn(target − c_k) is the same for all k ≥ h, and |target − c_k| ≤ |target − c_h|.
   bool only_approaches(std::int64_t target) const;

@@ -11,14 +11,14 @@
 namespace zerocount::trial {
 namespace {
 
-/// Truncation error of the motion per torque step, in fine counts. Far below the required accuracy, because a
+/// Truncation error allowed per torque step, in fine counts. It is far below the required accuracy, because a
 /// trial that breaks away in every cycle of its oscillation amplifies an error from cycle to cycle.
 constexpr double motion_tolerance_in_counts = 1e-11;
 
 /// Amplitude of an oscillation that counts as rest, in fine counts: a hundredth of the required accuracy.
 constexpr double rest_in_counts = 1e-8;
 
-/// The twist δ at which the coupling carries what acts on the load at rest, and that torque τL, N m.
+/// Twist δ (rad) at which the coupling carries the torque on the load at rest, and that torque τL (N m).
 struct HeldLoad {
   double twist;
   double torque;
@@ -46,7 +46,7 @@ HeldLoad held_load(const TrialParameters& p, std::span<const motion::Ripple> err
   return {twist, torque_at(twist)};
 }
 
-/// The torque below which a contact of the trial stands, N m.
+/// Largest torque that a contact of the trial holds at rest, N m.
 double holding_limit(const TrialParameters& p) {
   if (!friction::has_friction(p.friction.model)) return 0.0;
   const friction::FrictionParameters contact = friction::friction_at(p.friction, p.initial.position);

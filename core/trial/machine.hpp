@@ -14,11 +14,11 @@
 
 namespace zerocount::trial {
 
-/// How an axis begins that holds what acts on it (InitialConditions::holding).
+/// Initial state of an axis that holds the torques that act on it (InitialConditions::holding).
 struct HeldStart {
-  double contact{0.0};   ///< torque that the contact carries, N m
+  double contact{0.0};   ///< Torque that the contact carries, N m
   double twist{0.0};     ///< δ of the coupling of a second mass, rad
-  double integral{0.0};  ///< added to initial.integral: it carries what the contact cannot, N m
+  double integral{0.0};  ///< Torque added to initial.integral, which carries what the contact cannot, N m
 };
 
 /// Nothing moves at t = 0. With τL(θL) the constant torque and the ripple on the load, the coupling has
@@ -30,7 +30,7 @@ struct HeldStart {
 /// held_torque).
 HeldStart held_start(const TrialParameters& parameters);
 
-/// I of the controller before the first sample, N m.
+/// Integral I of the controller before the first sample, N m.
 double initial_integral(const TrialParameters& parameters);
 
 /// Torque of the motor before the first decided one acts, N m: in a closed loop HeldStart::integral, so that
@@ -43,7 +43,7 @@ loop::StartOfMotion start_of_motion(const TrialParameters& parameters);
 /// State of the plant at t = 0.
 motion::PlantStart plant_start(const TrialParameters& parameters);
 
-/// What acts on the second mass, and where it starts.
+/// Torques on the second mass, kinematic error, and initial twist.
 motion::LoadSide load_side(const TrialParameters& parameters);
 
 /// Largest count that a double represents as a whole number.
@@ -104,7 +104,7 @@ class Machine {
   const loop::EncoderReading& last_reading() const { return reading_; }
   /// The angle that closes the loop at the last reading: of the rotor, or of the load, rad.
   double last_measured() const { return last_measured_; }
-  double last_other() const { return last_other_; }  ///< that of the other mass, rad
+  double last_other() const { return last_other_; }  ///< Angle of the other mass at the last reading, rad
 
   /// Sends the converter's output at t_k; completes `record`.
   void drive(const loop::DacOutput& output, SampleRecord& record) {
@@ -137,7 +137,7 @@ class Machine {
            std::abs(plant_.theta()) < max_counts * measurement_.finest_resolution();
   }
 
-  bool clipped() const { return clipped_; }  ///< the converter was out of range at this sample
+  bool clipped() const { return clipped_; }  ///< The converter was out of range at this sample.
   const loop::Measurement& measurement() const { return measurement_; }
   AnyPlant& plant() { return plant_; }
 

@@ -12,10 +12,10 @@ namespace zerocount::trial {
 
 /// One sampling instant of a move.
 struct MotionSample {
-  std::int64_t number{0};  ///< from the start of the move
+  std::int64_t number{0};  ///< Number of the sample from the start of the move
   std::int64_t error{0};   ///< e, counts
-  double theta{0.0};       ///< of the rotor, or of the load where the encoder is there, rad
-  double torque{0.0};      ///< decided, N m
+  double theta{0.0};       ///< Angle of the rotor, or of the load if its encoder closes the loop, rad
+  double torque{0.0};      ///< Torque decided at this sample, N m
 };
 
 /// Accumulates the measures of the true motion over the moves of a trial. Its memory is bounded.
@@ -24,7 +24,7 @@ class MotionMeasures {
   /// @param resolution Δx of the fine encoder, rad.
   MotionMeasures(const TrialParameters& parameters, double resolution);
 
-  /// Starts the next move. @param samples of the move
+  /// Starts the next move. @param samples number of samples of the move.
   void start_move(std::int64_t target, std::int64_t samples);
 
   /// Takes the next sample of the move.
@@ -41,8 +41,8 @@ class MotionMeasures {
     double squared_errors{0.0};  ///< counts²
     double lowest{std::numeric_limits<double>::infinity()};
     double highest{-std::numeric_limits<double>::infinity()};
-    double squared_torques{0.0};  ///< (N m)²
-    double squared_changes{0.0};  ///< of the torque from sample to sample, (N m)²
+    double squared_torques{0.0};  ///< Sum of the squared torques, (N m)²
+    double squared_changes{0.0};  ///< Sum of the squared changes of the torque from sample to sample, (N m)²
     double last_torque{0.0};
   };
   struct Following {

@@ -65,7 +65,12 @@ std::int64_t whole(double number) {
   return static_cast<std::int64_t>(number);
 }
 
-/// @param largest_error max |e| in the window, counts.
+/// Outcome of a move with a target: zero_count or one_count if max |e| in the window at the end of the move
+/// is 0 or 1; otherwise off_target if the count only approaches the target in the last half of the move, and
+/// oscillating if not.
+/// @param largest_error max |e| in the window, counts
+/// @param target position of the target, counts
+/// @param last_half counts in the last half of the move
 Outcome verdict(double largest_error, std::int64_t target, const LastHalf& last_half) {
   if (largest_error == 0.0) return Outcome::zero_count;
   if (largest_error == 1.0) return Outcome::one_count;
@@ -91,7 +96,7 @@ void judge_end(const MoveTiming& timing, const RunningMeasures<double>& m, const
   }
 }
 
-/// @param samples of the move, all of which were run
+/// @param samples number of samples of the move, all of which were run.
 BandOutcome outcome_of_band(const MoveTiming& timing, double samples, BandMeasures<double> band) {
   // One more sample, outside, ends the last run inside the band.
   const double settled = band.last_outside + 1.0;

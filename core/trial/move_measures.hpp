@@ -16,11 +16,12 @@ namespace zerocount::trial {
 /// The name of a measure of a move in files.
 struct NamedMeasure {
   std::string_view name;
-  bool of_motion{false};    ///< only with `verdict.motion`
-  bool of_position{false};  ///< only where the position error is measured (VerdictParameters::position_error)
+  bool of_motion{false};  ///< The measure exists only with `verdict.motion`.
+  /// The measure exists only if the position error is measured (VerdictParameters::position_error).
+  bool of_position{false};
 };
 
-/// All measures that are numbers or qualities, but for those of error bands and tolerances.
+/// All measures of a move that are numbers or qualities, except the measures of error bands and tolerances.
 std::span<const NamedMeasure> named_measures();
 
 /// The measures that the bare name `settling_time` may mean, for the message that refuses it. Empty for every
@@ -30,18 +31,18 @@ std::string_view meanings_of_settling_time(std::string_view name);
 
 /// The names of the measures of an error band, before the band: "band_exits" of "band_exits[1]".
 std::span<const std::string_view> named_band_measures();
-/// The measure of a tolerance of the position error, before the tolerance.
+/// Name of the measure of a tolerance of the position error, before the tolerance.
 inline constexpr std::string_view tolerance_measure = "tolerance_settling_time";
 
 /// Times that the measures of a move refer to, in samples.
 struct MoveTiming {
   double sample_time{5e-4};    ///< T, s
-  std::int64_t samples{2000};  ///< N, of the move
-  std::int64_t dwell{100};     ///< D, samples at zero error that make an arrival
-  std::int64_t window{100};    ///< W, last samples that decide the outcome
-  bool judged{true};           ///< false if the move has a torque level in place of a target
+  std::int64_t samples{2000};  ///< Number N of samples of the move
+  std::int64_t dwell{100};     ///< Dwell D: samples at zero error that make an arrival
+  std::int64_t window{100};    ///< Window W: last samples of the move, which decide the outcome
+  bool judged{true};           ///< False if the move has a torque level in place of a target.
   ErrorBands bands{};
-  std::int64_t number{0};  ///< of the move in its trial
+  std::int64_t number{0};  ///< Number of the move in its trial
 };
 
 /// The measures of a band before the first sample.
@@ -50,33 +51,33 @@ inline constexpr BandMeasures<double> no_samples_of_band{-1.0, -1.0, 0.0};
 MoveTiming move_timing(const TrialParameters& parameters, std::size_t move);
 
 /// Distance from the rotor at `theta` (rad) to the middle of the target's count, counts (see MoveOutcome).
-/// @param resolution of the fine encoder, rad. @param phase of it, in counts.
+/// @param resolution resolution of the fine encoder, rad. @param phase phase of the fine encoder, counts.
 inline double true_error(std::int64_t target, double theta, double resolution, double phase) {
   return static_cast<double>(target) - (theta / resolution + phase - 0.5);
 }
 
 /// Contribution of one sample to the measures of its move.
 struct MoveSample {
-  std::int64_t target{0};  ///< counts; 0 where there is none
+  std::int64_t target{0};  ///< Target, counts; 0 without a target
   std::int64_t count{0};   ///< counts
-  double torque{0.0};      ///< decided at this sample, N m
-  bool clipped{false};     ///< the DAC was out of range
+  double torque{0.0};      ///< Torque decided at this sample, N m
+  bool clipped{false};     ///< The DAC was out of range
   double theta{0.0};       ///< rad
   double creep{0.0};       ///< xp, rad
 };
 
 /// The end of a move.
 struct MoveEnd {
-  MoveSample last;              ///< sample
-  bool broke_away{false};       ///< the hook slid during the move
-  std::int64_t reversal_depth;  ///< the largest
-  bool stopped{false};          ///< it has diverged, and was ended
-  bool finite{true};            ///< the motion could be followed
+  MoveSample last;              ///< Last sample of the move
+  bool broke_away{false};       ///< The hook slid during the move
+  std::int64_t reversal_depth;  ///< Largest number of reversal points on the stack
+  bool stopped{false};          ///< The move has diverged and was ended.
+  bool finite{true};            ///< The motion could be followed to the end.
 };
 
 /// The measures of a move. The last jerk has been ended, and the last half finished unless the move ended
 /// before it.
-/// @param bands of the timing.
+/// @param bands measures of the bands of `timing`.
 MoveOutcome outcome_of_move(const MoveTiming& timing, const RunningMeasures<double>& measures,
                             std::span<const BandMeasures<double>> bands, const Jerks& jerks,
                             const LastHalf& last_half, const MoveEnd& end);
@@ -103,7 +104,8 @@ class MoveMeasures {
   bool finish(bool broke_away, std::int64_t reversal_depth, bool finite);
 
   const Jerk& last_jerk() const { return jerks_.last(); }
-  const MoveOutcome& outcome() const { return outcome_; }  ///< once the move is finished
+  /// Outcome of the move; valid once the move is finished.
+  const MoveOutcome& outcome() const { return outcome_; }
 
  private:
   bool judge(const MoveSample& sample);

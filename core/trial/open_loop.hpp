@@ -25,14 +25,17 @@ class OpenLoop {
  public:
   explicit OpenLoop(const TrialParameters& parameters) : p_(parameters), converter_(parameters.dac) {}
 
-  /// @param number of the move; moves come in order.
+  /// Starts the next move.
+  /// @param number number of the move; moves come in order.
   void start_move(std::size_t number);
 
   struct Decision {
-    loop::DacOutput output;  ///< with TorquePath::exact the torque as commanded, and the code 0
-    bool exact;              ///< the torque passes the converter
-    bool stays;              ///< the same is decided at all later samples of the move
+    /// Output of the converter; with TorquePath::exact the torque as commanded, and the code 0
+    loop::DacOutput output;
+    bool exact;  ///< The torque bypasses the converter.
+    bool stays;  ///< The same torque is decided at all later samples of the move.
   };
+  /// Decides the torque of a sample.
   /// @param i number of the sample from the start of the move.
   Decision decide(std::int64_t i);
 

@@ -18,28 +18,30 @@
 namespace zerocount::trial {
 
 enum class TorquePath {
-  dac,   ///< rounded to codes, with the converter's errors
-  exact  ///< as commanded at the sampling instants
+  dac,   ///< The torque is rounded to codes, with the converter's errors.
+  exact  ///< The torque acts as commanded at the sampling instants.
 };
 
-/// Torque levels in place of targets: the rotor is loaded open loop. Level i is a move of its own: the torque
-/// goes to it at the constant rate, from the level before (from 0 at the start), and is held there.
+/// Torque levels in place of targets: the rotor is loaded in open loop. Each level is a move. The torque goes
+/// from the level before, or from 0 at the start, to the level at a constant rate, and is held there.
 struct TorqueCommand {
-  std::vector<double> levels;  ///< N m; empty where the trial has targets
-  double rate{0.1};            ///< N m/s
+  std::vector<double> levels;  ///< Torque levels, N m; empty if the trial has targets
+  double rate{0.1};            ///< Rate at which the torque goes to a level, N m/s
   TorquePath through{TorquePath::dac};
-  /// A recorded torque in place of the levels, as one move; then there is one level, 0. Null: none.
+  /// A recorded torque in place of the levels, as one move. There is then one level, 0. Null without a
+  /// record.
   std::shared_ptr<const TorqueRecord> record{};
 };
 
 /// The moves of a trial.
 struct CommandParameters {
-  std::vector<std::int64_t> targets;  ///< counts from the start of the trial, one per move
-  double hold{1.0};  ///< s: of each target, from the move's start; of each torque level, once it is reached
+  std::vector<std::int64_t> targets;  ///< Targets from the start of the trial, counts, one per move
+  /// Time for which each target is held, from the move's start, or each torque level, once it is reached, s
+  double hold{1.0};
   loop::ReferenceProfile profile{};
   TorqueCommand torque{};
-  /// Targets before rounding to counts, from the start of the trial, rad, one per move; empty: those in
-  /// counts.
+  /// Targets before rounding to counts, from the start of the trial, rad, one per move. If it is empty, the
+  /// targets in counts are used.
   std::vector<double> exact_targets{};
 };
 
@@ -47,51 +49,57 @@ struct CommandParameters {
 /// the breakaway torque when the slide began.
 enum class InitialMode { stick, slide };
 
-/// Random loading before t = 0 and after the preload, slow and without creep: the torque goes to `reversals`
-/// levels one after the other, each drawn evenly between the last one and ±`torque`, up and down by turns,
-/// and then back to 0; θ = 0 there.
+/// Random loading before t = 0 and after the preload, slow and without creep. The torque goes to `reversals`
+/// levels in turn, alternately up and down, and then back to 0, where θ = 0. Each level is drawn evenly
+/// between the level before and ±`torque`.
 struct RandomHistory {
   int reversals{0};
-  double torque{0.0};  ///< largest magnitude of a level, N m
+  double torque{0.0};  ///< Largest magnitude of a level, N m
 };
 
-/// State of machine and controller at t = 0.
+/// State of plant and controller at t = 0.
 struct InitialConditions {
   /// Position of the mass that closes the loop within a count of the fine encoder, in [0, 1).
   double encoder_phase{0.5};
-  double position{0.0};   ///< position of the contact on the rotor, rad; selects from the profiles
+  double position{0.0};   ///< Position of the contact on the rotor, rad; selects from the profiles
   double hardening{0.0};  ///< xh, rad
-  double preload{0.0};    ///< torque of a slow load-and-unload from virgin before t = 0, without creep, N m
+  double preload{0.0};    ///< Torque of a slow load-and-unload from virgin before t = 0, without creep, N m
   RandomHistory history{};
   double velocity{0.0};  ///< ω, rad/s
   double integral{0.0};  ///< I of the controller before the first sample, N m
   InitialMode mode{InitialMode::stick};
-  double gap{0.0};  ///< twist of the coupling over its gap, −½ to ½
-  /// The contact has been loaded slowly from virgin to the constant disturbance, and carries it at t = 0;
-  /// with a second mass also what acts on that (held_start).
+  double gap{0.0};  ///< Twist of the coupling over its gap, −½ to ½
+  /// The contact has been loaded slowly from virgin to the constant disturbance, and carries it at t = 0.
+  /// With a second mass it also carries the torques that act on that mass (held_start).
   bool holding{false};
-  double other_encoder_phase{0.5};  ///< of the other mass in a count of EncoderParameters::other, in [0, 1)
+  /// Position of the other mass within a count of EncoderParameters::other, in [0, 1)
+  double other_encoder_phase{0.5};
 };
 
 /// Criteria of the verdict on a move.
 struct VerdictParameters {
-  double dwell{0.05};    ///< time at zero error that makes an arrival, s
-  double window{0.05};   ///< last part of the move, by which its outcome is judged, s
-  bool stop{false};      ///< a move that diverges is ended there, and the trial with it (see divergence.hpp)
-  double limit{1000.0};  ///< |error| beyond that of the move's first sample that counts as diverged, counts
+  double dwell{0.05};   ///< Time at zero error that makes an arrival, s
+  double window{0.05};  ///< Last part of the move, which decides its outcome, s
+  /// A move that diverges is ended there, and the trial with it (see divergence.hpp).
+  bool stop{false};
+  /// Excess of |error| over that at the move's first sample beyond which the move has diverged, counts
+  double limit{1000.0};
   ErrorBands bands{};
   Tolerances tolerances{};
-  bool position_error{false};  ///< settling within the tolerances and true overshoot are measured
-  bool motion{false};          ///< the true motion is measured too (see MotionMeasures)
-  double rest_band{0.0};       ///< |e| within which a move is at rest, for these measures, counts
+  /// Settling within the tolerances and true overshoot are measured.
+  bool position_error{false};
+  bool motion{false};  ///< The true motion is measured too (see MotionMeasures).
+  /// Largest |e| at which a move is at rest, for the measures of the true motion, counts
+  double rest_band{0.0};
   /// The position error of this mass is measured too, whichever closes the loop.
   std::optional<motion::EncoderPlace> other_mass{};
 };
 
-/// What belongs to a second mass beside its coupling.
+/// Parameters of a second mass apart from its coupling.
 struct LoadSideParameters {
-  std::vector<RippleParameters> error{};  ///< kinematic error of the coupling, by the rotor's angle
-  DisturbanceParameters disturbance{};    ///< of the load, by its angle
+  /// Kinematic error of the coupling, as a function of the rotor's angle
+  std::vector<RippleParameters> error{};
+  DisturbanceParameters disturbance{};  ///< Disturbance of the load, as a function of its angle
   friction::LoadFrictionParameters friction{};
 };
 
@@ -111,7 +119,7 @@ struct TrialParameters {
   LoadSideParameters load_side{};
 };
 
-/// Exchanges the fine encoder with that of the other mass.
+/// Exchanges the fine encoder and the encoder on the other mass.
 void exchange_encoders(TrialParameters& parameters);
 
 /// Number of whole samples in `duration` (s) at `sample_rate` (Hz): round(duration·sample_rate).
@@ -120,11 +128,11 @@ std::int64_t samples_in(double duration, double sample_rate);
 /// Number of moves: targets, or torque levels.
 std::size_t move_count(const TrialParameters& parameters);
 
-/// The target of the move, counts; 0 of a torque level.
+/// The target of the move, counts; 0 for a torque level.
 std::int64_t target_of_move(const TrialParameters& parameters, std::size_t move);
 
-/// Number of samples of move `move`: round(hold·sample_rate), and for a torque level those on the way to it
-/// before.
+/// Number of samples of move `move`: round(hold·sample_rate), plus the samples on the way to it for a torque
+/// level.
 std::int64_t samples_of_move(const TrialParameters& parameters, std::size_t move);
 
 /// Number of samples of all moves.

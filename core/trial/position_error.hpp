@@ -11,23 +11,24 @@ namespace zerocount::trial {
 
 /// Measures of the position error of each move,
 ///
-///   ε_k = (r + ½ − encoder_phase)·Δx − θ_k,
+///   ε_k = (r + ½ − encoder_phase)·Δx − θ_k.
 ///
-/// r the target in counts before rounding, of a sine or record that at t_k, and θ of the mass whose encoder
-/// closes the loop, or of the other one: r, Δx and encoder_phase are those of that encoder for both. They do
-/// not depend on what the encoder reads.
+/// Here r is the target in counts before rounding; for a sine or a record it is the reference at t_k. θ is
+/// the angle of the mass whose encoder closes the loop, or of the other mass. For both masses, r, Δx and
+/// encoder_phase belong to the encoder that closes the loop. The measures do not depend on the readings of
+/// the encoder.
 class PositionError {
  public:
   /// @param resolution Δx of the fine encoder, rad.
   PositionError(const TrialParameters& parameters, double resolution);
 
-  /// Starts the next move. @param number of the move, in order
+  /// Starts the next move. @param number number of the move; moves come in order.
   void start_move(std::size_t number);
 
   /// Takes sample k of the move. @param theta rad
   void add(std::int64_t k, double theta, const loop::Reference& reference);
-  /// Takes sample k of a move whose target does not move. At the samples that were not taken since the last
-  /// one θ lay within quiet_range().
+  /// Takes sample k of a move whose target does not move. At the samples that were left out since the last
+  /// one, θ must have been within quiet_range().
   void add_at_target(std::int64_t k, double theta);
 
   /// Positions of the rotor, rad.
@@ -35,12 +36,12 @@ class PositionError {
     double low;
     double high;
   };
-  /// The positions around that of the last sample at which a sample leaves no tolerance, enters none, and
-  /// does not exceed the overshoot so far: such samples need not be taken. Of a move whose target does not
-  /// move.
+  /// Positions around the last one at which a sample neither leaves nor enters a tolerance and does not
+  /// exceed the overshoot so far. Samples in this range need not be taken. Only for a move whose target does
+  /// not move.
   Range quiet_range() const;
 
-  double last() const { return error_; }  ///< ε of the last sample, rad
+  double last() const { return error_; }  ///< Position error ε of the last sample, rad
 
   /// Adds the measures of the move to its outcome, whose other measures are final.
   void finish(MoveOutcome& outcome) const;
@@ -48,7 +49,7 @@ class PositionError {
  private:
   /// Target of the move, rad, before rounding; 0 before the first.
   double exact_target(std::size_t number) const;
-  /// @param followed position that the rotor is to have, rad
+  /// @param followed position that the rotor should have, rad.
   void add_error(std::int64_t k, double theta, double followed);
 
   const TrialParameters& p_;

@@ -10,10 +10,10 @@ namespace zerocount::trial {
 /// @tparam Number double, a vector, or an array with the numbers of many lanes.
 template <class Number>
 struct ArrivalMeasures {
-  Number samples;         ///< so far
-  Number zeros_in_a_row;  ///< up to the last sample
-  Number arrived;         ///< the error was 0 for the whole dwell
-  Number arrival;         ///< first sample of that dwell, once arrived
+  Number samples;         ///< Samples so far
+  Number zeros_in_a_row;  ///< Successive samples with zero error up to the last sample
+  Number arrived;         ///< 1 if the error was 0 for the whole dwell
+  Number arrival;         ///< First sample of the arrival dwell; valid once arrived
 };
 
 /// Measures of a move, accumulated up to the present sample.
@@ -22,12 +22,13 @@ struct RunningMeasures : ArrivalMeasures<Number> {
   Number direction;              ///< sgn e_0
   Number largest_since_arrival;  ///< max |e| after the dwell, counts
   Number largest_in_window;      ///< max |e| in the last W samples, counts
-  Number overshoot;              ///< counts
+  Number overshoot;              ///< Largest excursion beyond the target, counts
   Number peak_torque;            ///< max |torque decided|, N m
-  Number saturated;              ///< the converter clipped
+  Number saturated;              ///< 1 if the converter has clipped
 };
 
-/// Calls `visit` with the same number of all `arrivals` (or all `measures`), for each number in turn.
+/// Calls `visit` for each member in turn, with that member of all `arrivals`. for_each_measure does so for
+/// `measures`.
 template <class Visit, class... Arrivals>
 ZEROCOUNT_ALWAYS_INLINE constexpr void for_each_of_arrival(Visit visit, Arrivals&... arrivals) {
   visit(arrivals.samples...);
@@ -61,20 +62,20 @@ inline constexpr int max_error_bands = 8;
 /// counts when it ends.
 template <class Number>
 struct BandMeasures {
-  Number last_outside;  ///< last sample with |e| > b; −1 if none
-  Number entry;         ///< first sample of the first dwell inside the band; −1 if none has ended
-  Number exits;         ///< maximal runs of samples with |e| > b after the entry dwell
+  Number last_outside;  ///< Last sample with |e| > b; −1 if none
+  Number entry;         ///< First sample of the first dwell inside the band; −1 if none has ended
+  Number exits;         ///< Number of maximal runs of samples with |e| > b after the entry dwell
 };
 
 /// Limits that the running measures compare with, in samples.
 template <class Number>
 struct MeasureLimits {
-  Number samples;  ///< N, of the move
-  Number dwell;    ///< D
-  Number window;   ///< W
+  Number samples;  ///< Number N of samples of the move
+  Number dwell;    ///< Arrival dwell D
+  Number window;   ///< Window W
 };
 
-/// Takes the error of the next sample (counts).
+/// Updates the measures by the error of the next sample (counts).
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE void measure_error(RunningMeasures<Number>& m, const MeasureLimits<Number>& limits,
                                            const Number& error) {
@@ -94,8 +95,8 @@ ZEROCOUNT_ALWAYS_INLINE void measure_error(RunningMeasures<Number>& m, const Mea
 }
 
 /// Takes sample k, at which |e| is `size` counts. Samples inside the band may be left out.
-/// @param limit b of the band, counts. @param dwell D, samples
-/// @returns where the sample lies outside the band
+/// @param limit b of the band, counts. @param dwell D, samples @returns a mask: true if the sample lies
+/// outside the band.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE auto measure_band(BandMeasures<Number>& band, const Number& limit,
                                           const Number& dwell, const Number& k, const Number& size) {
@@ -111,7 +112,7 @@ ZEROCOUNT_ALWAYS_INLINE auto measure_band(BandMeasures<Number>& band, const Numb
   return outside;
 }
 
-/// Takes the torque (N m) decided at this sample, and ends the sample.
+/// Updates the measures by the torque (N m) decided at this sample, and ends the sample.
 template <class Number, class Mask>
 ZEROCOUNT_ALWAYS_INLINE void measure_torque(RunningMeasures<Number>& m, const Number& torque,
                                             const Mask& clipped) {
@@ -120,7 +121,7 @@ ZEROCOUNT_ALWAYS_INLINE void measure_torque(RunningMeasures<Number>& m, const Nu
   m.samples = m.samples + Number(1.0);
 }
 
-/// Takes `samples` samples (0 or more) with the error 0 and the last torque.
+/// Adds `samples` samples (0 or more) with zero error and the last torque.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE void measure_zeros(ArrivalMeasures<Number>& m, const Number& dwell,
                                            const Number& samples) {

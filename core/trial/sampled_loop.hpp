@@ -23,28 +23,33 @@ namespace zerocount::trial {
 ///   start_move(m):  the reference goes from target m − 1, 0 at first, to target m
 ///   decide(i):      r ← reference at i·T
 ///                   if the controller runs:  code ← convert(controller(r, counts) + dither)
-///                   else:                    code as at the sample before, at first that of held_torque
+///                   else:                    code of the sample before, at first the code of held_torque
 ///   finish(m):      travel time, changes of the phase, measures of the position error and the true motion
 class SampledLoop {
  public:
-  /// @param measurement by whose encoders the counts are read.
+  /// @param measurement encoders by which the counts are read.
   SampledLoop(const TrialParameters& parameters, const loop::Measurement& measurement);
 
-  /// @param number of the move; moves come in order.
+  /// Starts the next move.
+  /// @param number number of the move; moves come in order.
   void start_move(std::size_t number);
 
   struct Decision {
-    std::int64_t reference;  ///< that the controller follows, counts
-    /// From which the error is measured, counts: the move's, or the reference if that moves for ever.
+    std::int64_t reference;  ///< Reference that the controller follows, counts
+    /// Target from which the error is measured, counts: the move's target, or the reference if it moves for
+    /// ever.
     std::int64_t target;
     loop::DacOutput output;
-    bool ran;      ///< the controller has run at this sample
-    bool arrived;  ///< the reference stays at the target from now on
-    /// Torque of the controller when it last ran, before dither, limit and rounding, N m.
+    bool ran;      ///< The controller has run at this sample.
+    bool arrived;  ///< The reference stays at the target from now on.
+    /// Wanted torque of the controller when it last ran, before dither, limit and rounding, N m.
     double wanted;
   };
-  /// @param k number of the sample from the start of the trial. @param i from the start of the move.
-  /// @param theta angle that the encoders have read, rad. @param other of the other mass, if there is one
+  /// Decides the code of a sample.
+  /// @param k number of the sample from the start of the trial. @param i number of the sample from the start
+  /// of the move.
+  /// @param theta angle that the encoders have read, rad. @param other angle of the other mass, rad, if there
+  /// is one.
   Decision decide(std::int64_t k, std::int64_t i, const loop::EncoderReading& reading, double theta,
                   double other);
 
@@ -52,7 +57,8 @@ class SampledLoop {
   /// Whether the controller's torque was not finite at the last sample, where a torque of 0 was converted.
   bool failed() const { return failed_; }
 
-  /// Ends the move. @param outcome of the move, complete but for what is measured here.
+  /// Ends the move. @param outcome outcome of the move, complete except for the measures of this loop, which
+  /// are added.
   void finish(MoveOutcome& outcome);
 
  private:

@@ -12,37 +12,40 @@ namespace zerocount::trial {
 
 enum class HookMode { stick, slide };
 
-/// One sampling instant t_k of a trial. Values are those at t_k; code and torque those decided at t_k.
+/// One sampling instant t_k of a trial: values at t_k, and the code and torque decided at t_k.
 struct SampleRecord {
-  std::int64_t k{0};             ///< sample number from the start of the trial
-  double t{0.0};                 ///< k·T and, with jitter, how late the sample is, s
+  std::int64_t k{0};             ///< Sample number from the start of the trial
+  double t{0.0};                 ///< Time of the sample, s: k·T plus, with jitter, its lateness
   std::int64_t target{0};        ///< counts
-  std::int64_t count{0};         ///< fine encoder, counts
-  std::int64_t coarse_count{0};  ///< coarse encoder, counts
-  std::int64_t error{0};         ///< target − count, counts
+  std::int64_t count{0};         ///< Fine encoder, counts
+  std::int64_t coarse_count{0};  ///< Coarse encoder, counts
+  std::int64_t error{0};         ///< Target − count, counts
   std::int64_t code{0};          ///< DAC code
   double torque{0.0};            ///< code·Δu, N m
-  double theta{0.0};             ///< rotor angle, rad
-  double omega{0.0};             ///< rotor velocity, rad/s
-  double xp{0.0};                ///< plastic extension, rad
+  double theta{0.0};             ///< Rotor angle, rad
+  double omega{0.0};             ///< Rotor velocity, rad/s
+  double xp{0.0};                ///< Plastic extension, rad
   double xh{0.0};                ///< hardening, rad
-  std::int64_t depth{0};         ///< reversal points on the stack
+  std::int64_t depth{0};         ///< Reversal points on the stack
   HookMode mode{HookMode::stick};
-  std::int64_t reference{0};  ///< that the controller follows, counts: the target once arrived there
-  loop::ControlPhase phase{loop::ControlPhase::fine};  ///< that decided the torque
-  double load_theta{0.0};    ///< angle of the second mass, rad; of the rotor without one
-  double load_omega{0.0};    ///< velocity of the second mass, rad/s; of the rotor without one
-  double drive_torque{0.0};  ///< of the motor at this instant, after converter and amplifier, N m
-  /// Readings of the motor's and the load's encoder, where each has one, in counts of each; one is `count`.
+  /// Reference that the controller follows, counts; it equals the target once it has arrived there
+  std::int64_t reference{0};
+  loop::ControlPhase phase{loop::ControlPhase::fine};  ///< Phase of the control that decided the torque
+  double load_theta{0.0};  ///< Angle of the second mass, rad; without one, of the rotor
+  double load_omega{0.0};  ///< Velocity of the second mass, rad/s; without one, of the rotor
+  /// Torque of the motor at this instant, after converter and amplifier, N m
+  double drive_torque{0.0};
+  /// Reading of the motor's encoder, in its own counts; load_count is the reading of the load's encoder. The
+  /// one that closes the loop equals `count`.
   std::int64_t motor_count{0};
   std::int64_t load_count{0};
 };
 
 /// Callbacks while a trial runs; an empty function is not called.
 struct TrialObservers {
-  std::function<void(const SampleRecord&)> sample;  ///< at every sampling instant, in order
-  std::function<void(const Jerk&)> jerk;            ///< at the end of every jerk, in order of onset
-  std::stop_token stop{};                           ///< a request to stop ends the trial by Interrupted
+  std::function<void(const SampleRecord&)> sample;  ///< Called at every sampling instant, in order.
+  std::function<void(const Jerk&)> jerk;            ///< Called at the end of every jerk, in order of onset.
+  std::stop_token stop{};                           ///< A request to stop ends the trial by Interrupted.
 };
 
 /// A trial was not run to its end, because a stop was requested.

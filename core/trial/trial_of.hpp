@@ -27,9 +27,9 @@ inline bool slid_in_move(friction::Breakaway breakaway, bool at_start, bool at_i
 }
 
 /// Runs the samples of one move, from number `first` on. `decide(i, record)` completes the record of its
-/// sample i: what is commanded, and the torque. A move that diverges is ended.
-/// @param target of the move, counts. A reference that moves for ever is measured as if it stood there, with
-/// the same errors.
+/// sample i: target, reference and torque. A move that diverges is ended.
+/// @param target target of the move, counts. If the reference moves for ever, the move is measured as if the
+/// reference stood at this target, with the same errors.
 template <class AnyPlant, class Decide>
 MoveOutcome run_move(Machine<AnyPlant>& machine, const MoveTiming& timing, const VerdictParameters& verdict,
                      std::int64_t move, std::int64_t first, std::int64_t target,
@@ -109,7 +109,7 @@ TrialOutcome follow_targets(const TrialParameters& p, const TrialObservers& obse
   return outcome;
 }
 
-/// Open loop: the torque goes from level to level, or is that of a record.
+/// Open loop: the torque goes from level to level, or follows a record.
 template <class AnyPlant>
 TrialOutcome apply_torques(const TrialParameters& p, const TrialObservers& observers) {
   Machine<AnyPlant> machine(p);

@@ -21,7 +21,7 @@ struct LoopSample {
 using LoopWatch = std::function<bool(const LoopSample&)>;
 
 /// Runs a closed loop as run_trial() does, and calls `watch` at each sample.
-/// @returns the outcome; none if `watch` ended the trial
+/// @returns the outcome; empty if `watch` ended the trial.
 std::optional<TrialOutcome> watch_trial(const TrialParameters& parameters, const LoopWatch& watch);
 
 }  // namespace zerocount::trial

@@ -64,7 +64,7 @@ std::vector<SobolDirections> sobol_directions(std::span<const std::size_t> dimen
 /// origin first, as a 64-bit binary fraction.
 std::uint64_t sobol_bits(std::uint64_t index, const SobolDirections& directions);
 
-/// As sobol_bits, with the random digital shift of this dimension from its own stream, in (0, 1). The shift
+/// The point of sobol_bits() with the random digital shift of its dimension, as a number in (0, 1). The shift
 /// keeps the stratification: each of 2^m equal intervals holds one of the trials j·2^m … (j + 1)·2^m − 1.
 double sobol_uniform(std::uint64_t index, const SobolDirections& directions,
                      const random::RandomStream& stream);

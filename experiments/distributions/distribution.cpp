@@ -39,7 +39,7 @@ QuantileConstants constants_of(const LogUniform& d) {
 QuantileConstants constants_of(const Lognormal& d) {
   return {numerics::log_of_draws(d.median), std::sqrt(numerics::log1p(d.cv * d.cv))};
 }
-/// The limits as scores. An upper tail is mirrored.
+/// Probabilities of the standardised limits. If the range is an upper tail, it is mirrored.
 QuantileConstants constants_of(const TruncatedNormal& d) {
   const bool mirrored = d.low > d.mean;
   const double low = (d.low - d.mean) / d.sd;

@@ -63,7 +63,7 @@ struct Triangular {
 struct Integers {
   std::int64_t low{0};
   std::int64_t high{1};
-  double unit{1.0};  ///< above 0; other than 1 only by scaled()
+  double unit{1.0};  ///< factor, above 0; differs from 1 only after scaled()
   bool operator==(const Integers&) const = default;
 };
 
@@ -79,19 +79,23 @@ using Distribution =
 /// Interval of the possible values.
 numerics::Interval support(const Distribution& distribution);
 
-/// The smallest x with P(X ≤ x) ≥ u, 0 < u < 1, in the quantity's unit.
+/// The value that the uniform number u draws, 0 < u < 1, in the quantity's unit. For a continuous
+/// distribution it is the quantile: P(X ≤ x) = u. For a discrete distribution of n values it is the value
+/// with index ⌊n·u⌋. The values of a Choice are in the order of its list, which may not be sorted.
 double quantile(const Distribution& distribution, double u);
 
-/// A uniform number whose quantile is x, to rounding; nothing if x cannot be drawn. Of a continuous
-/// distribution it is P(X ≤ x); of a discrete one the middle of the interval that gives x.
+/// A uniform number whose quantile is x, to rounding; empty if x cannot be drawn. For a continuous
+/// distribution it is P(X ≤ x); for a discrete distribution the middle of the interval that gives x.
 std::optional<double> uniform_of(const Distribution& distribution, double x);
 
-/// The distribution of `factor` times the quantity. @param factor above 0
+/// The distribution of `factor` times the quantity.
+/// @param factor above 0
 Distribution scaled(const Distribution& distribution, double factor);
 
-/// The distribution of a quantity that lies `factor` times as far from its centre: the mean of a Gaussian,
-/// the mode of a triangle, the middle of an interval; by the logarithm of a logarithmic one, so that what is
-/// above 0 stays so. Whole numbers and choices stay. @param factor above 0
+/// The distribution of a quantity that lies `factor` times as far from its centre. The centre is the mean of
+/// a Gaussian, the mode of a triangle, or the middle of an interval. Logarithmic distributions are widened in
+/// the logarithm, so positive values stay positive. Whole numbers and choices are not changed.
+/// @param factor above 0
 Distribution widened(const Distribution& distribution, double factor);
 
 /// Whether the extreme quantiles are in `range`. They may overflow for very large parameters.
@@ -100,7 +104,7 @@ bool extremes_are_inside(const Distribution& distribution, const numerics::Inter
 /// Whether only whole numbers can be drawn.
 bool whole_numbers_only(const Distribution& distribution);
 
-/// Why the parameters of a distribution are invalid: the two phrases of a message.
+/// Message about invalid parameters of a distribution, in two phrases.
 struct DistributionFault {
   std::string what;
   std::string expected;

@@ -12,19 +12,20 @@
 
 namespace zerocount::distributions {
 
-/// Name of the form of a value that has bounds and no distribution: it is spread evenly over the worlds.
+/// Name of the form of a value with two ends and no distribution. The values are spread evenly over the
+/// worlds.
 inline constexpr std::string_view interval_name = "interval";
 
 /// One distribution in a manifest: a map with the single key `name`.
 struct DistributionForm {
   std::string_view name;
-  shapes::Shape shape;  ///< of its value: a list, or a map, of the numbers from which it is made
+  shapes::Shape shape;  ///< shape of the key's value: a list or a map of numbers
   std::string_view meaning;
   Distribution (*make)(const std::vector<double>& numbers){nullptr};
   bool whole_numbers{false};  ///< parameters and draws are whole numbers
 };
 
-/// Value of the key in help texts: "[low, high]".
+/// Text for the value of the key in help texts: "[low, high]".
 std::string shown_value(const DistributionForm& form);
 
 /// All distributions, except `profile`.
@@ -33,8 +34,8 @@ std::span<const DistributionForm> distribution_forms();
 /// The names, "uniform, log_uniform, …", for messages.
 std::string distribution_names();
 
-/// The distribution in `field`, the value of the key `form.name`. Reports errors, such as low above high, and
-/// returns nothing then.
+/// The distribution in `field`, the value of the key `form.name`. Empty after errors, such as low above high,
+/// which are reported.
 std::optional<Distribution> read_distribution(const DistributionForm& form, const yaml::Field& field,
                                               yaml::Problems& problems);
 
@@ -54,8 +55,8 @@ struct ProfileForm {
 /// The form of the value of the key `profile`.
 const shapes::Shape& profile_shape();
 
-/// The value of the key `profile`. Reports errors and returns nothing then.
-/// @param period of the field, rad or m.
+/// Reads the value of the key `profile`. Empty after errors, which are reported.
+/// @param period period of the random field, rad or m
 std::optional<ProfileForm> read_profile(const yaml::Field& field, double period, yaml::Problems& problems);
 
 }  // namespace zerocount::distributions

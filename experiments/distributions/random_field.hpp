@@ -13,11 +13,11 @@ namespace zerocount::distributions {
 
 /// Parameters of a stationary random field along the axis.
 struct ProfileDescription {
-  double mean{1.0};                ///< of the parameter itself, in its unit
+  double mean{1.0};                ///< mean of the parameter itself (not its logarithm), in its unit
   double cv{0.1};                  ///< standard deviation over mean, of the parameter itself
-  double correlation_length{0.2};  ///< ℓ, rad or m
+  double correlation_length{0.2};  ///< ℓ, at which the correlation is 1/e, rad or m
   friction::Marginal marginal{friction::Marginal::lognormal};
-  double period{2.0 * std::numbers::pi};  ///< of the field: a revolution, rad, or the travel, m
+  double period{2.0 * std::numbers::pi};  ///< period of the field: a revolution, rad, or the travel, m
 
   bool operator==(const ProfileDescription&) const = default;
 };
@@ -35,7 +35,7 @@ constexpr double max_correlation_length = 6.283185307179586;
 /// remaining variance is below 1e-12, and scaled to unit variance.
 std::vector<double> field_spectrum(double correlation_length);
 
-/// √S_m, m = 0, 1, …
+/// Amplitudes √S_m of the harmonics m = 0, 1, … of a field; S_m as in field_spectrum().
 std::vector<double> field_amplitudes(const ProfileDescription& description);
 
 /// One rotor: the profile of a parameter with the random key `key`.
@@ -44,8 +44,8 @@ std::vector<double> field_amplitudes(const ProfileDescription& description);
 /// and profile_sine of the key with the index m + 2³²·rotor. m = 0 is included: the average of one rotor
 /// differs from the given mean of the field. The lognormal marginal has the given mean and cv: s² = ln(1 +
 /// cv²), μ = ln(mean) − s²/2.
-/// @param amplitudes field_amplitudes of the description.
-/// @param rotor the number of the machine; 0 if there is one rotor
+/// @param amplitudes field_amplitudes() of the description
+/// @param rotor index of the machine; 0 if there is one rotor
 friction::Profile realise_profile(const ProfileDescription& description, std::span<const double> amplitudes,
                                   const random::RandomKey& key, std::uint32_t rotor = 0);
 

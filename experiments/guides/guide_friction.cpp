@@ -30,10 +30,10 @@ bool is_parameter(const GuideNumber& number) {
   return number.quantity.find('.') != std::string_view::npos;
 }
 
-/// The spring of a guide, and what other parameters depend on.
+/// The friction spring of a guide, with the values from which other parameters are computed.
 struct GuideSpring {
-  double force{0.0};              ///< breakaway, N
-  double travel{0.0};             ///< up to breakaway, m
+  double force{0.0};              ///< breakaway force, N
+  double travel{0.0};             ///< travel up to breakaway, m
   double initial_stiffness{0.0};  ///< k1 + k2, N/m
   std::vector<GuideNumber> parameters;
 };
@@ -100,7 +100,7 @@ GuideSpring measured_spring(const MeasuredSpring& measured, parameters::AxisKind
            given("friction.measured.breakaway_travel", "rad", measured.travel, "--travel"), final}};
 }
 
-/// The parameters of a guide with a spring of this load or measurement.
+/// The computed parameters of a guide with this load and this spring.
 std::vector<GuideNumber> computed_parameters(const Guide& guide, const GuideLoad& load,
                                              const GuideSpring& spring) {
   const GuideNumber& creep = number_of(guide, creep_part);

@@ -14,7 +14,7 @@ using parameters::AxisKind;
 constexpr double acceleration = 1.0;  // m/s², which the converter's range allows beside friction
 constexpr int frictionless_bits = 20;
 
-/// Lowest values of what the loop is designed for; 0 where the guide does not have it.
+/// Extreme friction values for which the loop is designed; 0 if the guide does not have the parameter.
 struct Lowest {
   double k1{0.0};
   double damping{0.0};
@@ -37,7 +37,8 @@ std::string written(double number) {
   return fmt::format("{:.4g}", number);
 }
 
-/// Over a factor of more than 2 every order of magnitude is as likely as the next.
+/// The distribution of a number in its range: log-uniform if the ends differ by a factor of more than 2,
+/// otherwise uniform; a plain number if both ends are equal.
 std::string distribution(const GuideNumber& number) {
   if (number.origin == Origin::measured) return fmt::format("{}", number.low);
   if (number.low == number.high) return written(number.low);
@@ -45,7 +46,8 @@ std::string distribution(const GuideNumber& number) {
   return fmt::format("{{{}: [{}, {}]}}", form, written(number.low), written(number.high));
 }
 
-/// The parameters of a section, each below its origin; those of a section in it are left out.
+/// The parameters of a section as lines of a manifest, each below a comment with its origin. Parameters of
+/// nested sections are left out.
 std::string section(const std::vector<GuideNumber>& parameters, std::string_view prefix, AxisKind axis,
                     std::string_view indent = "  ") {
   std::string text;
@@ -92,7 +94,8 @@ std::string converter(const GuideAxis& axis, const Lowest& lowest) {
   return fmt::format("dac: {{bits: {}, range: {}}}   # N\n", bits, written(range));
 }
 
-/// Zero counts depend on noise and lag, which every axis has.
+/// The sections `encoder` and `amplifier`. They have encoder noise and lag, because every axis has them and
+/// zero counts depend on them.
 std::string encoder_and_amplifier(const std::string& resolution) {
   return fmt::format(
       "encoder:\n"

@@ -12,29 +12,29 @@ namespace zerocount::guides {
 
 /// Mass and preload of a guide, which scale its friction.
 struct GuideLoad {
-  double mass{0.0};     ///< kg, or kg m^2
-  double preload{0.0};  ///< N, normal to the guide, on all carriages together
+  double mass{0.0};     ///< moved mass, kg, or moment of inertia, kg m^2
+  double preload{0.0};  ///< preload, N, normal to the guide, on all carriages together
 };
 
-/// A friction spring by what was measured of it: a secant of its virgin curve, and where it breaks away.
+/// Measured values of a friction spring: a secant of the virgin curve, and the breakaway point.
 struct MeasuredSpring {
-  double breakaway{0.0};         ///< N
-  double travel{0.0};            ///< up to breakaway, m
-  double secant_stiffness{0.0};  ///< N/m
-  double secant_travel{0.0};     ///< m
+  double breakaway{0.0};         ///< breakaway force, N
+  double travel{0.0};            ///< travel up to breakaway, m
+  double secant_stiffness{0.0};  ///< stiffness of the secant from the origin, N/m
+  double secant_travel{0.0};     ///< travel at the end of the secant, m
 };
 
-/// Why no spring has these values, with their numbers; empty if one has.
+/// Message that explains why no spring has these values, with their numbers; empty if a spring has them.
 std::string fault_of(const MeasuredSpring& measured);
 
-/// Final stiffnesses above it, N/m, belong to no spring with these values.
+/// The largest final stiffness of a spring with these values, N/m.
 double highest_final_stiffness(const MeasuredSpring& measured);
 
-/// The defaults of a guide.
+/// The default mass and preload of a guide.
 GuideLoad usual_load(const Guide& guide);
 
-/// The ranges of the parameters of a manifest. With the load W = preload + mass·9.81 m/s², and x~ for the
-/// geometric centre of the range of x:
+/// The ranges of the friction parameters of an axis on this guide. With the load W = preload + mass·9.81
+/// m/s², and x~ for the geometric centre of the range of x:
 ///
 ///     friction.breakaway  F = friction coefficient·W + constant resistance
 ///     friction.k1         (1 - early part~)·F~ / travel
@@ -44,32 +44,34 @@ GuideLoad usual_load(const Guide& guide);
 ///     plant.presliding_damping   2·damping ratio·sqrt((k1~ + k2~)·mass)
 ///
 /// At the centres the virgin curve (core/friction/equations.md) reaches the breakaway force after the travel,
-/// if that is many softening lengths: k1·travel + k2/(2·beta) = F. The other parameters are numbers of the
-/// guide. A computed number is published if all that it is computed from is.
+/// if the travel is many softening lengths: k1·travel + k2/(2·beta) = F. The other parameters are numbers of
+/// the guide. A computed number counts as published if all numbers from which it is computed are published.
 ///
 /// With a measured spring, friction.measured stands in place of k1, k2, beta and breakaway, with a final
-/// stiffness from 0.1 to 0.9 of highest_final_stiffness(), and F~, travel~, k1~ and k2~ are its.
-/// @param measured of a guide with a load
+/// stiffness from 0.1 to 0.9 of highest_final_stiffness(), and F~, travel~, k1~ and k2~ are those of the
+/// measured spring.
+/// @param measured measured spring; only for a guide whose friction grows with the load (has_load)
 std::vector<GuideNumber> guide_parameters(const Guide& guide, const GuideLoad& load,
                                           const std::optional<MeasuredSpring>& measured = {});
 
-/// Geometric centre of a range; 0 if it begins with 0.
+/// Geometric centre of a range; 0 if its low end is 0.
 double centre(const GuideNumber& number);
 
-/// Lowest and highest value of a parameter over all guides of this kind of axis with their usual loads;
-/// nothing if no guide has it.
+/// Lowest and highest value of a parameter over all guides of this kind of axis with their usual loads; empty
+/// if no guide has the parameter.
 std::optional<std::pair<double, double>> range_over_guides(parameters::AxisKind axis,
                                                            std::string_view parameter);
 
 /// The axis of a new study.
 struct GuideAxis {
   GuideLoad load;
-  double resolution{1e-8};                 ///< m per count; of a linear axis
-  std::optional<MeasuredSpring> spring{};  ///< in place of that of the guide
+  double resolution{1e-8};                 ///< encoder resolution, m per count; used for a linear axis
+  std::optional<MeasuredSpring> spring{};  ///< replaces the spring of the guide
 };
 
-/// A manifest of an axis on this guide, for machines that each draw their friction from its ranges. Every
-/// number of the friction has its origin in a comment. The rest of the loop follows from k1 and the mass m:
+/// A manifest of an axis on this guide. Each machine draws its friction from the ranges of the guide. A
+/// comment states the origin of every number of the friction. The rest of the loop follows from k1 and the
+/// mass m:
 ///
 ///     kp = m·w², w = 2π·sample_rate / 100       the frequency of m on kp alone
 ///     kd = 1.4·m·w                              damping 0.7 of m on kp alone

@@ -11,21 +11,21 @@
 
 namespace zerocount::keys {
 
-/// All keys that are not parameters, in the recommended order of a manifest. A shape without a place to be
-/// stored is taken by the reader of its section.
+/// All keys that are not parameters, in the recommended order of a manifest. If a shape has no setter, the
+/// reader of its section takes the value.
 std::span<const shapes::Shape> general_keys();
 
 /// The general key with this dotted path, or null.
 const shapes::Shape* find_general_key(std::string_view path);
 
-/// The shape of a key that there is: "goal", "tune.free".
+/// The shape of an existing general key, such as "goal" or "tune.free".
 const shapes::Shape& shape_of(std::string_view path);
 
 /// An element of a list of vibrations that is a spectrum: {spectrum: [[frequency, density], …], lines: 100},
 /// or a file in place of the list.
 const shapes::Shape& spectrum_shape();
 
-/// The section that is required.
+/// The only required section of a manifest.
 constexpr std::string_view required_section = "command";
 
 /// The keys of `command` that define the moves: a study has exactly one of them.
@@ -47,7 +47,7 @@ constexpr std::int64_t manifest_version = 1;
 /// Maximum number of trials of a study.
 constexpr std::int64_t max_study_trials = std::int64_t{1} << 53;
 
-/// Maximum error band, counts: that of a target.
+/// Maximum error band, counts; equal to the maximum of a target.
 constexpr std::int64_t max_band = 1'000'000'000'000;
 
 /// Maximum number of rows of a recorded torque or reference.

@@ -12,10 +12,11 @@
 namespace zerocount::manifest {
 namespace {
 
-/// A key is given: "stop"; it has one of these values: "design: sobol saltelli"; it is not given:
-/// "!machines". An empty list counts as none. "goal*" is each goal.
+/// Two keys that a study cannot have together. Notation of a key: "stop" if it is given; "design: sobol
+/// saltelli" if it has one of these values; "!machines" if it is not given; "goal*" for each goal. An empty
+/// list counts as not given.
 struct Exclusion {
-  std::string_view key;  ///< at whose place both are reported
+  std::string_view key;  ///< key at whose place the exclusion is reported
   std::string_view other;
   std::string_view what;
   std::string_view expected;
@@ -81,12 +82,12 @@ constexpr Exclusion exclusions[]{
      "axis: linear, or the key left out"},
 };
 
-/// Where keys are looked for.
+/// The fields in which the keys of the table are looked up.
 struct Keys {
   yaml::Field root;
-  yaml::Field goal;  ///< "goal*"
+  yaml::Field goal;  ///< the goal that "goal*" stands for
 
-  /// The field of a key of the table; nothing unless it is as the table says.
+  /// The field of a key of the table; empty if the manifest does not match the condition of the key.
   std::optional<yaml::Field> find(std::string_view key) const {
     const bool is_absent = key.starts_with('!');
     if (is_absent) key.remove_prefix(1);

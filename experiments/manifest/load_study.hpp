@@ -12,23 +12,26 @@
 namespace zerocount::manifest {
 
 /// Reads and checks a manifest.
-/// @throws Failure (bad_input) whose message lists every error, one a line, as
-///         `file:line:column: path: what; expected`; likewise if the file does not exist, is a directory or
-///         is too large; Failure (machine_failed) if an existing file cannot be read.
+/// @throws Failure (bad_input) whose message lists every error, one per line, as
+///         `file:line:column: path: what; expected`; Failure (bad_input) if the file does not exist, is a
+///         directory or is too large; Failure (machine_failed) if an existing file cannot be read
 /// @param companions access to the files of the keys `controller.plugin` and `samples`
 study::Study load_study(const std::filesystem::path& manifest, const std::vector<std::string>& overrides = {},
                         const sections::Companions& companions = {});
 
-/// As load_study, from text; `source` stands for the file's name in messages.
+/// Checks a manifest given as text, as load_study() does.
+/// @param source name of the text in messages
 study::Study new_study(std::string text, std::string_view source, const std::vector<std::string>& overrides,
                        const sections::Companions& companions = {});
 
-/// As new_study, of a study that exists already: overrides without effect are allowed.
+/// Checks the manifest of a study that exists already. Unlike in new_study(), overrides without effect are
+/// allowed.
 study::Study parse_study(std::string text, std::string_view source,
                          const std::vector<std::string>& overrides = {},
                          const sections::Companions& companions = {});
 
-/// As parse_study, of a study that has results: a target that the encoder does not see is a warning.
+/// Checks the manifest of a study that has results. Unlike in parse_study(), a target that the encoder does
+/// not see is only a warning.
 study::Study recorded_study(std::string text, std::string_view source,
                             const std::vector<std::string>& overrides,
                             const sections::Companions& companions = {});

@@ -18,14 +18,14 @@ namespace zerocount::manifest {
 /// Converts the manifest `root` to a Study, without its text, overrides and hashes. Errors are added to
 /// `problems`; with errors the study must not be used.
 /// @param recorded the study has results (Reading::recorded)
-/// @param samples inserted in `root` before, or null
+/// @param samples table of samples that was inserted in `root` before; null if there is none
 study::Study read_manifest(const yaml::YamlNode& root, bool recorded, const sections::Companions& companions,
                            const sections::SamplesTable* samples, yaml::Problems& problems);
 
 /// Realises the requested profiles as plan.profiles, in the order of the requests. All profiles of one
 /// parameter use the same random numbers, even with different mean, spread and correlation length.
-/// @param study must have its seed, design and machines @param known profiles to be shared where they are
-/// equal
+/// @param study study whose seed, design and machines are set
+/// @param known profiles of another study, which are shared if they are equal
 void realise_profiles(const std::vector<keys::ProfileRequest>& requests, const study::Study& study,
                       const std::vector<std::shared_ptr<const study::Rotors>>& known, study::StudyPlan& plan);
 
@@ -35,7 +35,7 @@ void assemble_study(const std::vector<keys::ProfileRequest>& requests,
                     const std::vector<sections::SweptAxis>& axes, study::StudyPlan& plan,
                     study::Study& study);
 
-/// Reports keys that a study cannot have together, by the table of them.
+/// Reports keys that a study cannot have together, as the table of exclusions lists them.
 void check_exclusions(const yaml::Field& root, yaml::Problems& problems);
 
 /// Checks that involve several parameters, at every design point and for all values that can be drawn: values
@@ -44,37 +44,39 @@ void check_exclusions(const yaml::Field& root, yaml::Problems& problems);
 /// place of a swept value, if one is involved.
 void check_points(const keys::PlanPlaces& places, keys::Reading& reading);
 
-/// Reports values that can leave their range at some age, by the ends of what is drawn.
+/// Reports values that can leave their range at some age. Only the extremes of what is drawn are checked.
 void check_ages(const keys::PlanPlaces& places, keys::Reading& reading);
 
 /// Whether the manifest gives the slot a value at every point.
 bool is_given_everywhere(const keys::PlanPlaces& places, const study::StudyPlan& plan, std::size_t slot);
 
-/// Place in the manifest of the slot's value: outside the sweep, or the first one in it. Nothing if the
-/// manifest does not give it.
+/// Place in the manifest of the slot's value: outside the sweep, or else the first one in the sweep. Empty if
+/// the manifest does not give the value.
 std::optional<yaml::Place> given_place(const keys::PlanPlaces& places, const study::StudyPlan& plan,
                                        std::size_t slot);
 
+/// A place in the manifest to which a fault is attributed.
 struct FaultPlace {
   yaml::Place place;
-  std::size_t slot{0};  ///< whose value is there
+  std::size_t slot{0};  ///< slot of the value at this place
 };
 
-/// Place in the manifest of one of the values that a fault at a design point involves, or from which they
-/// follow: a swept one, otherwise one that the manifest gives, otherwise the first.
+/// Place in the manifest of one of the values that a fault at a design point involves, or of a source from
+/// which one of them follows. A swept value is preferred, then a value that the manifest gives, then the
+/// first value.
 FaultPlace place_of_fault(const keys::PlanPlaces& places, const study::StudyPlan& plan,
                           std::span<const std::size_t> involved, std::size_t point);
 
-/// Lets the parameters that follow from measured ones (parameters/measured_parameters.hpp) do so, where the
-/// study gives the measured ones. Reports a group that is not complete, and one beside parameters that follow
-/// from it. Must come after all values are read.
+/// If the study gives measured parameters (parameters/measured_parameters.hpp), makes the parameters that
+/// follow from them following values. Reports an incomplete group, and a group given together with parameters
+/// that follow from it. All values must be read already.
 void let_follow_from_measured(const keys::PlanPlaces& places, keys::Reading& reading);
 
-/// Reports measured values from which nothing allowed follows.
+/// Reports measured values from which no allowed value follows.
 void check_what_follows(const keys::PlanPlaces& places, keys::Reading& reading);
 
-/// Reports draws of measured values that are those of no machine (study/measured_machines.hpp): of each
-/// trial, machine or world of the assembled study, and of all values between the ends of `tune`'s ranges.
+/// Reports measured values that no machine can have (study/measured_machines.hpp). Checks the draws of each
+/// trial, machine or world of the assembled study, and all values between the ends of the ranges of `tune`.
 void check_measured_machines(const study::Study& study, const keys::PlanPlaces& places,
                              keys::Reading& reading);
 

@@ -42,8 +42,8 @@ const MeasuredParameters* alternative_to(const MeasuredParameters& group) {
   return other == all.end() ? nullptr : &*other;
 }
 
-/// Whether the manifest says these parameters by this group. Keys that two groups have count for the first,
-/// and so does a manifest that gives both.
+/// Whether the manifest uses this group. Keys that two groups share count for the first group, and a manifest
+/// that gives both groups uses the first.
 bool is_chosen(const MeasuredParameters& group, const keys::PlanPlaces& places,
                const study::StudyPlan& plan) {
   const MeasuredParameters* const other = alternative_to(group);
@@ -80,7 +80,7 @@ bool check_not_given(const MeasuredParameters& group, std::uint32_t slot, const 
   return !place;
 }
 
-/// Reports keys of another group, which stand for the same parameters.
+/// Reports keys of another group that determines the same parameters.
 bool check_alone(const MeasuredParameters& group, const keys::PlanPlaces& places, keys::Reading& reading) {
   const study::StudyPlan& plan = reading.plan;
   const MeasuredParameters* const other = alternative_to(group);
@@ -113,14 +113,15 @@ class MeasuredDraws {
   MeasuredDraws(const study::Study& study, const study::MeasuredSlots& measured)
       : study_(study), plan_(*study.plan), measured_(measured) {}
 
-  /// Whether no draw of a design point can be that of no machine.
+  /// Whether every possible draw at a point of the plan is that of a machine.
   bool are_safe(std::size_t point) const {
     return !study::fault_of_machine(plan_, point, measured_, [&](std::uint32_t slot) {
       return free_ends(slot).value_or(study::extremes_of(plan_, slot, point));
     });
   }
 
-  /// @param draw under the condition of this point of the plan
+  /// The contradiction in the measured values of a draw; empty if there is none.
+  /// @param draw index of the draw under the condition of this point of the plan
   std::optional<study::MeasuredFault> fault_of(std::size_t point, std::int64_t draw) const {
     const std::int64_t trial = study::turns_of(study_).trial_of(draw, study::condition_at(plan_, point));
     const std::vector<double> numbers =
@@ -132,7 +133,8 @@ class MeasuredDraws {
     });
   }
 
-  /// How often the values of a point are drawn anew.
+  /// The most frequent level at which a measured value of the point is drawn, apart from values drawn per
+  /// contact.
   study::DrawLevel level_at(std::size_t point) const {
     study::DrawLevel level = study::DrawLevel::study;
     for (const std::uint32_t slot : measured_.slots) {
@@ -143,7 +145,7 @@ class MeasuredDraws {
     return level;
   }
 
-  /// The number of different draws, which are the first ones.
+  /// The number of different draws at the point. These are the draws with the lowest indices.
   std::int64_t count_at(std::size_t point) const { return study::draw_count(study_, level_at(point)); }
 
  private:
@@ -165,7 +167,7 @@ std::string_view name_of(study::DrawLevel level) {
   return keys::draw_level_labels[static_cast<std::size_t>(level)];
 }
 
-/// Reports the first draw of the point that is that of no machine, and how many there are.
+/// Reports the first draw of the point that no machine can have, and the number of such draws.
 bool check_draws(const MeasuredDraws& draws, std::size_t point, const study::Study& study,
                  const keys::PlanPlaces& places, keys::Reading& reading) {
   const std::int64_t count = draws.count_at(point);

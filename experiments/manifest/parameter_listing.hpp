@@ -8,13 +8,13 @@
 
 namespace zerocount::manifest {
 
-/// A parameter as people read it.
+/// Texts that describe a parameter in a listing.
 struct ListedParameter {
   std::string name;           ///< dotted path in a manifest
-  std::string unit;           ///< "1" if dimensionless
-  std::string default_value;  ///< "none" without one; then the range over the guides, if they have it
-  std::string allowed;        ///< words, or a range of numbers
-  std::string source;         ///< of the default; "-" without one
+  std::string unit;           ///< unit, "1" if dimensionless
+  std::string default_value;  ///< default; without one the range over the guides, else "none"
+  std::string allowed;        ///< allowed labels, or the range of numbers
+  std::string source;         ///< source of the default; "-" if there is no default
   std::string meaning;
 };
 
@@ -24,10 +24,10 @@ std::vector<ListedParameter> listed_parameters(const parameters::StudyUnits& uni
 /// The parameters of one study: the rows of the table, and a row for each value of the lists in its manifest.
 std::vector<ListedParameter> listed_parameters(const study::Study& study);
 
-/// What a manifest may have in place of a number.
+/// Texts that describe a distribution, which a manifest may have in place of a number.
 struct ListedDistribution {
   std::string name;
-  std::string written;  ///< as in a manifest
+  std::string written;  ///< notation in a manifest
   std::string meaning;
 };
 

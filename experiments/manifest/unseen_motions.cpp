@@ -15,10 +15,10 @@ namespace {
 
 /// A motion that a trial commands.
 struct Motion {
-  std::size_t slot{0};          ///< of the value that commands it
-  std::size_t previous{0};      ///< of the value to which it is relative; `slot` if there is none
-  bool judged_in_counts{true};  ///< a band of the encoder judges it, or success does
-  std::string unseen{};         ///< why the encoder does not see it; empty if it does
+  std::size_t slot{0};          ///< slot of the value that commands the motion
+  std::size_t previous{0};      ///< slot of the value before it, to which it is relative; else `slot`
+  bool judged_in_counts{true};  ///< the motion is judged by a band in counts, or by success
+  std::string unseen{};         ///< reason why the encoder does not see it; empty if it does
 };
 
 /// The motions of a study's trials.
@@ -33,7 +33,7 @@ class Motions {
         shape_(slot_of("command.profile.shape")),
         amplitude_(slot_of("command.profile.amplitude")) {}
 
-  /// The slots on which they depend.
+  /// The slots on which the motions depend.
   std::vector<std::size_t> slots() const {
     std::vector<std::size_t> slots = study::slots_of(plan_.list);
     slots.insert(slots.end(), {encoder_, overrun_, shape_, amplitude_});
@@ -41,7 +41,8 @@ class Motions {
     return slots;
   }
 
-  /// The motions of the trial with this draw: the same ones in all trials of a point of the plan.
+  /// The motions of the trial with this draw. All trials of a point of the plan have the same list of
+  /// motions.
   std::vector<Motion> of(std::size_t point, std::int64_t draw) const {
     const study::StudyTrial trial =
         study::commanded_trial(study_, study::design_point(plan_, point),
@@ -56,7 +57,7 @@ class Motions {
     return motions;
   }
 
-  /// The values that decide whether the encoder sees it.
+  /// The slots of the values that decide whether the encoder sees the motion.
   std::array<std::size_t, 3> involved(const Motion& motion) const {
     return {motion.slot, encoder_, motion.previous};
   }
@@ -71,7 +72,7 @@ class Motions {
     return target < 0 ? overrun_ : plan_.list.first + static_cast<std::size_t>(target);
   }
 
-  /// A tolerance judges the position itself.
+  /// Whether the move is judged in counts: by success or by a band. A tolerance judges the position itself.
   bool is_judged_in_counts(std::size_t move) const {
     const auto number = static_cast<std::int64_t>(move);
     return study_.goals.empty() || std::ranges::any_of(study_.goals, [number](const study::Goal& goal) {
@@ -117,11 +118,11 @@ class Motions {
 
 /// A motion that the encoder does not see in some trials of a design point.
 struct UnseenMotion {
-  Motion motion;  ///< of the first such trial
+  Motion motion;  ///< motion in the first trial that does not see it
   std::int64_t trials{0};
 };
 
-/// [motion], of the first trials of a point.
+/// [motion] the unseen motions among the first trials of a point.
 std::vector<UnseenMotion> unseen_motions(const Motions& motions, std::size_t point, std::int64_t trials) {
   std::vector<UnseenMotion> unseen;
   for (std::int64_t i = 0; i < trials; ++i) {
@@ -141,14 +142,16 @@ std::int64_t different_points(const study::StudyPlan& plan, std::span<const std:
   return points;
 }
 
-/// The trials of each point that are looked at, so that all points together take seconds at most.
+/// Number of trials of each point that are checked. It is limited so that all points together take seconds at
+/// most.
 std::int64_t trials_to_try(std::int64_t points) {
   constexpr std::int64_t max_in_all = 200'000;
   constexpr std::int64_t max_of_point = 10'000;
   return std::clamp<std::int64_t>(max_in_all / points, 1, max_of_point);
 }
 
-/// The point, and how many others have the same motions and encoders.
+/// Text for the point and the number of other points with the same motions and encoders; empty if all points
+/// have the same.
 std::string point_text(const study::Study& study, std::size_t point, std::int64_t different) {
   if (different == 1) return "";
   const std::int64_t of_study = study::design_point(*study.plan, point);

@@ -6,7 +6,7 @@
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/shapes/shape_schema.hpp"
 
-/// JSON Schemas of the values of parameters. Those of maps and lists are made of them.
+/// JSON Schemas of the values of parameters, from which the schemas of maps and lists are built.
 namespace zerocount::manifest {
 
 using shapes::Json;
@@ -14,26 +14,26 @@ using shapes::list_of;
 using shapes::number_in;
 using shapes::object_of;
 
-/// The dotted path of the rate of an aging, as a regular expression: "friction.k1.aging".
+/// Regular expression for the dotted path of a rate of aging, such as "friction.k1.aging".
 constexpr std::string_view rate_pattern = R"(^[a-z_0-9.]+\.aging$)";
 
-/// The rate of an aging: a number or a distribution.
+/// Schema of a rate of aging: a number or a distribution.
 Json rate_schema();
 
-/// One definition for each distribution: `{"uniform": [low, high]}`, with or without `per` beside it.
+/// Definitions, one for each distribution: `{"uniform": [low, high]}`, with or without `per` beside it.
 Json definitions();
 
-/// One value of the parameter.
+/// Schema of one value of the parameter.
 Json value_schema(const parameters::Parameter& parameter);
 
-/// The row of the parameter in the units that allow most. The schema of a section does not know the keys of
-/// others.
+/// The row of the parameter in the units that allow the most values. The schema of one section cannot depend
+/// on keys of other sections, such as the choice of units.
 parameters::Parameter in_widest_units(const parameters::Parameter& parameter);
 
-/// The schema does not know a plugin's parameters: each may be any number.
+/// A row that stands for any parameter of a plugin, which the schema does not know: any number is allowed.
 parameters::Parameter plugin_value();
 
-/// The values of a key, with its description and default.
+/// Schema of the value of a key, with its description and default.
 Json key_schema(const parameters::Parameter& parameter);
 
 }  // namespace zerocount::manifest

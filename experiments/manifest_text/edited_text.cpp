@@ -17,7 +17,7 @@ std::size_t offset_of(const std::string& text, const yaml::Place& place) {
   return offset + static_cast<std::size_t>(place.column - 1);
 }
 
-/// "controller: {ki: 5}" for the keys controller.ki.
+/// The entry of a value as text, "controller: {ki: 5}" for the path controller.ki.
 std::string entry_text(std::string_view path, std::string_view value) {
   const auto dot = path.find('.');
   if (dot == std::string_view::npos) return fmt::format("{}: {}", path, value);

@@ -15,28 +15,30 @@
 
 namespace zerocount::manifest_text {
 
-/// The values of a manifest by their dotted paths, as written. A list is one value, as YAML on one line.
-/// Where the order of the keys of a map numbers design points, conditions, goals or the values that `tune`
-/// tries, it is a value too, with a key that ends in `order_of_keys`.
+/// The values of a manifest by their dotted paths, as written. A list is one value, as YAML on one line. If
+/// the order of the keys of a map numbers design points, conditions, goals or the values that `tune` tries,
+/// this order is a value too; its key ends in `order_of_keys`.
 using ManifestValues = std::map<std::string, std::string>;
 
 inline constexpr std::string_view order_of_keys = ", order of keys";
 
-/// @param root a manifest with its overrides applied
+/// The values of a parsed manifest.
+/// @param root manifest with its overrides applied
 ManifestValues values_of(const yaml::YamlNode& root);
-/// @param text of the manifest @param source its name in messages
-/// @throws Failure (bad_input) where it is not YAML that this program accepts
+/// The values of a manifest given as text.
+/// @param text text of the manifest @param source name of the text in messages
+/// @throws Failure (bad_input) if the text is not YAML that this program accepts
 ManifestValues values_of(const std::string& text, const std::string& source,
                          const std::vector<std::string>& overrides);
 
-/// The value of a key that is a text or a number; `absent` where it is missing.
+/// The value of a key that is a text or a number; `absent` if the key is missing.
 std::string value_or(const ManifestValues& values, const std::string& key, const std::string& absent);
 
 /// A key that is in one manifest only, or has different values.
 struct ManifestDifference {
   std::string key;       ///< dotted path
-  std::string baseline;  ///< YAML on one line; empty where the key is missing
-  std::string current;
+  std::string baseline;  ///< value in the baseline, YAML on one line; empty if the key is missing
+  std::string current;   ///< value in the current manifest, YAML on one line; empty if the key is missing
 };
 
 /// The keys with different values, sorted. Comments, line ends, spacing, the order of other keys and the
@@ -44,17 +46,17 @@ struct ManifestDifference {
 std::vector<ManifestDifference> manifest_differences(const ManifestValues& baseline,
                                                      const ManifestValues& current);
 
-/// "seed is 42 there and 43 here, …": the first five differences, and the number of others.
+/// Text of the first five differences and the number of others: "seed is 42 there and 43 here, …".
 std::string differences_text(const std::vector<ManifestDifference>& differences);
 
-/// A text that is equal for manifests without differences, and for them alone.
+/// A text that is equal for two manifests if and only if they have no differences.
 std::string identity_text(const ManifestValues& values);
 
 /// The node at the path of keys; null if there is none.
 const yaml::YamlNode* node_at(const yaml::YamlNode& root, std::string_view path);
 
-/// The value in place of the one before, with whose `aging` it changes with age unless it says how itself.
-/// @param before null: there was none
+/// The value that replaces another one. It keeps the `aging` of the replaced value, unless it has its own.
+/// @param before value to be replaced; null: there is none
 yaml::YamlPointer aging_like(const yaml::YamlNode* before, const yaml::YamlPointer& value);
 
 /// Applies `overrides` ("key=value", with the value as YAML) to the tree `root`, in order. Keys are dotted
@@ -64,11 +66,11 @@ yaml::YamlPointer aging_like(const yaml::YamlNode* before, const yaml::YamlPoint
 yaml::YamlPointer apply_overrides(yaml::YamlPointer root, const std::vector<std::string>& overrides,
                                   std::deque<std::string>& sources, yaml::Problems& problems);
 
-/// Whether the text can be a dotted path: keys without empty ones among them.
+/// Whether the text can be a dotted path: none of its keys is empty.
 bool is_dotted_path(std::string_view text);
 
-/// A copy of the tree in which `path` has this value; missing maps are created. Null, after a report at
-/// `place`, if the path leads through a value.
+/// A copy of the tree in which `path` has this value; missing maps are created. Null if the path leads
+/// through a value that is not a map; this is reported at `place`.
 yaml::YamlPointer with_value(const yaml::YamlPointer& root, std::string_view path, yaml::YamlPointer value,
                              const yaml::Place& place, yaml::Problems& problems);
 
@@ -83,29 +85,30 @@ void report_swept_overrides(const yaml::YamlNode& root, const std::vector<std::s
 /// The text of a manifest with the override "path=value" (path: dotted keys) written into it: the value at
 /// the path is replaced, or the missing keys are added. All else, comments included, stays as it is.
 /// @param value in flow style
-/// @returns nothing where the edited text would not mean the same as the override: the path leads through a
-/// list, or into a value that an alias repeats.
+/// @returns empty if the edited text would not mean the same as the override, because the path leads through
+/// a list or into a value that an alias repeats
 std::optional<std::string> with_override(const std::string& text, std::string_view path,
                                          std::string_view value);
 
-/// What a manifest of one design point has otherwise than its study.
+/// Changes of the manifest of one design point against the manifest of its study.
 struct PointChanges {
-  std::string condition{};  ///< whose overrides the sections get, in place of `conditions`; empty: none
-  /// (dotted path of a parameter, number): in place of what the manifest gives.
+  std::string condition{};  ///< its overrides replace `conditions`; empty: none
+  /// Pairs (dotted path of a parameter, number), which replace the values of the manifest.
   std::vector<std::pair<std::string, double>> values{};
-  /// (key at the root, YAML): in place of what the manifest gives.
+  /// Pairs (key at the root, YAML), which replace the values of the manifest.
   std::vector<std::pair<std::string, std::string>> keys{};
-  std::vector<std::string> removed{};  ///< keys at the root, or "section.key"
-  /// From which the study's manifest names its files; empty: the files that it names are not known.
+  std::vector<std::string> removed{};  ///< removed keys: keys at the root, or "section.key"
+  /// Folder to which the file names in the study's manifest are relative; empty: its files are not known.
   std::filesystem::path folder{};
 };
 
-/// A manifest of one design point of a study, without its sweep and what refers to it, in flow style. The
-/// overrides of the study are part of it. Comments are lost.
-/// @throws Failure (bad_input) if a value has no place in it, or if it names a file that is not known
+/// A manifest of one design point of a study, in flow style. It includes the overrides of the study, but not
+/// the sweep and the keys that refer to the sweep. Comments are lost.
+/// @throws Failure (bad_input) if a value has no place in the manifest, or if the manifest names a file that
+/// is not known
 std::string manifest_of_point(const study::Study& study, std::int64_t point, const PointChanges& changes);
 
-/// The override "conditions={…}" that leaves one of the study's conditions.
+/// The override "conditions={…}" that keeps only one of the study's conditions.
 std::string only_condition(const study::Study& study, const std::string& condition);
 
 }  // namespace zerocount::manifest_text

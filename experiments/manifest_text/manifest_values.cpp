@@ -34,7 +34,8 @@ void collect(const yaml::YamlNode& node, const std::string& path, ManifestValues
     values[path + std::string(order_of_keys)] = fmt::format("{}", fmt::join(keys, between_keys));
 }
 
-/// Of the notations of a number one: 2e-5 and 0.000020 are equal. Whole numbers keep all digits.
+/// A number in one standard notation, so that 2e-5 and 0.000020 become equal. Whole numbers keep all digits.
+/// A text that is not a number is returned unchanged.
 std::string canonical_number(std::string_view text) {
   if (const auto whole = text::parse_number<std::int64_t>(text)) return fmt::to_string(*whole);
   if (const auto whole = text::parse_number<std::uint64_t>(text)) return fmt::to_string(*whole);
@@ -46,7 +47,7 @@ bool is_of_order(std::string_view key) {
   return key.ends_with(order_of_keys);
 }
 
-/// A value with its numbers in one notation. Names stay as they are.
+/// A value with all its numbers in one standard notation. Names are not changed.
 std::string canonical(std::string_view key, std::string_view value) {
   if (is_of_order(key)) return std::string(value);
   if (!value.starts_with('[')) return canonical_number(value);
@@ -79,7 +80,8 @@ std::vector<std::string_view> sorted_keys(std::string_view order) {
   return keys;
 }
 
-/// Whether it is the order of a map that has other keys: another order, which need not be said.
+/// Whether the difference is the order of a map whose keys differ as well. Such a difference need not be
+/// reported.
 bool follows_from_other_keys(const ManifestDifference& difference) {
   return is_of_order(difference.key) && sorted_keys(difference.baseline) != sorted_keys(difference.current);
 }

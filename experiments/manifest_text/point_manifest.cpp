@@ -76,7 +76,8 @@ YamlPointer without(const YamlPointer& root, std::string_view path) {
   return copy;
 }
 
-/// Where the number of the path stands: that of a rate, "friction.k1.aging", at the key of its law.
+/// The path at which the manifest has the number of a parameter. For the rate "friction.k1.aging" this is the
+/// key of the law, if `aging` is a map.
 std::string number_path(const YamlNode& root, std::string_view path) {
   const YamlNode* const aging = path.ends_with(study::suffix_of_rate) ? node_at(root, path) : nullptr;
   if (aging == nullptr || aging->kind != YamlNode::Kind::map) return std::string(path);
@@ -85,7 +86,7 @@ std::string number_path(const YamlNode& root, std::string_view path) {
   return law == aging->entries.end() ? std::string(path) : fmt::format("{}.{}", path, law->key);
 }
 
-/// A manifest that is changed, key by key.
+/// The tree of a manifest, which can be changed key by key.
 class ManifestTree {
  public:
   explicit ManifestTree(const study::Study& study) : study_(study) {
@@ -94,7 +95,7 @@ class ManifestTree {
     problems_.raise_if_any();
   }
 
-  /// Writes what the sweep gives at the point into the sections.
+  /// Writes the values of the sweep at the design point into the sections.
   void settle(std::int64_t design_point) {
     const YamlNode* sweep = child(*root_, "sweep");
     if (sweep == nullptr) return;
@@ -117,7 +118,7 @@ class ManifestTree {
     }
   }
 
-  /// Writes what the condition overrides into the sections.
+  /// Writes the overrides of the condition into the sections, and removes `conditions`.
   void settle_condition(std::string_view condition) {
     const YamlPointer kept = root_;
     const YamlNode& overrides = *child(*child(*root_, "conditions"), condition);
@@ -141,7 +142,8 @@ class ManifestTree {
     problems_.raise_if_any();
   }
 
-  /// Where a section's key alone stands for the parameter, it is replaced.
+  /// Sets a parameter to a number. If the manifest gives the parameter by its short name, the key of the
+  /// section is replaced.
   void put_number(const std::string& name, double number) {
     const auto slot = study::find_slots(name, study_.plan->table);
     const std::string_view short_name =
@@ -155,7 +157,8 @@ class ManifestTree {
     problems_.raise_if_any();
   }
 
-  /// Lets the manifest lie in any folder.
+  /// Makes the file names independent of the folder of the manifest, by resolving them from `folder`.
+  /// @throws Failure (bad_input) if `folder` is empty and the manifest names a file
   void name_files_from(const std::filesystem::path& folder) {
     for (const char* path : {"controller.plugin", "samples", "samples.file"}) {
       const YamlNode* node = root_.get();

@@ -7,7 +7,8 @@
 namespace zerocount::parameters {
 namespace {
 
-/// The Sobol dimension of row i of the blocks of one phase; those of the coarse phase are apart from 14 on.
+/// The Sobol dimension of row i of the blocks of one phase. From i = 14 on, the coarse phase has a separate
+/// range of dimensions.
 template <Phase phase>
 constexpr std::size_t dimension(std::size_t i) {
   if (phase == Phase::fine) return beyond_moves(32 + i);
@@ -17,8 +18,8 @@ constexpr std::size_t dimension(std::size_t i) {
 // In the order of loop::LoopEncoder.
 const std::vector<std::string_view> loop_encoders{"plant.load.encoder", "motor", "load"};
 
-/// The rows of the structure of the control of one phase. `Blocks` is a function from TrialParameters to its
-/// ControlBlocks.
+/// The rows of the control structure of one phase. `Blocks` is a function that returns the ControlBlocks of
+/// the phase in TrialParameters.
 template <Phase phase, class Blocks>
 std::vector<Parameter> structure_rows(Blocks /*blocks*/) {
   return {
@@ -137,7 +138,7 @@ std::vector<Parameter> block_rows(Blocks /*blocks*/) {
   };
 }
 
-/// What the control without a coarse phase, or its fine phase, has alone.
+/// The rows that only the fine phase has, or a control without a coarse phase.
 std::vector<Parameter> rows_of_the_drive() {
   const numerics::Interval samples = numerics::closed(1, 1000);
   return {

@@ -10,26 +10,28 @@
 
 namespace zerocount::parameters {
 
-/// A form of the elements of a list: a map with one key, its name, whose value is a map of these keys, or,
-/// without a name, the map of these keys itself.
+/// One form that an element of a list can have. With a name, the element is a map with a single key, this
+/// name, and its value is a map of `keys`. Without a name, the element itself is a map of `keys`.
 struct ElementForm {
-  std::string_view name;
-  /// Each is a row "list.#.key" of the table of parameters, and required if that has no default.
+  std::string_view name;  ///< name of the form; may be empty
+  /// Keys, each with a row "list.#.key" in the table of parameters. A key is required if its row has no
+  /// default.
   std::vector<std::string_view> keys;
   std::string_view meaning;
 };
 
-/// A key whose value is a list of maps, each of one of several forms: controller.filters. The values in them
-/// are parameters: "controller.filters.0.frequency". The forms themselves are the same in all trials.
+/// A key whose value is a list of maps, such as controller.filters. Each map has one of several forms. The
+/// values in the maps are parameters: "controller.filters.0.frequency". The form of an element is the same in
+/// all trials.
 struct ElementList {
   std::string_view path;
-  std::string_view element;  ///< noun for one of them
+  std::string_view element;  ///< noun for one element
   std::size_t max_elements{0};
   std::span<const ElementForm> forms;
-  void (*add)(trial::TrialParameters&, std::size_t form){nullptr};  ///< appends an element
+  void (*add)(trial::TrialParameters&, std::size_t form){nullptr};  ///< appends an element of this form
 };
 
-/// All such lists.
+/// All keys whose value is a list of elements.
 std::span<const ElementList> element_lists();
 
 /// The list with this dotted path, or null.
@@ -44,7 +46,7 @@ ElementList load_ripple_list();      ///< disturbance.load.ripple
 ElementList load_vibration_list();   ///< disturbance.load.vibration
 ElementList kinematic_error_list();  ///< plant.load.error
 
-/// Whether elements of the list may be spectra, which are no parameters.
+/// Whether elements of the list may be spectra. A spectrum is not a parameter.
 inline bool has_spectra(const ElementList& list) {
   return list.path == "disturbance.vibration" || list.path == "disturbance.load.vibration";
 }

@@ -8,9 +8,11 @@ namespace {
 
 constexpr std::string_view no_disc = "the key left out: only an encoder disc has an eccentricity";
 
-/// The rows of the errors of one encoder. `Errors` is a function from TrialParameters to its EncoderErrors.
-/// @param dimensions of Sobol, in the order of the rows. @param noiseless name of the ideal without noise.
-/// @tparam whose after the names of the other ideals: of which encoder.
+/// The rows of the errors of one encoder. `Errors` is a function that returns its EncoderErrors in
+/// TrialParameters.
+/// @param dimensions Sobol dimensions, in the order of the rows
+/// @param noiseless name of the ideal without noise
+/// @tparam whose suffix that names the encoder in the names of the other ideals
 template <Literal encoder, Literal whose, class Errors>
 std::vector<Parameter> error_rows(const std::array<std::size_t, 7>& dimensions, std::string_view noiseless,
                                   Errors /*errors*/) {

@@ -20,7 +20,7 @@ constexpr std::string_view final_stiffness = "friction.measured.final_stiffness"
 constexpr std::string_view breakaway = "friction.measured.breakaway";
 constexpr std::string_view breakaway_travel = "friction.measured.breakaway_travel";
 
-/// The parameters of the spring, whose softening follows from all values of the group.
+/// The parameters of the friction spring. k2 and beta are computed from all values of the group.
 std::vector<FollowingParameter> spring_from(const std::vector<std::string_view>& names, double (*k2)(From),
                                             double (*beta)(From)) {
   return {{"friction.k1", {final_stiffness}},

@@ -6,38 +6,40 @@
 
 namespace zerocount::parameters {
 
-/// Numbers of measured parameters, in an order that is given with them.
+/// Numbers of measured parameters. The declaration that uses them states their order.
 using MeasuredNumbers = std::span<const double>;
 
-/// A parameter of the table that follows from measured ones.
+/// A parameter of the table that is computed from measured parameters.
 struct FollowingParameter {
   std::string_view name;               ///< dotted path
   std::vector<std::string_view> from;  ///< dotted paths of measured parameters
-  /// NaN where the measured values are those of no machine; null: the same number as its only source.
+  /// Computes the value from the sources; NaN if no machine has these measured values. Null: the value equals
+  /// its only source.
   double (*value)(MeasuredNumbers from){nullptr};
 };
 
-/// A condition of measured values without which nothing follows from them: low < high.
+/// A condition low < high between measured values. If it is violated, no machine has these values.
 struct MeasuredCondition {
-  std::string_view low;   ///< formula of the last keys of parameters: "breakaway/breakaway_travel"
-  std::string_view high;  ///< likewise
-  std::string_view unit;  ///< of both, on a rotary axis
-  double (*low_value)(MeasuredNumbers values);  ///< of all values of the group
-  double (*high_value)(MeasuredNumbers values);
+  std::string_view low;   ///< formula in the last keys of the paths, "breakaway/breakaway_travel"
+  std::string_view high;  ///< formula of the upper side, in the same notation as `low`
+  std::string_view unit;  ///< unit of both sides on a rotary axis
+  double (*low_value)(MeasuredNumbers values);   ///< computes `low` from all values of the group
+  double (*high_value)(MeasuredNumbers values);  ///< computes `high` from all values of the group
 };
 
-/// Parameters that say by what one measures what others say by the constants of a law. A study that gives one
-/// of them gives all of them, and none of those that follow.
+/// A group of measured parameters, such as a stiffness, from which the constants of a law follow. A study
+/// that gives one parameter of the group must give all of them, and none of the parameters that follow.
 struct MeasuredParameters {
   std::string_view section;             ///< dotted path of the map with their keys
   std::vector<std::string_view> names;  ///< dotted paths
-  /// The first of them, without which other keys of the section stand for another group: how many.
+  /// Number of leading `names` that only this group has. A manifest that gives one of them uses this group;
+  /// the other names may belong to another group of the section.
   std::size_t own{0};
   std::vector<FollowingParameter> following;
-  std::vector<MeasuredCondition> conditions{};  ///< all must hold
+  std::vector<MeasuredCondition> conditions{};  ///< conditions of the values, all of which must hold
 };
 
-/// All of them; of the groups of one section a study gives one.
+/// All groups of measured parameters. A study gives at most one group of each section:
 ///   friction.measured {initial_stiffness, final_stiffness, breakaway, breakaway_travel}, or
 ///   friction.measured {secant_stiffness, secant_travel, final_stiffness, breakaway, breakaway_travel}: the
 ///     spring whose virgin curve reaches breakaway after that travel (core/friction/presliding/
@@ -46,7 +48,8 @@ struct MeasuredParameters {
 ///     which creep under the torque τ ends at the extension x.
 std::span<const MeasuredParameters> measured_parameters();
 
-/// Whether the parameter is a measured one.
+/// Whether a parameter belongs to a group of measured parameters.
+/// @param name dotted path
 bool is_measured(std::string_view name);
 
 }  // namespace zerocount::parameters

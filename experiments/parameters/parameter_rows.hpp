@@ -19,7 +19,7 @@ namespace zerocount::parameters {
 // beyond_moves(516).
 
 std::vector<Parameter> plant_rows();
-std::vector<Parameter> kinematic_error_rows();  ///< of the coupling of a second mass
+std::vector<Parameter> kinematic_error_rows();  ///< kinematic error of the coupling to a second mass
 std::vector<Parameter> friction_rows();
 std::vector<Parameter> encoder_rows();
 std::vector<Parameter> drive_rows();  ///< converter and amplifier
@@ -30,7 +30,7 @@ std::vector<Parameter> command_rows();
 std::vector<Parameter> initial_rows();
 std::vector<Parameter> verdict_rows();
 
-/// Dimension i after those of the moves.
+/// Sobol dimension i of those that follow the dimensions of the moves.
 constexpr std::size_t beyond_moves(std::size_t i) {
   return first_sobol_dimension_beyond_moves + i;
 }
@@ -59,12 +59,12 @@ constexpr std::string_view faster_profile = "a profile";
 /// exact arithmetic of counts in double.
 constexpr double max_count = 1e12;
 
-/// Gains of any axis, from a galvanometer to a telescope, in any unit: far above those of real machines, and
-/// far below the maximum of a double. What is absurd on the axis at hand is a matter of
-/// rules::plausible_gains().
+/// Range of all gains, whatever the axis (from a galvanometer to a telescope) and the unit. The maximum is
+/// far above the gains of real machines, and far below the maximum of a double. Whether a gain is plausible
+/// for the axis at hand is checked by rules::plausible_gains().
 constexpr numerics::Interval gain_range{.low = 0, .high = 1e15, .low_included = true, .high_included = true};
 
-/// For a row without a field in TrialParameters.
+/// Stands for the field in rows that have no field in TrialParameters.
 struct NoField {};
 
 inline Parameter stored_at(Parameter row, NoField) {
@@ -84,8 +84,8 @@ Parameter stored_at(Parameter row, Field) {
   return row;
 }
 
-/// Adds the access to a field that is a limit, written as "none" if it is off. As a number, "none" is
-/// max_count, and infinity in the trial's parameters.
+/// Adds the access to a field that is a limit, written as "none" if the limit is off. The number that stands
+/// for "none" is max_count; the field of the trial's parameters is then infinity.
 template <class Field>
 Parameter or_none(Parameter row, Field) {
   row.none = max_count;
@@ -140,31 +140,33 @@ Parameter bool_row(std::string_view name, std::size_t sobol_dimension, std::stri
                    field);
 }
 
-/// Marks a position in counts, which command.units: si gives in rad (see in_si_positions).
+/// Marks a position in counts. With command.units: si the manifest gives it in rad (see in_si_positions).
 inline Parameter position(Parameter row) {
   row.is_position = true;
   return row;
 }
 
-/// Adds the value that is written as "none". It lies outside the range of the others.
+/// Adds the number that is written as "none". It lies outside the range of the other values.
 inline Parameter none_is(double none, Parameter row) {
   row.none = none;
   return row;
 }
 
-/// Makes that value the default of a row without a field.
+/// Makes the number that is written as "none" the default of a row without a field.
 inline Parameter none_by_default(double none, Parameter row) {
   row.get = [none](const trial::TrialParameters&) { return none; };
   return none_is(none, std::move(row));
 }
 
-/// Adds the value at which a parameter costs no moves. @param name Ideal::name
+/// Adds the ideal value of a parameter, at which it makes no move fail.
+/// @param name Ideal::name
 inline Parameter ideal_at(double value, std::string_view name, Parameter row) {
   row.ideal = Ideal{name, value};
   return row;
 }
 
-/// Marks a parameter that an effect of several changes idealises. @param name Ideal::name
+/// Marks a parameter whose ideal changes several parameters at once (Ideal::value is empty).
+/// @param name Ideal::name
 inline Parameter idealised_by(std::string_view name, Parameter row) {
   row.ideal = Ideal{name, std::nullopt};
   return row;
@@ -189,15 +191,16 @@ inline Parameter in_si(Parameter row, std::string_view unit, std::string_view me
   return row;
 }
 
-/// Restricts a row to one kind of axis. @param instead the corresponding key on the other kind
+/// Restricts a row to one kind of axis.
+/// @param instead the corresponding key on the other kind of axis
 inline Parameter only_on(AxisKind axis, std::string_view instead, Parameter row) {
   row.only_on = axis;
   row.instead = instead;
   return row;
 }
 
-/// Makes a row that of a list, whose values have these nouns. `Field` returns a pointer to the field of value
-/// `index`.
+/// Makes a row the row of a list. `Field` returns a pointer to the field of value `index`.
+/// @param singular noun for one value @param plural noun for several values
 template <class Field>
 Parameter list_of(std::size_t max_values, std::string_view singular, std::string_view plural, Parameter row,
                   Field) {

@@ -9,11 +9,11 @@ namespace zerocount::parameters {
 
 /// The phases of the control, whose parameters have the same names in two sections of a manifest.
 enum class Phase : std::uint8_t {
-  fine,   ///< the only one where no point has a coarse phase: `controller`
-  coarse  ///< `controller.coarse`
+  fine,   ///< section `controller`; the only phase if no point has a coarse phase
+  coarse  ///< section `controller.coarse`
 };
 
-/// A text as an argument of a template.
+/// A text that can be a template argument.
 template <std::size_t size>
 struct Literal {
   char text[size]{};
@@ -31,7 +31,7 @@ constexpr auto joined_text = [] {
   return text;
 }();
 
-/// Two texts as one: joined<"encoder", ".fine"> is "encoder.fine".
+/// Concatenation of two texts: joined<"encoder", ".fine"> is "encoder.fine".
 template <Literal first, Literal last>
 constexpr std::string_view joined{joined_text<first, last>.data()};
 

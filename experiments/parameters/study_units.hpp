@@ -19,7 +19,7 @@ enum class GainUnits {
 
 /// Unit of the targets in a manifest.
 enum class TargetUnits {
-  counts,  ///< of the fine encoder
+  counts,  ///< counts of the fine encoder
   si       ///< rad, or m; a target becomes the nearest count of the trial's fine encoder
 };
 

@@ -35,7 +35,7 @@ bool is_member(const std::vector<std::uint32_t>& slots, std::uint32_t slot) {
   return std::ranges::find(slots, slot) != slots.end();
 }
 
-/// Adds the coordinates of one value.
+/// Adds the coordinates of the value of one slot, if it is drawn per machine, trial or contact.
 void add_coordinates(const study::Study& study, std::uint32_t slot, const study::Value& value,
                      std::vector<RandomCoordinate>& coordinates) {
   const std::string name(study.plan->table.rows[slot].name);
@@ -57,7 +57,8 @@ void add_coordinates(const study::Study& study, std::uint32_t slot, const study:
   }
 }
 
-/// Adds the members of the copula that are fixed at this point: the others depend on their numbers.
+/// Adds coordinates for the members of the copula that are not drawn at this point. The random numbers of the
+/// other members depend on them.
 void add_fixed_members(const study::Study& study, const std::vector<const study::Value*>& values,
                        std::vector<RandomCoordinate>& coordinates) {
   const std::optional<study::GaussianCopula>& copula = study.plan->copula;
@@ -140,7 +141,7 @@ double score_of(const DiscreteDraw& draw, std::span<const double> z) {
   return score;
 }
 
-/// The direction of a coordinate's score; of a correlated one the row of L over the members before it.
+/// DiscreteDraw::direction of a coordinate. For a correlated coordinate the factors are its row of L.
 std::vector<std::pair<std::size_t, double>> direction_of(const study::Study& study,
                                                          std::span<const RandomCoordinate> coordinates,
                                                          std::size_t coordinate) {
@@ -174,7 +175,7 @@ DiscreteDraw draw_of(const distributions::Choice& choice) {
   return draw;
 }
 
-/// Nothing for a continuous distribution.
+/// The discrete draw of a distribution; empty if the distribution is continuous.
 std::optional<DiscreteDraw> draw_of(const distributions::Distribution& distribution) {
   if (const auto* choice = std::get_if<distributions::Choice>(&distribution)) return draw_of(*choice);
   if (const auto* integers = std::get_if<distributions::Integers>(&distribution))

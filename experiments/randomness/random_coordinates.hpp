@@ -12,53 +12,57 @@
 
 namespace zerocount::randomness {
 
-/// One random coordinate of a trial: a standard normal number, from which values of the trial follow.
+/// One random coordinate of a trial: a standard normal number z from which values of the trial are computed.
 struct RandomCoordinate {
   enum class Kind : std::uint8_t {
-    values,           ///< of `slots`: their quantile is Φ(z), after the correlations of the study
-    profile_mean,     ///< of the profile of slots[0]: the quantile of its mean is Φ(z)
-    profile_at_start  ///< of the profile of slots[0]: the field where the trial begins is z
+    values,           ///< values of `slots`: their quantile is Φ(z), after z is correlated as in the study
+    profile_mean,     ///< mean of the profile of slots[0]: its quantile is Φ(z)
+    profile_at_start  ///< field of the profile of slots[0]: its value where the trial begins is z
   };
-  std::string name;  ///< dotted path; of joint samples the paths, joined by ", "
+  std::string name;  ///< dotted path; for joint samples all paths, joined by ", "
   Kind kind{Kind::values};
   std::vector<std::uint32_t> slots;
-  std::int64_t rows{
-      0};  ///< of joint samples, in an order that means nothing; row ⌊rows·Φ(z)⌋ is drawn; otherwise 0
-  bool of_machine{
-      false};  ///< the same in all trials of a machine; without machines see differs_between_machines()
+  /// Number of rows of joint samples, of which row ⌊rows·Φ(z)⌋ is drawn; otherwise 0. The order of the rows
+  /// has no meaning.
+  std::int64_t rows{0};
+  /// The coordinate is the same in all trials of a machine; without machines see differs_between_machines().
+  bool of_machine{false};
 };
 
-/// The random coordinates of the trials of a design point: all that is drawn for each machine, trial or
-/// contact (of a contact, the first of a trial). Independent of each other. What is drawn for the study or
-/// for a world is not among them, nor are the random numbers used while a trial runs.
+/// The random coordinates of the trials of a design point: one for each quantity that is drawn per machine,
+/// per trial or per contact (only the first contact of a trial). They are independent of each other.
+/// Quantities drawn for the study or for a world are not included, nor are the random numbers used while a
+/// trial runs.
 std::vector<RandomCoordinate> random_coordinates(const study::Study& study, std::int64_t point);
 
-/// Φ(z), a uniform number in the open interval (0, 1) whatever z.
+/// Φ(z), clamped so that the result is in the open interval (0, 1) for every z.
 double uniform_of_score(double z);
 
-/// Gives a trial the random number of a coordinate. @param uniform its uniform number @param score its normal
-/// one, which is that of a profile where the trial begins
+/// Gives a trial the random number of a coordinate.
+/// @param uniform uniform number in (0, 1), used for values and means of profiles
+/// @param score standard normal number, used for the field of a profile where the trial begins
 void give(study::GivenDraws& draws, const RandomCoordinate& coordinate, double uniform, double score);
 
 /// The random numbers of a trial at these coordinates. The trial has the point's distribution if the
 /// coordinates are independent standard normal numbers.
-/// @param coordinates of the study at the point @param z [coordinate]
-/// @param number of the trial, for all random numbers beside the coordinates; of its rotor too
+/// @param coordinates random_coordinates() of the study @param z [coordinate] standard normal number
+/// @param number draw that supplies all other random numbers, and index of the trial's rotor
 study::GivenDraws draws_at(const study::Study& study, std::span<const RandomCoordinate> coordinates,
                            std::span<const double> z, std::int64_t number);
 
-/// A draw of one of a number of equally probable rows: the entries of a choice, the numbers of `integers`,
-/// the rows of joint samples. Entries that are equal are rows of one value, which is the more probable.
+/// A draw of one out of several equally probable rows. The rows are the entries of a choice, the numbers of
+/// `integers`, or the rows of joint samples. Equal entries of a choice are several rows with one value, so
+/// this value is more probable.
 struct DiscreteDraw {
-  std::string name{};  ///< of its coordinate
-  /// Row ⌊rows·Φ(Σ factor·z)⌋ is drawn, over (coordinate, factor); the squares of the factors have the sum 1.
-  /// One coordinate, unless the draw is correlated with others.
+  std::string name{};  ///< name of the draw's coordinate (RandomCoordinate::name)
+  /// Pairs of coordinate and factor: row ⌊rows·Φ(Σ factor·z[coordinate])⌋ is drawn. The squares of the
+  /// factors have the sum 1. There is one pair, unless the draw is correlated with others.
   std::vector<std::pair<std::size_t, double>> direction{};
   std::int64_t rows{1};
-  bool ordered{false};  ///< neighbours are alike: whole numbers, and choices that are sorted
-  std::vector<std::uint32_t> values_of_rows{};  ///< [row] of a choice; empty: row r is value r
-  std::vector<double> numbers{};                ///< [value] of a choice
-  std::int64_t first{0};                        ///< number of row 0, of `integers`
+  bool ordered{false};  ///< adjacent rows have adjacent values: whole numbers, or a sorted choice
+  std::vector<std::uint32_t> values_of_rows{};  ///< [row] index of its value; empty: row r has value r
+  std::vector<double> numbers{};                ///< [value] number of a choice; otherwise empty
+  std::int64_t first{0};                        ///< number that row 0 of `integers` stands for
 
   std::int64_t values() const { return numbers.empty() ? rows : std::ssize(numbers); }
 };
@@ -67,17 +71,19 @@ struct DiscreteDraw {
 std::vector<DiscreteDraw> discrete_draws(const study::Study& study, std::int64_t point,
                                          std::span<const RandomCoordinate> coordinates);
 
-/// The value of a row.
+/// The index of the value of a row.
 std::int64_t value_of_row(const DiscreteDraw& draw, std::int64_t row);
 
-/// The value that is drawn at these coordinates.
+/// The index of the value that is drawn at the coordinates z.
 std::int64_t value_at(const DiscreteDraw& draw, std::span<const double> z);
 
-/// Moves independent standard normal coordinates to where this row is drawn, as if they had been drawn under
-/// the condition that it is. @param uniform in (0, 1), independent of them
+/// Moves independent standard normal coordinates so that the given row is drawn. The moved coordinates have
+/// the distribution conditional on this row.
+/// @param uniform uniform number in (0, 1), independent of z
 void move_to_row(const DiscreteDraw& draw, std::int64_t row, double uniform, std::span<double> z);
 
-/// "0.35", or "row 17" of joint samples.
+/// Text of a value: "0.35", or "row 17" for joint samples.
+/// @param value index of the value
 std::string value_text(const DiscreteDraw& draw, std::int64_t value);
 
 }  // namespace zerocount::randomness

@@ -20,30 +20,30 @@ namespace zerocount::randomness {
 /// trials use the same rotor, and `initial.position` selects the position on it.
 study::TrialFactors find_factors(const study::StudyPlan& plan);
 
-/// The names of the factors: the dotted paths of the parameters, and within_trial_factor.
+/// The names of the factors: the dotted paths of the parameters, then within_trial_factor if it is a factor.
 std::vector<std::string> factor_names(const study::StudyPlan& plan);
 
-/// A random variable of a trial, in the unit of the manifest: as a random coordinate, but before it is made
-/// standard normal and independent of the others.
+/// A random variable of a trial, in the unit of the manifest. Unlike a random coordinate, it has the
+/// distribution of the manifest and may be correlated with others.
 struct RandomVariable {
-  std::string name;  ///< of its coordinate
+  std::string name;  ///< name of the coordinate (RandomCoordinate::name)
   std::string unit;
-  distributions::Distribution distribution;  ///< of joint samples: their rows, from 0
+  distributions::Distribution distribution;  ///< for joint samples: uniform on the row indices, from 0
   RandomCoordinate coordinate;
 };
 
 /// The random variables of the trials of a design point.
 struct RandomVariables {
   std::vector<RandomVariable> variables;
-  study::SquareMatrix correlations;  ///< of their normal scores: a Gaussian copula
+  study::SquareMatrix correlations;  ///< correlations of their normal scores (Gaussian copula)
 };
 
 RandomVariables random_variables(const study::Study& study, std::int64_t point);
 
-/// The random numbers of a trial with these values. The trial has the point's distribution if the values have
-/// that of the variables.
-/// @param x [variable] @param number of the trial, for all random numbers beside the variables
-/// @throws Failure (bad_input) for a value that its variable cannot have.
+/// The random numbers of a trial with the given values. The trial has the distribution of the point if the
+/// values have the joint distribution of the variables.
+/// @param x [variable] value @param number draw that supplies all other random numbers
+/// @throws Failure (bad_input) for a value that its variable cannot have
 study::GivenDraws draws_with(const study::Study& study, const RandomVariables& variables,
                              std::span<const double> x, std::int64_t number);
 

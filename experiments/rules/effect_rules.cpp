@@ -40,20 +40,20 @@ bool can_be_positive(const ValueLimits& limits) {
 struct Switch {
   std::string_view parameter;
   std::function<bool(const ValueLimits&)> is_on;
-  std::string on;  ///< how a manifest turns it on
+  std::string on;  ///< text for messages: how a manifest turns the switch on
 };
 
 Switch above_zero(std::string_view parameter) {
   return {parameter, can_be_positive, fmt::format("{} above 0", parameter)};
 }
 
-/// For a parameter that is negative where the manifest does not have it.
+/// A switch that is on if the manifest gives the parameter. The default of the parameter must be negative.
 Switch given(std::string_view parameter) {
   return {parameter, [](const ValueLimits& limits) { return limits.high >= 0.0; },
           fmt::format("{} too", parameter)};
 }
 
-/// For a parameter with words: on where it is one of these.
+/// A switch for a parameter with labels: it is on if the parameter has one of these labels.
 template <class Word>
 Switch one_of(std::string_view parameter, std::initializer_list<Word> words) {
   const auto& labels = parameters::parameter_table()[parameters::find_parameter(parameter).value()].labels;
@@ -72,7 +72,8 @@ std::string no_effect(std::string_view reason) {
   return fmt::format("it has no effect: {}", reason);
 }
 
-/// Keys that have an effect only with a switch on. @param off what it is where it is off at every point
+/// The rule for keys that have an effect only if a switch is on.
+/// @param off phrase for the message if the switch is off at every point
 EffectRule only_with(const Switch& by, Keys keys, std::string_view off) {
   return {.keys = std::move(keys),
           .depends_on = {by.parameter},
@@ -81,7 +82,7 @@ EffectRule only_with(const Switch& by, Keys keys, std::string_view off) {
           .expected = fmt::format("{}{}", by.on, or_left_out)};
 }
 
-/// Keys without any effect in this kind of study.
+/// The rule for keys that have no effect in this kind of study.
 EffectRule idle(Keys keys, std::string what, std::string_view instead) {
   return {.keys = std::move(keys),
           .has_effect = [](Limits) { return false; },
@@ -94,13 +95,14 @@ EffectRule except(Keys keys, EffectRule rule) {
   return rule;
 }
 
-/// 0 asks for nothing.
+/// The rule, except that a key that is 0 at all points is not reported.
 EffectRule unless_zero(EffectRule rule) {
   rule.off_at_zero = true;
   return rule;
 }
 
-/// For a study that may keep the key on purpose, to switch between cases by another one.
+/// The rule as a warning, for a key that a study may keep on purpose while another key switches between
+/// cases.
 EffectRule warning(EffectRule rule) {
   rule.warn_only = true;
   rule.expected.clear();
@@ -153,7 +155,7 @@ std::vector<EffectRule> rules_of_the_reference() {
                 "the reference is never an s_curve")};
 }
 
-/// The keys act only where the reference moves.
+/// The rule for keys that act only if the reference moves.
 EffectRule with_a_moving_reference(Keys keys) {
   using Shape = loop::ReferenceShape;
   return unless_zero(only_with(

@@ -19,7 +19,7 @@ bool has_spring(const study::ValueLimits& model) {
   return friction::has_spring(static_cast<friction::FrictionModel>(static_cast<int>(model.low)));
 }
 
-/// Of typical values, rad or m.
+/// The pre-sliding range of a contact with the typical values, rad or m.
 double range_of(const study::ValueLimits& k1, const study::ValueLimits& k2, const study::ValueLimits& beta,
                 const study::ValueLimits& breakaway) {
   friction::FrictionParameters contact;
@@ -30,7 +30,8 @@ double range_of(const study::ValueLimits& k1, const study::ValueLimits& k2, cons
   return friction::presliding_range(contact);
 }
 
-/// Of the spring by what one measures.
+/// Largest plausible ratio of the spring's initial stiffness k1 + k2 to its mean stiffness, breakaway over
+/// travel.
 constexpr double max_initial_ratio = 1e4;
 
 bool is_measured(const study::StudyPlan& plan) {

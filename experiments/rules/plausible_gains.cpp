@@ -18,10 +18,10 @@ using Faults = std::vector<ValueFault>;
 /// A gain of one phase of the control.
 struct Gain {
   std::string_view name;
-  std::string_view structure;                 ///< of its phase
+  std::string_view structure;                 ///< parameter with the control structure of the gain's phase
   double theory::AnalogueGains::*continuous;  ///< the gain in SI units
   double loop::PidGains::*sampled;            ///< the gain per count
-  std::string_view action;                    ///< what it does with one count
+  std::string_view action;                    ///< effect of the gain on one count, for messages
 };
 
 constexpr std::string_view by_error = "one count of error commands";
@@ -61,7 +61,7 @@ double max_torque(Limits l) {
   return l[range].typical > 0.0 ? l[range].typical : -loop::lowest_torque(dac);
 }
 
-/// What a gain does, and the torque that it commands by it, N m.
+/// The action of a gain, and the torque that the gain commands by it, N m.
 struct TorqueOf {
   std::string_view action;
   double torque;
@@ -92,7 +92,7 @@ ValueRule within_the_converter(const study::StudyPlan& plan, const Gain& gain) {
       });
 }
 
-/// The rows of one phase of the control that has a cascade.
+/// The rules for the gains of one phase of the control, if it is a cascade.
 template <parameters::Phase phase>
 std::vector<ValueRule> cascade_within_the_converter(const study::StudyPlan& plan) {
   enum : std::size_t { kp = 0, feedforward = 0, kv = 8, ki = 9 };  // after those of a gain

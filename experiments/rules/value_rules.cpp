@@ -225,7 +225,8 @@ std::vector<ValueRule> rules_of_the_clock() {
                   })};
 }
 
-/// A state must end at an |error| of at least that with which it begins. @param text with both, the end first
+/// The rule that a state ends at an |error| of at least the |error| at which it begins.
+/// @param text message with both numbers, the end first
 ValueRule order_of(std::string_view end, std::string_view begin, const char* text, const char* expected) {
   return between({end, begin}, [text, expected](const auto& of_end, const auto& of_begin) -> Faults {
     if (of_end.high < 0.0 || of_end.low >= of_begin.high) return {};

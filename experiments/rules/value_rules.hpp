@@ -16,24 +16,27 @@ namespace zerocount::rules {
 struct ValueFault {
   std::string what;
   std::string expected;
-  std::vector<std::size_t> listed{};  ///< the involved values of the list, the first one for the message;
-                                      ///< empty: only the parameters of the rule
+  /// Indices of the involved values of the list; the message names the first one. Empty: only the parameters
+  /// of the rule are involved.
+  std::vector<std::size_t> listed{};
 };
 
-/// A condition on the limits of several parameters at a design point.
+/// A condition on the ranges of several parameters at a design point.
 struct ValueRule {
   std::vector<std::string_view> between;  ///< the parameters; the first one gives the path of the message
   bool whole_list{false};                 ///< the rule also involves all values of the list
+  /// Finds faults from the ranges of the parameters, in the order of `between`, and of the list if
+  /// whole_list.
   std::function<std::vector<ValueFault>(std::span<const study::ValueLimits> parameters,
                                         std::span<const study::ValueLimits> list)>
-      find_faults;  ///< from the limits of the parameters in their order, and of the list if whole_list
+      find_faults;
   bool warn_only{false};
-  bool once{false};       ///< only the first fault is reported, at the parameter of the rule that is given
+  bool once{false};  ///< only the first fault is reported, at a parameter of the rule that the manifest gives
   bool of_record{false};  ///< the message is about record_key(), which is not a parameter
 };
 
-/// A rule of the limits of these parameters, which `find_faults` takes as arguments of its own in their
-/// order, so that the compiler counts them.
+/// A rule between the given parameters. `find_faults` takes the range of each parameter as a separate
+/// argument, in the order of `names`, so that the compiler checks their number.
 template <std::size_t count, class FindFaults>
 ValueRule between(const std::string_view (&names)[count], FindFaults find_faults) {
   return {{names, names + count},
@@ -51,11 +54,11 @@ inline ValueRule warning(ValueRule rule) {
   return rule;
 }
 
-/// The hold (s) of a study with a recorded reference that gives none: as long as the record, with the longest
-/// sample of the base.
+/// Default of the hold (s) of a study with a recorded reference: the duration of the record, for the longest
+/// sample time of the base values.
 double hold_of_the_reference(const study::StudyPlan& plan);
 
-/// The key of the record that stands in place of levels or targets.
+/// The key of the record that replaces torque levels or targets.
 std::string_view record_key(const study::StudyPlan& plan);
 
 /// The rules between the values of the list and the parameters of the command: the number of samples of a
@@ -72,34 +75,34 @@ std::vector<ValueRule> plugin_rules(const study::StudyPlan& plan);
 /// All rules for a plan of this kind.
 std::vector<ValueRule> value_rules(const study::StudyPlan& plan);
 
-/// The rule of a goal: a time `within` (s) that a move of this hold does not have could never be kept.
+/// The rule that the time `within` (s) of a goal is not longer than a move with this range of the hold.
 std::vector<ValueFault> longer_than_the_move(double within, const study::ValueLimits& hold);
 
 /// The first inconsistency between the values of a design point that is an error, "path: what; expected …";
 /// empty if there is none.
 std::string first_fault(const study::StudyPlan& plan, std::size_t point);
 
-/// Why a study with these values at the edited point cannot be simulated: the first value out of its range,
-/// or first_fault(); empty if it can.
+/// Message why a study with the values at the edited point cannot be simulated: the first value outside its
+/// range, or first_fault(). Empty if it can be simulated.
 std::string refusal_of(const study::PointEdit& edit);
 
 // Values that are allowed but absurd, such as an inertia in g m² that stands where kg m² are expected. Each
 // test compares a dimensionless number of the typical values of a design point (medians of distributions,
 // means of profiles) with a bound that no real axis comes near. All are warnings, reported once.
 
-/// Natural frequency on the spring of the friction: from some Hz to half the sample rate.
+/// Rules for the natural frequency on the friction spring: from some Hz to half the sample rate.
 std::vector<ValueRule> plausible_dynamics(const study::StudyPlan& plan);
 
-/// Pre-sliding: the spring softens before it slides, and yields by more than a few counts.
+/// Rules for pre-sliding: the spring softens before it slides, and yields by more than a few counts.
 std::vector<ValueRule> plausible_contact(const study::StudyPlan& plan);
 
-/// The delay of the loop is not one in seconds, or in microseconds.
+/// Rules that detect a delay of the loop in a wrong unit, such as seconds or microseconds.
 std::vector<ValueRule> plausible_delay(const study::StudyPlan& plan);
 
-/// Gains: one count of error is within the range of the converter.
+/// Rules for gains: the torque for one count of error is within the range of the converter.
 std::vector<ValueRule> plausible_gains(const study::StudyPlan& plan);
 
-/// All of them.
+/// All rules about implausible values.
 std::vector<ValueRule> plausibility_rules(const study::StudyPlan& plan);
 
 /// A rule that warns once, at the first of `between` that the manifest gives.
@@ -107,7 +110,8 @@ ValueRule plausibility_rule(
     std::vector<std::string_view> between,
     std::function<std::vector<ValueFault>(std::span<const study::ValueLimits> parameters)> find_faults);
 
-/// As plausibility_rule, with the limits as arguments of `find_faults`, see rules::between().
+/// A rule that warns once, as plausibility_rule(); `find_faults` takes each range as a separate argument, as
+/// in rules::between().
 template <std::size_t count, class FindFaults>
 ValueRule plausible(const std::string_view (&names)[count], FindFaults find_faults) {
   ValueRule rule = warning(between(names, find_faults));
@@ -118,17 +122,19 @@ ValueRule plausible(const std::string_view (&names)[count], FindFaults find_faul
 /// The parameter with the resolution of the fine encoder.
 std::string_view fine_encoder_name(const study::StudyPlan& plan);
 
-/// Δx, rad or m. @param encoder typical value of fine_encoder_name()
+/// Resolution Δx of the fine encoder, rad or m.
+/// @param encoder typical value of the parameter fine_encoder_name()
 double typical_count(const study::StudyPlan& plan, double encoder);
 
 /// Keys that have an effect only under a condition. A given key is reported if the condition holds at no
 /// design point.
 struct EffectRule {
-  std::vector<std::string_view> keys{};        ///< dotted paths of parameters, or of sections for all in them
-  std::vector<std::string_view> except{};      ///< those of them to which the rule does not apply
+  std::vector<std::string_view>
+      keys{};  ///< dotted paths of parameters, or of sections (all their parameters)
+  std::vector<std::string_view> except{};      ///< parameters among `keys` to which the rule does not apply
   std::vector<std::string_view> depends_on{};  ///< parameters that decide whether the keys have an effect
-  std::function<bool(std::span<const study::ValueLimits>)>
-      has_effect{};         ///< the condition, from the limits of those parameters in their order
+  /// Whether the keys have an effect, from the ranges of the parameters `depends_on`, in their order.
+  std::function<bool(std::span<const study::ValueLimits>)> has_effect{};
   std::string what{};       ///< first phrase of the message
   std::string expected{};   ///< second phrase of the message; empty for a warning
   bool off_at_zero{false};  ///< a key that is 0 at all points is not reported
@@ -144,7 +150,8 @@ bool covers(const EffectRule& rule, std::string_view name);
 /// Whether the keys of the rule have an effect at some design point. True if a value could not be read.
 bool can_have_effect(const study::StudyPlan& plan, const EffectRule& rule);
 
-/// Whether the parameter with this dotted path has an effect at some design point, by all of these rules.
+/// Whether the parameter with this dotted path has an effect at some design point according to all given
+/// rules.
 bool has_effect(const study::StudyPlan& plan, std::span<const EffectRule> rules, std::string_view name);
 
 }  // namespace zerocount::rules

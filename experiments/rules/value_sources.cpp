@@ -16,7 +16,7 @@ bool is_absent(const parameters::Parameter& parameter) {
          (value == 0.0 || value == parameter.none);
 }
 
-/// Whether the trials rest on the default of the slot.
+/// Whether the trials depend on the default of the slot.
 bool is_assumed(const study::StudyPlan& plan, const std::vector<EffectRule>& rules, std::size_t slot) {
   const parameters::Parameter& parameter = plan.table.rows[slot];
   return parameters::has_default(parameter) && parameters::exists_on(parameter, plan.units.axis) &&

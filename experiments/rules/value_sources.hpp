@@ -7,12 +7,12 @@
 
 namespace zerocount::rules {
 
-/// Where the value of a parameter comes from.
+/// The source of the value of a parameter.
 enum class ValueSource {
-  measured,  ///< the manifest gives what was measured (parameters::measured_parameters)
-  sampled,   ///< a table of samples, such as those of an identification
+  measured,  ///< measured parameters in the manifest (parameters::measured_parameters)
+  sampled,   ///< a table of samples, such as the result of an identification
   given,     ///< the manifest
-  assumed    ///< a default
+  assumed    ///< the default
 };
 
 struct SourcedValue {
@@ -20,9 +20,9 @@ struct SourcedValue {
   ValueSource source{ValueSource::assumed};
 };
 
-/// The parameters whose values the trials rest on, in the order of the table: all that the manifest gives,
-/// and the defaults that have an effect at some design point. Not among them are the command, values that
-/// follow from measured ones, and effects that are absent (premises_of).
+/// The parameters on whose values the trials depend, in the order of the table: all that the manifest gives,
+/// and all defaults that have an effect at some design point. The command, values that follow from measured
+/// ones, and absent effects (premises_of) are not included.
 std::vector<SourcedValue> value_sources(const study::StudyPlan& plan);
 
 }  // namespace zerocount::rules

@@ -20,31 +20,32 @@ using LoadedPlugin = std::variant<std::shared_ptr<const plugin::ControllerPlugin
 /// Finds the user's controller by the value of the key `controller.plugin`.
 using PluginLoader = std::function<LoadedPlugin(const std::string& path)>;
 
-/// For a study whose plugin is known already.
+/// A loader for a study whose plugin is known already: it returns this plugin.
 PluginLoader known_plugin(std::shared_ptr<const plugin::ControllerPlugin> plugin);
 
-/// Reads the key `controller.plugin`: plan.plugin. @param load empty: the command loads no plugins
+/// Reads the key `controller.plugin` into plan.plugin.
+/// @param load empty: the command does not load plugins
 void read_plugin(const yaml::Field& root, const PluginLoader& load, keys::Reading& reading);
 
 /// Reads the text of a table that a manifest names.
-/// @param what "a table of samples", expected where it cannot be read
-/// @throws Failure if it cannot be read
+/// @param what phrase for the message if the file cannot be read, "a table of samples"
+/// @throws Failure if the file cannot be read
 using SamplesReader = std::function<std::string(const std::string& path, std::string_view what)>;
 
-/// Access to what a manifest names and does not contain. A key whose member is empty is refused.
+/// Access to files and plugins that a manifest names. If a member is empty, the corresponding key is refused.
 struct Companions {
   PluginLoader plugin{};
   SamplesReader samples{};
-  /// Profiles of a similar study. Equal ones are shared, because to realise those of thousands of machines
-  /// takes longer than to read a manifest.
+  /// Profiles of a similar study. Equal profiles are shared, because realising the profiles of thousands of
+  /// machines takes longer than reading a manifest.
   std::vector<std::shared_ptr<const study::Rotors>> rotors{};
 };
 
-/// For a study whose companions are known already.
+/// Companions of a study whose plugin and table of samples are known already.
 Companions known_companions(std::shared_ptr<const plugin::ControllerPlugin> plugin,
                             std::optional<std::string> samples);
 
-/// For a variant of the study.
+/// Companions for a variant of the study: its plugin, its samples and its profiles.
 Companions companions_of(const study::Study& study);
 
 }  // namespace zerocount::sections

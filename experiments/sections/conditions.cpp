@@ -65,7 +65,8 @@ std::size_t option_of(const study::PlanAxis& axis, std::size_t assignment) {
   return static_cast<std::size_t>(after - axis.first.begin()) - 1;
 }
 
-/// Reports the first override of the slot, which is given at `other` too. @param what "is swept"
+/// Reports the first override of a slot whose value is also given elsewhere.
+/// @param what phrase for the message, "is swept" @param other place of the other value
 void refuse_override(const SweptAxis& conditions, std::size_t slot, std::string_view what,
                      const yaml::Place& other, keys::Reading& reading) {
   for (std::size_t i = 0; i < conditions.axis.assignments.size(); ++i) {
@@ -98,7 +99,8 @@ void check_not_swept(const SweptAxis& conditions, const std::vector<SweptAxis>& 
   }
 }
 
-/// Lets the override be drawn as often as its parameter. Reports one that says otherwise.
+/// Sets how often the override is drawn: as often as its parameter. Reports an override that states another
+/// level.
 void take_level(const yaml::Field& field, std::uint32_t slot, study::Value& value, keys::Reading& reading) {
   using Kind = study::Value::Kind;
   const study::Value& parameter = reading.plan.base[slot];

@@ -21,8 +21,7 @@
 namespace zerocount::sections {
 namespace {
 
-/// Adds the number where it belongs among rising ones, unless it is there already. False if there are too
-/// many.
+/// Inserts a number into the rising list, unless it is there already. False if the list is full.
 template <class Limits>
 bool add_limit(Limits& limits, decltype(+limits.limits[0]) limit) {
   const auto begin = limits.limits.begin();
@@ -67,7 +66,7 @@ std::int64_t move_count(const study::StudyPlan& plan) {
   return plan.sequence ? std::ssize(study::sequence_moves(*plan.sequence, listed)) : listed;
 }
 
-/// The names of the measures that a limit can be of, in this study, but for those of tolerances.
+/// The names of the measures that can have a limit in this study, except the measures of tolerances.
 std::vector<std::string> limited_measures(const study::StudyPlan& plan) {
   std::vector<std::string> names;
   for (const trial::NamedMeasure& measure : trial::named_measures()) names.emplace_back(measure.name);
@@ -77,7 +76,7 @@ std::vector<std::string> limited_measures(const study::StudyPlan& plan) {
   return names;
 }
 
-/// The tolerance (rad) in "tolerance_settling_time[1e-8]"; nothing in other names.
+/// The tolerance (rad) in the name "tolerance_settling_time[1e-8]"; empty for other names.
 std::optional<double> limited_tolerance(std::string_view name) {
   if (!name.starts_with(trial::tolerance_measure)) return std::nullopt;
   name.remove_prefix(trial::tolerance_measure.size());
@@ -86,7 +85,7 @@ std::optional<double> limited_tolerance(std::string_view name) {
   return tolerance && std::isfinite(*tolerance) && *tolerance > 0.0 ? tolerance : std::nullopt;
 }
 
-/// Lets the trials measure settling within the tolerance.
+/// Makes the trials measure settling within the tolerance.
 void measure_tolerance(const yaml::Field& field, double tolerance, keys::Reading& reading) {
   trial::VerdictParameters& verdict = reading.plan.common.verdict;
   verdict.position_error = true;
@@ -100,7 +99,7 @@ bool measures_motion(const study::StudyPlan& plan) {
                                  [](const study::ValueLimits& motion) { return motion.can_be_zero; });
 }
 
-/// Takes the limits of a goal.
+/// Reads the limits of a goal.
 void take_limits(const yaml::Field& of_goal, keys::Reading& reading, study::Goal& goal) {
   const auto limits = yaml::find_field(of_goal, "limits");
   if (!limits) return;
@@ -134,7 +133,7 @@ void take_limits(const yaml::Field& of_goal, keys::Reading& reading, study::Goal
   }
 }
 
-/// Lets the trials measure what the goal is judged by.
+/// Makes the trials measure the band or the tolerance by which the goal is judged.
 void measure_for(const yaml::Field& field, const study::Goal& goal, keys::Reading& reading) {
   trial::VerdictParameters& verdict = reading.plan.common.verdict;
   if (!goal.tolerance) {
@@ -147,7 +146,8 @@ void measure_for(const yaml::Field& field, const study::Goal& goal, keys::Readin
   measure_tolerance(field, *goal.tolerance, reading);
 }
 
-/// Finds out which mass each goal is of, and lets the trials measure the position error of the other one.
+/// Finds out which mass each goal judges, and makes the trials measure the position error of the other mass
+/// if a goal needs it.
 void choose_masses(const yaml::Field& of_goals, keys::Reading& reading,
                    const std::function<yaml::Field(const study::Goal&)>& field_of) {
   using enum motion::EncoderPlace;
@@ -180,7 +180,7 @@ void choose_masses(const yaml::Field& of_goals, keys::Reading& reading,
   if (other) reading.plan.common.verdict.position_error = true;
 }
 
-/// Checks a goal, and adds its band, or its tolerance, to those of the plan.
+/// Checks a goal, and adds its band or tolerance to the bands and tolerances of the plan.
 void check_goal(const yaml::Field& field, study::Goal& goal, keys::Reading& reading) {
   for (const char* const key : {"within", "after_profile"})
     if (const auto within = yaml::find_field(field, key))

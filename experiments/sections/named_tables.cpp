@@ -25,13 +25,13 @@ void add_fault(const yaml::Field& field, std::size_t line, std::string_view what
 
 struct FoundColumn {
   std::size_t index;
-  double si;  ///< one of its unit in SI units
+  double si;  ///< factor from the unit of the column to SI units
 };
 
-/// The quantity of a record, and how its table names it.
+/// The quantity of a record, with the names it may have in a table.
 struct Recorded {
-  std::string_view quantity;         ///< in the plural
-  std::vector<std::string> columns;  ///< names of its column, of which the table has one
+  std::string_view quantity;         ///< noun for the quantity, in the plural
+  std::vector<std::string> columns;  ///< possible names of the column; the table has one of them
   text::Dimension dimension;
   std::string_view units;    ///< such as its column can have
   std::string header;        ///< such as the table can have
@@ -94,7 +94,7 @@ struct RecordTable {
   }
 };
 
-/// The points of the table of a spectrum; none after a report.
+/// The points of the table of a spectrum; empty after an error, which is reported.
 Pairs points_of(const yaml::Field& field, const tables::TextTable& table, std::string_view expected,
                 yaml::Problems& problems) {
   Pairs points;
@@ -118,7 +118,7 @@ std::string list_of(const Pairs& pairs) {
   return "[" + list + "]";
 }
 
-/// The file that the field names in place of a list of pairs, and its text.
+/// Name and text of the file that a field names in place of a list of pairs.
 std::optional<tables::TextTable> named_table(const std::optional<yaml::Field>& field, std::string_view what,
                                              std::string_view expected, const SamplesReader& read,
                                              yaml::Problems& problems) {
@@ -152,7 +152,7 @@ Recorded positions(bool linear, const std::string& column) {
           "a straight line joins them"};
 }
 
-/// Where the tables of a manifest are read from, and what is found.
+/// Reader of the tables of a manifest, and the results of reading them: problems, warnings and overrides.
 struct TableReading {
   const SamplesReader& read;
   yaml::Problems& problems;
@@ -275,8 +275,8 @@ std::optional<tables::TextTable> read_table(const yaml::Field& field, std::strin
 
 namespace {
 
-/// Reads the list of pairs of a record; null after errors, which it reports. The name of a file is still
-/// there if its table could not be read, which is reported.
+/// Reads the list of pairs of a record; null after errors, which it reports. If the table of a
+/// file could not be read, the field still has the file name; that error was reported before.
 template <class Record>
 std::shared_ptr<const Record> read_record(const yaml::Field& list, yaml::Problems& problems) {
   if (!shapes::read(list, keys::shape_of(list.path), problems) ||

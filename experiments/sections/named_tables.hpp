@@ -15,11 +15,11 @@
 #include "experiments/tables/text_table.hpp"
 #include "experiments/yaml/scalars.hpp"
 
-/// Tables of numbers that a manifest names, and the lists of pairs that it may have in their place.
+/// Tables of numbers in files that a manifest names, and the lists of pairs that may replace them.
 namespace zerocount::sections {
 
-/// The table in the file that `field` names, with the text `text`. Reports one that is none.
-/// @param expected what the table must have
+/// The table in the file that `field` names. Empty if the text is not a table; this is reported.
+/// @param text contents of the file @param expected phrase for the message
 std::optional<tables::TextTable> read_table(const yaml::Field& field, std::string text,
                                             std::string_view expected, yaml::Problems& problems);
 
@@ -28,7 +28,8 @@ std::optional<tables::TextTable> read_table(const yaml::Field& field, std::strin
 std::shared_ptr<const trial::TorqueRecord> read_torque_record(const yaml::Field& list,
                                                               yaml::Problems& problems);
 
-/// Reads the key command.reference.file likewise; its positions are in rad (m on a linear axis).
+/// Reads the key command.reference.file as a list of pairs [time in s, position in rad (m on a linear axis)];
+/// null after errors, which it reports.
 std::shared_ptr<const loop::ReferenceRecord> read_reference_record(const yaml::Field& list,
                                                                    yaml::Problems& problems);
 
@@ -36,13 +37,13 @@ std::shared_ptr<const loop::ReferenceRecord> read_reference_record(const yaml::F
 /// density], …], lines: 100}.
 bool is_spectrum(const yaml::Field& element);
 
-/// Reads such an element; null after errors, which it reports.
+/// Reads an element that is a spectrum (is_spectrum); null after errors, which it reports.
 std::shared_ptr<const trial::SpectrumParameters> read_spectrum(const yaml::Field& element,
                                                                yaml::Problems& problems);
 
-/// Overrides that put pairs in place of the files that command.torque.file, command.reference.file and
-/// spectra name, such as "disturbance.vibration.0.spectrum=[[1, 1e-10], [100, 1e-12]]". With them a study
-/// is whole without these files.
+/// Overrides that replace the files of command.torque.file, command.reference.file and spectra by lists of
+/// pairs, such as "disturbance.vibration.0.spectrum=[[1, 1e-10], [100, 1e-12]]". With these overrides a study
+/// does not need the files.
 ///
 /// The table of a record has a header: a column t or time, and torque or drive_torque, on a linear axis also
 /// force or drive_force; of a reference the one that command.reference.column names, else `reference`. Each
@@ -53,15 +54,16 @@ std::shared_ptr<const trial::SpectrumParameters> read_spectrum(const yaml::Field
 std::vector<std::string> table_overrides(const yaml::YamlNode& root, const SamplesReader& read,
                                          yaml::Problems& problems, std::vector<std::string>& warnings);
 
-constexpr std::size_t max_samples_size = std::size_t{1} << 24;  ///< bytes of the table
-constexpr std::size_t max_samples = 100'000;                    ///< rows
+constexpr std::size_t max_samples_size = std::size_t{1}
+                                         << 24;  ///< maximum size of the table of samples, bytes
+constexpr std::size_t max_samples = 100'000;     ///< maximum number of rows of the table of samples
 
-/// The table of the key `samples`, as it is before the manifest is read.
+/// The table of the key `samples`, with places for messages. It is read before the rest of the manifest.
 struct SamplesTable {
   study::JointSamples samples;
-  std::string source;                ///< of its places, for messages
-  yaml::Field field;                 ///< in the manifest
-  std::vector<yaml::Place> columns;  ///< [column] place of its name
+  std::string source;                ///< source of the places, for messages
+  yaml::Field field;                 ///< field of the key `samples` in the manifest
+  std::vector<yaml::Place> columns;  ///< [column] place of the column's name
 };
 
 /// Reads the key `samples` of `root`, "FILE" or {file: FILE, per: machine or trial}, and its table: a header
@@ -70,12 +72,12 @@ struct SamplesTable {
 void insert_samples(yaml::YamlPointer& root, const SamplesReader& read, std::optional<SamplesTable>& table,
                     yaml::Problems& problems);
 
-/// Joins the draws of the columns: plan.sampled_slots and study.samples. Comes after the parameters and the
-/// sweep.
+/// Joins the draws of the columns into rows: sets plan.sampled_slots and study.samples. The parameters and
+/// the sweep must be read already.
 void join_samples(const SamplesTable& table, const std::vector<SweptAxis>& axes, keys::Reading& reading);
 
-/// Reads the key `correlation`, a list of entries [first parameter, second parameter, coefficient]:
-/// plan.copula and study.correlations. Comes after the parameters and the sweep.
+/// Reads the key `correlation`, a list of entries [first parameter, second parameter, coefficient], into
+/// plan.copula and study.correlations. The parameters and the sweep must be read already.
 void read_correlations(const yaml::Field& root, keys::Reading& reading);
 
 }  // namespace zerocount::sections

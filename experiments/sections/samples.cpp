@@ -26,7 +26,7 @@ std::shared_ptr<yaml::YamlNode> node_at(const yaml::Place& place, yaml::YamlNode
   return node;
 }
 
-/// {choice: [the cells of the column]}, with the key `per` of the samples.
+/// The node {choice: [cells of the column]}, with the key `per` of the samples.
 yaml::YamlPointer choice_of(const SamplesTable& samples, const tables::TextTable& table, std::size_t column,
                             const yaml::Place& place) {
   const auto list = node_at(place, yaml::YamlNode::Kind::list);
@@ -61,7 +61,7 @@ bool check_name(std::string_view name, const yaml::Place& place, const yaml::Yam
   return false;
 }
 
-/// The table of the samples; nothing after a report.
+/// The table of the samples; empty after an error, which is reported.
 std::optional<tables::TextTable> read_samples(const yaml::Field& file, const SamplesReader& read,
                                               SamplesTable& samples, yaml::Problems& problems) {
   if (!read) {

@@ -19,42 +19,44 @@ namespace zerocount::sections {
 struct SweptAxis {
   bool cases{false};
   std::string name;                   ///< the swept key; "case" for the cases
-  yaml::Place place{};                ///< of its values
-  std::vector<std::string> labels{};  ///< [option]
+  yaml::Place place{};                ///< place of the axis's values in the manifest
+  std::vector<std::string> labels{};  ///< [option] label
   study::PlanAxis axis{};
-  std::vector<yaml::Place> places{};  ///< [assignment]
-  std::vector<std::size_t> slots{};   ///< assigned by some option, in order of appearance
+  std::vector<yaml::Place> places{};  ///< [assignment] place of its value in the manifest
+  std::vector<std::size_t> slots{};   ///< slots that some option assigns, in order of appearance
 };
 
-/// Whether the path leads to the points or lines of a spectrum of the study: "disturbance.vibration.0.lines".
+/// Whether the path belongs to the points or lines of a spectrum of the study:
+/// "disturbance.vibration.0.lines".
 bool is_of_spectrum(const study::StudyPlan& plan, std::string_view path);
 
-/// The slots of the entry's dotted path. Reports an unknown one, with the nearest known.
-/// @param refusal what is said of a key that is not a parameter
+/// The slots of the entry's dotted path. Empty for an unknown path, which is reported with the nearest known
+/// path.
+/// @param refusal message about a key that is not a parameter
 std::optional<study::SlotRange> find_assigned(const yaml::Field& map, const yaml::YamlEntry& entry,
                                               std::string_view refusal, keys::Reading& reading);
 
-/// Adds slots to those that some option assigns.
+/// Adds slots to SweptAxis::slots.
 void note_slots(SweptAxis& axis, const study::SlotRange& slots);
 void assign(SweptAxis& axis, std::size_t slot, const study::Value& value, const yaml::Place& place);
-/// Adds the values of `field` to the current option of the axis, which finish_option() ends.
+/// Adds the values of `field` to the current option of the axis. finish_option() ends the option.
 void read_assignments(const yaml::Field& field, const study::SlotRange& slots, SweptAxis& axis,
                       keys::Reading& reading);
 void finish_option(SweptAxis& axis, std::string label);
 
-/// Lets the values that say nothing of it change with age as those of the sections do.
+/// Gives values without `aging` the law of aging that their parameter has in the sections.
 void inherit_aging(study::PlanAxis& axis, const study::StudyPlan& plan);
 
-/// Noun for the values of a list.
+/// Noun for the values of a list, such as "targets".
 std::string_view noun_of(const study::SlotRange& list, const study::StudyTable& table);
 
-/// How messages name an option.
+/// Words for an option in messages.
 struct OptionWords {
-  std::string_view option;   ///< "case"
-  std::string_view refusal;  ///< of a key that is not a parameter
+  std::string_view option;   ///< noun for an option, "case"
+  std::string_view refusal;  ///< message about a key that is not a parameter
 };
 
-/// Reads an option of the axis that is a map from dotted paths to values, such as a case.
+/// Reads one option of the axis, such as a case: a map from dotted paths to values.
 void read_option(const yaml::Field& options, const yaml::YamlEntry& entry, const OptionWords& words,
                  SweptAxis& axis, keys::Reading& reading);
 
@@ -63,15 +65,15 @@ void read_option(const yaml::Field& options, const yaml::YamlEntry& entry, const
 /// @param root the manifest
 void read_ages(const yaml::Field& root, keys::Reading& reading);
 
-/// The axis of what every machine bears in turn: each condition at each age, those of an age together. Their
-/// names go to the study. An axis without options where there are neither.
-/// @param conditions of read_conditions(); without options where there are none
+/// The axis of all pairs of condition and age, sorted by age. Stores their labels in the study. The axis has
+/// no options if there are neither conditions nor ages.
+/// @param conditions result of read_conditions(); without options if there are no conditions
 SweptAxis conditions_at_ages(const SweptAxis& conditions, keys::Reading& reading);
 
 /// Reads `conditions: {NAME: {PATH: value}}` as the last axis of the plan: an override is another value of
 /// its slot, drawn as often as the parameter and with the same random number. Reports an override of a
-/// parameter that is swept. Their names go to the study.
-/// @param swept axes of the sweep. All parameters must be read already
+/// parameter that is swept. Stores the names of the conditions in the study.
+/// @param swept axes of the sweep; all parameters must be read already
 /// @return an axis without options, after a report, if there are none
 SweptAxis read_conditions(const yaml::Field& field, const std::vector<SweptAxis>& swept,
                           keys::Reading& reading);
@@ -104,23 +106,23 @@ void read_tuning(const yaml::Field& field, keys::Reading& reading);
 /// significant digits.
 std::vector<SweptAxis> read_sweep(const yaml::Field& sweep, keys::Reading& reading);
 
-/// One label per point, "a, controller.kp=0"; {"all"} without axes.
+/// The labels of all points, such as "a, controller.kp=0"; {"all"} without axes.
 std::vector<std::string> label_points(const std::vector<SweptAxis>& axes);
 
 /// The axes of the results file: the name of the case, and one axis for every swept slot.
 std::vector<study::SweepAxis> describe_axes(const std::vector<SweptAxis>& axes, const study::StudyPlan& plan);
 
 /// Reads `observed`, a map from cases or point labels to observations on a real machine: study.observed and
-/// study.observed_counts. An observation is a text, or counts: {successes: 9, of: 10, text: what else}. That
-/// of a case applies to all its points, except those with one of their own.
-/// @param axes of the sweep, complete
+/// study.observed_counts. An observation is a text, or counts: {successes: 9, of: 10, text: what else}. The
+/// observation of a case applies to all its points, except those with their own observation.
+/// @param axes all axes of the sweep
 void read_observations(const yaml::Field& field, const std::vector<SweptAxis>& axes, keys::Reading& reading);
 
 /// Reads the parameter sections of the manifest `root`: the plan's list, its sequence and its base values,
 /// and their places. Missing values get their defaults.
 void read_sections(const yaml::Field& root, keys::Reading& reading, keys::PlanPlaces& places);
 
-constexpr std::size_t max_points = 1'000'000;  ///< of a sweep
+constexpr std::size_t max_points = 1'000'000;  ///< maximum number of points of a sweep
 
 /// `count` numbers from `from` to `to`, both included, with equal distances or (logarithmic) equal ratios.
 struct Spacing {
@@ -130,16 +132,16 @@ struct Spacing {
   bool logarithmic{false};
 };
 
-/// The value of the key linspace, or logspace: [first value, last value, number of values].
+/// Shape of the value of the key linspace or logspace: [first value, last value, number of values].
 shapes::Shape spacing_shape(bool logarithmic);
 
-/// The spacing in `field`, the value of that key. Reports errors and returns nothing then.
+/// The spacing in `field`, the value of linspace or logspace. Empty after errors, which are reported.
 std::optional<Spacing> read_spacing(const yaml::Field& field, bool logarithmic, yaml::Problems& problems);
 
-/// The numbers; those between the ends are rounded to 15 significant digits.
+/// The numbers of a spacing. Numbers between the ends are rounded to 15 significant digits.
 std::vector<double> spaced_values(const Spacing& spacing);
 
-/// "name=value" for each of `values`, as short as possible but all different.
+/// Labels "name=value" for all `values`, as short as possible but all different.
 std::vector<std::string> spaced_labels(const std::string& name, const std::vector<double>& values);
 
 }  // namespace zerocount::sections

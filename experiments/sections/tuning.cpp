@@ -37,7 +37,8 @@ void take_range(const yaml::Field& field, const numerics::Interval& allowed, stu
     problems.add(ends, "an end is not a whole number", "whole numbers");
 }
 
-/// Whether the value at the slot is one number at all points. Whether a condition overrides it is told there.
+/// Whether the value of the slot is the same number at all design points. Overrides by conditions are checked
+/// elsewhere.
 bool is_one_number(const study::StudyPlan& plan, std::size_t slot) {
   const auto swept = std::span(plan.axes).first(plan.axes.size() - (plan.has_conditions() ? 1 : 0));
   const auto is_swept = [slot](const study::PlanAxis& axis) {
@@ -90,7 +91,7 @@ void read_free(const yaml::Field& map, const study::StudyPlan& plan, study::Tuni
   }
 }
 
-/// Reports free parameters that have no effect whatever values all of them take.
+/// Reports free parameters that have no effect for any values of the free parameters.
 void check_effects_of_free(const yaml::Field& map, const study::Tuning& tuning, keys::Reading& reading) {
   const auto is_free = [&](std::string_view name) {
     return std::ranges::find(tuning.free, name, &study::FreeParameter::name) != tuning.free.end();

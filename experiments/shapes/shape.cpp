@@ -15,7 +15,8 @@ namespace {
 using Form = Shape::Form;
 using Kind = yaml::YamlNode::Kind;
 
-/// Where the values of a shape go, and the faults.
+/// Reads values by their shapes. Reports faults to `problems` and stores values in `reading` (null: stores
+/// none).
 struct Reader {
   yaml::Problems& problems;
   Reading* reading;

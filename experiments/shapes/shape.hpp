@@ -23,12 +23,13 @@ namespace zerocount::shapes {
 
 using keys::Reading;
 
-/// The form of a key that is not a parameter, or of a value in it: it cannot be drawn or swept. The reader
-/// with its messages (read), the JSON Schema (shape_schema.hpp) and the line of `zerocount parameters` all
-/// follow from the shape. What depends on other keys is checked where those are known.
+/// The form of a key that is not a parameter, or of a value inside such a key. Such a value cannot be drawn
+/// or swept. The reader with its messages (read), the JSON Schema (shape_schema.hpp) and the line of
+/// `zerocount parameters` are all derived from the shape. Conditions that involve other keys are checked
+/// elsewhere, where those are known.
 struct Shape {
   enum class Form : std::uint8_t {
-    own,  ///< values of parameters: reader and schema know their table
+    own,  ///< values of parameters; the table of parameters describes them, not the shape
     text,
     line,  ///< a text on one line that is not blank: a name, a path
     word,  ///< a line without blanks
@@ -37,58 +38,66 @@ struct Shape {
     label,
     whole_number,
     real,
-    list,     ///< of any number of values of one shape
+    list,     ///< a list of values that all have one shape
     tuple,    ///< a list of values, each of its own shape
-    map,      ///< of known keys
+    map,      ///< a map with known keys
     entries,  ///< a map from names or paths to values of one shape
     one_of    ///< shapes of different kinds: a single value, a list, a map
   };
   enum class Order : std::uint8_t { any, distinct, rising };
   using Standard = std::variant<std::monostate, double, std::string, std::vector<double>>;
 
-  std::string_view name{};     ///< dotted path; last part of it for a key of a map
-  std::string_view meaning{};  ///< empty for a key of a map, which that of the map explains
-  std::string_view
-      if_missing{};  ///< what a manifest without a required key lacks; empty: the key is optional
-  std::string_view in_its_place{};  ///< a key of the same map that may stand in place of a required one
+  std::string_view name{};     ///< dotted path; for a key of a map its last part
+  std::string_view meaning{};  ///< description; empty for a key of a map: the map's meaning explains it
+  /// What a manifest lacks without this required key, for the message; empty: the key is optional.
+  std::string_view if_missing{};
+  std::string_view in_its_place{};  ///< key of the same map that may replace this required key
   Form form{Form::own};
-  numerics::Interval range{};                  ///< of a number; of a whole number closed
-  std::span<const std::string_view> labels{};  ///< of a label, in the order of its enumeration
-  std::string_view none{};                     ///< word in place of the number or of all numbers of the map
-  /// Words in place of a map, and what each stores.
+  numerics::Interval range{};                  ///< range of a number; closed for a whole number
+  std::span<const std::string_view> labels{};  ///< allowed labels, in the order of the enumeration
+  std::string_view none{};                     ///< word that replaces the number, or all numbers of the map
+  /// Words that may replace a map, each with a function that stores the values it stands for.
   std::vector<std::pair<std::string_view, void (*)(Reading&)>> presets{};
-  std::string expected{};      ///< what a message says where anything else stands; numbers and labels know it
-  std::vector<Shape> parts{};  ///< keys, values of a tuple, alternatives; or the one shape of all values
-  std::size_t min_count{0};    ///< of a list, or of entries
+  /// Text after "expected" in messages; empty for numbers and labels, whose text follows from `range` or
+  /// `labels`.
+  std::string expected{};
+  /// Shapes of the keys of a map, of the values of a tuple, or of the alternatives; for a list or entries,
+  /// the one shape of all values.
+  std::vector<Shape> parts{};
+  std::size_t min_count{0};  ///< minimum length of a list, or minimum number of entries
+  /// Maximum length of a list, or maximum number of entries.
   std::size_t max_count{std::numeric_limits<std::size_t>::max()};
-  Order order{Order::any};              ///< of the numbers of a list; of tuples their first numbers
-  std::string_view entry{};             ///< noun for one of the entries
+  Order order{Order::any};              ///< order of the numbers in a list, or of the first numbers of tuples
+  std::string_view entry{};             ///< noun for one entry, for messages
   bool named{true};                     ///< the keys of entries are names, each on one line
   std::vector<std::string> patterns{};  ///< regular expressions of all keys of entries; empty: any key
-  /// Makes the place of an entry's value before that is read.
+  /// Creates the object in which the value of an entry is stored, before the value is read.
   std::function<void(Reading&, const std::string& entry)> add{};
-  /// Stores a value of this shape; null: the word `none`. Without it, code takes the value where it is used.
+  /// Stores a value of this shape; a null field stands for the word `none`. Empty: other code reads the value
+  /// where it is needed.
   std::function<void(Reading&, const Shape&, const yaml::Field*)> set{};
-  Standard standard{};  ///< what holds without the key
+  Standard standard{};  ///< default if the key is absent
 
   bool required() const { return !if_missing.empty(); }
 };
 
-/// `key`, which has the name, the meaning and what lacks without it, with a form and its parts.
+/// Adds a form, and its parts, to a shape that has the name, the meaning and the text `if_missing`.
 Shape of(Shape::Form form, Shape key = {}, std::string expected = "", std::vector<Shape> parts = {});
 
 Shape whole(std::int64_t low, std::int64_t high, Shape key = {});
 Shape real(const numerics::Interval& range, Shape key = {});
 
-/// Lets the whole numbers in a list of the map be at most `highest`, where other keys determine it.
+/// Sets the maximum of the whole numbers in a list of the map, for a maximum that depends on other keys.
+/// @param list name of the list's key @param highest maximum; below 0 counts as 0
 void limit_items(Shape& map, std::string_view list, std::int64_t highest);
 
-/// Reports where the value in `field` departs from the shape; true if nowhere. What has a place to be stored
-/// is stored in `reading`, unless that is null; of a faulty value its sound parts.
+/// Checks the value in `field` against the shape, and reports every deviation. Values with a setter are
+/// stored in `reading`, unless it is null; of a faulty value, the valid parts are stored.
+/// @return whether the value is valid
 bool read(const yaml::Field& field, const Shape& shape, yaml::Problems& problems, Reading* reading = nullptr);
 
-/// Reads the keys of `map` in the same way, and reports those that are missing. The caller reports unknown
-/// ones.
+/// Reads the keys of `map` as read() does, and reports required keys that are missing. The caller must report
+/// unknown keys.
 void read_keys(const yaml::Field& map, std::span<const Shape> keys, yaml::Problems& problems,
                Reading* reading);
 

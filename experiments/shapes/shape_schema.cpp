@@ -68,7 +68,7 @@ Json entries_schema(const Shape& shape, const OwnSchema& own) {
   return schema;
 }
 
-/// The schema of the value, without the word that may stand in its place.
+/// The schema of the value, without the words that may replace it.
 Json form_schema(const Shape& shape, const OwnSchema& own) {
   switch (shape.form) {
     case Form::own:

@@ -7,16 +7,17 @@
 #include "core/numerics/interval.hpp"
 #include "experiments/shapes/shape.hpp"
 
-/// The JSON Schema of a shape, and the parts of which it is made.
+/// The JSON Schema of a shape, and the parts from which it is built.
 namespace zerocount::shapes {
 
 using Json = nlohmann::ordered_json;
 
-/// A map of these keys only; those of `required`, without it none, must be there.
+/// Schema of a map that may have these keys only. The keys `required` must be present; without `required`,
+/// none.
 Json object_of(Json properties);
 Json object_of(Json properties, Json required);
 
-/// A list of at least `min_items`.
+/// Schema of a list of at least `min_items` items.
 Json list_of(Json item, std::size_t min_items);
 
 /// A number in an interval.

@@ -15,7 +15,7 @@
 namespace zerocount::study {
 namespace {
 
-/// The axis with one of its options only.
+/// A copy of the axis with only one of its options.
 PlanAxis only_option(const PlanAxis& axis, std::size_t option) {
   PlanAxis only;
   for (std::size_t i = axis.first[option]; i < axis.first[option + 1]; ++i)
@@ -24,7 +24,7 @@ PlanAxis only_option(const PlanAxis& axis, std::size_t option) {
   return only;
 }
 
-/// Leaves what the groups of a grouping have under the condition.
+/// Removes the columns of other conditions, and the suffix of this condition from the names that stay.
 void keep_condition(std::int64_t condition, std::vector<InputColumn>& columns,
                     std::vector<InputSource>& sources) {
   std::size_t kept = 0;

@@ -17,17 +17,18 @@ using SquareMatrix = std::vector<std::vector<double>>;  ///< [row][column]
 /// A Gaussian copula: the normal scores zᵢ = Φ⁻¹(uᵢ) of the values of some slots are correlated by R, and the
 /// distribution of each value stays its own (Nelsen, An Introduction to Copulas, 2nd ed., 2006, section 2.3).
 struct GaussianCopula {
-  std::vector<std::uint32_t> slots;   ///< in the order of columns
+  std::vector<std::uint32_t> slots;   ///< slots of the correlated values, in the order of R's columns
   DrawLevel level{DrawLevel::trial};  ///< how often all of them are drawn: world, machine or trial
   SquareMatrix factor;                ///< L, lower triangular, R = L·Lᵀ
 };
 
-/// L of the correlation matrix R; nothing if R is not positive definite.
+/// The Cholesky factor L of the correlation matrix R, lower triangular; empty if R is not positive definite.
 std::optional<SquareMatrix> cholesky_factor(const SquareMatrix& correlations);
 
-/// The uniform number of member `member`: Φ(Σⱼ L(member, j)·Φ⁻¹(uⱼ)). The first member keeps its own, and so
-/// does every member that no earlier one is correlated with.
-/// @param independent uⱼ in (0, 1) of member j
+/// The correlated uniform number of member i: Φ(Σⱼ L(i, j)·Φ⁻¹(uⱼ)). The first member keeps its independent
+/// number, and so does every member that is not correlated with an earlier one.
+/// @param member i, index in GaussianCopula::slots
+/// @param independent returns the independent uniform number uⱼ in (0, 1) of member j
 double copula_uniform(const GaussianCopula& copula, std::size_t member,
                       const std::function<double(std::size_t)>& independent);
 
@@ -36,7 +37,9 @@ struct SlotRandomness {
   random::RandomKey key{};
   designs::SobolDirections directions{};  ///< used by the design `sobol`
   random::RandomKey contacts{};           ///< for contacts after the first, if values are drawn per contact
-  bool no_directions{false};  ///< a Latin hypercube in place of the design `sobol`: rates of aging
+  /// The design `sobol` has no directions for this slot and uses a Latin hypercube: the case for rates of
+  /// aging.
+  bool no_directions{false};
 
   bool operator==(const SlotRandomness&) const = default;
 };
@@ -46,8 +49,8 @@ struct SlotRandomness {
 double design_uniform(Design design, const SlotRandomness& randomness, std::uint32_t stream,
                       std::uint64_t index, std::uint64_t count);
 
-/// Key of the order in which trials take the Sobol points of their machines, and machines (trials where there
-/// are no machines) those of their worlds.
+/// Key of a random order of Sobol points: for machines the order in which trials take the points, for worlds
+/// the order in which machines take them (trials, if the study has no machines).
 random::RandomKey sobol_place_key(std::uint64_t seed, Grouping grouping);
 
 /// Index of the Sobol point of trial `index` in a study with `machines` machines. The trials k·machines … (k
@@ -56,8 +59,9 @@ random::RandomKey sobol_place_key(std::uint64_t seed, Grouping grouping);
 /// 2^m equal intervals.
 std::uint64_t sobol_place(const random::RandomKey& key, std::uint64_t index, std::uint64_t machines);
 
-/// Index in the design of one of the units (machines, or trials) that are dealt to so many groups (worlds, or
-/// machines) in turns: sobol_place() in the design sobol, otherwise its own.
+/// Index in the design of a unit (a trial or a machine) when the units are dealt to groups (machines or
+/// worlds) in turns: sobol_place() for the design sobol, otherwise `unit` itself.
+/// @param groups number of groups; 0: the units are not grouped
 std::uint64_t place_in_groups(Design design, const random::RandomKey& key, std::uint64_t unit,
                               std::uint64_t groups);
 

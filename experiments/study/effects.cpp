@@ -24,7 +24,7 @@ bool has_spectra(const StudyPlan& plan) {
   return !plan.common.disturbance.spectra.empty() || !plan.common.load_side.disturbance.spectra.empty();
 }
 
-/// The errors of an encoder, "encoder.fine_errors".
+/// The effects of the errors of one encoder, such as "encoder.fine_errors".
 template <parameters::Literal of>
 constexpr std::array<Effect, 4> errors_of(RandomKey R::*noise, RandomKey R::*missed) {
   constexpr const char* errors = "no other encoder errors";

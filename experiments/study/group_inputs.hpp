@@ -10,42 +10,45 @@
 
 namespace zerocount::study {
 
-/// The inputs that all trials of a group share: [column of InputColumns::shared], in that column's unit.
+/// The inputs that all trials of one group share, indexed by the columns of InputColumns::shared, each in the
+/// unit of its column.
 /// @throws Failure (bad_input) for a group that the study does not have
 std::vector<double> group_inputs(const Study& study, Grouping grouping, std::int64_t group);
 
-/// A value that is drawn for each world.
+/// A parameter that is drawn for each world, with its values.
 struct WorldValues {
   std::string name;  ///< dotted path
   std::string unit;
-  std::vector<double> values;  ///< [world]
+  std::vector<double> values;  ///< [world] value, in `unit`
 };
 
-/// The values drawn per world at a design point, those of the sweep included; empty without worlds.
+/// The values drawn per world at a design point, including distributions that the sweep gives. Empty without
+/// worlds.
 std::vector<WorldValues> world_values(const Study& study, std::int64_t point);
 
-/// Whether a value that is drawn so often differs between machines but not between the moves of one: drawn
-/// per world or machine; without machines also per trial, unless it is of the command or the initial
-/// conditions.
+/// Whether a parameter differs between machines but not between the moves of one machine. This holds if it is
+/// drawn per world or per machine. In a study without machines it also holds if it is drawn per trial, unless
+/// it belongs to the command or to the initial conditions.
+/// @param level how often the parameter is drawn
 /// @param name dotted path
 bool differs_between_machines(const Study& study, DrawLevel level, std::string_view name);
 
-/// A drawn quantity of a machine.
+/// A drawn quantity in which machines differ: one parameter, or a row of joint samples.
 struct MachineInput {
-  std::string name;                  ///< dotted path; of joint samples the paths, joined by ", "
-  std::vector<std::uint32_t> slots;  ///< that share its random number
+  std::string name;                  ///< dotted path; for joint samples all their paths, joined by ", "
+  std::vector<std::uint32_t> slots;  ///< slots of the values that share one random number
 };
 
-/// The drawn quantities in which the machines of a point differ: those drawn per machine; without machines
-/// those drawn per trial that are not of the command or the initial conditions. Profiles are not among them.
-/// A row of joint samples is of the machine as a whole if one of its values is.
+/// The drawn quantities in which the machines of a point differ (differs_between_machines), without profiles.
+/// A row of joint samples is listed as a whole if one of its values differs between machines.
 std::vector<MachineInput> machine_inputs(const Study& study, std::int64_t point);
 
-/// The values of an input's slots at this quantile, in the units of the manifest: (dotted path, value).
+/// The values of an input's slots at this quantile: pairs of dotted path and value in the unit of the
+/// manifest.
 std::vector<std::pair<std::string, double>> values_at_quantile(const Study& study, std::int64_t point,
                                                                const MachineInput& input, double quantile);
 
-/// The quantile of each of these inputs that trial `index` has drawn.
+/// The quantile that trial `index` has drawn for each input, in (0, 1).
 std::vector<double> drawn_quantiles(const Study& study, std::int64_t point, std::int64_t index,
                                     const std::vector<MachineInput>& inputs);
 

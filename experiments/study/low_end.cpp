@@ -31,7 +31,7 @@ LowEnd low_end_of(const distributions::Distribution& distribution) {
 
 LowEnd low_end_of_slot(const StudyPlan& plan, std::size_t point, std::size_t slot);
 
-/// That of a value at age 0, as it is at the point's age: with the low end of the rate.
+/// The low end of a value at the point's age, from its low end at age 0 and the low end of its rate of aging.
 LowEnd at_age(const StudyPlan& plan, std::size_t point, const Value& value, LowEnd end) {
   if (!value.aging) return end;
   const Aging& aging = plan.agings[*value.aging];

@@ -32,7 +32,7 @@ MeasuredFault fault_of(const StudyPlan& plan, const MeasuredSlots& measured,
   return fault;
 }
 
-/// The numbers of the corner: bit i says whether number i is the high one of its ends.
+/// The numbers at a corner of the box. Bit i of `corner` selects the high end of number i.
 std::vector<double> corner_of(std::span<const std::pair<double, double>> ends, std::size_t corner) {
   std::vector<double> numbers;
   numbers.reserve(ends.size());
@@ -41,7 +41,8 @@ std::vector<double> corner_of(std::span<const std::pair<double, double>> ends, s
   return numbers;
 }
 
-/// Whether the corner differs from all before it: no known number is the high one.
+/// Whether the corner differs from all corners before it. It does not if it takes the high end of a known
+/// number, whose ends are equal.
 bool is_new(std::span<const std::pair<double, double>> ends, std::size_t corner) {
   for (std::size_t i = 0; i < ends.size(); ++i) {
     if (((corner >> i) & 1U) == 1U && ends[i].first == ends[i].second) return false;

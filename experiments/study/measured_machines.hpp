@@ -13,32 +13,34 @@
 
 namespace zerocount::study {
 
-/// Measured values that are those of no machine.
+/// A contradiction between measured values: no machine can have all of them.
 struct MeasuredFault {
-  std::vector<std::uint32_t> slots;  ///< of the values that contradict each other
-  std::string what;                  ///< "final_stiffness = 5e+05 N/m is not below breakaway/… = 4e+05 N/m"
-  std::string expected;              ///< "final_stiffness below breakaway/…"
+  std::vector<std::uint32_t> slots;  ///< slots of the values that contradict each other
+  std::string what;      ///< message, "final_stiffness = 5e+05 N/m is not below breakaway/… = 4e+05 N/m"
+  std::string expected;  ///< the violated condition, "final_stiffness below breakaway/…"
 };
 
-/// Lowest and highest number of a slot; the same for one that is known.
+/// Function that returns the lowest and the highest number of a slot; both are equal if the number is known.
 using SlotEnds = std::function<std::pair<double, double>(std::uint32_t slot)>;
 
-/// The first condition that some numbers between these ends violate. Exact, because each condition is linear
-/// in each of its numbers or in its inverse, so that a corner violates it.
+/// The first condition that some numbers between the ends violate; empty if none is violated. Only the
+/// corners of the box are tried. This is exact, because each condition is linear in each of its numbers or in
+/// the inverse of the number, so a violated condition is violated at a corner.
 std::optional<MeasuredFault> fault_within(const StudyPlan& plan, const MeasuredSlots& measured,
                                           const SlotEnds& ends);
 
-/// As fault_within, for a trial or one of its contacts: a value that is drawn at each contact may be any of
-/// its distribution, or any row of joint draws.
-/// @param ends of the other slots
+/// The first condition that the values of a trial, or of one of its contacts, violate; see fault_within(). A
+/// value that is drawn at each contact may take any value of its distribution, or any row of joint samples.
+/// @param ends ends of the slots that are not drawn at each contact
 std::optional<MeasuredFault> fault_of_machine(const StudyPlan& plan, std::size_t point,
                                               const MeasuredSlots& measured, const SlotEnds& ends);
 
-/// Numbers of slots that have numbers or distributions, as the trial has them.
+/// The numbers that a trial has in the given slots. The values of these slots must be numbers or
+/// distributions.
 std::vector<double> drawn_numbers(const Study& study, std::int64_t point, std::int64_t index,
                                   std::span<const std::uint32_t> slots, const GivenDraws& given = {});
 
-/// Whether the measured values of the trial are those of a machine.
+/// Whether a machine can have the measured values of the trial: they satisfy all conditions between them.
 bool is_machine(const Study& study, std::int64_t point, std::int64_t index, const GivenDraws& given);
 
 }  // namespace zerocount::study

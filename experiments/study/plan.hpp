@@ -33,20 +33,22 @@ struct Value {
     following  ///< computed from the values of other slots
   };
   Kind kind{Kind::number};
-  std::uint32_t index{0};                ///< into the plan's distributions, profiles or following values
-  DrawLevel level{DrawLevel::trial};     ///< how often it is drawn; for a profile study or machine
-  double number{0.0};                    ///< if kind is number
-  std::optional<std::uint32_t> aging{};  ///< into the plan's laws of aging; none: it does not change with age
+  std::uint32_t index{0};             ///< index in the plan's distributions, profiles or following values
+  DrawLevel level{DrawLevel::trial};  ///< how often the value is drawn; for a profile: study or machine
+  double number{0.0};                 ///< if kind is number
+  std::optional<std::uint32_t>
+      aging{};  ///< index in StudyPlan::agings; empty: the value does not change with age
 };
 
 inline bool is_drawn_per_contact(const Value& value) {
   return value.kind == Value::Kind::distribution && value.level == DrawLevel::contact;
 }
 
-/// A value that follows from those of other slots, which are numbers or distributions.
+/// A value that is computed from the values of other slots, which are numbers or distributions.
 struct FollowingValue {
-  std::vector<std::uint32_t> from;  ///< slots
-  /// NaN where nothing follows from these numbers; null: the same number as that of its only source.
+  std::vector<std::uint32_t> from;  ///< slots of the sources
+  /// Computes the value from the numbers of the sources; NaN if these numbers have no value. Null: the value
+  /// equals the number of its only source.
   double (*value)(std::span<const double> from){nullptr};
 };
 
@@ -62,8 +64,9 @@ struct Assignment {
   Value value;
 };
 
-/// One factor of the product of design points. Flat, because an axis may have a million options: the
-/// assignments of option o are assignments[first[o]] … assignments[first[o + 1] − 1].
+/// One factor of the product of design points: a list of options, each of which assigns values to slots. The
+/// assignments of option o are assignments[first[o]] … assignments[first[o + 1] − 1]. They are stored in one
+/// flat vector because an axis may have a million options.
 struct PlanAxis {
   std::vector<std::uint32_t> first{0};
   std::vector<Assignment> assignments;
@@ -77,13 +80,13 @@ inline std::size_t option_count(const PlanAxis& axis) {
 struct InputSource {
   std::uint32_t slot{0};
   bool profile_mean{false};
-  /// Of a machine or world: where conditions override it or ages change it, the turn (TrialTurns) of which it
-  /// is.
+  /// Index in Study::conditions of the condition whose value the column has. Set for columns of machines and
+  /// worlds whose value conditions override or ages change; otherwise empty.
   std::optional<std::int64_t> condition{};
 };
 
-/// The quantities drawn anew in each trial. Factor f below slots.size() is the value of slot slots[f]. The
-/// optional last factor is all random numbers that trials use while they run.
+/// The quantities drawn anew in each trial. Factor f < slots.size() is the value of slot slots[f]. With
+/// `within_trial` there is one more factor: all random numbers that trials use while they run.
 struct TrialFactors {
   std::vector<std::uint32_t> slots;
   bool within_trial{false};
@@ -99,11 +102,11 @@ inline std::size_t factor_count(const TrialFactors& factors) {
 /// A trial is made from it in four steps:
 ///
 ///     value(slot) = assignment of the last axis that has the slot at this point, otherwise base[slot]
-///     number(slot) = its number, the quantile of its distribution at the slot's uniform number, or what
-///     follows; times factor_at_age() if the value changes with age
-///     parameters = common, with number(slot) set for the slots in input_slots and those that axes assign
+///     number(slot) = its number, the quantile of its distribution at the slot's uniform number, or the
+///     number computed from other slots; times factor_at_age() if the value changes with age parameters =
+///     common, with number(slot) set for the slots in input_slots and those that axes assign
 ///
-/// study_trial() (study.hpp) does this, point_limits.hpp has the limits of a slot over all trials.
+/// study_trial() (study_trial.hpp) does this; point_limits.hpp has the range of a slot over all trials.
 struct StudyPlan {
   parameters::StudyUnits units;
   /// Period of profiles: a revolution, rad; on a linear axis the travel, m, if it is given.
@@ -111,44 +114,46 @@ struct StudyPlan {
   StudyTable table;
   RowGroup list;  ///< the list that defines the moves: targets, torque levels, or the targets of a sequence
   std::shared_ptr<const plugin::ControllerPlugin> plugin;  ///< the user's controller; null: none
-  bool open_loop{false};                                   ///< the list is one of torque levels
+  bool open_loop{false};                                   ///< the list holds torque levels
   std::optional<SequenceCycle> sequence;                   ///< set if the list belongs to a sequence
-  std::vector<Value> base;                                 ///< [slot], used unless an axis assigns a value
+  std::vector<Value> base;                                 ///< [slot] value, used unless an axis assigns one
   std::vector<bool> given;     ///< [slot] whether the manifest, an axis or a table of samples has its value
   std::vector<PlanAxis> axes;  ///< the last axis changes fastest, and takes precedence over the others
-  /// Number of conditions that every machine bears, each at every age (Study::conditions); 0: none. Where
-  /// there are any, an axis has their overrides: the last one of the manifest.
+  /// Number of entries of Study::conditions: every condition at every age. 0: the study has neither
+  /// conditions nor ages.
   std::int64_t conditions{0};
-  std::size_t condition_axis{0};
-  std::vector<double> ages;   ///< rising; empty: nothing changes with age
-  std::vector<Aging> agings;  ///< of the values that change with age
+  std::size_t condition_axis{0};  ///< index in `axes` of the axis with the overrides of the conditions
+  std::vector<double> ages;       ///< ages, rising; empty: nothing changes with age
+  std::vector<Aging> agings;      ///< laws of aging; Value::aging is an index in this list
   std::vector<distributions::Distribution> distributions;
   std::vector<std::shared_ptr<const Rotors>> profiles;
   std::vector<FollowingValue> following;
-  std::vector<MeasuredSlots> measured;         ///< of the groups that the study gives
-  std::optional<GaussianCopula> copula;        ///< of correlated values
-  std::vector<std::uint32_t> sampled_slots;    ///< slots whose values share one random number: `samples`
-  std::vector<SlotRandomness> randomness;      ///< [slot]
-  ByGrouping<random::RandomKey> sobol_places;  ///< of machines and worlds, used by the design `sobol`
-  std::vector<std::uint32_t> input_slots;      ///< slots whose values differ between trials
-  std::vector<InputSource> inputs;             ///< [input column]
+  std::vector<MeasuredSlots> measured;       ///< groups of measured parameters that the study gives
+  std::optional<GaussianCopula> copula;      ///< copula of the correlated values; empty if none are
+  std::vector<std::uint32_t> sampled_slots;  ///< slots whose values share one random number: `samples`
+  std::vector<SlotRandomness> randomness;    ///< [slot] its random numbers
+  ByGrouping<random::RandomKey>
+      sobol_places;  ///< sobol_place_key() for machines and worlds; for the design `sobol`
+  std::vector<std::uint32_t> input_slots;              ///< slots whose values differ between trials
+  std::vector<InputSource> inputs;                     ///< [input column] source
   ByGrouping<std::vector<InputSource>> shared_inputs;  ///< [column of InputColumns::shared]
-  TrialFactors factors;                                ///< used by the design `saltelli`
-  std::vector<std::uint32_t> factor_of;                ///< [slot] its factor; used by the design `saltelli`
-  trial::TrialParameters common;                       ///< parameters of a trial, without the input slots
-  std::vector<double> numbers;  ///< [slot] numbers of the base; undefined for input slots
+  TrialFactors factors;                                ///< factors of the design `saltelli`
+  std::vector<std::uint32_t> factor_of;  ///< [slot] index of its factor; for the design `saltelli`
+  trial::TrialParameters common;         ///< parameters of a trial, without the input slots
+  std::vector<double> numbers;           ///< [slot] numbers of `base`; undefined for input slots
 
   bool has_conditions() const { return conditions > 0; }
 };
 
-/// The point of the plan that is this design point under this condition.
+/// The point of the plan for a design point and a condition (an index in Study::conditions).
 inline std::size_t plan_point(const StudyPlan& plan, std::int64_t point, std::int64_t condition = 0) {
   return static_cast<std::size_t>(point * std::max<std::int64_t>(plan.conditions, 1) + condition);
 }
-/// The design point of a point of the plan, and its condition.
+/// The design point of a point of the plan.
 inline std::int64_t design_point(const StudyPlan& plan, std::size_t point) {
   return static_cast<std::int64_t>(point) / std::max<std::int64_t>(plan.conditions, 1);
 }
+/// The condition of a point of the plan, an index in Study::conditions; 0 without conditions.
 inline std::int64_t condition_at(const StudyPlan& plan, std::size_t point) {
   return static_cast<std::int64_t>(point) % std::max<std::int64_t>(plan.conditions, 1);
 }
@@ -160,10 +165,11 @@ inline double age_at(const StudyPlan& plan, std::size_t point) {
   return plan.ages[static_cast<std::size_t>(condition_at(plan, point) / of_age)];
 }
 
-/// Whether the value of the slot, or one that it follows, changes with age at some point of the plan.
+/// Whether the value of the slot, or a value from which it is computed, changes with age at some point of the
+/// plan.
 bool changes_with_age(const StudyPlan& plan, std::size_t slot);
 
-/// The option of `axis` at the point of the plan.
+/// The index of the option that `axis` has at the point of the plan.
 std::size_t option_at(const StudyPlan& plan, std::size_t axis, std::size_t point);
 
 /// The value of one slot at a point of the plan.
@@ -172,7 +178,8 @@ const Value* value_at_point(const StudyPlan& plan, std::size_t slot, std::size_t
 /// The values of all slots at a point of the plan.
 std::vector<const Value*> values_at(const StudyPlan& plan, std::size_t point);
 
-/// A following value, from the numbers of its sources. @param number of a slot
+/// The number of a following value.
+/// @param number function that returns the number of a slot
 template <class NumberOf>
 double following_value(const FollowingValue& following, NumberOf number) {
   std::vector<double> from;
@@ -180,7 +187,8 @@ double following_value(const FollowingValue& following, NumberOf number) {
   return following.value == nullptr ? from.front() : following.value(from);
 }
 
-/// The features of a study whose other members are set, from the limits of the parameters in its plan.
+/// Finds the features of a study from the ranges of the parameters in its plan. All other members of the
+/// study must be set.
 StudyFeatures find_features(const StudyPlan& plan, const Study& study);
 
 }  // namespace zerocount::study

@@ -14,30 +14,32 @@
 
 namespace zerocount::study {
 
-/// The dotted paths of drawn values that were widened, and of those that would leave their ranges.
+/// Result of PointEdit::widen().
 struct Widened {
-  std::vector<std::string> changed;
-  std::vector<std::string> kept;
+  std::vector<std::string> changed;  ///< dotted paths of the drawn values that were widened
+  std::vector<std::string> kept;     ///< dotted paths of the drawn values that would have left their ranges
 };
 
-/// The scaling of a value. Where it is a number or drawn from a list, some of its values can be exempt.
+/// The scaling of a value by a factor. If the value is a number or drawn from a list, one number can be
+/// exempt.
 struct Scaling {
-  double factor{1.0};           ///< above 0
-  std::optional<double> off{};  ///< the value that stays, beside "none"
-  /// Least value afterwards; of values drawn from a range it is not enforced.
+  double factor{1.0};           ///< factor, above 0
+  std::optional<double> off{};  ///< number that is not scaled, in addition to "none"
+  /// Minimum after scaling. Not enforced for values drawn from a continuous distribution.
   double least{-std::numeric_limits<double>::infinity()};
 
   double operator()(double value) const { return value == off ? value : std::max(least, factor * value); }
 };
 
-/// A study with other values at one of its design points, in the units of its manifest. All other values and
-/// all random numbers stay: a scaled value is drawn as before. With conditions a value that is set is that
-/// under each of them; values are scaled and added to under one condition alone (under_condition()).
+/// Makes a study with other values at one of its design points, in the units of its manifest. All other
+/// values and all random numbers stay: a scaled value is drawn with the same random number. In a study with
+/// conditions, set() sets the value under every condition. scale(), widen() and add() are for a study of one
+/// condition (under_condition()).
 class PointEdit {
  public:
   PointEdit(const Study& study, std::int64_t point);
 
-  /// The points of the plan: the design point under each condition.
+  /// The points of the plan for the design point, one per condition.
   std::vector<std::size_t> points() const;
   const StudyPlan& plan() const { return plan_; }
   StudyPlan& plan() { return plan_; }
@@ -46,23 +48,23 @@ class PointEdit {
 
   void set(std::size_t slot, double number);
   void set(std::string_view parameter, double number);
-  /// The value "none" stays, and a required one that the study does not have.
+  /// Scales a value. The value "none" stays, and so does a required value that the study does not have (NaN).
   void scale(std::size_t slot, const Scaling& scaling);
   void scale(std::string_view parameter, const Scaling& scaling);
   void scale(std::size_t slot, double factor) { scale(slot, Scaling{factor}); }
   void scale(std::string_view parameter, double factor) { scale(parameter, Scaling{factor}); }
-  /// Lets all that is drawn of the axis and its surroundings lie `factor` times as far from its centre
-  /// (distributions::widened), but for the starts and the commands of moves. What would leave its range, and
-  /// whole numbers, choices and rows of samples, stay as they are.
+  /// Widens the distributions of all drawn values, except starts and commands of moves: each value then lies
+  /// `factor` times as far from its centre (distributions::widened). Values that would leave their ranges,
+  /// whole numbers, choices and rows of samples stay as they are.
   Widened widen(double factor);
-  /// For a slot of whole numbers.
+  /// Adds a whole number to a parameter that takes whole numbers.
   void add(std::string_view parameter, std::int64_t number);
 
-  /// The first new value outside the range of its parameter, "path: what; expected …"; empty if there is
-  /// none.
+  /// Message about the first new value outside the range of its parameter, "path: what; expected …"; empty if
+  /// all are inside.
   std::string out_of_range() const;
 
-  /// Its trials at the point are those with the new values. Later edits do not change it.
+  /// The study whose trials at the point have the new values. Later edits do not change it.
   Study study() const;
 
  private:

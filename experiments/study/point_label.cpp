@@ -48,7 +48,7 @@ std::optional<std::int64_t> point_with_number(std::string_view text, std::span<c
   return number && *number >= 0 && *number < std::ssize(labels) ? number : std::nullopt;
 }
 
-/// "3 (kp=400 ki=8e4)": number and label must be of one point.
+/// Reads "3 (kp=400 ki=8e4)": number and label must belong to the same point.
 std::optional<std::int64_t> point_with_both(std::string_view text, std::span<const std::string> labels) {
   const std::size_t bracket = text.find(" (");
   if (bracket == std::string_view::npos || !text.ends_with(')')) return std::nullopt;

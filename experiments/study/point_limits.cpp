@@ -22,12 +22,12 @@ bool can_be_zero(const distributions::Distribution& distribution) {
   return numerics::contains(distributions::support(distribution), 0.0);
 }
 
-/// Adds a value that can follow, unless nothing follows.
+/// Appends a number, unless it is NaN.
 void add_number(double number, std::vector<double>& numbers) {
   if (!std::isnan(number)) numbers.push_back(number);
 }
 
-/// What follows at the corners of the box of the sources.
+/// The numbers of a following value at the corners of the box of its sources, without NaN.
 std::vector<double> numbers_at_corners(const StudyPlan& plan, const FollowingValue& following,
                                        std::size_t point) {
   std::vector<double> numbers;
@@ -45,8 +45,8 @@ std::vector<double> numbers_at_corners(const StudyPlan& plan, const FollowingVal
   return numbers;
 }
 
-/// What follows at evenly spread quantiles of the sources (a Kronecker sequence), the first of which are the
-/// medians.
+/// The numbers of a following value at evenly spread quantiles of its sources (a Kronecker sequence), without
+/// NaN. The first quantiles are the medians.
 std::vector<double> numbers_inside(const StudyPlan& plan, const FollowingValue& following,
                                    std::size_t point) {
   constexpr std::array<double, 5> primes{2.0, 3.0, 5.0, 7.0, 11.0};
@@ -73,8 +73,8 @@ std::vector<double> numbers_inside(const StudyPlan& plan, const FollowingValue& 
   return numbers;
 }
 
-/// At the corners of the box of its sources; where nothing follows from some of them, at places inside it as
-/// well.
+/// The range of a following value, from the corners of the box of its sources. If some corner has no value
+/// (NaN), points inside the box are used as well.
 ValueLimits limits_of_following(const StudyPlan& plan, const FollowingValue& following, std::size_t point) {
   if (following.value == nullptr) return limits_of_slot(plan, following.from.front(), point);
   std::vector<double> numbers = numbers_at_corners(plan, following, point);
@@ -104,7 +104,7 @@ bool assigns_any(const PlanAxis& axis, const std::vector<bool>& wanted) {
                      [&](const Assignment& assignment) { return wanted[assignment.slot]; });
 }
 
-/// The lowest and the highest number that are drawn, at age 0.
+/// The lowest and the highest number that can be drawn, at age 0.
 std::pair<double, double> drawn_extremes(const StudyPlan& plan, const Value& value) {
   if (value.kind == Value::Kind::number) return {value.number, value.number};
   const distributions::Distribution& distribution = plan.distributions[value.index];

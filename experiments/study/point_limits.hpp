@@ -16,23 +16,23 @@ namespace zerocount::study {
 /// The lowest value of a parameter that a design must cover at a design point under a condition.
 struct LowEnd {
   enum class Kind : std::uint8_t {
-    number,   ///< the parameter is one number
-    support,  ///< low end of its distribution
+    number,   ///< the number itself: the parameter is not drawn
+    support,  ///< low end of the distribution's support
     tail,     ///< 0.1 % quantile of a normal, truncated normal or lognormal distribution
-    profile  ///< the parameter varies along the rotor: use the minimum of the trial's profile; `value` is not
-             ///< set
+    profile   ///< the parameter varies along the rotor; use the minimum of the trial's profile, not `value`
   };
   Kind kind{Kind::number};
-  double value{0.0};  ///< in the parameter's unit
+  double value{0.0};  ///< low end, in the parameter's unit
 };
 
-/// @param parameter name of a positive physical value, such as friction.k1.
+/// The low end of a parameter at a design point under a condition.
+/// @param parameter dotted path of a positive physical value, such as friction.k1
 LowEnd low_end(const Study& study, std::int64_t point, std::string_view parameter,
                std::int64_t condition = 0);
 
-/// Range of a value over all trials of a design point: the support of its distribution, the limits of its
-/// profile, what can follow from the draws of its sources, or the number itself. NaN for a value that could
-/// not be read.
+/// Range of a value over all trials of a design point: the support of its distribution, the range of its
+/// profile, the range of a value computed from drawn sources, or the number itself. NaN if the value could
+/// not be read or cannot be computed from its sources.
 struct ValueLimits {
   double low{0.0};
   double high{0.0};
@@ -40,41 +40,46 @@ struct ValueLimits {
   double typical{0.0};  ///< the number, the median of the distribution, or the mean of the profile
 };
 
-/// The lowest and the highest number of the slot at a point of the plan, at its age, which unlike the ends of
-/// a support are finite. For a number or a distribution.
+/// The lowest and the highest number that can be drawn for the slot at a point of the plan, at the point's
+/// age. Both are finite, unlike the ends of a support. The value of the slot must be a number or a
+/// distribution.
 std::pair<double, double> extremes_of(const StudyPlan& plan, std::size_t slot, std::size_t point);
 
-/// The limits of a value that does not follow from others, at age 0.
+/// The range of a value at age 0. The value must not be computed from other slots.
 ValueLimits limits_of(const StudyPlan& plan, const Value& value);
 
-/// The limits of factor_at_age() for the value of a slot at a point of the plan; {1, 1, false, 1} if it does
-/// not change with age.
+/// The range of factor_at_age() for the value of a slot at a point of the plan; {1, 1, false, 1} if the value
+/// does not change with age.
 ValueLimits age_factors(const StudyPlan& plan, std::size_t slot, std::size_t point);
 
-/// The limits of the slot at a point of the plan, at its age.
+/// The range of the value of a slot at a point of the plan, at the point's age.
 ValueLimits limits_of_slot(const StudyPlan& plan, std::size_t slot, std::size_t point);
 
-/// Whether the control has a coarse phase in some trial, from the limits of controller.coarse.coarse_beyond.
+/// Whether the control has a coarse phase in some trial, from the range of controller.coarse.coarse_beyond.
 bool can_have_coarse_phase(const ValueLimits& coarse_beyond);
 
-/// The parameters by which a point has an encoder on each mass, and which of them closes the (position) loop.
+/// The parameters that decide whether a point has an encoder on each mass, and which encoder closes the
+/// (position) loop.
 inline constexpr std::array<std::string_view, 5> two_encoders{
     "encoder.load.counts_per_revolution", "encoder.load.resolution", "controller.cascade.position",
     "plant.load.encoder", "controller.structure"};
 
-/// @param limits of two_encoders.
+/// Whether each mass has an encoder.
+/// @param limits ranges of the parameters `two_encoders`, in their order
 bool has_two_encoders(std::span<const ValueLimits> limits);
+/// Whether the load's encoder closes the (position) loop.
+/// @param limits ranges of the parameters `two_encoders`, in their order
 bool closes_at_load(std::span<const ValueLimits> limits);
-/// Whether some trial has two masses, and some point a loop that is closed by the encoder of this one.
+/// Whether some trial has two masses, and at some point the encoder of `mass` closes the loop.
 bool closes_somewhere(const StudyPlan& plan, motion::EncoderPlace mass);
 
 /// Whether the axis has a coarse encoder beside the fine one: the manifest names it, or the control reads it.
 bool has_coarse_encoder(const StudyPlan& plan);
 
-/// The slots of these parameters, by their dotted paths.
+/// The slots of the parameters with these dotted paths; for a list, the first slot.
 std::vector<std::size_t> slots_named(const StudyTable& table, std::span<const std::string_view> names);
 
-/// The slots of the group.
+/// The slots of a group of rows.
 std::vector<std::size_t> slots_of(const RowGroup& group);
 
 /// Calls `visit` for one design point of each combination of values of `slots`, until it returns false.
@@ -82,20 +87,21 @@ std::vector<std::size_t> slots_of(const RowGroup& group);
 void visit_points(const StudyPlan& plan, std::span<const std::size_t> slots,
                   const std::function<bool(std::size_t point)>& visit);
 
-/// The values of a slot: one of each design point at which it can differ.
+/// The values of a slot: one for each combination of options on which it depends.
 std::vector<const Value*> values_of(const StudyPlan& plan, std::size_t slot);
 
-/// The limits of the parameters at a design point, in the order of `slots`.
+/// The ranges of the values at a point of the plan, in the order of `slots`.
 std::vector<ValueLimits> limits_at(const StudyPlan& plan, std::span<const std::size_t> slots,
                                    std::size_t point);
 
-/// Whether all values could be read.
+/// Whether all values could be read: no range is NaN.
 bool are_readable(std::span<const ValueLimits> limits);
 
-/// Whether `holds` for the limits of these parameters, in their order, at some design point.
+/// Whether the predicate `holds` is true at some design point. Its argument is the ranges of the parameters
+/// `names`, in their order.
 bool holds_somewhere(const StudyPlan& plan, std::span<const std::string_view> names,
                      const std::function<bool(std::span<const ValueLimits>)>& holds);
-/// Whether `holds` for the limits of one parameter at some design point.
+/// Whether the predicate `holds` is true for the range of one parameter at some design point.
 bool holds_somewhere(const StudyPlan& plan, std::string_view name,
                      const std::function<bool(const ValueLimits&)>& holds);
 

@@ -15,36 +15,36 @@
 
 namespace zerocount::study {
 
-/// Distribution of the mean of a profile, drawn once for every rotor.
+/// Distribution of the mean of a profile. The mean is drawn once for every rotor.
 struct DrawnMean {
   distributions::Distribution distribution;
   Design design{Design::monte_carlo};
   SlotRandomness randomness;
-  std::uint64_t worlds{0};     ///< that the rotors are dealt to
-  random::RandomKey places{};  ///< of their order, in the design sobol
+  std::uint64_t worlds{0};     ///< number of worlds among which the rotors are divided; 0: no worlds
+  random::RandomKey places{};  ///< key of the order of the rotors' Sobol points; for the design sobol
 
   bool operator==(const DrawnMean&) const = default;
 };
 
 /// The profiles of one friction parameter: a single rotor, or one rotor per machine. A profile is a function
-/// of the seed, the parameter's name and the rotor's number. Profiles are created on demand and cached up to
-/// `max_kept_bytes`, so that thousands of machines need no setup time. Thread-safe.
+/// of the seed, the name of the parameter and the index of the rotor. Profiles are created on demand and
+/// cached up to `max_kept_bytes`, so that thousands of machines need no setup time. Thread-safe.
 class Rotors {
  public:
   /// @param count number of rotors @param name dotted path of the parameter
   Rotors(distributions::ProfileDescription description, std::optional<DrawnMean> mean, std::uint64_t seed,
          std::string_view name, std::int64_t count);
 
-  /// Rotors with the same random numbers, whose random field, and mean if it is drawn, deviate `factor` times
-  /// as much from their centres (distributions::widened).
+  /// Copy with the same random numbers and a wider spread: the random field, and the mean if it is drawn,
+  /// deviate `factor` times as much from their centres (distributions::widened).
   std::shared_ptr<const Rotors> widened(double factor) const;
 
-  /// Whether all profiles are equal.
+  /// Whether all profiles of both are equal.
   bool is_same(const Rotors& other) const;
 
   std::int64_t count() const { return count_; }
   std::size_t harmonics() const { return amplitudes_.size(); }
-  /// Nothing if the mean is fixed.
+  /// Distribution of the mean; empty if the mean is fixed.
   const std::optional<DrawnMean>& drawn_mean() const { return mean_; }
 
   /// Mean of the random field of this rotor, in the parameter's unit.
@@ -54,16 +54,18 @@ class Rotors {
   /// The mean at this quantile of its distribution; the fixed mean if it is not drawn.
   double mean_at(double quantile) const;
 
-  /// The profile of a rotor of which some random numbers are given: the quantile of its mean, and the value
-  /// of its field g at a position. The field is that of the rotor, conditional on this value: Δ = field −
-  /// g(position) is added with the correlation ρ of the field, g(θ) + Δ·ρ(θ − position).
+  /// The profile of a rotor for which the quantile of the mean, the value of the field g at one position, or
+  /// both are given. The field of the rotor is conditioned on this value: with Δ = field − g(position) and
+  /// the correlation function ρ of the field, it becomes g(θ) + Δ·ρ(θ − position).
   friction::Profile rotor_with(std::int64_t rotor, std::optional<double> mean_quantile,
                                std::optional<double> field, double position) const;
 
-  /// Bounds for all random numbers, computed without creating a profile.
+  /// Interval that contains all values of all possible rotors, computed without creating the rotors'
+  /// profiles.
   numerics::Interval bounds() const;
 
-  /// Bounds of the actual rotors: limits(Profile) over all of them.
+  /// Interval that contains all values of the actual rotors: hull of distributions::limits() of their
+  /// profiles.
   numerics::Interval all_limits() const;
 
  private:

@@ -9,18 +9,18 @@
 
 namespace zerocount::study {
 
-/// The engine that runs the trials. Their results agree to the tolerances in core/batch/README.md, not
-/// bitwise.
+/// The engine that runs the trials. The results of the engines agree to the tolerances in
+/// core/batch/README.md, not bitwise.
 enum class Engine {
   batch,     ///< many trials at a time in SIMD lanes
-  reference  ///< one after the other
+  reference  ///< one trial after the other
 };
 
 /// Sequential stopping (`stop`): after each block of trials the study ends if the bounds of the success rate
 /// are narrow enough at every point. The bounds are a confidence sequence, which allows repeated tests.
 struct StoppingRule {
   double success_rate_halfwidth{0.1};  ///< half-width of the bounds (see analysis/statistics/mean_bounds.hpp)
-  double confidence{0.95};             ///< of the bounds of one point
+  double confidence{0.95};             ///< confidence level of the bounds of one point
   std::int64_t block{1};               ///< trials per point between two tests
   std::int64_t min_trials{1};          ///< trials per point before the study may end
   std::int64_t max_trials{1};          ///< trials per point at which the study ends in any case
@@ -28,9 +28,9 @@ struct StoppingRule {
 
 /// The trials that a results file keeps beside the statistics.
 enum class Retention {
-  trials,     ///< all
-  failures,   ///< those that did not succeed in all their moves
-  statistics  ///< none
+  trials,     ///< all trials
+  failures,   ///< trials that did not succeed in all their moves
+  statistics  ///< no trials
 };
 
 enum class Design { monte_carlo, latin_hypercube, sobol, saltelli };
@@ -50,19 +50,19 @@ struct Correlation {
   double coefficient{0.0};  ///< −1 < ρ < 1
 };
 
-/// E.g. "friction.k1 and friction.k2 (0.6), friction.k1 and friction.beta (-0.5)".
+/// Text of the correlations, "friction.k1 and friction.k2 (0.6), friction.k1 and friction.beta (-0.5)".
 std::string correlations_text(const std::vector<Correlation>& correlations);
 
 /// Joint draws of several parameters (`samples`). A row is drawn as a whole, with equal probability.
 struct JointSamples {
-  std::string file;                     ///< as the manifest names it
-  std::string text;                     ///< of the table
-  std::vector<std::string> parameters;  ///< [column] dotted path
+  std::string file;                     ///< name of the file as the manifest gives it
+  std::string text;                     ///< contents of the file, the table of draws
+  std::vector<std::string> parameters;  ///< [column] dotted path of the parameter
   std::int64_t rows{0};
   DrawLevel level{DrawLevel::trial};  ///< how often a row is drawn
 };
 
-/// E.g. "friction.k1, friction.k2: a row of posterior.csv (1000 draws) for each machine".
+/// Text of the joint draws, "friction.k1, friction.k2: a row of posterior.csv (1000 draws) for each machine".
 std::string samples_text(const JointSamples& samples);
 
 }  // namespace zerocount::study

@@ -8,9 +8,9 @@ namespace zerocount::study {
 
 /// One move of a sequence (`command.sequence`).
 struct SequenceMove {
-  std::int64_t target{-1};  ///< index in the list; −1: beyond the first or last target
-  int direction{1};         ///< of the approach: 1 from below, −1 from above
-  std::int64_t cycle{0};    ///< from 0
+  std::int64_t target{-1};  ///< index in the list of targets; −1: beyond the first or last target
+  int direction{1};         ///< direction of the approach: 1 from below, −1 from above
+  std::int64_t cycle{0};    ///< index of the cycle, from 0
 };
 
 /// Approach direction of a sequence.
@@ -26,7 +26,7 @@ enum class SequenceApproach {
 /// Pm, …, P1; a positive one to P1 − d, P1, …, Pm; a negative one to Pm + d, Pm, …, P1. So all targets of one
 /// run, including the first, are approached from the same side.
 struct SequenceCycle {
-  std::int64_t cycles{5};  ///< as in the standard
+  std::int64_t cycles{5};  ///< number of repetitions; 5 as in the standard
   SequenceApproach approach{SequenceApproach::bidirectional};
 };
 

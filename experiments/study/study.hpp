@@ -24,15 +24,15 @@ namespace zerocount::study {
 
 /// A manifest as it was given.
 struct ManifestSource {
-  std::string text;                    ///< exact bytes
-  std::string sha256;                  ///< of the text, lower-case hexadecimal
+  std::string text;                    ///< exact bytes of the manifest
+  std::string sha256;                  ///< SHA-256 of the text, lower-case hexadecimal
   std::vector<std::string> overrides;  ///< "key=value", as given with --set, in order
 };
 
 /// Trials counted on a real machine.
 struct ObservedCounts {
-  std::int64_t successes{0};  ///< trials all of whose moves ended at zero error
-  std::int64_t of{1};         ///< trials, all on one machine
+  std::int64_t successes{0};  ///< number of trials all of whose moves ended at zero error
+  std::int64_t of{1};         ///< total number of trials, all on one machine
 };
 
 struct StudyPlan;  // see plan.hpp
@@ -44,31 +44,32 @@ struct Study {
   std::string name;
   std::string description;
   std::vector<std::string> warnings;  ///< possibly unintended input, one line each
-  std::vector<Premise> premises{};    ///< which effects the trials have, and which they leave out
+  std::vector<Premise> premises{};    ///< effects of a real axis, considered or left out
 
   // The trials to run, and the question to answer.
   parameters::StudyUnits units;
-  double period{
-      2.0 * std::numbers::pi};  ///< period of profiles along the axis: a revolution, rad; or the travel, m
+  /// Period of profiles along the axis: a revolution, rad; or the travel, m.
+  double period{2.0 * std::numbers::pi};
   std::uint64_t seed{0};
-  std::int64_t trials{0};    ///< per design point; the maximum with `stop`
+  std::int64_t trials{0};    ///< number of trials per design point; the maximum with `stop`
   std::int64_t machines{0};  ///< number of machines; 0: no trials share a machine
   std::int64_t worlds{0};    ///< number of worlds, which divides `machines`; 0: nothing is drawn for each
-  /// What every machine bears in turn, by names; empty: one condition. With ages each condition at each age,
-  /// "loaded, 100000 cycles", those of an age together.
+  /// Labels of the conditions under which every machine is simulated in turn; empty: a single condition. With
+  /// ages there is one label for each pair of condition and age, "loaded, 100000 cycles", sorted by age.
   std::vector<std::string> conditions{};
-  std::vector<std::string> condition_names{};  ///< of the manifest; empty: it has no conditions
+  std::vector<std::string> condition_names{};  ///< conditions of the manifest, without ages; empty: none
   Ages ages{};
   Design design{Design::monte_carlo};
   bool independent_points{false};
-  std::vector<Correlation> correlations;  ///< of drawn parameters; all others are independent
-  std::optional<JointSamples> samples;    ///< joint draws of several parameters
-  std::optional<StoppingRule> stop;       ///< set for sequential stopping
-  std::vector<Goal> goals{};              ///< all of which must be met; empty: the study has none
+  std::vector<Correlation>
+      correlations;  ///< correlations of drawn parameters; pairs not listed are independent
+  std::optional<JointSamples> samples;  ///< joint draws of several parameters
+  std::optional<StoppingRule> stop;     ///< set for sequential stopping
+  std::vector<Goal> goals{};            ///< goals, all of which must be met; empty: the study has none
   std::optional<Tuning> tuning{};
-  std::map<std::string, std::string>
-      observed;  ///< point label → observation on the real machine (the text of a case for all its points)
-  std::map<std::string, ObservedCounts> observed_counts;  ///< point label → its counts, where it has any
+  /// Point label → observation on the real machine. The text of a case is repeated for all its points.
+  std::map<std::string, std::string> observed;
+  std::map<std::string, ObservedCounts> observed_counts;  ///< point label → observed counts, if given
   std::vector<std::int64_t> retained_trials;  ///< trial indices whose traces are kept, at every point
   Retention retention{Retention::trials};
   /// The user's controller, which runs the trials if it is loaded; null: there is none.
@@ -82,16 +83,16 @@ struct Study {
   InputColumns columns;
   std::vector<std::string> factors;  ///< factors of the design saltelli, in its order; otherwise empty
   std::vector<RealisedProfile> profiles;
-  std::int64_t moves{1};               ///< per trial
-  std::vector<SequenceMove> sequence;  ///< [move]; empty without a sequence
+  std::int64_t moves{1};               ///< number of moves per trial
+  std::vector<SequenceMove> sequence;  ///< [move of the sequence]; empty without a sequence
   bool open_loop{false};               ///< the moves are torque levels, without targets
   StudyFeatures features;
-  /// From which study_trial() makes the parameters of a trial. A plan does not change once a study has it:
-  /// what is made of it may be kept as long as the pointer stays.
+  /// Compiled values from which study_trial() makes the parameters of a trial. The plan of a study never
+  /// changes, so anything derived from it stays valid as long as the pointer is the same.
   std::shared_ptr<const StudyPlan> plan;
 };
 
-/// The goal, the first of several; null where the study has none.
+/// The first goal of the study; null if it has none.
 inline const Goal* first_goal(const Study& study) {
   return study.goals.empty() ? nullptr : &study.goals.front();
 }
@@ -111,17 +112,18 @@ inline std::int64_t trial_count(const Study& study) {
 inline std::int64_t condition_count(const Study& study) {
   return std::max<std::int64_t>(std::ssize(study.conditions), 1);
 }
-/// Number of conditions at one age: 1 without conditions.
+/// Number of conditions at each age; 1 without conditions.
 inline std::int64_t conditions_of_age(const Study& study) {
   return std::max<std::int64_t>(std::ssize(study.condition_names), 1);
 }
 
-/// " under condition loaded"; empty without conditions.
+/// Text that names a condition, " under condition loaded", or with ages " at loaded, 100000 cycles"; empty
+/// without conditions and ages.
 std::string condition_text(const Study& study, std::int64_t condition);
 /// The noun for an entry of Study::conditions: "condition", "age", "condition and age".
 std::string_view turn_word(const Study& study);
 
-/// Number of groups; 0 where the study does not have the grouping.
+/// Number of groups; 0 if the study does not have the grouping.
 std::int64_t group_count(const Study& study, Grouping grouping);
 
 TrialTurns turns_of(const Study& study);
@@ -131,13 +133,13 @@ inline std::int64_t group_of(const Study& study, Grouping grouping, std::int64_t
   return turns_of(study).group_of(grouping, trial_index);
 }
 
-/// Number of different draws of the trials of a point: its trials under one condition.
+/// Number of draws per point: its number of trials under one condition.
 inline std::int64_t draw_count(const Study& study) {
   return study.trials / condition_count(study);
 }
 
-/// Number of different draws at this level by the trials of a point under one condition; of contacts, the
-/// first ones.
+/// Number of draws at this level by the trials of a point under one condition. For contacts, only the first
+/// contact of each trial is counted.
 std::int64_t draw_count(const Study& study, DrawLevel level);
 
 }  // namespace zerocount::study

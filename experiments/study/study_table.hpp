@@ -14,11 +14,11 @@
 
 namespace zerocount::study {
 
-/// Consecutive rows that only one study has, such as those of the values of a list.
+/// Consecutive rows that a study adds to the table of parameters, such as the values of a list.
 struct RowGroup {
   std::size_t row{0};    ///< the group follows this row in columns and listings
-  std::size_t first{0};  ///< row of the study's table
-  std::size_t count{0};
+  std::size_t first{0};  ///< index of the first row in the study's table
+  std::size_t count{0};  ///< number of rows
 };
 
 /// The parameters of one study: the rows of the table of parameters, followed by the rows that depend on its
@@ -28,14 +28,16 @@ struct StudyTable {
   std::vector<parameters::Parameter> rows{parameters::parameter_table().begin(),
                                           parameters::parameter_table().end()};
   std::vector<RowGroup> groups{};
-  /// Of the rows of the groups, which refer to them. Copies of a table share them.
+  /// Strings to which the rows of the groups refer. Copies of a table share them.
   std::shared_ptr<std::deque<std::string>> names{std::make_shared<std::deque<std::string>>()};
 };
 
-/// Lets the positions of the command be in rad (command.units: si). To be called before rows are added.
+/// Changes the unit of positions in the command to that of command.units: si. Must be called before rows are
+/// added.
 void use_si_positions(StudyTable& table);
 
-/// Adds the rows of a list's values. @param row of the list
+/// Adds one row for each value of a list.
+/// @param row row of the list
 RowGroup add_list(StudyTable& table, std::size_t row, std::size_t count);
 
 /// Adds the rows of element `index` of a list, one for each key of its form.
@@ -46,29 +48,32 @@ RowGroup add_element(StudyTable& table, const parameters::ElementList& list, std
 /// Adds the rows of the parameters of the user's controller, which must outlive the table.
 RowGroup add_plugin(StudyTable& table, const plugin::PluginDescription& plugin);
 
-/// Ends the name of the rate at which a value changes with age: "friction.k1.aging".
+/// Suffix of the name of the rate at which a value changes with age: "friction.k1.aging".
 inline constexpr std::string_view suffix_of_rate = ".aging";
 
-/// The row of the rate at which the value of a row changes with age, "friction.k1.aging", which is added if
-/// there is none yet.
+/// The row of the rate at which the value of `row` changes with age, "friction.k1.aging". The row is added if
+/// it does not exist yet.
 std::size_t rate_row(StudyTable& table, std::size_t row);
 
-/// The values of a list that the study has. @param row of the list
+/// The rows with the values of a list; empty if the study does not have the list.
+/// @param row row of the list
 std::optional<RowGroup> find_list(const StudyTable& table, std::size_t row);
 
-/// All slots in use, in the order of columns: that of the table of parameters, with the values of a list at
-/// the position of its row, and those of elements at the position of their first key.
+/// All slots in use, in the order of columns. This is the order of the table of parameters; the values of a
+/// list stand at the position of the list's row, and the values of elements at the position of their first
+/// key.
 std::vector<std::size_t> slots_in_table_order(const StudyTable& table);
 
 /// The slots of a dotted path in a sweep: one slot, or all slots of a list for "command.targets".
 struct SlotRange {
   std::size_t first{0};
   std::size_t count{1};
-  bool list{false};  ///< its value is a list with one entry per slot
+  bool list{false};  ///< the swept value is a list with one entry per slot
 };
 std::optional<SlotRange> find_slots(std::string_view path, const StudyTable& table);
 
-/// The list of the dotted path or of one of its values, even if the study does not have it.
+/// The row of the list that the path names, or to one of whose values the path belongs, even if the study
+/// does not have the list. Empty if there is no such list.
 std::optional<std::size_t> find_list_row(std::string_view path);
 
 }  // namespace zerocount::study

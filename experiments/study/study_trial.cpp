@@ -38,7 +38,7 @@ void set_hold_of_record(const StudyPlan& plan, trial::TrialParameters& trial) {
         loop::record_duration(trial.command.profile.record->time, 1.0 / trial.controller.sample_rate);
 }
 
-/// Completes a trial of which all numbers are set.
+/// Completes a trial after all its numbers are set.
 void complete(const Study& study, StudyTrial& trial) {
   complete_trial(study.units, trial.parameters);
   complete_targets(trial);
@@ -47,7 +47,7 @@ void complete(const Study& study, StudyTrial& trial) {
 /// A trial whose parameters are being set.
 struct TrialInProgress {
   StudyTrial& trial;
-  std::vector<double>& numbers;  ///< [slot]
+  std::vector<double>& numbers;  ///< [slot] number of the trial
   const StudyPlan& plan;
 
   void set(std::size_t slot, double number) {
@@ -57,7 +57,7 @@ struct TrialInProgress {
   }
 };
 
-/// Sets the value that follows from those of other slots, which are set.
+/// Sets a value that follows from other slots. The numbers of these slots must be set.
 void set_following(const TrialDraws& draws, std::size_t point, std::uint32_t slot, TrialInProgress& t) {
   const FollowingValue& following = t.plan.following[value_at_point(t.plan, slot, point)->index];
   t.set(slot, following_value(following, [&](std::uint32_t source) { return t.numbers[source]; }));
@@ -78,7 +78,7 @@ void set_following(const TrialDraws& draws, std::size_t point, std::uint32_t slo
        }});
 }
 
-/// Refuses measured values that are those of no machine: a draw that no check has seen.
+/// Refuses measured values that no machine can have. The checks of the manifest have not seen this draw.
 void require_machine(std::size_t point, const TrialInProgress& t) {
   for (const MeasuredSlots& measured : t.plan.measured) {
     const auto fault = fault_of_machine(t.plan, point, measured, [&](std::uint32_t slot) {
@@ -91,7 +91,7 @@ void require_machine(std::size_t point, const TrialInProgress& t) {
   }
 }
 
-/// Sets all values but those of profiles.
+/// Sets all values except profiles.
 void begin_trial(const TrialDraws& draws, std::size_t point, TrialInProgress& t) {
   const StudyPlan& plan = t.plan;
   t.trial.parameters = plan.common;
@@ -115,7 +115,8 @@ void begin_trial(const TrialDraws& draws, std::size_t point, TrialInProgress& t)
   require_machine(point, t);
 }
 
-/// See study_trial_as_given(). @param point of the plan @param numbers memory for them, [slot]
+/// See study_trial_as_given().
+/// @param point point of the plan @param numbers memory for the numbers, [slot]
 void make_trial(const TrialDraws& draws, std::size_t point, StudyTrial& trial, std::vector<double>& numbers) {
   const StudyPlan& plan = draws.plan();
   TrialInProgress t{trial, numbers, plan};

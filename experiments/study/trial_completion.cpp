@@ -12,7 +12,8 @@
 namespace zerocount::study {
 namespace {
 
-/// Phase is ControllerParameters or CoarsePhaseParameters; both have kp, ki and kd.
+/// Converts the gains of a phase from SI units.
+/// @tparam Phase ControllerParameters or CoarsePhaseParameters; both have kp, ki and kd
 template <class Phase>
 void convert_gains(Phase& phase, const trial::TrialParameters& trial) {
   const loop::PidGains gains =

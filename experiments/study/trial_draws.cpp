@@ -48,7 +48,7 @@ void check_exists(const Study& study, std::int64_t point, std::int64_t index) {
   }
 }
 
-/// The value of a distribution of the plan.
+/// The quantile of a distribution of the plan at u in (0, 1).
 double drawn_quantile(const TrialDraws& draws, std::size_t distribution, double u) {
   const distributions::Distribution& of_plan = draws.plan().distributions[distribution];
   if (draws.quantiles == nullptr) return distributions::quantile(of_plan, u);
@@ -57,7 +57,7 @@ double drawn_quantile(const TrialDraws& draws, std::size_t distribution, double 
   return (*kept)(u);
 }
 
-/// By which the value of a slot at a point of the plan is multiplied at the point's age.
+/// Factor by which a value is multiplied at the age of a point of the plan; 1 if it does not change with age.
 double age_factor_of(const TrialDraws& draws, const Value& value, std::size_t point) {
   if (!value.aging) return 1.0;
   const StudyPlan& plan = draws.plan();
@@ -71,7 +71,9 @@ double age_factor_of(const TrialDraws& draws, const Value& value, std::size_t po
                        age_at(plan, point));
 }
 
-/// The number at the age of the point. Refuses one that has left its range: a draw that no check has seen.
+/// The number at the age of the point.
+/// @throws Failure (bad_input) if it is outside the range of the parameter; the checks of the manifest have
+/// not seen this draw
 double at_age(const TrialDraws& draws, std::uint32_t slot, std::size_t point, double number, double factor) {
   const StudyPlan& plan = draws.plan();
   const parameters::Parameter& parameter = plan.table.rows[slot];
@@ -93,7 +95,7 @@ const GivenProfile* given_profile(const TrialDraws& draws, std::uint32_t slot) {
   return given == draws.given.profiles.end() ? nullptr : &given->second;
 }
 
-/// The profile of a trial that begins at this position, at age 0.
+/// The profile at age 0 of a trial that begins at the position `start`.
 std::shared_ptr<const friction::Profile> profile_of(const TrialDraws& draws, std::uint32_t slot,
                                                     const Value& value, double start) {
   const Rotors& rotors = *draws.plan().profiles[value.index];

@@ -82,7 +82,8 @@ double number_of(std::string_view text) {
   return text::parse_number<double>(text).value_or(std::nan(""));
 }
 
-/// The same, with a decimal comma too unless commas separate the cells.
+/// Parses all of `text` as a number; NaN if that fails. A decimal comma is allowed unless commas separate the
+/// cells.
 double number_of(std::string_view text, Separator separator) {
   if (separator == Separator::comma || text.find(',') == std::string_view::npos ||
       text.find('.') != std::string_view::npos) {
@@ -113,7 +114,8 @@ bool has_blank_inside(const std::vector<std::string_view>& cells) {
 
 constexpr std::array separators{Separator::tab, Separator::semicolon, Separator::comma, Separator::blanks};
 
-/// The separator of a header, or first row, and the row below it.
+/// The separator that gives a header (or first row) and the row below it equally many cells; empty if there
+/// is none.
 std::optional<Separator> common_separator(std::string_view first, std::string_view second) {
   for (const Separator separator : separators) {
     const std::size_t count = header_cells(first, separator).size();
@@ -146,7 +148,7 @@ bool has_number(const std::vector<std::string_view>& cells, Separator separator)
 constexpr std::size_t max_titles = 100;
 
 /// The number of titles above the header, which is the first line that has no numbers and as many cells as
-/// the line below it and as the last one. None if there is no such line.
+/// the line below it and as the last one. 0 if there is no such line.
 /// @param first lines of the table, without the last
 std::size_t titles_above_header(const std::vector<std::string_view>& first, std::string_view last,
                                 std::optional<Separator> given) {
@@ -165,7 +167,7 @@ std::size_t titles_above_header(const std::vector<std::string_view>& first, std:
   return 0;
 }
 
-/// "[mm]", "(mm)" or "mm".
+/// A unit without its brackets: "mm" for "[mm]", "(mm)" or "mm".
 std::string_view without_brackets(std::string_view unit) {
   const bool bracketed =
       (unit.starts_with('[') && unit.ends_with(']')) || (unit.starts_with('(') && unit.ends_with(')'));

@@ -19,16 +19,18 @@ class ColumnSource {
   /// Name of the file in messages.
   virtual const std::string& name() const = 0;
 
-  /// True if there is such a column, by its name in the header, by its number from 1 ("#2"), or by its path.
+  /// Whether the column exists. It may be given by its name in the header, by its number from 1 ("#2"), or by
+  /// its path.
   virtual bool has(std::string_view column) const = 0;
 
-  /// The columns, for messages.
+  /// List of the columns as text, for messages.
   virtual std::string columns_text() const = 0;
 
-  /// The unit of the column according to the file; empty if it says none.
+  /// The unit of the column according to the file; empty if the file does not state it.
   virtual std::string unit(std::string_view column) const = 0;
 
-  /// The column as finite numbers. @throws Failure (bad_data) that names what is none.
+  /// The column as finite numbers.
+  /// @throws Failure (bad_data) that names the cells that are not finite numbers
   virtual std::vector<double> numbers(std::string_view column) const = 0;
 
   /// For each row whether the cell is `word`; empty if the column is not of words.
@@ -43,17 +45,17 @@ enum class Separator {
   comma,
   semicolon,
   tab,
-  blanks  ///< one or more blanks or tabs; those in brackets or quotation marks separate nothing
+  blanks  ///< one or more blanks or tabs, except inside brackets or quotation marks
 };
 
-/// A text that is not a table, or has a cell that is not what it should be.
+/// Failure for a text that is not a table, or for an unexpected cell.
 class TableFault : public Failure {
  public:
   TableFault(ExitCode code, std::string_view table, std::size_t line, std::string what, std::string expected,
              std::size_t column = 1);
 
-  std::size_t line() const { return line_; }      ///< from 1
-  std::size_t column() const { return column_; }  ///< in bytes, from 1
+  std::size_t line() const { return line_; }      ///< line of the fault, from 1
+  std::size_t column() const { return column_; }  ///< first byte of the fault in its line, from 1
   const std::string& found() const { return found_; }
   const std::string& expected() const { return expected_; }
 
@@ -86,13 +88,15 @@ std::vector<std::string_view> cells_of(std::string_view line, Separator separato
 /// - The decimal mark is a point, or a comma where the comma is not the separator.
 class TextTable : public ColumnSource {
  public:
-  /// @param separator none: detected
+  /// Reads a file.
+  /// @param separator empty: detected
   /// @throws Failure: bad_input if the file does not exist or is not such a table; bad_data if a row and the
   /// header differ in the number of cells; machine_failed if the file cannot be read.
   explicit TextTable(const std::filesystem::path& path, std::optional<Separator> separator = std::nullopt);
 
-  /// A text that has been read, which may have one column only; a line of units below the header is a row.
-  /// @param name stands for the file in messages. @param expected what an empty text should be
+  /// Takes a text that has been read already. It may have a single column. A line of units below the header
+  /// counts as a row.
+  /// @param name name of the text in messages @param expected phrase for the message about an empty text
   /// @throws TableFault
   TextTable(std::string name, std::string text, std::string_view expected);
 
@@ -110,22 +114,22 @@ class TextTable : public ColumnSource {
   /// Line of a row in the file, from 1.
   std::size_t line(std::size_t row) const { return lines_[row]; }
   std::size_t columns() const { return columns_.size(); }
-  /// Number of the column; that of columns() if there is none.
+  /// Index of the column, from 0; equal to columns() if there is none.
   std::size_t find(std::string_view column) const;
   std::string_view cell(std::size_t row, std::size_t column) const;
-  /// The number in a cell; NaN if it is none.
+  /// The number in a cell; NaN if the cell is not a number.
   double number(std::size_t row, std::size_t column) const;
-  /// Where a cell begins in its line, in bytes from 1. The header has the line header_line().
+  /// First byte of a cell in its line, from 1.
   std::size_t place(std::size_t row, std::size_t column) const;
   std::size_t place_in_header(std::size_t column) const;
-  std::string_view header_cell(std::size_t column) const;  ///< with its unit
+  std::string_view header_cell(std::size_t column) const;  ///< name with unit
   std::size_t header_line() const { return header_line_; }
 
  private:
   struct Column {
     std::string name;
     std::string unit;
-    std::string before_bracket{};  ///< of a name that ends with (…), which is not a known unit
+    std::string before_bracket{};  ///< part of a name before (…), if (…) is not a known unit
     std::string in_bracket{};
   };
   struct Line {
@@ -147,10 +151,10 @@ class TextTable : public ColumnSource {
   std::vector<Column> columns_;
   bool named_{true};
   std::size_t header_line_{1};
-  std::size_t header_start_{0};  ///< offset in the text
+  std::size_t header_start_{0};  ///< offset of the header in the text
   std::size_t header_size_{0};
-  std::vector<std::size_t> lines_;   ///< [row]
-  std::vector<std::size_t> starts_;  ///< [row] offset in the text
+  std::vector<std::size_t> lines_;   ///< [row] line in the file, from 1
+  std::vector<std::size_t> starts_;  ///< [row] offset of its line in the text
 };
 
 }  // namespace zerocount::tables

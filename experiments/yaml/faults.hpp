@@ -18,18 +18,18 @@ Place place_of(std::string_view text, std::size_t offset, std::string_view sourc
 /// The first place in `text` that is not UTF-8, or is a control character; line 0 if there is none.
 Place first_bad_byte(const std::string& text, std::string_view source);
 
-/// The first control character of a scalar, which an escape sequence can name, as "U+001B"; nothing if there
-/// is none. Line feeds and tabs are allowed.
+/// The first control character of a scalar as text, "U+001B"; empty if there is none. An escape sequence can
+/// produce such a character. Line feeds and tabs are allowed.
 std::optional<std::string> unprintable_character(std::string_view text);
 
 /// A fault of a text that yaml-cpp 0.7 accepts, or reports far behind its cause.
 struct LexicalFault {
-  std::size_t offset{0};  ///< of its first byte in the text
+  std::size_t offset{0};  ///< offset of the fault's first byte in the text
   std::string_view what;
   std::string_view expected;
 };
 
-/// The first of these faults in a YAML document, in the order of the text:
+/// The first fault of the following kinds in a YAML document:
 ///   - a quoted text that does not end, ends among the lines of other keys, or is followed by more text on
 ///   its
 ///     line. YAML requires each further line of a quoted text to be indented more than the key or list entry

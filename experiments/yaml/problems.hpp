@@ -29,11 +29,11 @@ class Problems {
  public:
   /// `path` is the dotted path of the key; `what` and `expected` are phrases without a full stop.
   void add(const Place& place, std::string_view path, std::string_view what, std::string_view expected);
-  /// At the place of the field's value.
+  /// Adds a problem at the place of the field's value.
   void add(const Field& field, std::string_view what, std::string_view expected);
 
-  /// A key that is missing. It may be there under a wrong name, or in a part that cannot be read, which is
-  /// the cause then: missing keys are reported after all other problems.
+  /// Adds a missing key. Missing keys are reported after all other problems: the cause may be another
+  /// problem, such as a misspelled key or a part that cannot be read.
   void add_missing(const Place& place, std::string_view path, std::string_view expected);
   void add_missing(const Place& place, std::string_view path, std::string_view what,
                    std::string_view expected);
@@ -54,10 +54,10 @@ class Problems {
   std::vector<Entry> entries_;
 };
 
-/// "file:line:column"; of an override its source alone.
+/// Text of a place, "file:line:column"; for an override, its source alone.
 std::string place_text(const Place& place);
 
-/// "file:line:column: path: text", the form of every message about a manifest.
+/// Message about a place in a manifest, "file:line:column: path: text".
 std::string at_place(const Place& place, std::string_view path, std::string_view text);
 
 /// `text` in single quotes, shortened if it is long, with visible control characters.

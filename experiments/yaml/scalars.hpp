@@ -19,14 +19,16 @@ struct Field {
 
 Field entry_of(const Field& map, const YamlEntry& entry);
 Field item_of(const Field& list, std::size_t index);
-/// The value of `key`; nothing if `map` is not a map or does not have the key.
+/// The value of `key`; empty if `map` is not a map or does not have the key.
 std::optional<Field> find_field(const Field& map, std::string_view key);
 
 // Each function returns the value, or reports an error to `problems` and returns nothing. Nothing is
 // converted: a quoted number is a text, and forms with a special meaning in YAML 1.1 (`010`, `1_000`, `1:30`,
 // `no`) are refused.
 
-/// A finite decimal number inside `range`. @param or_else what else was expected, for the message.
+/// The field as a finite decimal number inside `range`; nothing, with an entry in `problems`, for other
+/// fields.
+/// @param or_else alternative to a number, for the message
 std::optional<double> read_real(const Field& field, const numerics::Interval& range, Problems& problems,
                                 std::string_view or_else = {});
 
@@ -47,7 +49,7 @@ std::optional<std::size_t> read_label(const Field& field, std::span<const std::s
 /// A text; a text that YAML would read as a number, a boolean or null must be quoted.
 std::optional<std::string> read_text(const Field& field, Problems& problems);
 
-/// A text on one line, such as a name or a path. @returns nothing after a report
+/// A text on one line, such as a name or a path. Empty after an error, which is reported.
 std::optional<std::string> read_line(const Field& field, Problems& problems);
 
 /// Reports that `field` has the wrong type, and describes its value.

@@ -14,7 +14,7 @@ using YamlPointer = std::shared_ptr<const YamlNode>;
 
 struct YamlEntry {
   std::string key;
-  Place place;  ///< of the key
+  Place place;  ///< place of the key
   YamlPointer value;
 };
 
@@ -24,14 +24,14 @@ struct YamlNode {
   enum class Kind { null, scalar, list, map };
   Kind kind{Kind::null};
   Place place;
-  std::string text;                ///< of a scalar
-  bool plain{true};                ///< a scalar without quotes
-  std::vector<YamlPointer> items;  ///< of a list
-  std::vector<YamlEntry> entries;  ///< of a map, in the order of the document; no key twice
+  std::string text;                ///< text of a scalar
+  bool plain{true};                ///< the scalar is written without quotes
+  std::vector<YamlPointer> items;  ///< items of a list
+  std::vector<YamlEntry> entries;  ///< entries of a map, in the document's order; each key once
 };
 
 /// Limits that protect against malicious files.
-constexpr std::size_t max_manifest_size = 1 << 20;     ///< bytes
+constexpr std::size_t max_manifest_size = 1 << 20;     ///< size of the text, bytes
 constexpr std::size_t max_nesting = 24;                ///< nested lists and maps
 constexpr std::size_t max_expanded_nodes = 2'000'000;  ///< nodes after all aliases are expanded
 
@@ -41,10 +41,10 @@ constexpr std::size_t max_expanded_nodes = 2'000'000;  ///< nodes after all alia
 /// must outlive the tree. With `one_line`, places contain only the source.
 YamlPointer parse_yaml(const std::string& text, std::string_view source, bool one_line, Problems& problems);
 
-/// The node in flow style on one line, for labels.
+/// The node as YAML in flow style on one line, for labels.
 std::string flow_text(const YamlNode& node);
 
-/// The value of `key` in a map, or null.
+/// The entry of `key` in a map, or null.
 const YamlEntry* find_entry(const YamlNode& map, std::string_view key);
 
 }  // namespace zerocount::yaml

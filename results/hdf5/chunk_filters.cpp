@@ -143,7 +143,8 @@ bool starts_randomly(std::span<const std::byte> bytes) {
   return text.find(text.substr(0, sample), 1) == std::string_view::npos;
 }
 
-/// Length of the pages at the front that look random: after shuffle, those of the low digits of doubles.
+/// Length of the pages at the front that look random. After shuffle, these pages hold the low digits of
+/// doubles.
 std::size_t random_front(std::span<const std::byte> bytes) {
   std::size_t length = 0;
   while (length + page <= bytes.size() && starts_randomly(bytes.subspan(length))) length += page;

@@ -17,13 +17,13 @@ namespace zerocount::hdf5 {
 
 struct ChunkFilters {
   std::size_t element_size{1};
-  std::optional<int> deflate_level;  ///< none: neither shuffle nor deflate
+  std::optional<int> deflate_level;  ///< Level of deflate; empty: neither shuffle nor deflate
 
   bool operator==(const ChunkFilters&) const = default;
 };
 
-/// The bytes that the file stores for a chunk with these elements. Whoever decodes them proves that they are
-/// those: the zlib stream ends with the Adler-32 of what was compressed.
+/// The bytes that the file stores for a chunk with these elements. Decoding them proves that they are these
+/// elements, because the zlib stream ends with the Adler-32 checksum of the uncompressed data.
 std::vector<std::byte> encode_chunk(const ChunkFilters& filters, std::span<const std::byte> elements);
 
 /// Whether stored bytes agree with their checksum.

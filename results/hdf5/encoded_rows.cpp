@@ -21,7 +21,8 @@ namespace {
 struct EncodeJob {
   const ChunkShape* shape;
   std::span<const std::byte> elements;
-  std::size_t source;  ///< index of the job that encodes it: its own, or an earlier one of the same bytes
+  /// Index of the job that encodes the chunk: this one, or an earlier one with the same bytes
+  std::size_t source;
 };
 
 std::vector<EncodeJob> encode_jobs(std::span<const RowsToEncode> all) {
@@ -129,8 +130,8 @@ namespace {
 /// A chunk to decode.
 struct DecodeJob {
   const FetchedRows* rows;
-  std::size_t chunk;    ///< index in rows->chunks
-  std::byte* elements;  ///< of all rows
+  std::size_t chunk;    ///< Index in rows->chunks
+  std::byte* elements;  ///< Buffer for the elements of all rows
   bool damaged{false};
 
   void decode();

@@ -34,8 +34,8 @@ struct EncodedRows {
   std::vector<EncodedChunk> chunks;
 };
 
-/// Encodes several chunks at a time. Chunks of the same value in all elements, such as those of measures that
-/// no trial has, are encoded once.
+/// Encodes several chunks at a time. Chunks with the same value in all elements, such as the chunks of
+/// measures that no trial has, are encoded once.
 std::vector<EncodedRows> encode_rows(std::span<const RowsToEncode> all,
                                      timeline::Timeline* timeline = nullptr);
 
@@ -58,10 +58,10 @@ struct FetchedRows {
   const RowSource* source{nullptr};
   std::int64_t first{0};
   std::int64_t rows{0};
-  std::size_t row_size{0};          ///< bytes
-  ChunkShape shape{};               ///< if there are chunks
-  std::vector<StoredChunk> chunks;  ///< those that hold the rows
-  std::vector<std::byte> elements;  ///< of the rows, where the library had to decode them
+  std::size_t row_size{0};          ///< Size of a row, bytes
+  ChunkShape shape{};               ///< Shape of the chunks, if there are any
+  std::vector<StoredChunk> chunks;  ///< Chunks that hold the rows
+  std::vector<std::byte> elements;  ///< Elements of the rows, if the library had to decode them
 };
 
 /// The elements of the rows. Decodes several chunks at a time.

@@ -26,7 +26,7 @@ constexpr haddr_t max_address = (haddr_t{1} << 63) - 1;
 /// The library's handle of an open file.
 struct DriverFile : H5FD_t {
   std::shared_ptr<storage::ByteFile> bytes;
-  haddr_t allocated{0};  ///< end of the address space that the library has allocated
+  haddr_t allocated{0};  ///< End of the address space that the library has allocated
 };
 
 /// Data that access_properties() passes to open_file().

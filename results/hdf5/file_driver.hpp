@@ -39,8 +39,8 @@ class ReadNote {
   ReadNote& operator=(const ReadNote&) = delete;
   ~ReadNote();
 
-  std::uint64_t address() const { return address_; }  ///< of the last read
-  std::size_t size() const { return size_; }          ///< 0: there was none
+  std::uint64_t address() const { return address_; }  ///< Address of the last read
+  std::size_t size() const { return size_; }          ///< Size of the last read, bytes; 0 without a read
   void set(std::uint64_t address, std::size_t size) {
     address_ = address;
     size_ = size;

@@ -51,7 +51,7 @@ herr_t read_attribute(Id object, const char* name, const H5A_info_t*, void*) {
   return 0;
 }
 
-/// All texts of a dataset, and of numbers the first.
+/// Reads all texts of a dataset, or the first element of numbers.
 void read_dataset(Id dataset) {
   const Handle type(H5Dget_type(dataset), H5Tclose);
   const Handle space(H5Dget_space(dataset), H5Sclose);
@@ -84,7 +84,8 @@ class UntrustedFile : public File {
   }
 };
 
-/// Runs in the child. Only a crash matters: the parent finds other errors again, and says what they are.
+/// Reads the file in the child process. Only a crash matters, because the parent finds other errors again and
+/// reports them.
 [[noreturn]] void read_and_exit(const std::filesystem::path& path, pid_t parent) {
   // The child has the parent's locks: it must not outlive it, or the same command could not go on.
   prctl(PR_SET_PDEATHSIG, SIGKILL);

@@ -32,7 +32,7 @@ class Timeline;
 /// the library is not called again for that file: its handles stay open until the process ends.
 namespace zerocount::hdf5 {
 
-using Id = std::int64_t;          ///< an identifier of the library, its hid_t
+using Id = std::int64_t;          ///< An identifier of the library, its hid_t
 using Size = unsigned long long;  ///< a number of elements, the library's hsize_t
 
 /// An identifier of the library that the destructor closes.
@@ -49,8 +49,8 @@ class Handle {
   ~Handle() { close(); }
 
   Id get() const { return id_; }
-  bool close();    ///< false if the library reports a failure; a second call does nothing
-  void abandon();  ///< never closes it
+  bool close();    ///< Returns false if the library reports a failure. A second call does nothing.
+  void abandon();  ///< Gives the identifier up without closing it.
 
  private:
   static constexpr Id none = -1;
@@ -72,7 +72,7 @@ class Object {
   ~Object() { release(); }
 
   const std::string& path() const { return path_; }
-  const std::string& file_name() const;  ///< of the file it belongs to
+  const std::string& file_name() const;  ///< Name of the file to which the object belongs
   bool has_attribute(const std::string& name) const;
 
   void set_text(const std::string& name, const std::string& value);
@@ -100,7 +100,7 @@ class Object {
   Handle own(Id id, Handle::Close close, std::string_view problem) const;
   /// Throws the Failure if an operation returned a negative status or a write has failed.
   void require(int status, std::string_view problem) const;
-  void release() noexcept;  ///< closes it; a failure is kept for File::close
+  void release() noexcept;  ///< Closes the object; a failure is kept for File::close.
 
  private:
   void write_attribute(const std::string& name, Id file_type, Id memory_type, Id space, const void* data);
@@ -114,12 +114,12 @@ class Object {
   std::string path_;
 };
 
-/// How a new dataset is stored.
+/// Storage of a new dataset.
 struct Storage {
   Element element{Element::float64};
-  std::vector<Size> extent;  ///< empty: a scalar
-  std::vector<Size> chunk;   ///< as many as extent, each at least 1
-  bool extendible{false};    ///< the first dimension can grow
+  std::vector<Size> extent;  ///< Sizes of the dimensions; empty: a scalar
+  std::vector<Size> chunk;   ///< Sizes of a chunk, one per dimension, each at least 1
+  bool extendible{false};    ///< The first dimension can grow.
   Compression compression{Compression::deflate};
 };
 
@@ -130,18 +130,18 @@ struct FetchedRows;
 /// Chunks of whole rows.
 struct ChunkShape {
   std::int64_t rows{0};
-  std::size_t row_size{0};  ///< bytes of the elements of a row
+  std::size_t row_size{0};  ///< Size of the elements of a row, bytes
   ChunkFilters filters;
-  std::size_t dimensions{1};  ///< of the dataset
+  std::size_t dimensions{1};  ///< Number of dimensions of the dataset
 
   bool operator==(const ChunkShape&) const = default;
 };
 
 /// A chunk as the file stores it.
 struct StoredChunk {
-  std::uint64_t address{0};        ///< in the file
-  std::size_t size{0};             ///< bytes; 0: the library must read it
-  std::vector<std::byte> bytes{};  ///< if the library has read them
+  std::uint64_t address{0};        ///< Address in the file
+  std::size_t size{0};             ///< Size, bytes; 0: the library must read the chunk
+  std::vector<std::byte> bytes{};  ///< Stored bytes, if the library has read them
 };
 
 /// Rows of elements in chunks that can be read: a dataset, or a column of a shard.
@@ -153,9 +153,10 @@ class RowSource {
   virtual ~RowSource() = default;
 
   virtual Element element() const = 0;
-  /// Where the rows are stored, for decode_rows(). The source must stay until then.
+  /// The chunks that hold the rows, for decode_rows(). The source must live until then.
   virtual FetchedRows fetch(std::int64_t first, std::int64_t rows) const = 0;
-  /// The stored bytes. Any thread may read them: it does not call the library, while the file stays open.
+  /// The stored bytes of a chunk. Any thread may call this while the file stays open, because it does not
+  /// call the library.
   virtual std::vector<std::byte> bytes_of(StoredChunk&& chunk) const = 0;
   /// Throws the Failure for this source; `problem` completes "damaged: ".
   [[noreturn]] void fail(std::string_view problem) const {
@@ -184,8 +185,8 @@ class Dataset : public Object, public RowSource {
   /// Stores the chunks of rows that were encoded for such a dataset, from row `first` on.
   void write(std::int64_t first, const EncodedRows& encoded);
 
-  /// None if the dataset has no chunks, a chunk does not span whole rows, it holds texts, its filters are not
-  /// those of chunk_filters.hpp, or the machine is not little-endian.
+  /// Shape of the chunks. Empty if the dataset has no chunks, a chunk does not span whole rows, the dataset
+  /// holds texts, its filters are not those of chunk_filters.hpp, or the processor is not little-endian.
   const std::optional<ChunkShape>& chunk_shape() const;
 
   void write_texts(std::span<const std::string> texts);
@@ -213,11 +214,12 @@ class Dataset : public Object, public RowSource {
   /// because it did not fit.
   StoredChunk find_chunk(std::int64_t first) const;
   void store_chunk(std::int64_t first, std::span<const std::byte> stored);
-  std::vector<Size> place_of(std::int64_t first) const;  ///< of a row, in all dimensions
+  std::vector<Size> place_of(std::int64_t first) const;  ///< Coordinates of the first element of a row.
   std::optional<ChunkShape> read_chunk_shape() const;
 
   Element element_;
-  mutable std::optional<std::optional<ChunkShape>> chunk_shape_{};  ///< once it is read
+  /// Shape of the chunks, once it has been read.
+  mutable std::optional<std::optional<ChunkShape>> chunk_shape_{};
 };
 
 class Group : public Object {
@@ -227,8 +229,8 @@ class Group : public Object {
   Dataset create_dataset(const std::string& name, const Storage& storage);
   Dataset open_dataset(const std::string& name) const;
   bool contains(const std::string& name) const;
-  bool is_group(const std::string& name) const;  ///< whether a member is a group (not a dataset)
-  std::vector<std::string> children() const;     ///< names, in order of creation
+  bool is_group(const std::string& name) const;  ///< Whether a member is a group, not a dataset
+  std::vector<std::string> children() const;     ///< Names of the members, in order of creation
 
  protected:
   Group(Handle handle, std::shared_ptr<Origin> origin, std::string path)
@@ -250,12 +252,12 @@ class File : public Group {
   /// A new file at `path`; replaces an existing file.
   static File create(const std::filesystem::path& path);
   static File open_to_read(const std::filesystem::path& path);
-  /// @param so_far written to the file earlier; close() returns it with what is new
+  /// @param so_far bytes written to the file earlier; close() returns them together with the new ones.
   static File open_to_change(const std::filesystem::path& path, storage::WrittenBytes so_far = {});
 
   /// Closes the file, and flushes it to the disk unless that is left to the caller. All other objects of the
   /// file must be destroyed.
-  /// @return what was written, to find it in the file
+  /// @return the bytes written, to compare the file with them.
   storage::WrittenBytes close(storage::Flush flush = storage::Flush::now);
 
  private:

@@ -23,7 +23,7 @@ static_assert(std::is_same_v<Id, hid_t> && std::is_same_v<Size, hsize_t> && std:
 
 struct Origin {
   std::shared_ptr<storage::ByteFile> bytes;
-  bool incomplete{false};  ///< a write operation or the closing of an object has failed
+  bool incomplete{false};  ///< A write operation or the closing of an object has failed.
 
   /// The library must not be called again: see file_driver.hpp.
   bool broken() const { return bytes->writable() && (incomplete || bytes->failure()); }

@@ -15,12 +15,12 @@
 
 namespace zerocount::layout {
 
-/// The type that stands in a column's buffer for a member of type Value (see Element).
+/// Type of the elements in a column's buffer for a member of type Value (see Element).
 template <class Value>
 using Stored = std::conditional_t<std::is_same_v<Value, bool>, std::uint8_t,
                                   std::conditional_t<std::is_enum_v<Value>, std::int8_t, Value>>;
 
-/// The type of the value that a member of a record has, or a function of the record gives.
+/// Type of the value of a member of a record, or of the result of a function of the record.
 template <class Record, class Member>
 using ValueOf = std::remove_cvref_t<std::invoke_result_t<Member, const Record&>>;
 
@@ -33,7 +33,8 @@ constexpr hdf5::Element element_of() {
   return hdf5::Element::int8;
 }
 
-/// @param member of Record or of what it derives from, or a function of the record.
+/// A field of a record.
+/// @param member member of Record or of a base of it, or a function of the record.
 template <class Record, class Member>
 RecordField<Record> field(const char* name, const char* unit, const char* long_name, Member member,
                           const ValidValues& valid = {}, std::vector<FlagMeaning> flags = {}) {
@@ -67,7 +68,8 @@ void values_of(const RecordField<Record>& field, std::span<const Record* const> 
       field.member);
 }
 
-/// Whether the field is a function of the others: it is written, and worked out again when it is read.
+/// Whether the field is a function of the other fields. It is written to files, and computed again when a
+/// record is read.
 template <class Record>
 bool is_computed(const RecordField<Record>& field) {
   return std::holds_alternative<double (*)(const Record&)>(field.member);
@@ -96,10 +98,10 @@ void gather(const RecordField<Record>& field, std::span<const Record* const> rec
       field.member);
 }
 
-/// Few enough to stay in the cache while all of their fields are copied.
+/// Number of records copied at a time, few enough to stay in the cache while all of their fields are copied.
 inline constexpr std::size_t records_at_a_time = 32;
 
-/// [field] The columns of the records, as the bytes of their elements.
+/// The columns of the records, [field], each as the bytes of its elements.
 template <class Record>
 std::vector<std::vector<std::byte>> columns_of(const std::vector<RecordField<Record>>& fields,
                                                std::span<const Record* const> records) {
@@ -115,7 +117,7 @@ std::vector<std::vector<std::byte>> columns_of(const std::vector<RecordField<Rec
   return columns;
 }
 
-/// The reverse of gather(). What is computed from a record is not read.
+/// Reads a field of the records from the bytes that gather() wrote. A computed field is not read.
 template <class Record>
 void scatter(const RecordField<Record>& field, std::span<const std::byte> bytes, std::span<Record> records) {
   std::visit(
@@ -134,7 +136,8 @@ void scatter(const RecordField<Record>& field, std::span<const std::byte> bytes,
       field.member);
 }
 
-/// The reverse of columns_of(). @param skipped records of the columns before the first of `records`
+/// Reads records from the columns that columns_of() made. @param skipped number of records in the columns
+/// before the first of `records`.
 template <class Record>
 void scatter_all(const std::vector<RecordField<Record>>& fields,
                  const std::vector<std::vector<std::byte>>& columns, std::size_t skipped,

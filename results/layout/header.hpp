@@ -19,16 +19,16 @@ namespace zerocount::layout {
 /// Who made a results file, and when.
 struct Provenance {
   std::string zerocount_version;
-  std::string git_commit;  ///< "unknown" where the sources were no git checkout
+  std::string git_commit;  ///< Commit of the sources; "unknown" if they were not a git checkout
   std::string compiler;
   std::string cpu;
-  std::string created;  ///< UTC, as 2002-07-21T12:00:00Z
+  std::string created;  ///< Time of creation in UTC, as 2002-07-21T12:00:00Z
 };
 
 /// This program on this machine, now.
 Provenance current_provenance();
 
-/// Whether two programs are the same for the trials they run: of one version and one commit. Uncommitted
+/// Whether two programs run the same trials, because they have the same version and commit. Uncommitted
 /// changes ("-dirty") are ignored, because they cannot be distinguished.
 bool same_build(const Provenance& one, const Provenance& other);
 
@@ -38,13 +38,13 @@ bool is_dirty(const Provenance& provenance);
 enum class FileKind {
   study,
   shard,
-  rare  ///< of `zerocount rare`: it has no trials of the study
+  rare  ///< A file of `zerocount rare`: it has no trials of the study.
 };
 
-/// Whether files of a study with this `keep` have the tables of trials: of every trial, or of the failures.
+/// Whether files of a study with this `keep` have tables of trials, either of every trial or of the failures.
 bool has_trials(study::Retention retention);
-/// Whether they have /sums, from which the statistics of the design points follow: exactly those that do not
-/// have every trial.
+/// Whether files of a study with this `keep` have /sums, from which the statistics of the design points
+/// follow. Exactly the files that do not have every trial have them.
 bool has_sums(study::Retention retention);
 
 /// The description of a results file: the attributes of its root, and the manifest.
@@ -53,19 +53,19 @@ struct FileHeader {
   study::Retention retention{study::Retention::trials};
   std::string name;
   Provenance provenance;
-  study::Engine engine{study::Engine::reference};  ///< that ran the trials
+  study::Engine engine{study::Engine::reference};  ///< Engine that ran the trials.
   std::uint64_t seed{0};
-  std::int64_t trials{0};  ///< per design point
+  std::int64_t trials{0};  ///< Trials per design point
   std::int64_t points{0};
-  RowRange rows;         ///< the trials in this file
-  bool complete{false};  ///< these are all trials of the study
-  bool finished{false};  ///< everything that the file should hold was written
-  std::string manifest;  ///< exact text
+  RowRange rows;         ///< Trials in this file
+  bool complete{false};  ///< The file holds all trials of the study.
+  bool finished{false};  ///< Everything that the file should hold was written.
+  std::string manifest;  ///< Exact text of the manifest
   std::vector<std::string> overrides;
   std::string manifest_sha256;
   std::string study_sha256;
-  std::optional<plugin::PluginDescription> plugin;  ///< the user's controller, if there is one
-  std::optional<std::string> samples;  ///< exact text of the table of joint draws, if there is one
+  std::optional<plugin::PluginDescription> plugin;  ///< The user's controller, if there is one.
+  std::optional<std::string> samples;  ///< Exact text of the table of joint draws, if there is one.
 };
 
 /// A file that is valid as far as it was read, but is not for this use: another format or version, or
@@ -100,19 +100,21 @@ void mark_finished(hdf5::File& file);
 /// A dataset in the root with one text.
 void write_single_text(hdf5::File& file, const std::string& name, const std::string& text,
                        const std::string& meaning);
-/// Nothing if there is no such dataset. @throws Failure (bad_data)
+/// Reads a text that write_single_text() wrote; empty if there is no such dataset. @throws Failure (bad_data)
+/// if it is damaged.
 std::optional<std::string> read_single_text(const hdf5::File& file, const std::string& name);
 
 /// Reads the header of a results file, and checks the format, its version and the checksum of the manifest.
 /// @throws RareFile; ForeignFile for another format or version, Failure (bad_data) for damage.
 FileHeader read_header(const hdf5::File& file);
-/// Reads the header of a file of `zerocount rare`. @throws ForeignFile for any other, Failure (bad_data)
+/// Reads the header of a file of `zerocount rare`. @throws ForeignFile for any other file, Failure (bad_data)
+/// for damage.
 FileHeader read_rare_header(const hdf5::File& file);
 /// Whether the file is one of `zerocount rare`. @throws ForeignFile for a format that is not zerocount's
 bool is_rare(const hdf5::File& file);
 
-/// The study whose trials the file `path` holds: its manifest with its overrides, and its
-/// engine. Whoever needs the study of a results file takes it from here.
+/// The study whose trials the file `path` holds: its manifest with its overrides, and its engine. All code
+/// that needs the study of a results file gets it from here.
 /// @param plugin the user's controller; null: as recorded, so that no trials can be run
 /// @throws Failure (bad_input) as parse_study does, (bad_data) if the file has other numbers of design points
 /// or trials than its manifest; see also require_same_plugin.
@@ -131,7 +133,7 @@ void require_same_study(const std::filesystem::path& path, const FileHeader& hea
 /// The folder of the shards of a run that makes `output`: OUTPUT.shards.
 std::filesystem::path shards_directory(const std::filesystem::path& output);
 
-/// Whether there can be a study with these numbers of points and trials, and a file of it with these rows.
+/// Whether a study can have these numbers of points and trials, and a file of it these rows.
 bool has_possible_numbers(const FileHeader& header);
 
 /// Whether a file must have its checksum trailer (see file_contents.hpp) to be opened.
@@ -139,15 +141,15 @@ enum class Checksum { required, not_yet };
 
 /// Opens a file of this program's format. A child process reads it first if its checksum is not checked (see
 /// open_foreign).
-/// @throws Failure: bad_input where there is no such file, machine_failed where it cannot be read,
-/// bad_data where it is damaged or something else.
+/// @throws Failure: bad_input if there is no such file, machine_failed if it cannot be read, bad_data if it
+/// is damaged or something else.
 hdf5::File open_results(const std::filesystem::path& path, Checksum checksum = Checksum::required);
 
 /// Record of the user's controller in a results file: {"name", "version", "sha256", "parameters":
 /// [{"name", "unit", "meaning", "default", "lowest", "highest"}]}; null is a missing limit.
 std::string plugin_as_json(const plugin::PluginDescription& plugin);
 
-/// Nothing if the text does not describe a plugin.
+/// Reads the record that plugin_as_json() made; empty if the text does not describe a plugin.
 std::optional<plugin::PluginDescription> plugin_from_json(const std::string& text);
 
 }  // namespace zerocount::layout

@@ -18,7 +18,7 @@ double value_of_band(const M& move) {
   return move.bands[Band].*Member;
 }
 
-/// [band] the functions of a move that give this measure of its error bands.
+/// Functions of a move that give this measure of its error bands, [band].
 template <double trial::BandOutcome::*Member>
 constexpr auto values_of_bands() {
   return []<std::size_t... Band>(std::index_sequence<Band...>) {
@@ -27,7 +27,7 @@ constexpr auto values_of_bands() {
   (std::make_index_sequence<trial::max_error_bands>());
 }
 
-/// A measure of an error band as a measure of the move.
+/// Turns a field of an error band into a field of the move.
 RecordField<M> field_of_band(const RecordField<trial::BandOutcome>& field, std::int64_t band,
                              double (*value)(const M&)) {
   Column column = field.column;
@@ -41,7 +41,7 @@ double value_of_tolerance(const M& move) {
   return (move.*Times)[Tolerance];
 }
 
-/// [tolerance] the functions of a move that give its settling time.
+/// Functions of a move that give its settling time, [tolerance].
 template <auto Times>
 constexpr auto values_of_tolerances() {
   return []<std::size_t... Tolerance>(std::index_sequence<Tolerance...>) {

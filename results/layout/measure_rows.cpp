@@ -29,16 +29,17 @@ SummaryColumn bounded_mean(std::string head) {
   return {std::move(head), mean, CellText::number, BoundStatistics{bootstrap_low, bootstrap_high}};
 }
 
-/// How a measure of the true motion is shown.
+/// Presentation of a measure of the true motion.
 struct ShownMotion {
-  std::string head{};         ///< of its column in the summary; empty: it has none
-  std::string legend{};       ///< of this column
-  std::string_view output{};  ///< what it is as an output of a trial; empty: it is none
+  std::string head{};         ///< Head of the measure's column in the summary; empty: it has no column
+  std::string legend{};       ///< Legend of that column
+  std::string_view output{};  ///< Meaning as an output of a trial; empty: it is not an output
 };
 
-/// A measure of the true motion: a move has one where it is not NaN, and a trial the largest of its moves.
-/// @param use the extra without which no file has it
-/// @param missing what a move without the measure lacks
+/// A measure of the true motion. A move has it if it is not NaN. The value of a trial is the largest of its
+/// moves.
+/// @param use the feature without which no file has the measure.
+/// @param missing meaning of a move without the measure.
 Measure of_motion(bool study::StudyFeatures::*use, Missing missing, const char* name, const char* unit,
                   const char* long_name, double M::*member, const ShownMotion& shown = {}) {
   Measure measure{.field = field<M>(name, unit, long_name, member, an_error_or_nan),

@@ -13,15 +13,16 @@
 
 /// The table of the measures of a move. A measure is one row: its column in the results file with the valid
 /// values, its statistics at a point and at a torque level, its columns in the summary, its output in the
-/// sensitivity analysis, and its judgement by the gate. What computes its value is in core/trial; measures of
-/// error bands, and of tolerances, have one row for all of them.
+/// sensitivity analysis, and its judgement by the gate. core/trial computes its value. A measure of error
+/// bands has one row for all bands, and a measure of tolerances one row for all tolerances.
 namespace zerocount::layout {
 
 /// Meaning of a value that a move lacks although it was run. A move that was stopped, or lost its motion,
 /// lacks values for that reason instead: they are worse than every limit, for any measure.
 enum class Missing {
   never,  ///< An event did not come, such as rest. The value is worse than every limit.
-  late,   ///< As `never`, for a time. Quantiles are over all moves, and count it as later than any time.
+  late,   ///< The value is a time that did not come within the move, and is worse than every limit. Quantiles
+          ///< include all moves and count it as later than any time.
   none    ///< There is nothing to measure, such as an oscillation. The move meets every limit.
 };
 
@@ -29,41 +30,41 @@ enum class Worse { less, more };
 
 /// Values of the moves that count, in statistics and in outputs of a trial.
 struct CountedValues {
-  bool needs_target{false};         ///< undefined for moves to a torque level; a sum over them is 0
-  bool needs_motion{false};         ///< undefined for moves whose motion was lost
-  Missing missing{Missing::never};  ///< meaning of NaN
+  bool needs_target{false};         ///< Undefined for moves to a torque level; a sum over them is 0.
+  bool needs_motion{false};         ///< Undefined for moves whose motion was lost.
+  Missing missing{Missing::never};  ///< Meaning of NaN.
   bool negative_is_missing{false};  ///< Negative values mean the same as NaN.
-  Worse worse{Worse::more};         ///< whether larger or smaller values are worse; orders Missing::never
-  bool magnitude{false};            ///< statistics are of the absolute value
-  bool mirrored{false};             ///< has the opposite sign in a move of the opposite direction
+  Worse worse{Worse::more};  ///< Whether larger or smaller values are worse; this orders Missing::never.
+  bool magnitude{false};     ///< Statistics are of the absolute value.
+  bool mirrored{false};      ///< The sign is opposite in a move of the opposite direction.
 };
 
-/// How the values of the moves make one value of their trial.
+/// Rule that reduces the values of the moves to one value of their trial.
 enum class MoveReduction {
-  all,      ///< a quality: 1 where every move has it, otherwise 0
-  any,      ///< a quality: 1 where some move has it
-  sum,      ///< over the moves
-  largest,  ///< largest absolute value
-  last      ///< that of the last move
+  all,      ///< For a quality: 1 if every move has it, otherwise 0.
+  any,      ///< For a quality: 1 if some move has it, otherwise 0.
+  sum,      ///< Sum over the moves.
+  largest,  ///< Largest absolute value of the moves.
+  last      ///< Value of the last move.
 };
 
 /// A statistic of the values at a point, in the order of every report. Names and meanings: statistic_kinds()
 /// of analysis/measures.
 enum class Statistic {
-  count,  ///< trials with the quality
+  count,  ///< Number of trials with the quality.
   rate,
   rate_low,
   rate_high,
   rate_wilson_low,
   rate_wilson_high,
-  moves_rate,  ///< moves with the quality, as a proportion of the moves
+  moves_rate,  ///< Moves with the quality, as a proportion of the moves.
   moves_rate_low,
   moves_rate_high,
-  n,       ///< values
-  all,     ///< values, with those that are later than any
-  trials,  ///< trials, or values, above 0
+  n,       ///< Number of values.
+  all,     ///< Number of values, including times that count as later than any.
+  trials,  ///< Number of trials, or values, above 0.
   mean,
-  student_low,  ///< bounds of the mean
+  student_low,  ///< Lower bound of the mean; student_high is the upper bound.
   student_high,
   sd,
   rms,
@@ -78,30 +79,29 @@ enum class Statistic {
   p95_low,
   p95_high,
   max,
-  whole_max,  ///< as a whole number; 0 of no values
+  whole_max,  ///< Maximum as a whole number; 0 without values.
   total,
-  bootstrap_low,  ///< bounds of the mean, which only summaries have
+  bootstrap_low,  ///< Lower bound of the mean, which only summaries have; bootstrap_high is the upper bound.
   bootstrap_high
 };
 
-/// Statistics and their long name, in which {0} stands for what a statistic is, such as "5 % quantile" or
-/// "lower bound of the mean", and {1} for the bound alone, "lower bound".
+/// Statistics and their long name. In the long name {0} stands for the name of the statistic, such as "5 %
+/// quantile" or "lower bound of the mean", and {1} for the bound alone, "lower bound".
 struct StatisticText {
   std::vector<Statistic> statistics;
   std::string_view long_name;
-  std::string_view name{};  ///< where it is not that of the statistic
+  std::string_view name{};  ///< Name in place of the statistic's own name; empty: the statistic's own name
 };
 
-/// The statistics reported of a measure.
+/// The statistics that are reported for a measure.
 struct ReportedStatistics {
-  std::string_view group{};            ///< of the JSON; empty: the statistics stand at the top
-  std::vector<StatisticText> texts{};  ///< in any order
-  std::string_view stem{};             ///< of names at the top, where it is not the measure's name
+  std::string_view group{};  ///< Object of the JSON that holds the statistics; empty: they stand at the top
+  std::vector<StatisticText> texts{};  ///< Statistics with their texts, in any order
+  std::string_view stem{};             ///< Stem of the names at the top; empty: the measure's name
 };
 
-/// How the cell of a column is written.
-/// `percent`: a proportion; the proportions of trials and of moves are of the numbers of them that the
-/// statistic counts.
+/// Format of the cells of a column. `percent` is a proportion. For `proportion_of_trials` and
+/// `proportion_of_moves` the statistic is a count, which is divided by the number of trials or moves.
 enum class CellText { number, settling_time, percent, proportion_of_trials, proportion_of_moves };
 
 /// Bounds of a statistic, written behind it.
@@ -119,9 +119,10 @@ struct SummaryColumn {
 
 /// The columns of a measure in the summary's table.
 struct SummaryColumns {
-  bool study::StudyFeatures::*use{nullptr};  ///< what a study must make use of to have them; null: nothing
+  /// Feature that a study must use to have the columns; null: none is needed
+  bool study::StudyFeatures::*use{nullptr};
   std::vector<SummaryColumn> columns{};
-  std::string legend{};  ///< whole lines that explain the columns
+  std::string legend{};  ///< Whole lines that explain the columns
 };
 
 /// A measure as an output of a trial that `sensitivity` explains.
@@ -135,20 +136,20 @@ struct ExplainedOutput {
 struct GatedMeasure {
   std::string name;
   Worse worse{Worse::more};
-  double absolute{0.0};  ///< default margin, in the measure's unit
-  double relative{0.0};  ///< default margin, as a proportion of the baseline's value
+  double absolute{0.0};  ///< Default margin, in the measure's unit
+  double relative{0.0};  ///< Default margin, as a proportion of the baseline's value
 };
 
 /// One measure of a move.
 struct Measure {
   RecordField<trial::MoveOutcome> field;
-  std::optional<std::int64_t> band{};  ///< of a measure of an error band: its limit, counts
-  std::optional<double> tolerance{};   ///< of a measure of a tolerance of the position error: it, rad
-  bool study::StudyFeatures::*only_with{nullptr};  ///< the extra without which no file has it
+  std::optional<std::int64_t> band{};  ///< Limit of the error band that the measure belongs to, counts
+  std::optional<double> tolerance{};   ///< Tolerance of the position error that the measure belongs to, rad
+  bool study::StudyFeatures::*only_with{nullptr};  ///< Feature without which no file has the measure.
   CountedValues values{};
   MoveReduction reduction{MoveReduction::last};
-  ReportedStatistics point{};  ///< at a design point
-  ReportedStatistics level{};  ///< at a torque level of an open-loop study
+  ReportedStatistics point{};  ///< Statistics at a design point.
+  ReportedStatistics level{};  ///< Statistics at a torque level of an open-loop study.
   SummaryColumns summary{};
   std::optional<ExplainedOutput> output{};
   std::optional<GatedMeasure> gate{};
@@ -160,12 +161,12 @@ bool is_in_file(const Measure& measure, const study::StudyFeatures& features);
 /// Whether the moves have, or lack, the measure as a quality.
 bool is_quality(const Measure& measure);
 bool has_quality(const Measure& measure, const trial::MoveOutcome& move);
-/// 1 of each move that has the quality, 0 of others.
+/// Writes 1 for each move that has the quality, 0 for the others.
 void qualities_of(const Measure& measure, std::span<const trial::MoveOutcome* const> moves,
                   std::span<double> qualities);
 
-/// Orders that reports of earlier versions have: the measures named here come first, the others follow in the
-/// order of the table.
+/// Orders of the measures in reports. They are those of earlier versions: measures with a fixed place come
+/// first, the others follow in the order of the table.
 enum class ReportOrder { statistics, levels, summary, outputs };
 
 /// The measures of the table that `belongs` picks, in the order of the report. They point into the table.
@@ -175,7 +176,7 @@ std::vector<const Measure*> measures_of(const MeasureTable& measures, ReportOrde
 /// The measures of a move that do not depend on the study, in the order of the file.
 MeasureTable move_measures();
 
-/// The measures of the error band number `slot`, in the order of band_fields().
+/// The measures of error band number `slot`, in the order of band_fields().
 std::vector<Measure> measures_of_band(const trial::ErrorBands& bands, std::size_t slot);
 
 /// The settling time of the tolerance number `slot`.

@@ -9,7 +9,7 @@
 namespace zerocount::layout {
 namespace {
 
-/// Grows with every change of the fields that stand in files, or of their order.
+/// Version of the sums. It is raised with every change of the fields in files, or of their order.
 constexpr int form_number = 2;
 
 std::string text_of(const ReportedStatistics& reported) {

@@ -9,8 +9,8 @@
 
 namespace zerocount::layout {
 
-/// The sums over the trials of one design point, from which its statistics follow, as plain numbers: what
-/// they mean is known to the accumulator that made them.
+/// The sums over the trials of one design point, from which its statistics follow, as plain numbers. Only the
+/// accumulator that made them knows their meaning.
 struct PointSums {
   std::vector<std::int64_t> whole;
   std::vector<double> real;
@@ -20,16 +20,16 @@ struct PointSums {
 struct SumColumns {
   explicit SumColumns(std::span<const PointSums> sums);
 
-  std::vector<std::int64_t> whole_counts, real_counts;  ///< of the numbers of each point
-  std::vector<std::int64_t> whole;                      ///< of all points, one after the other
+  std::vector<std::int64_t> whole_counts, real_counts;  ///< Count of whole and of real numbers of each point
+  std::vector<std::int64_t> whole;  ///< Whole numbers of all points, one point after the other
   std::vector<double> real;
 };
 
-/// Writes /sums. @param sums [point, from `first_point` on]
+/// Writes /sums for the points from `first_point` on. @param sums [point].
 void write_sums(hdf5::File& file, std::int64_t first_point, std::span<const PointSums> sums);
 
-/// Stands for what the numbers are, and in which order: it differs between programs that do not understand
-/// each other's sums.
+/// Identifies the meaning and order of the numbers. It differs between programs that do not understand each
+/// other's sums.
 std::string sums_form();
 
 }  // namespace zerocount::layout

@@ -11,14 +11,14 @@
 namespace zerocount::layout {
 
 /// The values of the manifest of a file, with its overrides.
-/// @param source the file that the header is of, for messages
+/// @param source file of the header, for messages.
 /// @throws Failure (bad_data) where the manifest is not YAML that this program accepts.
 manifest_text::ManifestValues manifest_values(const FileHeader& header, const std::string& source);
 
-/// The values in which the study of the file `path` differs from this one: those of the manifest with its
-/// overrides, the order of keys where it numbers results, and the table of samples. Whoever adds trials to
-/// those of a file asks this: nothing but what may differ there (for an extension the number of trials) may
-/// be in the answer. The controller is compared by require_same_plugin().
+/// The values in which the study of the file `path` differs from `study`. The function compares the values of
+/// the manifest with its overrides, the table of samples, and the order of keys where results are numbered by
+/// that order. Code that adds trials to a file must call this and accept only differences that are allowed
+/// there, such as the number of trials for an extension. The controller is compared by require_same_plugin().
 /// @throws Failure (bad_data) as manifest_values() does.
 std::vector<manifest_text::ManifestDifference> study_differences(const std::filesystem::path& path,
                                                                  const FileHeader& header,

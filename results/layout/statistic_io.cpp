@@ -11,7 +11,7 @@
 namespace zerocount::layout {
 namespace {
 
-/// The columns of the group as they are described in the file, without values.
+/// The columns of the group as the file describes them, without values.
 std::vector<PointColumn> described_columns(const hdf5::Group& group, const StatisticGroup& kind) {
   std::vector<PointColumn> columns;
   for (const std::string& name : group.children()) {
@@ -22,12 +22,12 @@ std::vector<PointColumn> described_columns(const hdf5::Group& group, const Stati
   return columns;
 }
 
-/// The name of a number of an error band, or a tolerance, without it; empty for other names.
+/// The name of a number of an error band or tolerance without the band or tolerance; empty for other names.
 std::string_view name_before_limit(std::string_view name) {
   return name.ends_with(']') ? name.substr(0, name.find('[')) : std::string_view();
 }
 
-/// Makes one column [point, band] of those of successive error bands, or tolerances.
+/// Joins the columns of successive error bands, or tolerances, to one column [point, band].
 PointColumn joined_limits(std::span<const PointColumn> columns) {
   PointColumn joined{std::string(name_before_limit(columns.front().name)),
                      columns.front().unit,

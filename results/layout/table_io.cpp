@@ -25,7 +25,7 @@ void describe(hdf5::Dataset& dataset, const Column& column) {
   dataset.set_text("flag_meanings", words);
 }
 
-/// The group at `path` below `root`, made where it is not there yet, each step of it.
+/// The group at `path` below `root`. Each group on the path is created if it does not exist yet.
 hdf5::Group make_group(hdf5::Group& root, const std::string& path) {
   const std::size_t slash = path.find('/');
   const std::string name = path.substr(0, slash);
@@ -41,7 +41,7 @@ hdf5::Dataset make_dataset(hdf5::Group& group, const std::string& name, const hd
   return folder.create_dataset(name.substr(slash + 1), storage);
 }
 
-/// @param inner sizes of the dimensions after the rows
+/// @param inner sizes of the dimensions after the rows.
 hdf5::Storage storage_of(hdf5::Element element, std::int64_t rows, std::span<const hdf5::Size> inner,
                          hdf5::Compression compression) {
   std::int64_t width = 1;

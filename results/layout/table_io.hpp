@@ -15,16 +15,16 @@
 
 namespace zerocount::layout {
 
-/// Elements in a chunk of a column that is long enough to fill one. A constant of the format: chunks depend
-/// on the study alone and not on how it was run.
+/// Number of elements in a chunk of a column that is long enough to fill one. It is a constant of the format,
+/// so that chunks depend on the study alone and not on how it was run.
 inline constexpr std::int64_t chunk_elements = 16384;
 
 /// Rows in a chunk of a table with `width` elements a row.
 std::int64_t chunk_rows(std::int64_t width);
 
-/// How the scale of `size` rows is stored.
+/// Storage of the scale of `size` rows.
 hdf5::Storage scale_storage(const Column& scale, std::int64_t size);
-/// How a column of a table is stored. @param second size of the second dimension, 1 if the table has none
+/// Storage of a column of a table. @param second size of the second dimension; 1 if the table has none.
 hdf5::Storage column_storage(const Table& table, const Column& column, std::int64_t rows, std::int64_t second,
                              hdf5::Compression compression);
 
@@ -36,11 +36,11 @@ class TableIo {
   /// used as it is. A table without rows is made extendible, because
   /// the netCDF library knows a length of zero only of an unlimited dimension.
   static TableIo create(hdf5::Group& root, const Table& table, std::int64_t rows, std::int64_t second);
-  /// Opens its axes and columns, and checks that they have their element types and equal sizes.
+  /// Opens the axes and columns of a table, and checks that they have their element types and equal sizes.
   static TableIo open(const hdf5::Group& root, const Table& table);
 
   std::int64_t rows() const { return rows_; }
-  std::int64_t width() const { return width_; }  ///< elements of a row
+  std::int64_t width() const { return width_; }  ///< Number of elements of a row
   std::size_t columns() const { return datasets_.size(); }
   hdf5::Dataset& row_scale() { return row_scale_; }
   const hdf5::Dataset& row_scale() const { return row_scale_; }
@@ -67,7 +67,7 @@ class TableIo {
   hdf5::Dataset row_scale_;
   std::optional<hdf5::Dataset> second_scale_;
   std::optional<hdf5::Dataset> last_scale_;
-  std::vector<hdf5::Size> inner_extent_;  ///< sizes of the dimensions after the rows
+  std::vector<hdf5::Size> inner_extent_;  ///< Sizes of the dimensions after the rows.
   std::vector<hdf5::Dataset> datasets_;
 };
 
@@ -78,7 +78,7 @@ class TableReader {
 
   /// Opens the table of a file. @throws Failure (bad_data) as TableIo::open
   static TableReader open(const hdf5::Group& root, const Table& table);
-  /// @param width elements of a row @param scale of the rows
+  /// @param width number of elements of a row. @param scale scale of the rows.
   TableReader(std::int64_t rows, std::int64_t width, Column scale, std::vector<Column> columns)
       : rows_(rows), width_(width), scale_(std::move(scale)), columns_(std::move(columns)) {}
 
@@ -108,10 +108,11 @@ std::vector<Value> read_column(const AnyTable& io, std::size_t index) {
 void require_flags(const TableReader& io, std::size_t index, std::int64_t first,
                    std::span<const std::byte> flags);
 
-/// Some rows of a table as they are stored, [column].
+/// Some rows of a table in their stored form, [column].
 std::vector<hdf5::FetchedRows> fetch_columns(const TableReader& io, std::int64_t first, std::int64_t rows);
 
-/// Their elements, by any thread. @throws Failure (bad_data) if they are damaged
+/// The elements of fetched rows, [column]. Any thread may call this. @throws Failure (bad_data) if they are
+/// damaged.
 std::vector<std::vector<std::byte>> decode_columns(const TableReader& io,
                                                    std::span<const hdf5::FetchedRows> fetched);
 
@@ -123,14 +124,15 @@ std::vector<Record> read_records(const TableReader& io, const std::vector<Record
   return records;
 }
 
-/// Writes statistics of the design points `rows` to the table that the file has. Those of error bands become
-/// one dataset [point, band] (see PointColumn). The first points create the datasets, for all points.
+/// Writes statistics of the design points `rows` to the table that the file has. Columns of error bands
+/// become one dataset [point, band] (see PointColumn). The call for the first points creates the datasets for
+/// all points.
 /// @throws std::invalid_argument where a column has not one value per design point.
 void write_point_columns(hdf5::File& file, const Table& points, std::span<const PointColumn> columns,
                          const study::StudyFeatures& features, RowRange rows);
 
-/// Writes a table of statistics of the design points `rows` to its group, which the first of them create for
-/// `points` design points.
+/// Writes a table of statistics of the design points `rows` to its group. The call for the first points
+/// creates the group for `points` design points.
 /// @throws std::invalid_argument where a column has not one value per design point and index.
 void write_statistic_table(hdf5::File& file, const StatisticTable& table, std::int64_t points, RowRange rows);
 

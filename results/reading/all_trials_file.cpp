@@ -32,7 +32,8 @@ std::int64_t AllTrialsFile::row_in_file(std::int64_t row) const {
   return point * condition_->trials + condition_->turns.trial_of(row % draws, condition_->number);
 }
 
-/// @throws Failure if the file does not hold the rows
+/// Requires that the file holds the rows.
+/// @throws Failure (bad_data) otherwise.
 void AllTrialsFile::require_rows(layout::RowRange range) const {
   if (range.first >= rows().first && range.count >= 0 && range.end() <= rows().end()) return;
   throw Failure(ExitCode::bad_data,

@@ -19,7 +19,8 @@ namespace zerocount::reading {
 /// Failure (bad_data) then; what the functions return is described at TrialTables. One thread at a time.
 class AllTrialsFile : public ResultsFile {
  public:
-  /// @throws as ResultsFile does, and ForeignFile for a file that does not keep every trial
+  /// Opens the file.
+  /// @throws as ResultsFile does, and ForeignFile for a file that does not keep every trial.
   explicit AllTrialsFile(const std::filesystem::path& path, Require require = Require::complete,
                          const layout::MeasureTable* table = nullptr, const study::Study* study = nullptr);
 
@@ -33,8 +34,8 @@ class AllTrialsFile : public ResultsFile {
   std::int64_t moves() const { return trials()->moves(); }
 
   const std::vector<study::InputColumn>& input_columns() const { return trials()->input_columns(); }
-  std::vector<double> input(std::size_t column, layout::RowRange rows) const;  ///< [row]
-  std::vector<double> inputs_of(std::int64_t row) const;                       ///< [input column]
+  std::vector<double> input(std::size_t column, layout::RowRange rows) const;  ///< Values of an input, [row]
+  std::vector<double> inputs_of(std::int64_t row) const;  ///< Inputs of a trial, [input column]
 
   const std::vector<layout::RecordField<trial::MoveOutcome>>& measures() const {
     return trials()->measures();
@@ -43,17 +44,19 @@ class AllTrialsFile : public ResultsFile {
   std::vector<trial::MoveOutcome> outcomes(layout::RowRange rows) const;
   std::vector<double> measure(std::string_view name, layout::RowRange rows) const;
 
-  /// The steps of outcomes(), of which only the first calls the library: the others are for any thread.
+  /// The steps of outcomes(). Only stored_outcomes() calls the HDF5 library; any thread may take the other
+  /// steps.
   StoredOutcomes stored_outcomes(layout::RowRange rows) const;
   OutcomeColumns decoded(const StoredOutcomes& stored) const { return trials()->decoded(stored); }
-  /// @param rows among those of the columns
+  /// @param rows rows to return; the columns must contain them.
   std::vector<trial::MoveOutcome> outcomes(const OutcomeColumns& columns, layout::RowRange rows) const;
   std::vector<std::int64_t> jerk_counts(const OutcomeColumns& columns, layout::RowRange rows) const;
 
   void require_valid_values() const { trials()->require_valid_values(); }
 
-  std::int64_t jerk_count() const { return trials()->jerk_count(); }  ///< of all conditions
-  /// The jerks at these positions of the table; under a condition those among them that are of its trials.
+  std::int64_t jerk_count() const { return trials()->jerk_count(); }  ///< Number of jerks of all conditions
+  /// The jerks at these positions of the table. Under a condition, only the jerks of its trials among them
+  /// are returned.
   std::vector<layout::JerkRecord> jerks_at(std::int64_t first, std::int64_t count) const;
   std::vector<layout::JerkRecord> jerks(layout::RowRange rows) const;
   std::int64_t first_jerk_from(std::int64_t row) const { return trials()->first_jerk_from(row_in_file(row)); }
@@ -66,20 +69,21 @@ class AllTrialsFile : public ResultsFile {
   }
 
  private:
-  /// The trials that are read: those of one condition of the study in the file.
+  /// The condition whose trials are read.
   struct OneCondition {
     study::TrialTurns turns;
     std::int64_t number{0};
-    std::int64_t trials{0};  ///< of a design point, of all conditions
+    std::int64_t trials{0};  ///< Trials of a design point, of all conditions together
   };
 
   AllTrialsFile(const AllTrialsFile& whole, std::int64_t condition);
-  /// The row of the study in the file that is this row.
+  /// Index of the row in the whole file. @param row index among the trials of the condition that is read
   std::int64_t row_in_file(std::int64_t row) const;
   void require_rows(layout::RowRange rows) const;
-  /// The positions in the tables from the first to the last of these rows.
+  /// The positions in the tables from the first to the last of `rows`.
   layout::RowRange local(layout::RowRange rows) const;
-  /// Of values read from local(rows), those of the rows. @param width values of a trial
+  /// Selects the values of `rows` from values read from local(rows). @param width number of values of a
+  /// trial.
   template <class Value>
   std::vector<Value> chosen(layout::RowRange rows, std::vector<Value> read, std::int64_t width) const;
 

@@ -115,7 +115,7 @@ void export_jerks(const TrialTables& trials, CsvFile& csv) {
   export_records(layout::jerk_fields(), trials.jerk_count(), read, trials.features().axis, csv);
 }
 
-/// @param trials stays as long as the tables
+/// @param trials must live as long as the tables.
 void add_trial_tables(std::vector<ExportedTable>& tables, const TrialTables& trials,
                       std::int64_t trials_of_point) {
   tables.push_back({"trials.csv", [&trials, trials_of_point](const ResultsFile&, CsvFile& csv) {
@@ -149,7 +149,7 @@ void export_profiles(const ResultsFile& file, CsvFile& csv) {
   }
 }
 
-/// The inputs of machines or worlds, or the names of conditions.
+/// Writes the inputs of machines or worlds, or the names of conditions.
 void export_groups(const layout::Grouping& grouping, const StoredGroups& groups, CsvFile& csv) {
   csv.add(grouping.name);
   if (!groups.names.empty()) csv.add("name");
@@ -163,7 +163,7 @@ void export_groups(const layout::Grouping& grouping, const StoredGroups& groups,
   }
 }
 
-/// One row per design point and group, which has its number or its age.
+/// Writes one row per design point and group. The group is given by its number or its age.
 void export_by_group(const layout::Grouping& grouping, const StoredGroups& groups,
                      const std::vector<layout::PointColumn>& columns, CsvFile& csv) {
   csv.add("point", head_with_unit(grouping.name, groups.unit));
@@ -178,8 +178,8 @@ void export_by_group(const layout::Grouping& grouping, const StoredGroups& group
   }
 }
 
-/// The tables of a grouping: machines.csv and machine_counts.csv. Ages, of which nothing else is known, have
-/// ages.csv alone; what machines have beside their counts, their lives, is in lives.csv.
+/// The tables of a grouping, such as machines.csv and machine_counts.csv. Ages have only ages.csv, because
+/// nothing but counts is known of them. The lives of machines are in lives.csv.
 void add_groups(std::vector<ExportedTable>& tables, const ResultsFile& file,
                 const layout::Grouping& grouping) {
   const std::optional<StoredGroups> found = file.groups(grouping.name);
@@ -215,7 +215,7 @@ void export_trace(const TrialTables& trials, CsvFile& csv) {
                  csv);
 }
 
-/// One row per design point and index of the second dimension.
+/// Writes one row per design point and index of the second dimension.
 void export_statistics(const layout::StatisticTable& table, CsvFile& csv) {
   csv.add("point", table.group->dimension);
   for (const layout::PointColumn& column : table.columns) csv.add(head_with_unit(column.name, column.unit));
@@ -240,8 +240,8 @@ void add_statistic_tables(std::vector<ExportedTable>& tables, const ResultsFile&
   }
 }
 
-/// Writes the tables. None has its name before all are whole: a failure leaves nothing that would stop the
-/// next attempt.
+/// Writes the tables. No file gets its name before all are complete, so that a failure leaves nothing that
+/// would stop the next attempt.
 std::vector<fs::path> write_tables(const std::vector<ExportedTable>& tables, const ResultsFile& file,
                                    const fs::path& directory, ExistingFiles existing) {
   std::vector<fs::path> paths(tables.size());

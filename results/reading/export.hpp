@@ -30,8 +30,8 @@ std::string value_text(const layout::RecordField<Record>& field, const Record& r
 /// nothing).
 std::string head_with_unit(std::string_view name, std::string_view unit);
 
-/// A table in the form of RFC 4180, but with lines that end in a single line feed. It is an
-/// OutputFile: it stands at PATH.part until publish(), and is removed if that never comes.
+/// A table in the form of RFC 4180, but with lines that end in a single line feed. It is an OutputFile: its
+/// name is PATH.part until publish(), and it is removed if publish() is never called.
 /// @throws Failure (machine_failed) with the path and the reason, from every function.
 class CsvFile {
  public:
@@ -39,12 +39,13 @@ class CsvFile {
 
   void add(double value);
   void add(std::int64_t value);
-  void add(std::string_view text);  ///< quoted where it must be
+  void add(std::string_view text);  ///< Adds a text, in quotes if it needs them
   template <class... Values>
   requires(sizeof...(Values) > 1) void add(const Values&... values) { (add(values), ...); }
   void end_row();
-  void finish() { file_.finish(); }    ///< see OutputFile; nothing can be added after it
-  void publish() { file_.publish(); }  ///< gives the finished file its name
+  /// Finishes the file (OutputFile::finish()). Nothing can be added afterwards.
+  void finish() { file_.finish(); }
+  void publish() { file_.publish(); }  ///< Gives the finished file its name.
 
  private:
   void separate();
@@ -56,8 +57,8 @@ class CsvFile {
 
 /// A table as a CSV file.
 struct ExportedTable {
-  std::string name;                                         ///< of the file
-  std::function<void(const ResultsFile&, CsvFile&)> write;  ///< all its rows
+  std::string name;                                         ///< Name of the file
+  std::function<void(const ResultsFile&, CsvFile&)> write;  ///< Writes all rows of the table
 };
 
 /// The treatment of files that have the names of tables already.
@@ -67,9 +68,9 @@ enum class ExistingFiles { refuse, replace };
 /// trials.csv, outcomes.csv (one row per move) and jerks.csv of the trials that the file keeps; profiles.csv
 /// where there are profiles, trace.csv where trials are retained, and the CSV files of those
 /// statistic_groups() that there are; then `further` ones. Columns have the names of the datasets (inputs
-/// without "input/"), with the unit in brackets where there is one, such as "arrival_time [s]"; the values
-/// of profiles.csv have theirs in a column, because it differs from profile to profile. Enumerations are
-/// written as their labels. Memory is bounded. The files get their names when all of them are whole.
+/// without "input/"), followed by the unit in brackets if there is one, such as "arrival_time [s]". The unit
+/// of the values in profiles.csv is in a column of its own, because it differs between profiles. Enumerations
+/// are written as their labels. Memory is bounded. The files get their names when all of them are complete.
 /// @return the files, in that order
 /// @throws Failure: bad_input where one of the files exists and is not to be replaced, bad_data where the
 /// results are damaged, machine_failed where a file cannot be written.

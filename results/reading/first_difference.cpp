@@ -13,17 +13,18 @@
 namespace zerocount::reading {
 namespace {
 
-/// Elements that are read at a time.
+/// Number of elements that are read at a time.
 constexpr std::int64_t block_elements = 1 << 20;
 
 /// A comparison of two files.
 struct Comparison {
-  double tolerance{0.0};                               ///< relative, of real numbers
-  bool units{false};                                   ///< are compared too
-  std::function<bool(const DatasetDifference&)> tell;  ///< false: the comparison ends
+  double tolerance{0.0};  ///< Relative tolerance of real numbers
+  bool units{false};      ///< Units are compared too.
+  /// Receives each difference; a result of false ends the comparison.
+  std::function<bool(const DatasetDifference&)> tell;
 };
 
-using How = std::optional<std::string>;  ///< what differs; nothing if nothing does
+using How = std::optional<std::string>;  ///< Description of a difference; empty without one
 
 How text_difference(const hdf5::Dataset& one, const hdf5::Dataset& other) {
   const std::vector<std::string> before = one.read_texts();
@@ -38,8 +39,8 @@ bool are_close(double one, double other, double tolerance) {
   return one == other || std::abs(one - other) <= tolerance * std::max(std::abs(one), std::abs(other));
 }
 
-/// The index of the first byte that differs, or that of the first real number that does beyond the
-/// tolerance; the size where none does.
+/// Index of the first byte that differs or, with a tolerance, of the first real number that differs by more
+/// than it. The size if nothing differs.
 std::size_t first_mismatch(const std::vector<std::byte>& one, const std::vector<std::byte>& other,
                            bool real_numbers, double tolerance) {
   const auto from =
@@ -85,7 +86,8 @@ How dataset_difference(const hdf5::Dataset& one, const hdf5::Dataset& other, dou
                                               : number_difference(one, other, tolerance);
 }
 
-/// Statistics of the trials: what they are made of is looked at before them.
+/// Whether a dataset holds statistics of the trials. They are compared last, after the data from which they
+/// are computed.
 bool is_derived(const std::string& name) {
   return name == "point" || name == "level" || name == "repeatability";
 }
@@ -96,7 +98,7 @@ std::string path_in(const hdf5::Group& group, const std::string& name) {
 
 bool compare_groups(const hdf5::Group& one, const hdf5::Group& other, const Comparison& comparison);
 
-/// Compares the member `name` of the first group. False: the comparison ends.
+/// Compares the member `name` of the first group. @returns false if the comparison is to end.
 bool compare_member(const hdf5::Group& one, const hdf5::Group& other, const std::string& name,
                     const Comparison& comparison) {
   const std::string path = path_in(one, name);

@@ -46,7 +46,7 @@ std::vector<double> read_doubles(const hdf5::Dataset& dataset) {
   return values;
 }
 
-/// Requires one value per design point.
+/// Requires that a column has one value per design point.
 void require_points(const hdf5::Dataset& dataset, std::int64_t points) {
   const std::vector<hdf5::Size> extent = dataset.extent();
   if (!extent.empty() && extent.size() <= 2 && extent[0] == static_cast<hdf5::Size>(points)) return;
@@ -68,7 +68,7 @@ std::vector<std::pair<std::string, hdf5::Dataset>> point_columns(const hdf5::Fil
   return columns;
 }
 
-/// The names of the numbers of this dataset [point, band] or [point, tolerance].
+/// Names of the columns in a dataset [point, band] or [point, tolerance].
 std::vector<std::string> names_by_limit(const hdf5::File& file, const std::string& name) {
   std::vector<std::string> names;
   if (layout::is_of_tolerance(name)) {
@@ -98,7 +98,7 @@ void append_limits(const hdf5::File& file, const layout::PointColumn& column, co
   }
 }
 
-/// Where the numbers of each point begin, and where the last of them end.
+/// Index of the first number of each point, and the end of the last point.
 std::vector<std::int64_t> begins_of(const layout::TableReader& counts, std::size_t column,
                                     const layout::TableReader& numbers) {
   std::vector<std::int64_t> begins{0};
@@ -120,7 +120,7 @@ std::vector<Number> numbers_of(const layout::TableReader& io, const std::vector<
   return numbers;
 }
 
-/// The statistics of the groups at the design points: the datasets of numbers in two dimensions.
+/// The statistics of the groups at the design points, which are the datasets of numbers in two dimensions.
 std::vector<layout::PointColumn> group_statistics(const hdf5::Group& group) {
   std::vector<layout::PointColumn> statistics;
   for (const std::string& name : group.children()) {

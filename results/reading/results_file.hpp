@@ -19,20 +19,22 @@
 
 namespace zerocount::reading {
 
-/// How much of its study a file must hold to be opened.
+/// Part of its study that a file must hold to be opened.
 enum class Require {
-  complete,   ///< every trial: what statistics may be made of
-  any_part,   ///< also a part or a shard
-  unfinished  ///< also a file that this process is making, or has checked: its checksum is not read
+  complete,   ///< Every trial, as statistics need it.
+  any_part,   ///< A whole file, a part or a shard.
+  unfinished  ///< Any of these, even if this process is still making it or has checked it. The checksum is
+              ///< not read.
 };
 
 /// A profile as it stands in a results file.
 struct StoredProfile {
   std::string name;
   std::string unit;
-  std::vector<double> theta;  ///< rad
-  std::vector<double> value;  ///< in `unit`; of machines [machine][theta], flattened
-  std::int64_t machines{0};   ///< each with a rotor of its own; 0: one rotor of all trials
+  std::vector<double> theta;  ///< Angles, rad
+  std::vector<double> value;  ///< Values in `unit`; for rotors of machines [machine][theta], flattened
+  /// Number of machines, each with a rotor of its own; 0: one rotor for all trials
+  std::int64_t machines{0};
   std::string theta_unit{"rad"};
 };
 
@@ -40,14 +42,14 @@ struct StoredProfile {
 /// Counts and statistics are [point][group], flattened, and empty in a part.
 struct StoredGroups {
   std::int64_t count{0};
-  std::vector<study::InputColumn> columns;  ///< what is drawn for each of them
-  std::vector<std::vector<double>> inputs;  ///< [column][group]
-  std::vector<std::string> names;           ///< [group] of conditions; otherwise empty
-  std::vector<double> values;               ///< [group] of ages; otherwise empty
-  std::string unit;                         ///< of these
-  std::vector<std::int64_t> success;        ///< trials that succeeded
-  std::vector<std::int64_t> trials;         ///< trials that were judged
-  std::vector<std::int64_t> goal_met;  ///< trials that meet the goal; empty of machines, and without a goal
+  std::vector<study::InputColumn> columns;  ///< Inputs that are drawn for each group
+  std::vector<std::vector<double>> inputs;  ///< Values of the inputs, [column][group]
+  std::vector<std::string> names;           ///< Names of conditions, [group]; otherwise empty
+  std::vector<double> values;               ///< Ages, [group]; otherwise empty
+  std::string unit;                         ///< Unit of `values`
+  std::vector<std::int64_t> success;        ///< Trials that succeeded
+  std::vector<std::int64_t> trials;         ///< Trials that were judged
+  std::vector<std::int64_t> goal_met;  ///< Trials that meet the goal; empty for machines, and without a goal
   std::vector<layout::PointColumn> statistics;
 };
 
@@ -58,11 +60,12 @@ class ResultsFile {
  public:
   /// Checks checksum trailer, format, version, completion mark, completeness as required, and the numbers of
   /// the rows (see validation.hpp). Reads the file once from beginning to end.
-  /// @param table the measures that its moves may have; stays as long as this. Null: those of this program
-  /// with the error bands of the file.
-  /// @param study of a shard, if it is known, which stays as long as this: its manifest is not parsed then
-  /// @throws ForeignFile for another format or a newer version; Failure: bad_input where there is no such
-  /// file, machine_failed where it cannot be read, otherwise bad_data.
+  /// @param table measures that the moves may have; must live as long as this. Null: the measures of this
+  /// program with the error bands of the file.
+  /// @param study study of a shard, if it is known; must live as long as this. Its manifest is then not
+  /// parsed.
+  /// @throws ForeignFile for another format or a newer version; Failure: bad_input if there is no such file,
+  /// machine_failed if it cannot be read, otherwise bad_data.
   explicit ResultsFile(const std::filesystem::path& path, Require require = Require::complete,
                        const layout::MeasureTable* table = nullptr, const study::Study* study = nullptr);
 
@@ -75,8 +78,8 @@ class ResultsFile {
   const hdf5::Group& root() const { return opened_->file.value(); }
   layout::RowRange rows() const { return header().rows; }
 
-  /// Empty in a shard, like axes, statistics and their tables. Statistics are also empty of a file that is
-  /// shown as the study of one condition (AllTrialsFile::under_condition).
+  /// Labels of the design points. A shard has no labels, axes, statistics or tables of statistics. A file
+  /// that is shown as the study of one condition (AllTrialsFile::under_condition) has no statistics either.
   std::vector<std::string> point_labels() const;
   std::vector<study::SweepAxis> axes() const;
   std::vector<layout::PointColumn> statistics() const;
@@ -85,32 +88,34 @@ class ResultsFile {
   bool has_profiles() const { return contains("profile"); }
   std::vector<StoredProfile> profiles() const;
 
-  /// Nothing in a study without such groups, and in a shard. @param name of a grouping: "machine"
+  /// The groups of a grouping; empty in a shard, and in a study without such groups. @param name name of the
+  /// grouping, such as "machine".
   std::optional<StoredGroups> groups(std::string_view name) const;
 
   /// Nothing with `keep: statistics`.
   const std::optional<TrialTables>& trials() const { return opened_->trials; }
 
-  /// The point of the first trial. The others follow it.
+  /// The design point of the first trial. The other points of the file follow it.
   std::int64_t first_point() const { return rows().first / header().trials; }
   std::int64_t points() const { return (rows().end() - 1) / header().trials - first_point() + 1; }
-  layout::RowRange rows_of(std::int64_t point) const;  ///< those in the file
-  /// The sums of a point. @param index of the point, from first_point() on
+  layout::RowRange rows_of(std::int64_t point) const;  ///< Rows of the point that are in the file
+  /// The sums of a point. @param index index of the point, counted from first_point().
   /// @throws ForeignFile if the file has no sums, because it keeps every trial
   layout::PointSums sums(std::int64_t index) const;
 
  protected:
-  /// Shows the file as one of this study, a part of its own, with all trials.
+  /// Shows the file as a file of `study`, which is a part of the study in the file, with all trials.
   void show_study(study::Study study);
 
  private:
-  /// The sums that a file or a shard has.
+  /// The tables of sums in a file or a shard.
   struct StoredSums {
     StoredSums(const std::function<layout::TableReader(const layout::Table&)>& open, std::int64_t points);
 
     layout::TableReader whole;
     layout::TableReader real;
-    std::vector<std::int64_t> whole_begin, real_begin;  ///< [point] its first number; one more for the end
+    /// Index of the first number of each point, [point], and of the end
+    std::vector<std::int64_t> whole_begin, real_begin;
   };
 
   /// What is open of the file.

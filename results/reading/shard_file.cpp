@@ -44,7 +44,7 @@ constexpr std::string_view signature = "zerocount-shard ";
                                                   place.empty() ? "" : ": ", problem)));
 }
 
-/// The rows of a column of a shard.
+/// A column of a shard as a source of rows.
 class ShardColumn final : public hdf5::RowSource {
  public:
   ShardColumn(fs::path path, std::shared_ptr<const storage::FileDescriptor> file,
@@ -92,7 +92,7 @@ class ShardColumn final : public hdf5::RowSource {
   std::vector<hdf5::StoredChunk> chunks_;
 };
 
-/// Finds MessagePack that is deeper than a head, before anything recurses through it.
+/// Detects MessagePack that is nested deeper than a head, before anything recurses through it.
 class DepthLimit final : public nlohmann::json_sax<Json> {
  public:
   bool null() override { return true; }
@@ -129,7 +129,7 @@ bool has_possible_rows(const ShardHead& head) {
                              [](const auto& column) { return column.rows >= 0 && column.rows <= most; });
 }
 
-/// The head of a shard, and where its chunks begin.
+/// The head of a shard, and the address of its first chunk.
 std::pair<ShardHead, std::uint64_t> read_head(const fs::path& path, const storage::FileDescriptor& file) {
   constexpr std::size_t max_line = 64;
   const std::size_t size = storage::size_of_file(path, file);

@@ -12,8 +12,8 @@
 #include "results/layout/table_io.hpp"
 #include "results/storage/durable_file.hpp"
 
-/// A shard: finished trials of a run that has not ended. Only the build that wrote it reads it, so that it
-/// does not say what its columns mean:
+/// A shard: finished trials of a run that has not ended. Only the build that wrote a shard reads it, so that
+/// it does not describe its columns:
 ///
 ///     "zerocount-shard V N\n"   version of the layout, bytes of the head
 ///     head                      ShardHead, as MessagePack
@@ -24,9 +24,9 @@ namespace zerocount::reading {
 
 struct ShardHead {
   struct Column {
-    std::string path;  ///< of the dataset that it becomes a part of
+    std::string path;  ///< Path of the dataset of which the column becomes a part
     std::int64_t rows{0};
-    std::vector<std::uint64_t> chunks;  ///< bytes of each
+    std::vector<std::uint64_t> chunks;  ///< Size of each chunk, bytes
   };
   layout::FileHeader header;
   hdf5::Compression compression{hdf5::Compression::none};
@@ -36,7 +36,7 @@ struct ShardHead {
 /// The bytes before the chunks of a shard: the first line and the head.
 std::string bytes_of(const ShardHead& head);
 
-/// Whether a file begins as a shard does; false also for what cannot be read.
+/// Whether a file begins as a shard does. False also if it cannot be read.
 bool is_shard(const std::filesystem::path& path);
 
 /// A shard, open to be read.
@@ -48,11 +48,11 @@ class ShardFile {
                      layout::Checksum checksum = layout::Checksum::required);
 
   const layout::FileHeader& header() const { return head_.header; }
-  /// Columns of the table, which may stay longer than this. The scale of its rows has the trials, if those
-  /// are its rows.
+  /// Opens the columns of a table; they may outlive this object. If the rows of the table are trials, the
+  /// scale of the rows holds them.
   /// @param second size of the second dimension, 1 if the table has none
-  /// @throws ForeignFile for a shard of another build; Failure (bad_data) if a column is missing or its size
-  /// differs from that of the others
+  /// @throws ForeignFile for a shard of another build; Failure (bad_data) if a column is missing or the
+  /// columns differ in size
   layout::TableReader open(const layout::Table& table, std::int64_t second) const;
 
  private:
@@ -64,7 +64,8 @@ class ShardFile {
   std::filesystem::path path_;
   std::shared_ptr<const storage::FileDescriptor> file_;
   ShardHead head_;
-  std::vector<std::uint64_t> begins_;  ///< [column] address of its first chunk; one more for the end
+  /// Address of the first chunk of each column, [column], and of the end
+  std::vector<std::uint64_t> begins_;
 };
 
 }  // namespace zerocount::reading

@@ -23,7 +23,7 @@ namespace {
 /// Columns of /trial before the inputs: point and index.
 constexpr std::size_t columns_before_inputs = 2;
 
-/// The axis by the unit of a position, and the features by their columns.
+/// Finds the kind of axis from the unit of a position, and the features from their columns.
 study::StudyFeatures read_features(const hdf5::File& file, const layout::MeasureTable& measures) {
   const hdf5::Group outcome = file.open_group("outcome");
   study::StudyFeatures features;
@@ -186,8 +186,8 @@ std::vector<Record> records_at(const std::vector<layout::RecordField<Record>>& f
 
 constexpr std::int64_t moves_of_part = 1024;
 
-/// Calls work(part) for parts of the positions, several at a time. Throws what the first part throws that
-/// does, whatever ends first.
+/// Calls work(part) for parts of the positions, several at a time. If several parts throw, the exception of
+/// the first of these parts is thrown, whichever ends first.
 template <class Work>
 void for_each_part(layout::RowRange positions, std::int64_t size, const Work& work) {
   std::vector<std::exception_ptr> failures(static_cast<std::size_t>((positions.count + size - 1) / size));

@@ -23,22 +23,23 @@ struct StoredOutcomes {
   std::vector<hdf5::FetchedRows> moves, bands, tolerances;
 };
 
-/// The bytes of their elements.
+/// The columns of the outcomes of trials, as the bytes of their elements.
 struct OutcomeColumns {
   using Columns = std::vector<std::vector<std::byte>>;
   layout::RowRange positions;
   Columns moves, bands, tolerances;
 };
 
-/// Where the tables of trials are: in a results file, or in a shard.
+/// Source of the tables of trials: a results file or a shard.
 struct TrialSource {
-  study::StudyFeatures features;  ///< those that decide which columns the tables have
+  study::StudyFeatures features;  ///< Features that decide which columns the tables have
   std::vector<study::InputColumn> inputs;
   bool has_trace{false};
   std::function<layout::TableReader(const layout::Table&)> open;
 };
 
-/// @param file stays as long as what is opened @param measures those that moves may have
+/// The tables of trials in a results file.
+/// @param file must live as long as the opened tables. @param measures measures that moves may have.
 TrialSource trials_in(const hdf5::File& file, const layout::MeasureTable& measures);
 
 /// The trials that a results file or a shard keeps: /trial, /outcome, /jerk and /trace. With `keep: failures`
@@ -49,15 +50,16 @@ TrialSource trials_in(const hdf5::File& file, const layout::MeasureTable& measur
 class TrialTables {
  public:
   /// Checks sizes and row numbers (see validation.hpp).
-  /// @param table the measures that moves may have, which stay as long as this; null: those of this program
-  /// with the error bands of the source
+  /// @param table measures that moves may have; must live as long as this. Null: the measures of this program
+  /// with the error bands of the source.
   TrialTables(const TrialSource& source, const layout::FileHeader& header, const layout::MeasureTable* table);
 
   std::int64_t count() const { return trials_.rows(); }
   std::vector<std::int64_t> rows(layout::RowRange positions) const;
-  layout::RowRange positions_of(layout::RowRange rows) const;  ///< of the kept trials among these
+  /// Positions of the kept trials among these rows
+  layout::RowRange positions_of(layout::RowRange rows) const;
 
-  /// How often each is drawn is not in the file.
+  /// Inputs of the trials. How often each is drawn is not in the file.
   const std::vector<study::InputColumn>& input_columns() const { return inputs_; }
   std::vector<double> input(std::size_t column, layout::RowRange positions) const;
 
@@ -65,22 +67,23 @@ class TrialTables {
   /// The measures that the file has.
   const std::vector<layout::RecordField<trial::MoveOutcome>>& measures() const { return measures_; }
   const layout::MeasureTable& table() const { return *table_; }
-  /// All measures of the moves, [trial][move], flattened. Those that the study has no use for are 0, or
+  /// All measures of the moves, [trial][move], flattened. Measures that the study does not use are 0 or
   /// false.
   std::vector<trial::MoveOutcome> outcomes(layout::RowRange positions) const;
-  /// The steps of outcomes(), of which only the first calls the library: the others are for any thread.
+  /// The steps of outcomes(). Only stored_outcomes() calls the HDF5 library; any thread may take the other
+  /// steps.
   StoredOutcomes stored_outcomes(layout::RowRange positions) const;
   OutcomeColumns decoded(const StoredOutcomes& stored) const;
-  /// @param positions among those of the columns
+  /// @param positions positions to return; the columns must contain them.
   std::vector<trial::MoveOutcome> outcomes(const OutcomeColumns& columns, layout::RowRange positions) const;
-  /// The jerks that each trial counts, [trial]. They may be impossible, as outcomes() would find.
+  /// Number of jerks that each trial counts, [trial]. The values are not checked as outcomes() checks them.
   std::vector<std::int64_t> jerk_counts(const OutcomeColumns& columns, layout::RowRange positions) const;
-  /// One measure of a move by its name, [trial][move], flattened, whatever its type in the file, as doubles.
-  /// 0 if the study has no use for it.
+  /// One measure of the moves by its name, [trial][move], flattened, as doubles whatever its type in the
+  /// file. 0 if the study does not use it.
   std::vector<double> measure(std::string_view name, layout::RowRange positions) const;
 
   std::int64_t jerk_count() const { return jerks_.rows(); }
-  /// By position in the table of jerks.
+  /// Some jerks, by position in the table of jerks.
   std::vector<layout::JerkRecord> jerks_at(std::int64_t first, std::int64_t count) const;
   std::vector<layout::JerkRecord> jerks_of(layout::RowRange rows) const;
   /// Position of the first jerk of a trial not before `row`: the table is ordered by trial.
@@ -88,51 +91,53 @@ class TrialTables {
 
   bool has_trace() const { return trace_.has_value(); }
   std::int64_t trace_count() const { return trace_ ? trace_->rows() : 0; }
-  /// By position in the table of sample records. Without its column, `reference` is the target, `phase` fine,
-  /// and `drive_torque` the torque decided, which becomes the motor's after the control's delay.
+  /// Some sample records, by position in their table. If a column is missing, `reference` is the target,
+  /// `phase` is fine, and `drive_torque` is the torque decided, which reaches the motor after the delay of
+  /// the control.
   std::vector<layout::TraceRecord> trace_at(std::int64_t first, std::int64_t count) const;
 
-  /// Those that decide which columns of /outcome and /trace the file has, and the axis.
+  /// Features that decide which columns of /outcome and /trace the file has, and the kind of axis.
   const study::StudyFeatures& features() const { return features_; }
 
   /// Calls `take(positions)` for blocks of trials that have about a chunk of moves each.
   void for_each_block(const std::function<void(layout::RowRange positions)>& take) const;
-  /// Reads everything once, for the checks that this makes, and checks that the jerks are those that the
-  /// outcomes count.
+  /// Reads everything once, which checks the values, and checks that the outcomes count the jerks that are in
+  /// the table.
   void require_valid_values() const;
 
  private:
-  /// Takes the measures of the moves at these positions, and checks them.
+  /// Copies the measures of the moves at these positions, and checks them.
   void take_moves(const OutcomeColumns& columns, layout::RowRange positions,
                   std::span<trial::MoveOutcome> moves) const;
-  /// Takes the measures of the error bands of the trials at these positions into their moves.
+  /// Copies the measures of the error bands at these positions into their moves, and checks them.
   void take_bands(const OutcomeColumns& columns, layout::RowRange positions,
                   std::span<trial::MoveOutcome> moves) const;
   void take_tolerances(const OutcomeColumns& columns, layout::RowRange positions,
                        std::span<trial::MoveOutcome> moves) const;
-  /// In messages about values: a global row, or a position where failures are kept.
+  /// Number of a trial in messages about values: its global row, or its position if only failures are kept.
   std::int64_t number_of(std::int64_t position) const { return first_row_.value_or(0) + position; }
 
-  std::optional<std::int64_t> first_row_;  ///< if every trial is kept
+  std::optional<std::int64_t> first_row_;  ///< Row of the first trial, if every trial is kept.
   study::StudyFeatures features_;
   std::vector<study::InputColumn> inputs_;
-  layout::TableReader trials_;  ///< point, index, then one column per input
+  layout::TableReader trials_;  ///< Columns: point, index, then one per input.
   const layout::MeasureTable* table_;
   std::vector<layout::RecordField<trial::MoveOutcome>> measures_;
-  std::vector<layout::RecordField<trial::MoveOutcome>> move_fields_;  ///< the columns of outcomes_
+  std::vector<layout::RecordField<trial::MoveOutcome>> move_fields_;  ///< Fields of the columns of outcomes_.
   layout::TableReader outcomes_;
-  std::optional<layout::TableReader> bands_;       ///< if the file has error bands
-  std::optional<layout::TableReader> tolerances_;  ///< if the file has error tolerances
+  std::optional<layout::TableReader> bands_;  ///< Present if the file has error bands.
+  /// Present if the file has tolerances of the position error.
+  std::optional<layout::TableReader> tolerances_;
   layout::TableReader jerks_;
   std::optional<layout::TableReader> trace_;
 };
 
 /// The error bands of the file.
 trial::ErrorBands read_bands(const hdf5::File& file);
-/// The tolerances of the file; none if it has none.
+/// The tolerances of the position error in the file; none if it has none.
 trial::Tolerances read_tolerances(const hdf5::File& file);
 
-/// The columns of the group `input` of /trial or /machine; none without such a group.
+/// The columns of the group `input` of /trial or /machine; empty without such a group.
 std::vector<study::InputColumn> read_input_columns(const hdf5::Group& table);
 
 }  // namespace zerocount::reading

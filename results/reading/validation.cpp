@@ -22,7 +22,7 @@ bool is_valid(const layout::ValidValues& valid, double value) {
   return std::isnan(value) ? valid.nan : value >= valid.low && value <= valid.high;
 }
 
-/// The field of this name; null where there is none.
+/// The field of this name; null if there is none.
 template <class Record>
 const layout::RecordField<Record>* find_field(const std::vector<layout::RecordField<Record>>& fields,
                                               std::string_view name) {
@@ -36,7 +36,7 @@ const layout::RecordField<Record>* find_field(const std::vector<layout::RecordFi
   dataset.fail(fmt::format("{}: it is {}; expected {}", row, value, expected));
 }
 
-/// Every record has a value of the field for which `holds`; `row_of` names the row of the i-th.
+/// Requires that `holds` is true for the field of every record. `row_of` gives the row of the i-th record.
 template <class Record, class RowOf, class Holds>
 void require_all(const layout::TableReader& table, const std::vector<layout::RecordField<Record>>& fields,
                  const layout::RecordField<Record>& field, std::span<const Record> records,
@@ -83,7 +83,7 @@ void require_numbers(const hdf5::RowSource& dataset, std::int64_t rows, Expected
   }
 }
 
-/// The rows of kept trials rise within those of the file, and agree with point and index.
+/// Requires that the rows of kept trials rise within the rows of the file, and agree with point and index.
 void require_kept_rows(const layout::FileHeader& header, const layout::TableReader& trials) {
   std::int64_t last = header.rows.first - 1;
   for (std::int64_t first = 0; first < trials.rows(); first += rows_at_once) {

@@ -10,27 +10,28 @@
 #include "results/layout/layout.hpp"
 #include "results/layout/table_io.hpp"
 
-/// The ranges of the values of a results file, whatever its study: a file whose checksum trailer and
-/// checksums are right may still have been made by something else than this program. Every function throws
-/// Failure (bad_data) with the path, the dataset, the row and what was expected.
+/// Checks that the values of a results file are in their ranges, whatever its study. A file whose checksum
+/// trailer and checksums are right may still have been made by another program. Every function throws Failure
+/// (bad_data) with the path, the dataset, the row and what was expected.
 namespace zerocount::reading {
 
 struct StoredGroups;
 
-/// The numbers of rows: point and index of a trial are those of its row, and the trials of the jerks rise
-/// within the rows of the file. In a file that keeps failures, the rows of the trials rise too. If more than
-/// 131072 trials are all kept, only eight blocks of 16384, spread evenly, are checked: nothing is computed
-/// from these two columns, and reading them whole would take a tenth of the time of a summary.
+/// Requires consistent row numbers: point and index of a trial must agree with its row, and the trials of the
+/// jerks must rise within the rows of the file. In a file that keeps failures, the rows of the trials rise
+/// too. If more than 131072 trials are all kept, only eight blocks of 16384, spread evenly, are checked:
+/// nothing is computed from these two columns, and reading them whole would take a tenth of the time of a
+/// summary.
 void validate_numbering(const layout::FileHeader& header, const layout::TableReader& trials,
                         const layout::TableReader& jerks);
 
 /// Checks the measures of `moves`. @param first_row number of their first trial, for messages
-/// @param fields the columns of `outcomes`; what the file does not have is not looked at.
+/// @param fields fields of the columns of `outcomes`. Measures that the file does not have are not checked.
 void validate_outcomes(const layout::TableReader& outcomes,
                        const std::vector<layout::RecordField<trial::MoveOutcome>>& fields,
                        std::int64_t first_row, std::span<const trial::MoveOutcome> moves);
 
-/// The measures of the error bands are possible. @param first_row row of the first one
+/// Requires possible values of the measures of error bands. @param first_row row of the first one.
 void validate_bands(const layout::TableReader& table, std::int64_t first_row,
                     std::span<const trial::BandOutcome> bands);
 
@@ -45,19 +46,19 @@ void validate_measure(const layout::TableReader& outcomes,
                       std::string_view name, std::int64_t first_row,
                       std::span<const trial::MoveOutcome> moves);
 
-/// `jerks` are the rows of the table of jerks from `first` on, of a study with `moves` moves. Within a trial
-/// they must be in the order of their onsets, move by move.
+/// Checks `jerks`, the rows of the table of jerks from `first` on, in a study with `moves` moves. Within a
+/// trial they must be in the order of their onsets, move by move.
 void validate_jerks(const layout::TableReader& table, std::int64_t moves, std::int64_t first,
                     std::span<const layout::JerkRecord> jerks);
 
-/// `jerks` are those that the outcomes count, in order of trials and moves.
-/// @param rows of the trials @param outcomes [trial][move] @param jerks as many as `outcomes` count
+/// Requires that the outcomes count exactly these jerks, in order of trials and moves.
+/// @param rows rows of the trials. @param outcomes [trial][move]. @param jerks as many as `outcomes` count.
 void validate_jerk_counts(const layout::TableReader& table, std::span<const std::int64_t> rows,
                           std::span<const trial::MoveOutcome> outcomes,
                           std::span<const layout::JerkRecord> jerks);
 
-/// Counts of the groups: not more trials than a group has (of machines equally many, or none), and of them
-/// those that succeeded and those that meet the goal.
+/// Checks the counts of the groups. A group must not count more trials than it has, and not more successes or
+/// met goals than trials. Machines must all count the same number of trials: all that they have, or none.
 void validate_groups(const layout::Grouping& grouping, const layout::FileHeader& header,
                      const layout::TableIo& counts, const StoredGroups& stored);
 

@@ -21,7 +21,7 @@ namespace {
 /// The rows that one shard contributes to the table.
 struct Source {
   std::filesystem::path path;
-  layout::RowRange rows;  ///< in the table written
+  layout::RowRange rows;  ///< Rows of the shard in the table that is written
 };
 
 /// @param width size of the second dimension
@@ -29,7 +29,7 @@ std::int64_t elements_of_row(const layout::Table& table, std::int64_t width) {
   return table.last ? width * std::ssize(table.last->values) : width;
 }
 
-/// The table in a shard, or in a part: then `file` has it as long as it is read.
+/// Opens the table in a shard or in a part. `file` keeps a part open while the table is read.
 layout::TableReader open_table(const std::filesystem::path& path, const layout::Table& table,
                                std::int64_t width, std::optional<hdf5::File>& file) {
   if (reading::is_shard(path))
@@ -53,13 +53,13 @@ std::vector<Source> find_sources(const layout::Table& table, std::span<const Sha
   return sources;
 }
 
-/// The bytes of some rows, by column.
+/// Bytes of some rows, [column].
 using Block = std::vector<std::vector<std::byte>>;
 
 /// The tables of the shards. The last one read stays open, because the next rows are mostly in it, too.
 class Sources {
  public:
-  /// @param width size of the second dimension @param chunk rows in a chunk of the table written
+  /// @param width size of the second dimension. @param chunk rows in a chunk of the table that is written.
   Sources(const layout::Table& table, std::span<const ShardInfo> shards, std::int64_t width,
           std::int64_t chunk)
       : table_(table), sources_(find_sources(table, shards, width)), width_(width), chunk_(chunk) {}
@@ -83,14 +83,14 @@ class Sources {
     return true;
   }
 
-  /// Whether copy_chunks() might copy these rows, which are not before those of earlier calls.
+  /// Whether copy_chunks() might copy these rows. They must not lie before the rows of earlier calls.
   bool may_copy(layout::RowRange wanted) const {
     std::size_t index = next_;
     while (sources_[index].rows.end() <= wanted.first) ++index;
     return may_be_chunks_of(sources_[index], wanted);
   }
 
-  /// The rows of all columns.
+  /// Reads rows of all columns.
   Block read(layout::RowRange wanted, timeline::Timeline* timeline) {
     Block block(table_.columns.size());
     for (std::size_t index = index_of(wanted.first);
@@ -131,7 +131,7 @@ class Sources {
   std::vector<Source> sources_;
   std::int64_t width_;
   std::int64_t chunk_;
-  std::size_t next_{0};  ///< index of the first source whose rows are needed
+  std::size_t next_{0};  ///< Index of the first source whose rows are still needed
   std::optional<std::size_t> open_;
   std::optional<hdf5::File> file_;
   std::optional<layout::TableReader> reader_;
@@ -149,7 +149,7 @@ void renumber_trials(const layout::Table& table, const Renumbering& renumber, Bl
   }
 }
 
-/// The next rows that are written at a time: a chunk, or a few that cannot be copied.
+/// The rows to write next: one chunk that may be copied, or a few chunks that cannot be.
 layout::RowRange next_rows(const Sources& sources, std::int64_t first, std::int64_t chunk, bool copies) {
   constexpr std::int64_t max_chunks = 8;
   const auto chunk_from = [&](std::int64_t row) {

@@ -16,9 +16,9 @@ namespace zerocount::shards {
 using Renumbering = std::function<std::int64_t(std::int64_t row)>;
 
 struct JoinOptions {
-  Renumbering renumber{};  ///< applied to the column `trial` of a table that has one
+  Renumbering renumber{};  ///< Applied to the column `trial` of a table that has one
   std::stop_token stop{};
-  timeline::Timeline* timeline{nullptr};  ///< gets the spans of what any thread does; null: none
+  timeline::Timeline* timeline{nullptr};  ///< Gets the spans of what any thread does; null: none
 };
 
 /// Creates `table` in `file` and fills it with the rows of that table in the shards, in their order.

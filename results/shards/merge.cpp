@@ -108,7 +108,8 @@ hdf5::File begin_file(const study::Study& study, const fs::path& part, layout::R
   return file;
 }
 
-/// Gives the trials in a file with some trials of its study their rows, found from point and index.
+/// Writes the rows of the trials, computed from point and index, in a file with only some trials of its
+/// study.
 void number_kept_trials(hdf5::File& file, const study::Study& study) {
   layout::TableIo trials = layout::TableIo::open(file, layout::trial_table({}));
   layout::TableIo outcomes = layout::TableIo::open(file, layout::verdict_table());

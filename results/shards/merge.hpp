@@ -23,12 +23,13 @@ namespace zerocount::shards {
 
 struct MergeOptions {
   layout::Provenance provenance{layout::current_provenance()};
-  /// For shards whose rows differ from those of the file: ShardInfo has the rows of the file, and this maps
-  /// the rows stored in the shards to them.
+  /// Maps the rows stored in the shards to the rows of the file, if they differ. ShardInfo has the rows of
+  /// the file.
   Renumbering renumber{};
-  const layout::MeasureTable* measures{nullptr};  ///< null: those of this program, with the study's bands
-  std::stop_token stop{};                         ///< interrupts the merge
-  timeline::Timeline* timeline{nullptr};          ///< gets the spans of what any thread does; null: none
+  /// Measures of the moves; null: the measures of this program, with the study's bands
+  const layout::MeasureTable* measures{nullptr};
+  std::stop_token stop{};                 ///< A request to stop interrupts the merge.
+  timeline::Timeline* timeline{nullptr};  ///< Receives the spans of what any thread does; may be null.
 };
 
 /// The files of `inputs`, sorted by rows; a directory stands for its shard_files(). Each file must be a
@@ -48,30 +49,32 @@ layout::FileHeader first_header(std::span<const std::filesystem::path> inputs);
 ///     file.finish();                                  the file appears
 ///
 /// The shards, as returned by list_shards or merge_inputs, must cover `rows` exactly. Memory does not grow
-/// with their number. The bytes of every dataset depend only on the study and `rows`. `output` appears when
-/// it is complete on the disk, and replaces an existing file. Its git_commit is that of options.provenance,
-/// or that of a shard whose build had uncommitted changes.
+/// with the number of shards. The bytes of every dataset depend only on the study and `rows`. `output`
+/// appears when it is complete on the disk, and replaces an existing file. Its git_commit is the commit of
+/// options.provenance, or of a shard whose build had uncommitted changes.
 class MergedFile {
  public:
-  /// @param study stays as long as this
+  /// @param study must live as long as this.
   /// @throws Failure: bad_data for gaps, overlaps and damaged shards; machine_failed with the path and the
-  /// reason if the file cannot be written; interrupted if options.stop was requested. The others likewise.
+  /// reason if the file cannot be written; interrupted if options.stop was requested. The other functions
+  /// throw the same.
   MergedFile(std::span<const ShardInfo> shards, const study::Study& study, std::filesystem::path output,
              layout::RowRange rows, const MergeOptions& options = {});
 
-  const std::vector<ShardInfo>& shards() const { return shards_; }  ///< in order of rows
+  const std::vector<ShardInfo>& shards() const { return shards_; }  ///< Shards in order of rows
   bool is_whole() const { return rows_ == layout::all_rows(study_); }
-  /// The trials, which can be read although the file is unfinished, if it keeps every one.
+  /// The trials, for a file that keeps every trial. They can be read although the file is unfinished.
   const reading::AllTrialsFile& trials();
 
-  /// @param sums [point, from that of the first trial]
+  /// Writes the sums of all points.
+  /// @param sums [point], counted from the point of the first trial.
   void write_sums(std::span<const layout::PointSums> sums);
   /// Writes the statistics of the next points, after those written before.
   void write_statistics(const layout::StoredStatistics& statistics);
-  hdf5::File& file() { return file_; }  ///< for further groups
+  hdf5::File& file() { return file_; }  ///< The open file, for further groups
 
-  /// @throws Failure (machine_failed) if the trials are not in the file as they were written: the reason why
-  /// they cannot be read
+  /// Requires that the trials are in the file as they were written, to explain why they cannot be read.
+  /// @throws Failure (machine_failed) otherwise.
   void require_trials() const { written_.hashed().require_in(part_.path(), timeline_); }
   void finish();
   /// The steps of finish(): close(), read_back(), publish().
@@ -89,10 +92,10 @@ class MergedFile {
   std::vector<ShardInfo> shards_;
   storage::UnfinishedFile part_;
   storage::WrittenBytes written_;
-  hash::Sha256 checksum_{};  ///< of what was read back
+  hash::Sha256 checksum_{};  ///< Checksum of the bytes read back
   hdf5::File file_;
   std::optional<reading::AllTrialsFile> trials_;
-  std::int64_t described_{0};  ///< points with statistics
+  std::int64_t described_{0};  ///< Number of points with statistics
 };
 
 }  // namespace zerocount::shards

@@ -9,25 +9,24 @@ namespace zerocount::shards {
 
 /// Part `number` of `count` of a study whose parts are run by an array job.
 struct Part {
-  std::filesystem::path path;  ///< OUTPUT.parts/part-007-of-128.h5, whether it exists or not
-  std::int64_t number{1};      ///< from 1
+  std::filesystem::path path;  ///< Path OUTPUT.parts/part-007-of-128.h5, whether the file exists or not
+  std::int64_t number{1};      ///< Number of the part, from 1
   std::int64_t count{1};
 };
 
 /// The folder of the parts of `output`: OUTPUT.parts.
 std::filesystem::path parts_directory(const std::filesystem::path& output);
 
-/// The part that a file, or its folder of shards, is or belongs to; nothing if its name is not that of a
-/// part.
+/// The part to which a file or a folder of shards belongs; empty if its name is not the name of a part.
 std::optional<Part> part_named(const std::filesystem::path& path);
 
-/// The parts of `output` of which there is a file or a folder of shards, in order.
+/// The parts of `output` that have a file or a folder of shards, in order.
 /// @throws Failure (machine_failed) if a directory cannot be read.
 std::vector<Part> begun_parts(const std::filesystem::path& output);
 
 /// The files with the finished trials of an output that is not complete yet: its shards; or, in order of
-/// rows, its finished parts and the shards of the others. Empty if there are none. Files may have vanished
-/// since, because they were joined to others.
+/// rows, its finished parts and the shards of the others. Empty if there are none. A file may vanish
+/// afterwards, because it is joined to others.
 /// @throws Failure (machine_failed) if a directory cannot be read.
 std::vector<std::filesystem::path> finished_pieces(const std::filesystem::path& output);
 

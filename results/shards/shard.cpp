@@ -39,7 +39,7 @@ void require_fit(const study::Study& study, layout::RowRange rows, const TrialCo
   }
 }
 
-/// Columns that are encoded together, so that several threads can encode their chunks.
+/// Number of columns that are encoded together, so that several threads can encode their chunks.
 class Encoding {
  public:
   explicit Encoding(EncodedShard& shard) : shard_(shard) {}

@@ -23,7 +23,7 @@ std::filesystem::path shard_path(const std::filesystem::path& directory, layout:
 
 /// Reads the closed results file part_of(path) back, appends its checksum trailer, brings it to the disk, and
 /// renames it to `path`.
-/// @param written to the file
+/// @param written bytes that were written to the file.
 /// @throws Failure (machine_failed) if the file cannot be flushed or read, or if its contents differ.
 void finish_results(const std::filesystem::path& path, const storage::WrittenBytes& written);
 
@@ -33,13 +33,15 @@ inline constexpr hdf5::Compression shard_compression = hdf5::Compression::none;
 
 struct ShardOptions {
   layout::Provenance provenance{layout::current_provenance()};
-  hdf5::Compression compression{shard_compression};  ///< of the tables of trials
-  const layout::MeasureTable* measures{nullptr};     ///< null: those of this program, with the study's bands
+  hdf5::Compression compression{shard_compression};  ///< Compression of the tables of trials
+  /// Measures of the moves; null: the measures of this program, with the study's bands
+  const layout::MeasureTable* measures{nullptr};
 };
 
-/// Writes what the study keeps of the trials `rows` as one shard: `trials`, in order of rows, are every one
-/// or the failures; `sums` [point, from that of the first row] are those of all of them if the study does not
-/// keep every trial, otherwise empty. `path` appears when the shard is complete on the disk.
+/// Writes what the study keeps of the trials `rows` as one shard: `trials`, in order of rows, are all of
+/// these trials or the failures among them. `sums`, [point] from the point of the first row on, cover all of
+/// these trials if the study does not keep every trial; otherwise they are empty. `path` appears when the
+/// shard is complete on the disk.
 /// @throws Failure (machine_failed) with the path and the reason; std::invalid_argument if the trials do not
 /// fit the rows and the study.
 void write_shard(const std::filesystem::path& path, const study::Study& study, layout::RowRange rows,
@@ -58,28 +60,29 @@ void sort_by_rows(std::vector<ShardInfo>& shards);
 /// A file that cannot be used, and why.
 struct ShardProblem {
   enum class Kind {
-    damaged,  ///< its trials are lost
-    foreign   ///< valid, but of another study, another build, or another or newer format (ForeignFile)
+    damaged,  ///< The file is damaged and its trials are lost.
+    foreign   ///< The file is valid, but of another study, another build, or another or newer format
+              ///< (ForeignFile).
   };
 
   std::filesystem::path path;
-  std::string problem;  ///< complete message, the path included
+  std::string problem;  ///< Complete message, including the path
   Kind kind{Kind::damaged};
 };
 
 /// Contents of a folder of shards.
 struct ShardSurvey {
-  std::vector<ShardInfo> shards;                  ///< valid, in order of rows
-  std::vector<ShardProblem> problems;             ///< damaged or foreign, in order of paths
-  std::vector<std::filesystem::path> unfinished;  ///< *.part, left by a killed process; safe to remove
+  std::vector<ShardInfo> shards;                  ///< Valid shards, in order of rows
+  std::vector<ShardProblem> problems;             ///< Damaged or foreign files, in order of paths
+  std::vector<std::filesystem::path> unfinished;  ///< Files *.part, left by a killed process; safe to remove
 };
 
 /// The regular files *.shard and *.h5 (parts) in `directory`, sorted by name.
 /// @throws Failure (machine_failed) if the directory cannot be read.
 std::vector<std::filesystem::path> shard_files(const std::filesystem::path& directory);
 
-/// The header of a finished results file, part or shard. Without its checksum for those who only choose with
-/// it how to open the file.
+/// The header of a finished results file, part or shard. Pass Checksum::not_yet if the header only decides
+/// how to open the file.
 /// @throws as open_results and read_header do
 layout::FileHeader inspect_header(const std::filesystem::path& path,
                                   layout::Checksum checksum = layout::Checksum::required);
@@ -92,13 +95,13 @@ layout::FileHeader unchecked_header(const std::filesystem::path& path);
 bool keeps_every_trial(const std::filesystem::path& path);
 
 /// The rows of a shard or part. Reads the whole file and checks its checksum trailer, format, version, study,
-/// build and completion mark. The checksum proves its values: they are not read.
+/// build and completion mark. Its values are not read, because the checksum proves them.
 /// @throws ForeignFile or another Failure (bad_data) if it cannot be used; see also open_results.
 ShardInfo checked_shard(const std::filesystem::path& path, const study::Study& study);
 
 /// Checks shard_files(directory). A missing directory has no shards; other files are ignored.
-/// @throws Failure (machine_failed) if the directory or a file cannot be read. Such a file does not count as
-/// damaged.
+/// @throws Failure (machine_failed) if the directory or a file cannot be read. An unreadable file does not
+/// count as damaged.
 ShardSurvey list_shards(const std::filesystem::path& directory, const study::Study& study);
 
 /// The ranges of `wanted` that no shard covers, in order. Shards may overlap.
@@ -107,14 +110,15 @@ std::vector<layout::RowRange> missing_ranges(std::span<const ShardInfo> shards, 
 /// Removes the files that killed processes left behind.
 void remove_unfinished(const ShardSurvey& survey);
 
-/// A shard as it will be stored. Any thread can encode and store one.
+/// A shard in its stored form. Any thread can encode and store one.
 struct EncodedShard {
   layout::RowRange rows;
   reading::ShardHead head;
-  std::vector<hdf5::EncodedRows> columns;  ///< those of the head
+  std::vector<hdf5::EncodedRows> columns;  ///< Columns that the head lists
 };
 
-/// @param columns of what is kept of the trials `rows` @param sums as for write_shard()
+/// Encodes a shard.
+/// @param columns data that is kept of the trials `rows`. @param sums as for write_shard().
 /// @throws std::invalid_argument if they do not fit the rows and the study
 EncodedShard encode_shard(const study::Study& study, layout::RowRange rows, TrialColumns&& columns,
                           std::vector<layout::PointSums>&& sums, const ShardOptions& options = {});

@@ -37,7 +37,7 @@ TableColumns trial_columns(const study::Study& study, std::span<const TrialResul
   return trials;
 }
 
-/// @param width records of a row
+/// @param width number of records in a row.
 template <class Record>
 TableColumns record_columns(const std::vector<layout::RecordField<Record>>& fields,
                             const std::vector<const Record*>& records, std::int64_t width) {
@@ -52,7 +52,7 @@ std::vector<const trial::MoveOutcome*> move_outcomes(std::span<const TrialResult
   return moves;
 }
 
-/// [move][band], flattened.
+/// Measures of the error bands of the moves, [move][band], flattened.
 std::vector<const trial::BandOutcome*> band_outcomes(std::span<const trial::MoveOutcome* const> moves,
                                                      const trial::ErrorBands& bands) {
   std::vector<const trial::BandOutcome*> outcomes;
@@ -62,7 +62,7 @@ std::vector<const trial::BandOutcome*> band_outcomes(std::span<const trial::Move
   return outcomes;
 }
 
-/// [move][tolerance], flattened.
+/// Measures of the tolerances of the moves, [move][tolerance], flattened.
 std::vector<layout::ToleranceRecord> tolerance_records(std::span<const trial::MoveOutcome* const> moves,
                                                        const trial::Tolerances& tolerances) {
   std::vector<layout::ToleranceRecord> records;
@@ -89,7 +89,7 @@ std::vector<layout::TraceRecord> trace_records(std::span<const TrialResult> resu
   return records;
 }
 
-/// Moves the bytes of a part behind those of the whole, and frees them there.
+/// Appends the bytes of a part to the bytes of the whole, and frees them in the part.
 void append(std::vector<std::byte>& whole, std::vector<std::byte>& part) {
   whole.insert(whole.end(), part.begin(), part.end());
   part = {};

@@ -14,17 +14,18 @@ namespace zerocount::shards {
 
 /// The stored data of one trial.
 struct TrialResult {
-  std::int64_t row{0};                     ///< global row: point·trials + index
-  std::vector<double> inputs;              ///< [input column of the study], in that column's unit
-  trial::TrialOutcome outcome;             ///< one entry per move
-  std::vector<trial::Jerk> jerks;          ///< by move and onset
-  std::vector<trial::SampleRecord> trace;  ///< every sample of a retained trial; otherwise empty
+  std::int64_t row{0};  ///< Global row, point·trials + index
+  /// Inputs of the trial, [input column of the study], in the unit of the column
+  std::vector<double> inputs;
+  trial::TrialOutcome outcome;             ///< Outcome with one entry per move
+  std::vector<trial::Jerk> jerks;          ///< Jerks, ordered by move and onset
+  std::vector<trial::SampleRecord> trace;  ///< Every sample of a retained trial; otherwise empty
 };
 
 /// A table with rows of trials in a shard.
 struct ShardTable {
   layout::Table table;
-  std::int64_t second{1};  ///< size of the second dimension
+  std::int64_t second{1};  ///< Size of the second dimension
 };
 
 /// The tables of trials in a shard of the study, in the order of the file.
@@ -33,19 +34,19 @@ std::vector<ShardTable> shard_tables(const study::Study& study, const layout::Me
 /// Rows of a table, as the bytes of the elements of its columns.
 struct TableColumns {
   std::int64_t rows{0};
-  std::vector<std::vector<std::byte>> columns;  ///< [column]
+  std::vector<std::vector<std::byte>> columns;  ///< Bytes of each column, [column]
 };
 
-/// What a shard stores of trials, in columns: a fifth of the memory of the results.
+/// Trials in the columns that a shard stores. They take a fifth of the memory of the results.
 struct TrialColumns {
-  std::vector<std::int64_t> rows;    ///< global row of each trial
-  std::vector<TableColumns> tables;  ///< those of shard_tables()
+  std::vector<std::int64_t> rows;    ///< Global row of each trial
+  std::vector<TableColumns> tables;  ///< Tables in the order of shard_tables()
 };
 
 TrialColumns columns_of(const study::Study& study, const layout::MeasureTable& measures,
                         std::span<const TrialResult> results);
 
-/// Bytes of the columns.
+/// Size of the columns, bytes.
 std::size_t bytes_of(const TrialColumns& columns);
 
 /// The columns of all parts, in their order. Empties the parts.

@@ -16,8 +16,8 @@ namespace zerocount::storage {
 
 /// A failed system call: the action and the reason.
 struct IoFailure {
-  std::string_view action;  ///< completes "cannot …"
-  int error{0};             ///< the system's error number (errno)
+  std::string_view action;  ///< Text that completes "cannot …"
+  int error{0};             ///< Error number of the system (errno)
 };
 
 /// A file with random access that records its first failure.
@@ -29,11 +29,11 @@ class ByteFile {
  public:
   enum class Mode {
     read,
-    create,  ///< a new, empty file: see create_file()
-    change   ///< reads and writes an existing file
+    create,  ///< A new, empty file; see create_file().
+    change   ///< An existing file, to read and write.
   };
 
-  /// @param so_far written to the file earlier
+  /// @param so_far bytes written to the file earlier.
   /// @throws Failure (machine_failed) with the path and the system's reason if it cannot be opened.
   ByteFile(std::filesystem::path path, Mode mode, WrittenBytes so_far = {});
 
@@ -41,7 +41,7 @@ class ByteFile {
   bool writable() const { return mode_ != Mode::read; }
   std::uint64_t size() const { return size_; }
 
-  /// Bytes beyond the end of the file are 0. Returns false if reading fails.
+  /// Reads bytes; those beyond the end of the file are 0. Returns false if reading fails.
   bool read(std::uint64_t offset, std::span<std::byte> bytes);
   void write(std::uint64_t offset, std::span<const std::byte> bytes,
              Rewritten rewritten = Rewritten::in_part);
@@ -70,7 +70,7 @@ class ByteFile {
   std::uint64_t size_{0};
   WrittenBytes written_;
   std::optional<IoFailure> failure_;
-  std::vector<Unwritten> unwritten_;  ///< in the order of the write calls
+  std::vector<Unwritten> unwritten_;  ///< Bytes that could not be written, in the order of the write calls
 };
 
 }  // namespace zerocount::storage

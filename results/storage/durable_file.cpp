@@ -23,7 +23,8 @@ fs::path directory_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-/// The file system has no fsync for directories: nothing more can be done there.
+/// Whether the error means that the file system has no fsync for directories, so that nothing more can be
+/// done.
 bool has_no_fsync(int error) {
   return error == EINVAL || error == EOPNOTSUPP || error == ENOSYS;
 }

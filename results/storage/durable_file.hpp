@@ -8,10 +8,11 @@
 
 namespace zerocount::storage {
 
-/// When a file that is closed is brought to the disk.
+/// Time at which a file that is closed is brought to the disk.
 enum class Flush {
   now,
-  later  ///< by the caller: synchronise(), or now when it is closed again
+  later  ///< The caller brings the file to the disk by synchronise(), or by Flush::now when the file is
+         ///< closed again.
 };
 
 /// A POSIX file descriptor that its destructor closes.
@@ -48,7 +49,7 @@ std::filesystem::path part_of(const std::filesystem::path& path);
 /// @throws Failure (machine_failed) with the path and the reason.
 FileDescriptor create_file(const std::filesystem::path& path);
 
-/// For those who write `path` only after long work.
+/// Checks early, before long work, that `path` can be written.
 /// @throws Failure (machine_failed) if publish() would not replace what is there: something other than a
 /// regular file, or a file that is write-protected.
 void require_replaceable(const std::filesystem::path& path);

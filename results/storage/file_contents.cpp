@@ -89,7 +89,7 @@ std::string read_trailer(const fs::path& path, const FileDescriptor& file) {
   return found;
 }
 
-/// Whether the file is in a format that zerocount never writes: that of HDF5 1.10 and later.
+/// Whether the file is in the format of HDF5 1.10 and later, which zerocount never writes.
 bool has_newer_format(const fs::path& path) {
   constexpr std::string_view signature = "\x89HDF\r\n\x1a\n";
   constexpr char newest_version = 2;  // of the superblock, which follows the signature

@@ -9,8 +9,8 @@
 #include "core/hash/sha256.hpp"
 #include "results/storage/durable_file.hpp"
 
-/// Functions that read a file. Those that read an open one throw Failure (machine_failed) with the path and
-/// the system's reason.
+/// Functions that read a file. Functions that read an open file throw Failure (machine_failed) with the path
+/// and the system's reason.
 namespace zerocount::storage {
 
 /// Up to `size` bytes of a file from `offset` on, fewer at its end. Empty if it cannot be read or is no
@@ -57,10 +57,10 @@ ChecksumState check_checksum(const std::filesystem::path& path);
 /// be read.
 void require_valid_checksum(const std::filesystem::path& path);
 
-/// Appends the checksum trailer to the closed file part_of(path), which was brought to the disk and whose
-/// contents came from there and were as they should be, so that only the trailer is read again; renames it to
-/// `path`.
-/// @param checksum of these contents
+/// Appends the checksum trailer to the closed file part_of(path) and renames it to `path`. The file must have
+/// been brought to the disk, and its contents must have been read back and compared, because only the trailer
+/// is read again here.
+/// @param checksum checksum of these contents.
 /// @throws Failure (machine_failed) with the path and the reason
 void publish_compared(const std::filesystem::path& path, const hash::Sha256& checksum);
 

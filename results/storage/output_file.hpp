@@ -24,7 +24,7 @@ class OutputFile {
   void write(std::string_view text);
   /// Flushes the file to the disk, reads it back and compares it with what was written. No write may follow.
   void finish();
-  /// Writes the checksum trailer (see file_contents.hpp) before that.
+  /// Writes the checksum trailer (see file_contents.hpp), then finishes the file as finish() does.
   void finish_with_checksum();
   /// Renames the finished file to its final name; replaces an existing file. Fails if another process has put
   /// its own file in place of this one.
@@ -35,9 +35,9 @@ class OutputFile {
 
   std::filesystem::path path_;
   std::filesystem::path part_;
-  FileDescriptor file_;  ///< open to the end, so that no other file can pass for it
+  FileDescriptor file_;  ///< Open until the end, so that no other file can be mistaken for this one
   std::string buffer_;
-  std::size_t size_{0};  ///< bytes passed to the system
+  std::size_t size_{0};  ///< Bytes passed to the system
   hash::Sha256Hash written_;
 };
 

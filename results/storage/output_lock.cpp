@@ -71,7 +71,7 @@ std::optional<std::string_view> take_last(std::string_view& text) {
   return last;
 }
 
-/// The owner that the name of an owner file names; nothing for the name of any other file.
+/// The owner that the name of an owner file contains; empty for the name of any other file.
 std::optional<Owner> owner_of(const fs::path& file, const std::string& prefix) {
   const std::string name = file.filename().string();
   if (!name.starts_with(prefix)) return std::nullopt;
@@ -101,7 +101,8 @@ bool has_ended(const Owner& owner) {
          errno == ESRCH;
 }
 
-/// ns since 1970; nothing if there is no such file. Opening it makes a network file system ask the server.
+/// Time of modification of a file, ns since 1970; empty if there is no such file. The file is opened first,
+/// because that makes a network file system ask the server.
 std::optional<std::int64_t> time_of(const fs::path& file) {
   const FileDescriptor opened(::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
   struct stat status {};
@@ -190,7 +191,7 @@ bool is_owned(const fs::path& output) {
 
 namespace {
 
-/// Follows no link, and does not wait for the other end of a pipe.
+/// Opens a file without following a link, and without waiting for the other end of a pipe.
 FileDescriptor open_lock(const std::filesystem::path& path) {
   FileDescriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666));
   if (!file.valid() && (errno == ELOOP || errno == EISDIR || errno == ENXIO)) fail_irregular(path);
@@ -201,7 +202,8 @@ FileDescriptor open_lock(const std::filesystem::path& path) {
   return file;
 }
 
-/// errno, or 0. Tries for a moment: lock_state() of another process has the lock while it looks.
+/// Tries for a moment to get the lock, because lock_state() of another process holds it while it looks.
+/// @returns errno, or 0.
 int lock(const FileDescriptor& file) {
   constexpr int tries = 5;
   for (int i = 1;; ++i) {
@@ -211,7 +213,7 @@ int lock(const FileDescriptor& file) {
   }
 }
 
-/// Writes this_machine() to the lock file. Without it the lock holds as well.
+/// Writes this_machine() to the lock file. A failure does not matter, because the lock holds without it.
 void name_machine(const FileDescriptor& file) {
   const std::string machine = this_machine();
   if (::ftruncate(file.get(), 0) != 0) return;
@@ -224,7 +226,8 @@ std::string machine_in(const FileDescriptor& file) {
   return size < 0 ? std::string() : std::string(text.data(), static_cast<std::size_t>(size));
 }
 
-/// flock(2) of a network file system whose server has no locks, or that is mounted without.
+/// Whether the error means that flock(2) fails because a network file system has no locks on its server, or
+/// is mounted without them.
 bool has_no_flock(int error) {
   return error == EOPNOTSUPP || error == ENOSYS || error == ENOLCK || error == EINVAL;
 }

@@ -10,25 +10,26 @@
 
 namespace zerocount::storage {
 
-/// A name of this machine until it is started anew: the same for processes that see each other by their
-/// numbers.
+/// Name of this computer that is valid until it restarts. Processes that see each other by their process
+/// numbers get the same name.
 std::string this_machine();
 
-/// How an owner shows that it is alive, and how long others wait for that.
+/// Timing by which an owner shows that it is alive, and by which others wait for that.
 struct Heartbeat {
   std::chrono::milliseconds interval{20'000};
-  std::chrono::milliseconds patience{90'000};  ///< an owner that did not show itself for so long has ended
+  /// An owner that has not shown itself for this time has ended.
+  std::chrono::milliseconds patience{90'000};
 };
 
-/// Exclusive lock on an output where the file system has no flock: the empty file
+/// Exclusive lock on an output on a file system without flock: the empty file
 /// OUTPUT.owner-HOST-MACHINE-PROCESS-RANDOM, which the destructor removes. Its time of modification is
-/// renewed while the owner lives. It needs nothing of a file system but files that only one process can make
-/// (O_EXCL) and times of modification that change; clocks need not agree.
+/// renewed while the owner lives. The file system needs only files that exactly one process can create
+/// (O_EXCL), and times of modification that change. Clocks need not agree.
 ///
-/// A process first makes its own file and then looks for others: of two that begin at once each sees the
-/// other's file, or one does. A file that is not renewed is of an owner that was killed, on whatever host,
-/// and is removed. MACHINE identifies the boot and the process-id namespace: of an owner with the same, the
-/// system tells at once whether it has ended.
+/// A process first makes its own file and then looks for others. If two begin at once, at least one of them
+/// sees the other's file. A file that is not renewed belongs to an owner that was killed, on whatever host,
+/// and is removed. MACHINE identifies the boot and the process-id namespace. If an owner has the same one,
+/// the system tells at once whether it has ended.
 ///
 /// An owner whose file was removed, because it was halted for longer than the others' patience, ends its
 /// process with exit code machine_failed at the next heartbeat: two must not write one output.
@@ -67,7 +68,7 @@ class OutputLock {
   OutputLock& operator=(const OutputLock&) = delete;
   ~OutputLock();
 
-  /// The lock that stands for flock; nothing where the file system has it.
+  /// The lock that replaces flock; empty if the file system has flock.
   const std::optional<OwnerLock>& owner() const { return owner_; }
 
  private:
@@ -80,7 +81,7 @@ class OutputLock {
 enum class LockState {
   free,
   held,
-  unknown  ///< there is a lock file of another machine, whose locks may not be seen here
+  unknown  ///< There is a lock file of another machine, whose locks may not be seen here
 };
 LockState lock_state(const std::filesystem::path& output);
 

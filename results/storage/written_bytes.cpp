@@ -44,7 +44,7 @@ WrittenBytes WrittenBytes::hashed() const {
   return hashed;
 }
 
-/// Forgets what was written to these bytes. Of a piece that is rewritten as a whole, the rest is given up.
+/// Forgets the bytes from `first` to `end`. A piece of which only the hash is known is forgotten as a whole.
 void WrittenBytes::clear(std::uint64_t first, std::uint64_t end) {
   auto next = pieces_.lower_bound(first);
   if (next != pieces_.begin() && std::prev(next)->first + std::prev(next)->second.size > first) --next;

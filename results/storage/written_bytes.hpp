@@ -15,17 +15,17 @@ class Timeline;
 
 namespace zerocount::storage {
 
-/// How bytes of a file are written again: some of them, or all or none, as those of a chunk.
+/// Manner in which bytes of a file may be written again: some of them, or all or none as with a chunk.
 enum class Rewritten { in_part, as_a_whole };
 
-/// What was written to a file, to prove that it is there. Of bytes that are rewritten as a whole their hash
-/// is kept, so that memory does not grow with the data; others are kept themselves.
+/// Record of the bytes written to a file, to prove that they are there. For bytes that are rewritten as a
+/// whole only a hash is kept, so that memory does not grow with the data. Other bytes are kept themselves.
 class WrittenBytes {
  public:
   void add(std::uint64_t offset, std::span<const std::byte> bytes, Rewritten rewritten);
-  /// The file ends at `size`.
+  /// Notes that the file ends at `size`.
   void cut(std::uint64_t size);
-  /// Without the bytes that are rewritten in part.
+  /// The pieces of which only the hash is known, without the bytes that are rewritten in part.
   WrittenBytes hashed() const;
 
   /// Reads the whole closed file and compares it. Several threads read and compare.
@@ -38,11 +38,11 @@ class WrittenBytes {
   struct Piece {
     std::size_t size{0};
     std::size_t hash{0};
-    std::vector<std::byte> bytes{};  ///< empty where only the hash is known
+    std::vector<std::byte> bytes{};  ///< Bytes of the piece; empty if only the hash is known
   };
   void clear(std::uint64_t first, std::uint64_t end);
 
-  std::map<std::uint64_t, Piece> pieces_;  ///< by offset, without overlaps
+  std::map<std::uint64_t, Piece> pieces_;  ///< Pieces by offset, without overlaps
 };
 
 }  // namespace zerocount::storage

@@ -11,22 +11,22 @@
 
 namespace zerocount::timeline {
 
-/// Who can do the work of a span: one thread at a time, or several.
+/// Whether the work of a span can be done by one thread at a time, or by several.
 enum class Work { serial, parallel };
 
-/// What the threads of the program do, and when. Any thread may add spans.
+/// Record of the work of the program's threads over time. Any thread may add spans.
 class Timeline {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// What a thread did from `begin` to `end`.
+  /// Work of a thread from `begin` to `end`.
   struct Span {
     std::string_view name;
     Work work{Work::serial};
-    std::int64_t trials{0};  ///< that were worked on
+    std::int64_t trials{0};  ///< Number of trials worked on
     Clock::time_point begin{};
     Clock::time_point end{};
-    double processor_seconds{0.0};  ///< of the thread, which may have waited
+    double processor_seconds{0.0};  ///< Processor time of the thread, s; less than the duration if it waited
   };
   void add(const Span& span);
 
@@ -38,7 +38,7 @@ class Timeline {
  private:
   struct Event {
     Span span;
-    int thread;  ///< in order of first appearance
+    int thread;  ///< Number of the thread, in order of first appearance
   };
 
   mutable std::mutex mutex_;
@@ -47,16 +47,16 @@ class Timeline {
   std::vector<Event> events_;
 };
 
-/// Whether a text begins as that of a timeline does.
+/// Whether a text begins as the text of a timeline does.
 bool is_timeline(std::string_view text);
 
 /// Processor time of the calling thread so far, s.
 double processor_seconds();
 
-/// Adds the time of its life to a timeline.
+/// Adds the time between its construction and destruction to a timeline as a span.
 class TimeSpan {
  public:
-  /// @param timeline null: nothing is done @param name stays as long as the timeline
+  /// @param timeline may be null; then nothing is done. @param name must live as long as the timeline.
   TimeSpan(Timeline* timeline, std::string_view name, Work work, std::int64_t trials = 0)
       : timeline_(timeline), span_{name, work, trials} {
     if (timeline_ == nullptr) return;

@@ -9,9 +9,9 @@ namespace zerocount::child_process {
 
 /// Exit code and output of a child process.
 struct ChildResult {
-  int code{0};      ///< exit code; 128 + signal if a signal ended it
-  std::string out;  ///< standard output
-  std::string err;  ///< standard error
+  int code{0};      ///< Exit code; 128 + signal if a signal ended the process.
+  std::string out;  ///< Standard output.
+  std::string err;  ///< Standard error.
 };
 
 /// Runs a program from the search path with these arguments and `input` as standard input, and waits for its

@@ -50,7 +50,7 @@ fs::path output_of_option(const Arguments& arguments, std::string_view option) {
   return output;
 }
 
-/// Where a path leads to, also a file that does not exist.
+/// Canonical path of a file, which need not exist.
 fs::path destination(const fs::path& path) {
   std::error_code error;
   const fs::path whole = fs::absolute(path, error);
@@ -63,7 +63,7 @@ bool are_same_file(const fs::path& a, const fs::path& b) {
   return fs::equivalent(a, b, error) || destination(a) == destination(b);
 }
 
-/// A file of a command, and where the user names it: "--report", or "" of an operand.
+/// A file of a command, and the option that names it: "--report", or "" for an operand.
 struct NamedFile {
   fs::path path;
   std::string option;

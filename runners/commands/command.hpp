@@ -25,70 +25,74 @@ namespace zerocount::commands {
 /// One command of the command line.
 struct Command {
   command_line::CommandSpec spec;
-  std::string summary;  ///< one line
-  std::string help;     ///< complete description with examples
+  std::string summary;  ///< Summary of one line.
+  std::string help;     ///< Complete description with examples.
   ExitCode (*run)(const command_line::Arguments&){nullptr};
-  /// Types of answers that it gives; null where it answers no question. A type takes long to describe.
+  /// Types of the command's answers; null if it gives no answers. A function, because describing a type takes
+  /// long.
   std::vector<document::AnswerType> (*answers)(){nullptr};
 };
 
-/// Prints to stderr that the lock is a file with an owner, if it is.
+/// Prints to stderr if the lock is only a file with an owner.
 void print_fallback_lock(const storage::OutputLock& lock, const std::filesystem::path& output);
 
 /// Prints the warnings about the manifest and its loops to stderr.
 void print_warnings(const study::Study& study);
 
-/// success for a goal that is met, regression for one that is missed, inconclusive.
+/// Exit code of a verdict: success if the goal is met, regression if it is missed, otherwise inconclusive.
 ExitCode exit_code_of(goal::Status status);
 
-/// A figure as SVG, as PNG with 300 pixels per inch at a width of 140 mm, or as a Vega-Lite specification
-/// that needs nothing else. Runs node, and rsvg-convert for PNG.
+/// Renders a figure as SVG, as PNG with 300 pixels per inch at a width of 140 mm, or as a self-contained
+/// Vega-Lite specification. Runs node, and rsvg-convert for PNG.
 /// @param extension ".svg", ".png" or ".json"
-/// @throws Failure (machine_failed) where they are missing or fail.
+/// @throws Failure (machine_failed) if one of these programs is missing or fails
 std::string picture(const report::Figure& figure, std::string_view extension);
 
-/// The kind of a file with figures: an HTML page of all of them, or a picture of one.
+/// Kind of a file with figures: an HTML page of all figures, or a picture of one figure.
 enum class DrawingKind { page, svg, png };
 
-/// The kind by the ending of a file's name; standard output gets a page. Refuses other endings.
+/// Kind of a drawing from the ending of the file name; a page for standard output. Refuses other endings.
 DrawingKind drawing_kind(const command_line::Arguments& arguments, std::string_view option,
                          const std::filesystem::path& place);
 
-/// The page, or the picture of its first figure.
+/// Text of the page, or the picture of its first figure.
 /// @throws Failure as picture().
 std::string drawing(const report::ReportPage& page, DrawingKind kind);
 
 /// Whether `path` is a results file, by its signature or by its name (the signature may be damaged).
 bool is_results_file(const std::filesystem::path& path);
 
-/// @throws Failure (bad_input) if the trials of the file's study cannot be run: its controller is a plugin
+/// Checks that the trials of the file's study can be run.
+/// @throws Failure (bad_input) if they cannot, because the controller is a plugin
 void require_simulable(const reading::ResultsFile& file);
 
-/// The study of a finished results file, by its description: none of its trials is read, nor its checksum.
+/// Study of a finished results file. Only its description is read, neither trials nor the checksum.
 /// @throws Failure as layout::recorded_study and shards::inspect_header
 study::Study described_study(const std::filesystem::path& path);
 
-/// The study of `MANIFEST|FILE`: that of a manifest, with the overrides of `--set`, or the one whose trials a
-/// complete results file holds. The files that a manifest names are found from its folder, or from the
-/// current one if it is a stream.
-/// @throws Failure: bad_input with every error of the manifest, or if a file that it names is an output of
-/// the command, even with --force; of a results file with --set or with a plugin, which the file does not
-/// contain; otherwise as reading::ResultsFile
+/// Study of `MANIFEST|FILE`: the study of a manifest with the overrides of `--set`, or the study of a
+/// complete results file. Paths in a manifest are relative to its folder, or to the current folder if the
+/// manifest is a stream.
+/// @throws Failure: bad_input with every error of the manifest, or if a file named in the manifest is an
+/// output of the command, even with --force; bad_input for a results file with --set or with a plugin, which
+/// the file does not contain; otherwise as reading::ResultsFile
 study::Study load_study(const std::filesystem::path& operand, const command_line::Arguments& arguments);
 
-/// `--point` of `MANIFEST|FILE`: a point by label or number, or `best`, which is summary::best_point() of a
-/// results file and the only point of a manifest; nothing without the option.
+/// Design point of the option `--point` for `MANIFEST|FILE`; nothing without the option. The point is given
+/// by label, by number, or as `best`. For a results file, `best` is summary::best_point(); for a manifest,
+/// its only point.
 /// @throws Failure: bad_input for `best` of a manifest with several points; as summary::summarise_file
 std::optional<std::int64_t> study_point(const command_line::Arguments& arguments, const study::Study& study);
 
-/// The user's controller for the trials of a results file, of the option --plugin; null if none is given.
+/// User's controller from the option --plugin, for the trials of a results file; null without the option.
 std::shared_ptr<const plugin::ControllerPlugin> plugin_option(const command_line::Arguments& arguments);
 
-/// The source of the report of a results file: its contents, by their checksum, and the build of the program.
+/// Text that identifies the source of a report: the checksum of the results file, and the build of the
+/// program.
 std::string report_source(const std::filesystem::path& file);
 
-/// The report of a results file, with its report_source(), and with a warning for each trial that is
-/// simulated again and differs from its record. Prints the warnings.
+/// Report of a results file, with its report_source(), and with a warning for each trial that is simulated
+/// again and differs from its record. Prints the warnings.
 /// @throws Failure as report::study_report
 report::StudyReport verified_report(const reading::AllTrialsFile& file, report::ReportOptions options = {});
 

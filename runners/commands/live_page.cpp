@@ -32,9 +32,9 @@ double processor_seconds() {
 }
 
 struct Moment {
-  std::string text;   ///< how far the work is
-  std::string ended;  ///< why there is no answer; empty while the work is done
-  double seconds;     ///< since its start
+  std::string text;   ///< Progress of the work.
+  std::string ended;  ///< Why there is no answer; empty while the work runs.
+  double seconds;     ///< Time since the start of the work, s.
 };
 using At = const Moment&;
 

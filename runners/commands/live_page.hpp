@@ -18,55 +18,58 @@
 
 namespace zerocount::commands {
 
-/// Checks the place of a page, as command_line::require_replaceable. A page that is unfinished
-/// (report::is_unfinished_page) is replaced without --force, because the same command goes on.
+/// Checks the path of a page as command_line::require_replaceable() does. An unfinished page
+/// (report::is_unfinished_page) is replaced without --force, because the same command is resumed.
 void require_page_place(const command_line::Arguments& arguments, const std::filesystem::path& page);
 
-/// The page of `option`, such as --report, once it can be written; nothing without the option.
+/// Path of the page of `option`, such as --report, after a check that it can be written; nothing without the
+/// option.
 /// @throws Failure as command_line::text_place and require_page_place; bad_input if it does not end in .html;
 /// machine_failed if the program cannot draw
 std::optional<std::filesystem::path> page_option(const command_line::Arguments& arguments,
                                                  const std::string& option);
 
-/// `--watch`, the place of a LivePage.
+/// Option `--watch`, the path of a LivePage.
 command_line::OptionSpec watch_option();
 
-/// Likewise of watch_option(), which is not standard output.
+/// Path of the page of watch_option(), checked as page_option() does. Standard output is refused.
 std::optional<std::filesystem::path> watched_page(const command_line::Arguments& arguments);
 
-/// A page that shows long work while it is done: how far it is, and the answer so far.
+/// A page that shows the progress of long work and the answer so far.
 ///
-///     when the work tells how far it is, in its thread, because the library of its files has one at a time:
-///       show(so_far()), unless that took more than 2 % of a processor's time
+///     when the work tells its progress, in the thread of the work, because the file library has one thread
+///     at a time:
+///       show(so_far()), unless this took more than 2 % of a processor's time
 ///     at once, then every 2 s, in a thread of its own: write the page to PAGE.part, rename it to PAGE
 ///     finish(page): that is the page
-///     fail(why): the page says why there is no answer, below it the answer so far
+///     fail(why): the page says why there is no answer, and shows the answer so far below
 ///
-/// The browser loads the page again by itself, without a network and without a script, until it is finished
-/// or failed. Where it cannot be written in between, the work goes on.
+/// The browser reloads the page by itself, without a network and without a script, until it is finished or
+/// failed. If the page cannot be written in between, the work goes on.
 class LivePage {
  public:
   using Sections = std::function<std::vector<report::PageSection>()>;
 
-  /// @param place nothing: there is no page, and nothing is done
+  /// @param place path of the page; nothing: there is no page, and this object does nothing
   /// @param frame title, subtitle and kind of the page
-  /// @param so_far called in the thread that calls listener(); its Failure is shown; empty: only show() tells
-  /// the answer
+  /// @param so_far called in the thread that calls listener(); a Failure of it is shown. Empty: only show()
+  /// sets the answer
   /// @throws Failure (machine_failed) if the page cannot be written
   LivePage(std::optional<std::filesystem::path> place, report::ReportPage frame, Sections so_far);
   LivePage(const LivePage&) = delete;
   LivePage& operator=(const LivePage&) = delete;
 
-  /// Takes how far the work is.
+  /// Listener that receives the progress of the work.
   status::Listener listener();
 
-  /// The answer so far.
+  /// Sets the answer so far.
   void show(std::vector<report::PageSection> sections);
 
-  /// @param html the page of the answer
+  /// Writes the final page.
+  /// @param html page of the answer
   void finish(std::string_view html);
 
-  /// Does the work. Where it throws, the page says what.
+  /// Runs `work`. If it throws, the page shows the failure.
   template <class Work>
   auto during(const Work& work) {
     try {
@@ -93,10 +96,10 @@ class LivePage {
   Sections so_far_;
   Clock::time_point start_{Clock::now()};
   Clock::time_point next_call_{start_};
-  std::mutex mutex_;                           ///< of the two members below
-  std::string text_;                           ///< how far the work is
-  std::vector<report::PageSection> sections_;  ///< the answer so far, without figures
-  std::jthread writer_;                        ///< the last member: it uses the others
+  std::mutex mutex_;                           ///< Protects text_ and sections_.
+  std::string text_;                           ///< Progress of the work.
+  std::vector<report::PageSection> sections_;  ///< Answer so far, without figures.
+  std::jthread writer_;                        ///< Last member, because it uses the others.
 };
 
 }  // namespace zerocount::commands

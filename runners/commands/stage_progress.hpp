@@ -16,7 +16,7 @@ namespace zerocount::commands {
 /// soon prints nothing.
 class StageProgress {
  public:
-  /// @param command begins each message: "zerocount identify"
+  /// @param command text that begins each message: "zerocount identify"
   StageProgress(std::string command, bool quiet);
   /// Removes the line from a terminal.
   ~StageProgress();
@@ -40,7 +40,7 @@ class StageProgress {
   std::thread printer_;
 };
 
-/// What `work` returns, while a StageProgress shows the stage.
+/// Runs `work` while a StageProgress shows the stage. Returns the result of `work`.
 template <class Work>
 auto with_progress(std::string command, std::string_view stage, const Work& work) {
   StageProgress progress(std::move(command), /*quiet=*/false);

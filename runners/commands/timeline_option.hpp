@@ -12,22 +12,23 @@ namespace zerocount::timeline {
 class Timeline;
 }
 
-/// The option --timeline of commands that work on all cores.
+/// Option --timeline of commands that work on all cores.
 namespace zerocount::commands {
 
 command_line::OptionSpec timeline_option();
 
-/// The file of --timeline. A timeline that exists is replaced: the same command, given again after an
-/// interruption, writes it anew.
-/// @throws Failure (bad_input) if it exists and is no timeline and --force is not given
+/// Path of the option --timeline; nothing without the option. An existing timeline is replaced, because the
+/// same command, given again after an interruption, writes it anew.
+/// @throws Failure (bad_input) if the file exists and is not a timeline, and --force is not given
 std::optional<std::filesystem::path> timeline_place(const command_line::Arguments& arguments);
 
-/// Calls `work`, and writes what it did to `place`, also of work that fails or is interrupted.
-/// @param place none: `work` gets no timeline
+/// Calls `work` and writes its timeline to `place`, even if it fails or is interrupted.
+/// @param place path of the timeline; nothing: `work` gets no timeline
 void with_timeline(const std::optional<std::filesystem::path>& place,
                    const std::function<void(timeline::Timeline* timeline)>& work);
 
-/// The same of work whose loops over indices are recorded (parallel::Recording). @param name a literal
+/// Calls `work`, records its loops over indices (parallel::Recording), and writes the timeline to `place`.
+/// @param name name of the recording, a string literal
 ExitCode recorded(const std::optional<std::filesystem::path>& place, std::string_view name,
                   const std::function<ExitCode()>& work);
 

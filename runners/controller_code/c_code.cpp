@@ -140,7 +140,8 @@ const zerocount_controller* zerocount_controller_entry(void) {{ return &descript
 #endif
 )";
 
-/// The inputs of the program, from where they stand in double precision.
+/// The inputs of the program as C initialisers, separated by commas: the double-precision expressions `from`,
+/// in the order of the inputs. Single precision: each is cast to the type of its input, except flags.
 std::string converted(const Program& program, const std::vector<std::string>& from) {
   std::string text;
   for (std::size_t i = 0; i < program.inputs(); ++i) {

@@ -94,7 +94,8 @@ class ChainWriter {
     return single_ ? Term(Operation::count_difference, {a, b}) : a - b;
   }
 
-  /// Writes the variables that keep values of the first sample.
+  /// Declares the variables that the controller needs for the counts of earlier samples and of the first
+  /// sample, and writes code that sets all of them to the present count at the first sample.
   void start() {
     const bool differs = cascade_ || of_.controller.kd != 0.0 || (stands_ && blocks_.standstill.kd != 0.0);
     if (differs) last_counts_ = queue("last_count", blocks_.derivative_window, "counts", Type::count);
@@ -213,7 +214,7 @@ class ChainWriter {
   }
 
   struct SiUnit {
-    double factor;  ///< from the gain per count
+    double factor;  ///< Factor on the gain per count.
     std::string_view unit;
   };
 
@@ -412,16 +413,16 @@ class ChainWriter {
   ProgramWriter write_;
 
   Term error_{write_.input(Input::error)};
-  /// The count whose differences are the velocity, and that the observer reads.
+  /// Count whose differences are the velocity. The observer reads it too.
   Term velocity_count_{write_.input(of_.controller.velocity_by_other ? Input::velocity_count : Input::count)};
   Term new_target_{write_.input(Input::new_target)};
-  Term e_{error_};  ///< e′
+  Term e_{error_};  ///< Term of e′.
   Term u_{local("wanted")};
   Term started_{state("started", "there has been a sample", Type::flag)};
-  std::vector<Term> last_counts_;  ///< the oldest first
+  std::vector<Term> last_counts_;  ///< Counts of earlier samples, the oldest first.
   std::optional<Term> first_count_, difference_, stands_now_;
-  std::optional<Term> last_error_;  ///< of the PID law
-  Term command_{0.0};               ///< of the cascade, as the others
+  std::optional<Term> last_error_;  ///< Last error of the PID law.
+  Term command_{0.0};               ///< Velocity command of the cascade.
   std::optional<Term> velocity_, last_velocity_error_;
 };
 

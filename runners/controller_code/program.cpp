@@ -15,7 +15,8 @@ void require_new(const std::vector<Named>& all, const std::string& name) {
     throw std::logic_error("the program has two of the name " + name);
 }
 
-/// A program in one trial. Flags are 0 or 1; counts are kept in double precision, which has all of them.
+/// State of a program during a trial. Flags are 0 or 1. Counts are kept in double precision, which represents
+/// all counts.
 template <class Number>
 class RunningProgram {
  public:

@@ -15,9 +15,10 @@
 
 namespace zerocount::controller_code {
 
-/// A controller as statements, of which every language is written, and which can be run.
+/// A controller as a list of statements. Every output language is written from these statements, and they can
+/// be run.
 ///
-///     at each sample: the statements of `step`, which read inputs and states; then `wanted` has the torque
+///     at each sample: run `step`, whose statements read inputs and states; then `wanted` holds the torque
 
 enum class Precision { double_precision, single_precision };
 
@@ -30,12 +31,12 @@ enum class Operation {
   difference,
   product,
   quotient,
-  count_difference,  ///< of two counts, as a number
+  count_difference,  ///< Difference of two counts, as a number.
   magnitude,
-  limited,   ///< of x, lowest and highest
-  nearest,   ///< whole number, a tie to the even one
-  is_even,   ///< whether ⌊x⌋ is even, x ≥ 0
-  choice,    ///< of a condition, the value where it holds, and the other
+  limited,   ///< x limited to a range; operands: x, lowest, highest.
+  nearest,   ///< Nearest whole number; ties go to the even one.
+  is_even,   ///< Whether ⌊x⌋ is even, for x ≥ 0.
+  choice,    ///< Choice by a condition; operands: condition, value if it holds, value otherwise.
   at_most,   ///< ≤
   at_least,  ///< ≥
   below,     ///< <
@@ -47,7 +48,7 @@ enum class Operation {
 
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
-/// An expression.
+/// An expression tree. Copies share their nodes.
 class Term {
  public:
   Term(double literal)  // NOLINT(google-explicit-constructor): 2.0 * x
@@ -57,8 +58,8 @@ class Term {
 
   Operation operation() const { return node_->operation; }
   const std::vector<Term>& operands() const { return node_->operands; }
-  std::size_t index() const { return node_->index; }  ///< of a constant or variable in the program
-  double value() const { return node_->value; }       ///< of a literal
+  std::size_t index() const { return node_->index; }  ///< Index of a constant or variable in the program.
+  double value() const { return node_->value; }       ///< Value of a literal.
 
   friend bool is_same(const Term& a, const Term& b) { return a.node_ == b.node_; }
   friend bool is_literal(const Term& a) { return a.operation() == Operation::literal; }
@@ -136,17 +137,17 @@ class Term {
 struct Constant {
   std::string name;
   double value{0.0};
-  std::string meaning;  ///< with its unit
+  std::string meaning;  ///< Meaning with the unit, for a comment.
 };
 
 enum class Role {
   input,
-  state,  ///< keeps its value to the next sample
+  state,  ///< Keeps its value until the next sample.
   local
 };
 enum class Type {
   number,
-  count,  ///< a number in double precision; in single precision, which cannot tell all counts, a whole number
+  count,  ///< A number; in single precision, which cannot represent all counts, a whole number.
   flag
 };
 
@@ -154,49 +155,52 @@ struct Variable {
   std::string name;
   Role role{Role::local};
   Type type{Type::number};
-  std::string meaning{};  ///< with its unit
-  double initial{0.0};    ///< of a state
+  std::string meaning{};  ///< Meaning with the unit, for a comment.
+  double initial{0.0};    ///< Initial value of a state.
 };
 
 /// An assignment, a branch with a condition, or a remark.
 struct Statement {
   enum class Kind { assignment, branch, remark };
   Kind kind;
-  Term term{0.0};                               ///< the assigned value, or the condition
-  std::size_t variable{0};                      ///< that is assigned
-  std::vector<Statement> holds{}, otherwise{};  ///< the branches
-  std::string text{};                           ///< of a remark
+  Term term{0.0};                               ///< Assigned value, or condition of a branch.
+  std::size_t variable{0};                      ///< Index of the assigned variable.
+  std::vector<Statement> holds{}, otherwise{};  ///< Branches if the condition holds, and otherwise.
+  std::string text{};                           ///< Text of a remark.
 };
 using Statements = std::vector<Statement>;
 
-/// The inputs of every program, in the order of its variables; the last one only where a velocity loop reads
-/// an encoder of its own.
+/// Inputs of every program, in the order of its variables. The last input exists only if a velocity loop
+/// reads an encoder of its own.
 enum class Input { error, count, velocity, acceleration, torque, new_target, velocity_count };
 
+/// A controller program.
 struct Program {
   Precision precision{Precision::double_precision};
   std::vector<Constant> constants{};
-  std::vector<Variable> variables{};  ///< the inputs first
+  std::vector<Variable> variables{};  ///< The inputs come first.
   Statements step{};
-  std::size_t wanted{0};  ///< the variable with the result
+  std::size_t wanted{0};  ///< Index of the variable with the result.
 
-  std::size_t inputs() const;  ///< their number
+  std::size_t inputs() const;  ///< Number of inputs.
 };
 
 /// Makes a program, statement by statement.
 class ProgramWriter {
  public:
-  /// @param angle, torque units: "rad" and "N m"
+  /// @param angle unit of angles, such as "rad"
+  /// @param torque unit of torques, such as "N m"
   ProgramWriter(Precision precision, const std::string& angle, const std::string& torque,
                 bool with_velocity_count);
 
   Term input(Input input) const;
-  /// @throws std::logic_error if the program has another with this name
+  /// Adds a constant.
+  /// @throws std::logic_error if the program has another constant with this name
   Term constant(const std::string& name, double value, const std::string& meaning);
   Term variable(const Variable& variable);
 
   void remark(const std::string& text);
-  /// Reads a part of the value from the variable that already has it.
+  /// Assigns a value. Subexpressions that a variable already holds are read from this variable.
   void assign(const Term& variable, const Term& value);
   void branch(const Term& condition, const std::function<void()>& holds,
               const std::function<void()>& otherwise = {});
@@ -210,80 +214,83 @@ class ProgramWriter {
   };
 
   Statements statements_of(const std::function<void()>& write);
-  /// The term with variables in place of what they have.
+  /// The term with subexpressions replaced by the variables that already hold them.
   Term shortened(const Term& term) const;
 
   Program program_;
   Statements* at_;
-  std::vector<Assigned> assigned_;  ///< since the last branch began or ended
+  std::vector<Assigned> assigned_;  ///< Assignments since the last branch began or ended.
 };
 
-/// The program as a control law of this process, statement by statement in its precision.
+/// Control law that runs the program in this process, statement by statement in its precision.
 std::shared_ptr<const plugin::ControllerPlugin> law_of(const Program& program);
 
 /// A control chain to be written as a program.
 struct ControllerToWrite {
-  loop::ControllerParameters controller;  ///< with gains per count
-  double resolution{1.0};                 ///< Δx, rad per count
-  double velocity_resolution{1.0};        ///< Δx of the encoder that a velocity loop reads, rad per count
-  loop::DacParameters dac{};              ///< whose range clamps the integral
-  double initial_integral{0.0};           ///< I before the first sample, N m
-  std::string name{};                     ///< of the study, for comments
+  loop::ControllerParameters controller;  ///< Controller with gains per count.
+  double resolution{1.0};                 ///< Resolution Δx, rad per count.
+  double velocity_resolution{1.0};        ///< Resolution of the velocity loop's encoder, rad per count.
+  loop::DacParameters dac{};              ///< Converter; its range clamps the integral.
+  double initial_integral{0.0};           ///< Integral I before the first sample, N m.
+  std::string name{};                     ///< Name of the study, for comments.
   parameters::AxisKind axis{parameters::AxisKind::rotary};
-  std::vector<std::string> remarks{};  ///< lines of the heading
+  std::vector<std::string> remarks{};  ///< Lines of the heading.
 };
 
-/// Why the chain cannot be written; empty if it can: a plugin or two phases of control, and in single
-/// precision feedback from the coarse encoder.
+/// Why the chain cannot be written; empty if it can. Not writable are a plugin, two phases of control and, in
+/// single precision, feedback from the coarse encoder.
 std::string_view why_not_writable(const loop::ControllerParameters& controller, Precision precision);
 
-/// The chain, with the operations in the order of loop::ControlChain, so that it computes the same bits in
-/// double precision. Terms with a gain of 0 are left out. In single precision counts are whole numbers, of
-/// which differences are taken exactly, and a dither goes by a phase in place of the number of the sample. A
-/// drive is switched on at rest: whatever the study starts with, the counts before the first are the first,
-/// and past values of filters and observer are 0.
+/// Program of a control chain. Its operations have the order of loop::ControlChain, so in double precision it
+/// computes the same bits. Terms with a gain of 0 are left out. In single precision, counts are whole numbers
+/// whose differences are exact, and a dither follows a phase instead of the sample number. A drive is
+/// switched on at rest. So, whatever the study starts with, counts before the first sample equal the first
+/// count, and past values of filters and observer are 0.
 Program chain_program(const ControllerToWrite& chain, Precision precision);
 
-/// The program as one C99 file without dependencies: its states in a struct, its constants by name. With
-/// ZEROCOUNT_PLUGIN defined it is a plugin for zerocount.
-/// @param chain that the program is of, for the heading
+/// C99 source file of a program, without dependencies. The states are members of a struct, and the constants
+/// have names. With ZEROCOUNT_PLUGIN defined, the file is a plugin for zerocount.
+/// @param chain control chain of the program, for the heading
 std::string c_code(const ControllerToWrite& chain, const Program& program);
 
-/// The program as a component of LinuxCNC's HAL, for halcompile. @param component its name, which is that of
-/// the file without `.comp`.
+/// Source of a LinuxCNC HAL component that runs the program, for halcompile.
+/// @param component name of the component, equal to the file name without `.comp`
 std::string linuxcnc_component(const ControllerToWrite& chain, const Program& program,
                                const std::string& component);
 
-/// The program as a function block in Structured Text (IEC 61131-3).
+/// Source of a function block that runs the program, in Structured Text (IEC 61131-3).
 std::string structured_text(const ControllerToWrite& chain, const Program& program,
                             const std::string& function_block);
 
-/// How a language writes programs. `{0}`, `{1}` … stand for the operands.
+/// Notation of a programming language. In the forms, `{0}`, `{1}` … stand for the operands.
 struct Notation {
   struct Lines {
     std::string_view assignment{}, if_begins{}, otherwise{}, if_ends{}, remark{};
   };
   Precision precision{Precision::double_precision};
-  std::string_view number_suffix{};   ///< of a decimal constant
-  std::string_view input{}, state{};  ///< what stands before the names of these variables
-  std::string_view no{}, yes{};       ///< a flag that is 0, and 1
-  /// The operations that languages write in different ways.
+  std::string_view number_suffix{};   ///< Suffix of a decimal constant.
+  std::string_view input{}, state{};  ///< Prefixes of the names of inputs and states.
+  std::string_view no{}, yes{};       ///< Texts of a flag that is 0, and of one that is 1.
+  /// Forms of the operations that languages write in different ways.
   std::map<Operation, std::string_view> forms{};
   Lines lines{};
 };
 
-/// The shortest decimal number, with a point, that reads back to the same value in this precision.
+/// Shortest decimal number, with a decimal point, that reads back to the same value in the precision of the
+/// notation.
 std::string decimal(double value, const Notation& notation);
 
+/// Text that refers to a variable.
 std::string variable_text(const Variable& variable, const Notation& notation);
-/// The value of a variable: a flag as such, otherwise a decimal number.
+/// Text of the initial value of a variable: a flag as `no` or `yes`, others as a decimal number.
 std::string initial_text(const Variable& variable, const Notation& notation);
 
-/// A line for each statement. @param indent of the lines
+/// Text with a line for each statement.
+/// @param indent indentation of the lines
 std::string statements_text(const Program& program, const Notation& notation, const Statements& statements,
                             std::size_t indent);
 
-/// What stands above the code. Without comment signs.
+/// Lines of the heading above the code, without comment signs.
 std::vector<std::string> heading_lines(const ControllerToWrite& chain, Precision precision);
 
 }  // namespace zerocount::controller_code

@@ -15,7 +15,7 @@ enum class Binding { either, both, comparison, sum, product, sign, whole };
 /// How an operation is written, and how strongly it and its operands bind. Operators of equal strength act
 /// from the left. In a disjunction a conjunction gets parentheses too.
 struct Shape {
-  std::string_view form;  ///< empty: Notation::forms
+  std::string_view form;  ///< Form of the operation; empty: the form is in Notation::forms.
   Binding binding, left, right;
 };
 

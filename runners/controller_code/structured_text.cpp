@@ -31,7 +31,8 @@ Notation st_notation(Precision precision) {
                 .remark = "(* {} *)"}};
 }
 
-/// A text without the ends of comments, in ASCII, which is all that some compilers read.
+/// The text as the inside of a comment of Structured Text: the marks `(*` and `*)` are broken by a space, and
+/// each byte that is not ASCII becomes `?`, because some compilers read ASCII only.
 std::string in_st_comment(std::string text) {
   boost::algorithm::replace_all(text, "*)", "* )");
   boost::algorithm::replace_all(text, "(*", "( *");

@@ -39,20 +39,20 @@ struct PlanRequest {
   std::optional<double> success{}, true_success{}, power{}, halfwidth{};
   std::optional<double> machine_sd{}, machines_share{};
   std::int64_t failures{default_failures};
-  std::string pilot{};  ///< source of machine_sd and the rate, for people
+  std::string pilot{};  ///< Text that names the source of machine_sd and of the rate.
 
   double rate() const { return true_success.value_or(worst_case_rate); }
 };
 
-/// A design point of a pilot, under one condition where it has any.
+/// A design point of a pilot; if the pilot has conditions, under one of them.
 struct PilotPoint {
   std::string label;
-  double rate{0.0};        ///< of success
-  double machine_sd{0.0};  ///< standard deviation of the success probability between machines
+  double rate{0.0};        ///< Success rate.
+  double machine_sd{0.0};  ///< Standard deviation of the success probability between machines.
 };
 
-/// The point, and the condition, under which the machines of the pilot differ most; none where no machines
-/// have several trials.
+/// Design point and condition at which the machines of the pilot differ most. Nothing if no machine has
+/// several trials.
 std::optional<PilotPoint> worst_point(const std::string& path) {
   std::optional<PilotPoint> worst;
   const auto take = [&](const summary::StudySummary& summary, std::string_view condition) {
@@ -121,7 +121,7 @@ struct ClaimRow {
   std::optional<bool> has_power{};
 };
 
-/// What was asked, and the plans that answer it; those of other questions are empty.
+/// A request with the plans that answer it. Plans for other questions are empty.
 struct Plans : PlanRequest {
   std::vector<ClaimRow> claims{};
   std::vector<MachinePlan> tolerance{};

@@ -17,39 +17,41 @@
 #include "runners/tuning/effects/effects.hpp"
 #include "runners/tuning/worst_machines/worst_machines.hpp"
 
-/// The commands that design an axis: plan, tune, limits, worst and rare, their answers for the report, and
-/// what they share.
+/// Commands for the design of an axis: plan, tune, limits, worst and rare. Also their answers for the report,
+/// and common functions.
 namespace zerocount::design_commands {
 
-/// A study, and the point of it that is asked for.
+/// A study, and the design point that a command examines.
 struct ExaminedPoint {
-  study::Study study;  ///< under `--condition` and at `--age` alone
-  std::int64_t point{0};
-  study::Study whole;  ///< with all conditions and ages
+  study::Study study;     ///< Study restricted to `--condition` and `--age`.
+  std::int64_t point{0};  ///< Design point.
+  study::Study whole;     ///< Study with all conditions and ages.
 
-  /// The number in the whole study of a trial of `study`.
+  /// Converts the number of a trial of `study` to its number in `whole`.
   std::int64_t trial_in_whole(std::int64_t trial) const;
 };
 
-/// `--point`, or the only point of the study.
-/// @throws Failure (bad_input) if it has several points and none is named
+/// Design point named by `--point`, or the only point of the study.
+/// @throws Failure (bad_input) if the study has several points and none is named
 std::int64_t named_point(const command_line::Arguments& arguments, const study::Study& study);
 
-/// The point of `MANIFEST|FILE` with `--set`, `--point`, `--condition` and `--age`.
+/// Study and design point of `MANIFEST|FILE` with `--set`, `--point`, `--condition` and `--age`.
 /// @throws Failure (bad_input) without targets, or as named_point() and trials::restricted_to()
 ExaminedPoint point_to_examine(const command_line::Arguments& arguments);
 
-/// `--set`, of commands with a manifest.
+/// Option `--set` of commands with a manifest.
 command_line::OptionSpec set_option();
 
-/// `--condition` and `--age` of point_to_examine().
+/// Option `--condition` of point_to_examine().
 command_line::OptionSpec condition_option();
+/// Option `--age` of point_to_examine().
 command_line::OptionSpec age_option();
 
-/// `--point` of named_point().
+/// Option `--point` of named_point().
 command_line::OptionSpec named_point_option();
 
-/// @throws Failure (interrupted) where `work` throws Interrupted
+/// Result of `work`.
+/// @throws Failure (interrupted) if `work` throws trial::Interrupted
 template <class Work>
 auto unless_interrupted(const Work& work) {
   try {
@@ -59,20 +61,20 @@ auto unless_interrupted(const Work& work) {
   }
 }
 
-/// A proportion, as a percentage for people.
+/// Item for a proportion, which people are shown as a percentage.
 inline document::Item proportion(std::string key, std::string heading, std::string meaning) {
   document::Item item = document::everywhere(std::move(key), std::move(heading), std::move(meaning), "1");
   item.notation = document::Notation::percent;
   return item;
 }
 
-/// JSON has no such member where there is no content.
+/// The same item, but without a member in JSON if it has no content.
 inline document::Item optional(document::Item item) {
   item.optional = true;
   return item;
 }
 
-/// The goal and the condition of a claim; people are shown what has a heading.
+/// Columns for the goal and the condition of a claim. Columns without a heading are in data only.
 document::Description<tuning::ClaimNames> named_claim_columns(std::string goal_heading = "",
                                                               std::string condition_heading = "",
                                                               std::string goal_key = "goal");
@@ -83,65 +85,68 @@ commands::Command limits_command();
 commands::Command worst_command();
 commands::Command rare_command();
 
-/// The answer of `limits` on a point of a study with targets.
-/// @param tell gets what is being simulated
+/// Answer of `limits` for a point of a study with targets.
+/// @param tell gets the name of the running stage
 /// @throws trial::Interrupted, trials::Spent
 document::Answer limits_of(const study::Study& study, std::int64_t point, const trials::Effort& effort,
                            const tuning::TellStage& tell = {});
 
-/// Trials that limits_of() runs, about, where something is missed.
+/// Approximate number of trials that limits_of() runs if a goal is missed.
 std::int64_t trials_of_limits(const study::Study& study, std::int64_t point);
 
-/// "moves meet the goal 'small' under condition loaded in the worst world": what the rate of a claim
-/// (tuning::Aim::claims) is the proportion of.
+/// Text for the rate of a claim, after its percentage: "moves meet the goal 'small' under condition loaded in
+/// the worst world".
+/// @param claim index in tuning::Aim::claims
 std::string rated_words(const study::Study& study, std::size_t claim);
 
-/// The rates without each cause of failures as the item "limits", below `title`; the causes that are shown,
-/// what was tried, and the reasons of those that are not simulated.
+/// Description of the rates with each cause of failures switched off: the item "limits" below `title`, the
+/// shown causes, what was tried, and why some causes were not simulated.
 document::Description<std::vector<tuning::Limit>> limits_description(const std::string& title);
 
-/// The answer of `worst` on a point of a study with targets, whose machine is written to no manifest.
+/// Answer of `worst` for a point of a study with targets. No manifest of the machine is written.
 /// @throws as tuning::worst_machines
 document::Answer worst_of(const study::Study& study, std::int64_t point, const trials::Effort& effort);
 
 using tuning::NamedValues;
 
-/// "controller.ki = 5, controller.kp = 0"
+/// Text such as "controller.ki = 5, controller.kp = 0".
 std::string values_text(const NamedValues& values);
 
-/// "machine 3", or "trial 3" of a study without machines.
+/// Name such as "machine 3", or "trial 3" for a study without machines.
 std::string machine_name(const tuning::WorstMachine& worst, bool on_machines);
 
-/// "machine 3, 75 % of its moves meet the goal; friction.k1 = 175".
+/// Text such as "machine 3, 75 % of its moves meet the goal; friction.k1 = 175".
 std::string worst_machine_text(const tuning::WorstMachine& worst, const study::Study& study);
 
-/// The machine of a study that does worst; for data only, because worst_machine_text() says it.
+/// Description of the worst machine of a study. It is for data only, because people read
+/// worst_machine_text().
 document::Description<tuning::WorstMachine> worst_description();
 
-/// Trials that `rare` takes at most, unless it is asked for another number.
+/// Maximum number of trials of `rare`, unless another number is asked for.
 inline constexpr std::int64_t usual_rare_trials = 1'000'000;
 
-/// The answer of `rare` on missed goals, whose weighted trials are written to no file.
+/// Answer of `rare` for missed goals. The weighted trials are not written to a file.
 /// @throws Failure: bad_input if the study draws nothing for each trial; interrupted
 document::Answer rare_of(const study::Study& study, const rare::Population& of, const trials::Effort& effort);
 
-/// `plan --success …`, `plan --machines-share …` and `plan --halfwidth …`: the trials and machines that show
-/// a claim, or bring the bounds of a rate within a half-width; the latter also beside the former.
+/// Answer of `plan --success …`, `plan --machines-share …` and `plan --halfwidth …`: the numbers of trials
+/// and machines that demonstrate a claim, or that bring the bounds of a rate within a half-width.
+/// `--halfwidth` may be combined with the other two.
 /// @throws Failure (bad_input) for options that do not go together
 document::Answer claim_plan(const command_line::Arguments& arguments);
 
 std::vector<document::AnswerType> claim_plan_types();
 
-/// `plan MANIFEST` and `plan PILOT` without another question: the trials and machines that decide the goal of
-/// the manifest. Of a manifest the smallest studies that can meet it, of a results file the study that
-/// decides it with a probability of 90 %.
+/// Answer of `plan MANIFEST` and `plan PILOT` without another question: the numbers of trials and machines
+/// that decide the goal. For a manifest: the smallest studies that can meet the goal. For a results file: the
+/// study that decides the goal with a probability of 90 %.
 /// @throws Failure (bad_input) if there is no goal
 document::Answer goal_plan(const command_line::Arguments& arguments);
 
 std::vector<document::AnswerType> goal_plan_types();
 
-/// `plan --margin MEASURE=M … MANIFEST`: simulates a pilot of the study; the trials with which two equal
-/// studies are shown to be equivalent.
+/// Answer of `plan --margin MEASURE=M … MANIFEST`: the number of trials with which two equal studies are
+/// shown to be equivalent. It simulates a pilot of the study.
 document::Answer equivalence_plan(const command_line::Arguments& arguments);
 
 document::AnswerType equivalence_plan_type();

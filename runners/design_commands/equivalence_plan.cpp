@@ -33,8 +33,8 @@ namespace {
 using document::everywhere;
 using document::in_data;
 
-constexpr std::int64_t pilot_trials = 1000;  ///< of each design point
-constexpr std::int64_t pilot_block = 100;    ///< that one task runs
+constexpr std::int64_t pilot_trials = 1000;  ///< Number of pilot trials per design point.
+constexpr std::int64_t pilot_block = 100;    ///< Number of trials that one task runs.
 constexpr double min_planned_trials = 20.0;
 constexpr double max_planned_trials = 100'000.0;
 
@@ -49,7 +49,7 @@ std::string measure_names() {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// `success_rate=0.02`, or `arrival_time=5%` of the measure's value.
+/// Parses a margin: `success_rate=0.02` is absolute, `arrival_time=5%` is relative to the measure's value.
 std::pair<std::string, comparison::GateMargin> read_margin(const command_line::Arguments& arguments,
                                                            const std::string& text) {
   const std::size_t equals = text.find('=');
@@ -96,7 +96,7 @@ study::Study planned_study(const command_line::Arguments& arguments) {
   return study;
 }
 
-/// Refuses margins of measures of goals that the study does not have.
+/// Refuses margins for measures of goals that the study does not have.
 void require_goals_of_margins(const comparison::GateRules& rules, const study::Study& study,
                               const std::string& manifest) {
   if (study.goals.empty() && comparison::names_goal_measure(rules)) {
@@ -111,8 +111,8 @@ void require_goals_of_margins(const comparison::GateRules& rules, const study::S
   comparison::require_named_goals(rules, names, manifest);
 }
 
-/// The first `trials` trials of a point.
-/// @param study under one condition
+/// Runs the first `trials` trials of a design point.
+/// @param study study under one condition
 comparison::PointTrials run_point(const study::Study& study, std::int64_t point, std::int64_t trials) {
   const auto draw = [&](std::int64_t index) { return study::study_trial(study, point, index).parameters; };
   std::vector<trial::MoveOutcome> outcomes;
@@ -129,30 +129,32 @@ comparison::PointTrials run_point(const study::Study& study, std::int64_t point,
   return comparison::gather_trials(outcomes, std::ssize(outcomes) / trials, also);
 }
 
-/// A measure at a point of the pilot.
+/// A measure at a design point of the pilot, and the trials that it needs.
 struct PlannedMeasure {
-  std::string point;      ///< with the condition
-  std::string condition;  ///< empty without conditions
+  std::string point;      ///< Label of the design point and the condition.
+  std::string condition;  ///< Name of the condition; empty without conditions.
   comparison::Judgement found;
-  std::optional<std::int64_t> trials{};  ///< of each study per design point for this measure alone
-  std::string trials_text{};             ///< likewise, or what the most trials decide
+  /// Trials per design point that each of the two studies needs for this measure alone. Nothing if the
+  /// maximum number of trials does not decide the margin.
+  std::optional<std::int64_t> trials{};
+  std::string trials_text{};  ///< Text of `trials`, or the margin that the maximum number of trials decides.
 
   std::string text(double value) const { return comparison::value_text(value, found.measure, found.unit); }
 };
 
+/// Plan of a comparison that shows two equal studies to be equivalent.
 struct EquivalencePlan {
   comparison::GateRules rules;
   double power{comparison::decision_probability};
-  std::int64_t pilot{0};       ///< trials of each point under each condition
-  std::int64_t conditions{1};  ///< under which each point is run
+  std::int64_t pilot{0};       ///< Pilot trials of each design point under each condition.
+  std::int64_t conditions{1};  ///< Number of conditions under which each design point is run.
   comparison::Forecast forecast;
-  std::int64_t machines{1};  ///< of each point; 1: no trials share one
+  std::int64_t machines{1};  ///< Machines of each design point; 1: no trials share a machine.
   std::vector<PlannedMeasure> measures;
-  std::vector<PlannedMeasure> unplanned;  ///< those of which too few trials of the pilot have a value
+  std::vector<PlannedMeasure> unplanned;  ///< Measures for which too few pilot trials have a value.
 };
 
-/// Adds the measures of a point under a condition to the plan. The sample of the pilot stands for both
-/// studies.
+/// Adds the measures of a point under a condition to the plan. The pilot's sample represents both studies.
 void add_point(EquivalencePlan& plan, comparison::ForecastSamples& samples, const std::string& design_point,
                const std::string& condition, const comparison::PointTrials& trials) {
   const std::string label = study::label_under(design_point, condition);
@@ -168,14 +170,15 @@ void add_point(EquivalencePlan& plan, comparison::ForecastSamples& samples, cons
   }
 }
 
-/// The trials of a design point, under all conditions together: as many on each machine under each condition.
-/// @param each under each condition
+/// Number of trials of a design point under all conditions together. It is rounded up so that each machine
+/// has equally many trials under each condition.
+/// @param each trials of the point under each condition
 std::int64_t trials_of_point(const EquivalencePlan& plan, double each) {
   const double on_machine = std::ceil(each / static_cast<double>(plan.machines));
   return plan.conditions * plan.machines * static_cast<std::int64_t>(on_machine);
 }
 
-/// The same to people: rounded up, as far as every number of trials can be run.
+/// Text of trials_of_point() for people. If any number of trials can be run, the text is rounded up.
 std::string trials_text(const EquivalencePlan& plan, double each) {
   const std::int64_t trials = trials_of_point(plan, each);
   return plan.conditions * plan.machines > 1 ? std::to_string(trials)

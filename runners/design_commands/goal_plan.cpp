@@ -84,7 +84,7 @@ std::string smallest_headline(const GoalPlans& plans) {
                      plans.study.goals.size() > 1 ? "them" : "it");
 }
 
-/// What the numbers are of.
+/// Sentence about the worlds, conditions and design points to which the numbers refer.
 std::string extent_sentence(const GoalPlans& plans) {
   std::string lines;
   if (plans.study.worlds > 0)
@@ -117,12 +117,12 @@ document::AnswerDescription<GoalPlans> goal_answer() {
   return answer;
 }
 
-/// The judgement of the results of a pilot.
+/// Judgement of the results of a pilot.
 struct Pilot {
   const summary::StudySummary& summary;
   summary::JudgedPoint judged;
   std::vector<PlannedStudy>
-      studies{};  ///< that decide it, where it leaves a choice between machines and trials
+      studies{};  ///< Studies that decide the goal, if they are a choice between machines and trials.
 };
 
 document::AnswerDescription<Pilot> pilot_answer() {
@@ -147,7 +147,7 @@ document::AnswerDescription<Pilot> pilot_answer() {
   return answer;
 }
 
-/// The goals with the numbers of moves of a trial that they ask.
+/// Goals of the study, each with the number of moves of a trial that it judges.
 std::vector<goal::AskedGoal> asked_goals(const study::Study& study) {
   std::vector<goal::AskedGoal> asked;
   const std::vector<measures::CountedGoal> counted = measures::asked_of_moves(study);

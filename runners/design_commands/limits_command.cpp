@@ -50,7 +50,7 @@ constexpr const char* limits_help =
     "\n"
     "Example: zerocount limits my-axis.yaml\n";
 
-/// "17 % fewer": failures than at the point as it is.
+/// Text such as "17 % fewer", comparing the failures with those of the unchanged point.
 std::string failures_text(const Limit& limit) {
   if (!limit.avoided) return "";
   return fmt::format("{:.0f} % {}", std::abs(100.0 * *limit.avoided),
@@ -254,7 +254,7 @@ double runs_of(const study::Study& study, const trials::Replicates& units) {
 constexpr std::int64_t fewest_units = 16;
 constexpr double part_of_speed = 0.5;  // some causes double the samples, and the speed is a guess
 
-/// So many of the units as the effort is enough for.
+/// Machines of the study, as many as the effort is enough for.
 /// @throws trials::Spent if these are too few to show anything
 trials::Replicates affordable_units(const study::Study& study, std::int64_t point,
                                     const trials::Effort& effort) {

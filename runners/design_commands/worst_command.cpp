@@ -44,7 +44,8 @@ constexpr const char* worst_help =
 struct Search {
   const study::Study& study;
   WorstMachines found;
-  std::optional<std::filesystem::path> manifest{};  ///< that is written
+  /// Path of the manifest to write; nothing: none is written.
+  std::optional<std::filesystem::path> manifest{};
 };
 
 std::string headline(const Search& search) {
@@ -57,7 +58,7 @@ std::string headline(const Search& search) {
                                           study::condition_text(search.study, worst.condition)));
 }
 
-/// How the machine of the manifest is run again.
+/// Sentence that tells how to run the machine of the manifest again.
 std::string replay_sentence(const Search& search) {
   const JudgedMachine& machine = search.found.in_box;
   if (!search.manifest || yaml::is_standard_stream(*search.manifest) || machine.manifest.empty()) return "";

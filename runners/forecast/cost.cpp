@@ -14,8 +14,7 @@
 namespace zerocount::forecast {
 namespace {
 
-/// The trial, shortened to `max_samples`: the cost per sample of a long trial is at most that of its
-/// beginning.
+/// Shortens a trial to `max_samples`. The cost per sample of a long trial is at most that of its beginning.
 trial::TrialParameters beginning_of(trial::TrialParameters trial, std::int64_t max_samples) {
   trial::CommandParameters& command = trial.command;
   std::int64_t samples = 0;
@@ -53,8 +52,8 @@ struct BlockSize {
   std::int64_t samples_of_trial;
 };
 
-/// The block that takes not much longer than `patience`, by the cost of the beginning of some trials; at most
-/// a million samples, which fill the lanes unless trials are long.
+/// Block that takes not much longer than `patience`, judged by the cost of the beginning of some trials. It
+/// has at most a million samples, which fill the lanes unless trials are long.
 BlockSize affordable_block(const study::Study& study, double samples_of_trial) {
   constexpr std::int64_t tried = 4;
   constexpr std::int64_t short_trial = 100;  // samples

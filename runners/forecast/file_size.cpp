@@ -24,7 +24,7 @@ namespace {
 /// Bytes of a dataset without values: its header, attributes, index and its part of the group. Measured.
 constexpr double bytes_of_dataset = 3050.0;
 
-/// The first row whose trial has the same numbers of this level as that of row i.
+/// First row whose trial has the same drawn numbers at this level as the trial of row i.
 std::function<std::int64_t(std::int64_t)> twins_of(const study::Study& study, study::DrawLevel level) {
   const bool has_twins =
       level != study::DrawLevel::study && (level < study::DrawLevel::trial || !study.independent_points);
@@ -83,7 +83,7 @@ double stored_reals(const std::vector<double>& values) {
   return stored_bytes(hdf5::Element::float64, std::as_bytes(std::span(values)));
 }
 
-/// Bytes of the friction profiles, from those of some machines.
+/// Bytes of all friction profiles, estimated from the profiles of some machines.
 double bytes_of_profiles(const study::Study& study) {
   constexpr std::int64_t max_machines = 4;
   double bytes = 0.0;
@@ -124,7 +124,7 @@ double bytes_of_machines(const study::Study& study) {
   return bytes + bytes_of_count * static_cast<double>(study.machines * study::point_count(study));
 }
 
-/// The trials that stand for some points, of the same number each.
+/// Trials that represent some design points, with equally many trials each.
 std::vector<std::span<const shards::TrialResult>> trials_by_place(const study::Study& study,
                                                                   const TrialSample& sample) {
   constexpr std::size_t max_of_place = 4;
@@ -138,7 +138,7 @@ std::vector<std::span<const shards::TrialResult>> trials_by_place(const study::S
   return all;
 }
 
-/// Bytes of the statistics and the labels of the points, from those of some.
+/// Bytes of the statistics and the labels of the points, estimated from some points.
 double bytes_of_points(const study::Study& study, const TrialSample& sample) {
   constexpr double bytes_of_text = 32.0;  // its reference and its place in the heap, without its letters
   double bytes = 0.0;
@@ -176,7 +176,7 @@ double datasets_of(const study::Study& study) {
   return static_cast<double>(datasets);
 }
 
-/// Bytes of the sums of a point: as numbers, and as the file stores them.
+/// Size of the sums of a point, bytes: `raw` as 8-byte numbers, `stored` as the file stores them.
 struct SumsSize {
   double raw;
   double stored;
@@ -190,8 +190,8 @@ SumsSize size_of_sums(const study::Study& study, std::span<const shards::TrialRe
           stored_bytes(hdf5::Element::int64, std::as_bytes(std::span(sums.whole))) + stored_reals(sums.real)};
 }
 
-/// Bytes of the sums of all points. The sums of more and more trials of one are continued to as many as a
-/// point has: each doubling adds numbers, as far as there are further machines.
+/// Bytes of the sums of all points. The sums of growing numbers of trials of one point are extrapolated to
+/// all trials of a point. Each doubling of the trials adds values, as long as there are further machines.
 double bytes_of_sums(const study::Study& study, const TrialSample& sample) {
   const std::span<const shards::TrialResult> trials(sample.of_point);
   if (trials.empty()) return 0.0;

@@ -19,7 +19,7 @@ std::span<const std::byte> bytes_of(const std::vector<Value>& values) {
   return std::as_bytes(std::span(values));
 }
 
-/// Bits at the end of the mantissa that are 0 in all values: of counts that are stored as real numbers.
+/// Number of trailing mantissa bits that are 0 in all values. It is large for counts stored as real numbers.
 int trailing_zeros(std::span<const double> values) {
   constexpr int mantissa_bits = 52;
   int fewest = mantissa_bits;
@@ -29,7 +29,7 @@ int trailing_zeros(std::span<const double> values) {
   return fewest;
 }
 
-/// Elements that a sample stands for.
+/// Generator of elements that are similar to a sample.
 template <class Value>
 class Population {
  public:
@@ -61,7 +61,7 @@ class Population {
  private:
   double chance() { return std::uniform_real_distribution<double>(0.0, 1.0)(random_); }
 
-  /// The proportion of values that are equal to those one period before.
+  /// Proportion of values that equal the value one period before.
   void find_repetition(double period) {
     const std::size_t length = sample_.size() / sampled_places;
     if (!(period >= 1.0) || period >= static_cast<double>(length)) return;
@@ -75,7 +75,7 @@ class Population {
     repetition_ = static_cast<double>(equal) / static_cast<double>(pairs);
   }
 
-  /// A random place in the part of the sample that stands for that of element `i`.
+  /// Random place in the part of the sample that represents the neighbourhood of element `i`.
   std::size_t place_of(std::size_t i, std::size_t count) {
     const std::size_t length = std::max<std::size_t>(sample_.size() / sampled_places, 1);
     const std::size_t first = i * sample_.size() / count / length * length;
@@ -98,11 +98,11 @@ class Population {
   }
 
   std::vector<Value> sample_;
-  std::vector<Value> sorted_;  ///< without NaN
+  std::vector<Value> sorted_;  ///< Sorted values without NaN.
   std::uint64_t kept_bits_{0};
   std::size_t period_{0};
   double repetition_{0.0};
-  bool rises_{false};  ///< they are numbers of rows
+  bool rises_{false};  ///< Whether the values rise, as row numbers do.
   std::mt19937_64 random_{1};
 };
 

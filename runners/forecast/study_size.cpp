@@ -30,8 +30,8 @@ namespace fs = std::filesystem;
 constexpr std::int64_t max_sampled_trials = 512;
 constexpr double max_sampled_samples = 5e5;  // takes a tenth of a second
 constexpr double max_traced_samples = 2e5;   // by the slower reference engine
-/// For the sampled trials, and for those with traces. Where none ends in time, a trial without jerks stands
-/// for them.
+/// Time limit of the sampled trials, and of those with traces. If no trial ends in time, a trial without
+/// jerks represents them.
 constexpr double sampling_limit = 2.0;  // s
 
 shards::TrialResult trial_without_jerks(const study::Study& study) {
@@ -41,7 +41,7 @@ shards::TrialResult trial_without_jerks(const study::Study& study) {
   return trial;
 }
 
-/// How many trials have about this many samples: at least 1, at most `most`.
+/// Number of trials that have about this many samples together: at least 1, at most `most`.
 std::int64_t trials_with(double samples, const study::Study& study, std::int64_t most) {
   return std::clamp(static_cast<std::int64_t>(samples / trials::samples_per_trial(study)), std::int64_t{1},
                     most);
@@ -49,7 +49,7 @@ std::int64_t trials_with(double samples, const study::Study& study, std::int64_t
 
 using Rows = std::vector<std::int64_t>;
 
-/// Rows of several places among all of them, from the `from`-th to before the `to`-th of each.
+/// Rows at several places of the study: at each place, the rows number `from` to `to` − 1 of the place.
 Rows rows_at(std::int64_t places, std::int64_t from, std::int64_t to, std::int64_t all) {
   Rows rows;
   for (std::int64_t place = 0; place < places; ++place) {
@@ -58,8 +58,9 @@ Rows rows_at(std::int64_t places, std::int64_t from, std::int64_t to, std::int64
   return rows;
 }
 
-/// Trials of these rows, as far as they end in time, without sample records and numbered from 0.
-/// @param groups that are run one after the other
+/// Runs the trials of these rows until the time ends. Returns the finished ones, without sample records and
+/// numbered from 0.
+/// @param groups groups of rows that run one after the other
 std::vector<shards::TrialResult> run_in_time(const study::Study& study, std::span<const Rows> groups) {
   const trials::Effort limited = trials::Effort().share({}, sampling_limit);
   trials::TrialRunner runner(study);
@@ -78,7 +79,7 @@ std::vector<shards::TrialResult> run_in_time(const study::Study& study, std::spa
   return trials;
 }
 
-/// Trials from several places of the study, which together fill the lanes.
+/// Runs trials from several places of the study that together fill the lanes.
 std::vector<shards::TrialResult> sampled_trials(const study::Study& study) {
   const std::int64_t rows = study::trial_count(study);
   const std::int64_t wanted = trials_with(max_sampled_samples, study, std::min(max_sampled_trials, rows));
@@ -87,7 +88,7 @@ std::vector<shards::TrialResult> sampled_trials(const study::Study& study) {
                      std::array{rows_at(places, 0, 1, rows), rows_at(places, 1, wanted / places, rows)});
 }
 
-/// The first trials of the middle point.
+/// Runs the first trials of the middle design point.
 std::vector<shards::TrialResult> trials_of_point(const study::Study& study) {
   if (!layout::has_sums(study.retention)) return {};
   Rows rows(static_cast<std::size_t>(
@@ -96,7 +97,7 @@ std::vector<shards::TrialResult> trials_of_point(const study::Study& study) {
   return run_in_time(study, std::array{std::move(rows)});
 }
 
-/// Some of the trials whose records the study retains, of points spread over it.
+/// Runs some of the trials whose records the study retains, at design points spread over the study.
 std::vector<shards::TrialResult> traced_trials(const study::Study& study) {
   if (study.retained_trials.empty() || !layout::has_trials(study.retention)) return {};
   const trials::Effort limited = trials::Effort().share({}, sampling_limit);
@@ -118,7 +119,7 @@ std::vector<shards::TrialResult> traced_trials(const study::Study& study) {
   return traced;
 }
 
-/// Bytes that the sums take on the disk, of a byte in memory; measured.
+/// Bytes of sums on the disk per byte in memory, measured.
 constexpr double compressed_sums = 0.2;
 /// Bytes of a column of a shard without values: its name and the sizes of its chunks.
 constexpr double bytes_of_shard_column = 60.0;
@@ -160,7 +161,7 @@ double bytes_of_descriptions(const study::Study& study) {
   return bytes_of_shard_column * columns;
 }
 
-/// Numbers in the sums of a point, of trials that are numbered from 0.
+/// Mean number of values in the sums of a point, from trials that are numbered from 0.
 double numbers_of_sums(const study::Study& study, std::vector<shards::TrialResult> trials) {
   const auto points = static_cast<std::size_t>((std::ssize(trials) - 1) / study.trials + 1);
   const trials::KeptBlock block =
@@ -173,10 +174,10 @@ double numbers_of_sums(const study::Study& study, std::vector<shards::TrialResul
   return numbers / static_cast<double>(points);
 }
 
-/// Bytes of the sums of a point in memory.
+/// Memory of the sums of a point, bytes.
 struct SumBytes {
-  double of_block{0.0};  ///< of few trials, as threads hold them
-  double of_all{0.0};
+  double of_block{0.0};  ///< Sums of few trials, as threads hold them.
+  double of_all{0.0};    ///< Sums of all trials.
 };
 
 SumBytes bytes_of_sums(const study::Study& study, const std::vector<shards::TrialResult>& all_trials) {
@@ -200,7 +201,7 @@ SumBytes bytes_of_sums(const study::Study& study, const std::vector<shards::Tria
   return {all * sizeof(double), (growth * all + of_machines) * sizeof(double)};
 }
 
-/// Shards of a run: one each turn, or more where points are shorter.
+/// Number of shards of a run: one per turn, or more if points are shorter than a turn.
 double shards_of_run(const study::Study& study, int threads) {
   const std::int64_t points = study::point_count(study);
   const double seconds = measure_cost(study).seconds();
@@ -210,7 +211,7 @@ double shards_of_run(const study::Study& study, int threads) {
   return turns + static_cast<double>(points) / static_cast<double>(trials::max_points_of_shard);
 }
 
-/// The proportion of trials that the study keeps.
+/// Proportion of trials that the study keeps.
 double kept_proportion(const study::Study& study, std::span<const shards::TrialResult> trials) {
   if (!layout::has_trials(study.retention)) return 0.0;
   if (!layout::has_sums(study.retention)) return 1.0;

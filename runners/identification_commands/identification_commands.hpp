@@ -9,21 +9,22 @@
 
 namespace zerocount::identification_commands {
 
-/// The options that say what the columns of a record are, `--column`, `--separator`, `--sample-time`, and
-/// which times are masked, `--exclude`.
+/// Options that describe the columns of a record (`--column`, `--separator`, `--sample-time`) and its masked
+/// times (`--exclude`).
 std::vector<command_line::OptionSpec> column_options();
 
-/// Sets the choices of these options. Refuses those that contradict each other, or the other choices.
+/// Sets the choices of column_options(). Refuses options that contradict each other or the other choices.
 void set_columns(const command_line::Arguments& arguments, records::SeriesChoice& choice);
 
-/// Masks the intervals of `--exclude` in all series. Refuses an interval without a sample of any of them.
+/// Masks the intervals of `--exclude` in all series. Refuses an interval that contains no sample of any
+/// series.
 void exclude_times(const command_line::Arguments& arguments, std::vector<records::RawSeries>& series);
 
-/// The delay of the torque by `--delay`, samples.
+/// Delay of the torque from the option `--delay`, samples; nothing without the option.
 std::optional<double> delay_option(const command_line::Arguments& arguments);
 
-/// The series of all files, as the options say, without what `--exclude` masks. Refuses options without
-/// effect.
+/// Series of all files, read as the options say, with the intervals of `--exclude` masked. Refuses options
+/// without effect.
 std::vector<records::RawSeries> read_all_series(const command_line::Arguments& arguments);
 
 commands::Command experiment_command();

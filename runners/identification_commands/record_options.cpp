@@ -25,11 +25,11 @@
 namespace zerocount::identification_commands {
 namespace {
 
-/// The kind of a file with records.
+/// Kind of a file with records.
 enum class RecordFile { table, datasets, results };
 
-/// By its signature, or by its name (the signature may be damaged). An HDF5 file holds datasets if columns
-/// are chosen, and is a results file otherwise.
+/// Kind of a file, from its signature or from its name (the signature may be damaged). An HDF5 file is a file
+/// of datasets if columns are chosen, and a results file otherwise.
 RecordFile record_file(const std::string& path, const records::SeriesChoice& choice) {
   const std::filesystem::path extension = std::filesystem::path(path).extension();
   if (extension != ".h5" && yaml::is_stream(path)) return RecordFile::table;
@@ -39,7 +39,7 @@ RecordFile record_file(const std::string& path, const records::SeriesChoice& cho
   return choice.columns.empty() ? RecordFile::results : RecordFile::datasets;
 }
 
-/// The intervals of `--exclude`. Refuses anything but "FROM:TO".
+/// Intervals of the option `--exclude`. Refuses anything but "FROM:TO".
 std::vector<records::ExcludedTime> excluded_times(const command_line::Arguments& arguments) {
   std::vector<records::ExcludedTime> times;
   for (const std::string& text : arguments.values("exclude")) {

@@ -41,7 +41,8 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using yaml::YamlNode;
 
-constexpr std::size_t max_text = std::size_t{1} << 26;  ///< bytes of a manifest, far above its own limit
+/// Maximum size of a text, bytes; far above the limit of a manifest.
+constexpr std::size_t max_text = std::size_t{1} << 26;
 
 template <class Value>
 Json json_of(const std::optional<Value>& value) {
@@ -86,7 +87,7 @@ Json columns_json(const std::vector<layout::RecordField<Record>>& fields, parame
   return columns;
 }
 
-/// The measures of moves, and how those of a trial are combined.
+/// Measures of moves, and how the values of a trial's moves are combined.
 Json measures_json(const study::StudyFeatures& features) {
   std::set<std::string> names;
   for (const auto& field : layout::outcome_fields(features, layout::measure_table(features)))
@@ -181,7 +182,7 @@ Json form_of(const d::Choice& c) {
   return {{"choice", c.values}};
 }
 
-/// What a variable is: a value in its unit, the normal score of a profile, or the row of joint samples.
+/// Kind of a random variable: "value" in its unit, normal "score" of a profile, or "row" of joint samples.
 std::string_view kind_of(const randomness::RandomCoordinate& coordinate) {
   if (coordinate.rows > 0) return "row";
   return coordinate.kind == randomness::RandomCoordinate::Kind::profile_at_start ? "score" : "value";

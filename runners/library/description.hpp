@@ -11,39 +11,41 @@
 #include "experiments/study/study.hpp"
 #include "results/hdf5/element.hpp"
 
-/// What other languages know of a study, as JSON: the library gives it by its C interface, and the program to
-/// a package that finds no library.
+/// JSON descriptions of a study for other languages. The library gives them through its C interface, and the
+/// program gives them to a package that finds no library.
 namespace zerocount::library {
 
-/// The name that NumPy has for the type of a column.
+/// Name of a column's type in NumPy.
 std::string_view type_of(hdf5::Element element);
 
-/// The study of a manifest's text. @param folder from which the files that it names are found
+/// Study of a manifest given as text.
+/// @param folder folder to which paths in the manifest are relative
 study::Study study_of_text(std::string text, std::string_view source, const std::filesystem::path& folder,
                            const std::vector<std::string>& overrides);
 
-/// The study of a results file, as its trials were run.
+/// Study of a results file, as its trials were run.
 study::Study study_of_file(const std::filesystem::path& file);
 
-/// @throws Failure (bad_input) where the study has no such design point
+/// Checks that a design point exists.
+/// @throws Failure (bad_input) if the study has no such design point
 void require_point(const study::Study& study, std::int64_t point);
 
-/// The random variables of a design point.
-/// @throws Failure (bad_input) where its trials are under several conditions
+/// Random variables of a design point.
+/// @throws Failure (bad_input) if its trials run under several conditions
 randomness::RandomVariables sampled_variables(const study::Study& study, std::int64_t point);
 
-/// What is known of a study (see zerocount_describe_study).
+/// JSON description of a study (see zerocount_describe_study).
 std::string description_of(const study::Study& study);
 
-/// Its random variables (see zerocount_describe_variables).
+/// JSON description of the random variables of a design point (see zerocount_describe_variables).
 std::string variables_of(const study::Study& study, std::int64_t point);
 
-/// A manifest with its overrides; it is not checked.
+/// Text of a manifest with overrides applied. The manifest is not checked.
 std::string manifest_of(const std::string& text, std::string_view source,
                         const std::vector<std::string>& overrides);
 
-/// What the words after `zerocount --describe` ask for: `study SOURCE FOLDER OVERRIDE…` or `manifest SOURCE
-/// OVERRIDE…`, whose text is the standard input, or `file FILE`.
+/// Description that the words after `zerocount --describe` ask for: `study SOURCE FOLDER OVERRIDE…` or
+/// `manifest SOURCE OVERRIDE…`, with the text of the manifest on standard input, or `file FILE`.
 std::string described(std::span<const std::string> words);
 
 }  // namespace zerocount::library

@@ -64,7 +64,7 @@ std::vector<std::string> texts_of(const char* const* texts, std::size_t count) {
   return {texts, texts + count};
 }
 
-/// As zerocount_free_text() frees it.
+/// Copy of a text on the heap. zerocount_free_text() frees it.
 char* copy_of(const std::string& text) {
   char* copy = static_cast<char*>(std::malloc(text.size() + 1));
   if (copy == nullptr) throw std::bad_alloc();

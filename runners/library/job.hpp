@@ -16,10 +16,11 @@
 
 namespace zerocount::library {
 
-/// The arrays that a job makes.
+/// Arrays that a job returns.
 class Result {
  public:
-  /// Adds the fields of the records as columns. @param prefix of their names
+  /// Adds the fields of the records as columns.
+  /// @param prefix prefix of the column names
   template <class Record>
   void add(const std::string& prefix, const std::vector<layout::RecordField<Record>>& fields,
            std::span<const Record* const> records) {
@@ -29,7 +30,7 @@ class Result {
   }
   void add(std::string name, hdf5::Element element, std::vector<std::byte> values);
 
-  std::vector<zerocount_array> arrays() const;  ///< views of what this owns
+  std::vector<zerocount_array> arrays() const;  ///< Views of the columns that this object owns.
 
  private:
   struct Column {
@@ -40,12 +41,14 @@ class Result {
   std::vector<Column> columns_;
 };
 
-/// Trials with these values of the variables [trial][variable] on so many threads: the measures of their
-/// moves.
+/// Runs trials with given values of the random variables. Returns the measures of their moves.
+/// @param values [trial][variable] values of the variables
+/// @param threads number of threads
 Result simulated(const study::Study& study, std::int64_t point, std::span<const double> values,
                  std::span<const std::int64_t> numbers, int threads, const std::stop_token& stop);
 
-/// A trial, sample by sample. @param law in place of that of the manifest; null: none
+/// Runs a trial and returns its samples.
+/// @param law control law that replaces the law of the manifest; null: the law of the manifest
 Result traced(const study::Study& study, std::int64_t point, std::int64_t trial, zerocount_law* law,
               const std::stop_token& stop);
 

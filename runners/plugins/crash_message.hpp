@@ -4,9 +4,9 @@
 
 namespace zerocount::plugins {
 
-/// From now on, a crash of the process prints a message that names this library before the process ends by
-/// its signal as before. For programs whose only foreign code is a user's controller. Of several libraries
-/// the last one is named.
+/// Installs a handler that prints a message naming this library if the process crashes. The process then ends
+/// by its signal as usual. The handler is meant for programs whose only foreign code is a user's controller.
+/// After several calls, the last library is named.
 void name_in_crashes(const std::filesystem::path& library);
 
 }  // namespace zerocount::plugins

@@ -73,7 +73,7 @@ std::optional<std::string> first_file(Words words) {
   return std::nullopt;
 }
 
-/// Keys that --set can give a value: those of the table of parameters, and of the study.
+/// Keys that --set can give a value: the parameters of the table, and the keys of the study.
 void print_keys() {
   print_line(":keys");
   for (const parameters::Parameter& parameter : parameters::parameter_table()) {

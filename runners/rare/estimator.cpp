@@ -24,7 +24,7 @@ constexpr double common_value = 0.01;              // more probable ones are dra
 constexpr std::int64_t trials_of_values = 40'000;  // of a discrete draw, shared by its values
 constexpr std::int64_t max_trials_of_value = 10;
 constexpr std::int64_t trials_of_values_at_once = 2000;
-/// Values that are tried again, and how often.
+/// Number of values that are tried again, and number of trials at each.
 struct Retrial {
   std::size_t values;
   std::int64_t trials;
@@ -57,13 +57,13 @@ double sum_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-/// Gives the points the sum of weights `size`.
+/// Scales the weights of the points to the sum `size`.
 void balance(WeightedPoints& points, double size) {
   const double sum = sum_of(points.weights);
   for (double& weight : points.weights) weight *= size / sum;
 }
 
-/// The mixture of two fits, of which the second has this share if there is a first.
+/// Mixture of two fits. The second has the proportion `share`, or 1 if the first is empty.
 std::vector<NormalComponent> mixed(std::vector<NormalComponent> first, std::vector<NormalComponent> second,
                                    double share) {
   const auto scale_weights = [](std::vector<NormalComponent>& components, double sum) {
@@ -77,7 +77,7 @@ std::vector<NormalComponent> mixed(std::vector<NormalComponent> first, std::vect
   return first;
 }
 
-/// A value of a discrete draw, and the largest value of each score among its last trials; −∞: not known.
+/// A value of a discrete draw, and [score] the largest score among its last trials; −∞: not known.
 struct TriedValue {
   PinnedValue value;
   std::vector<double> scores;
@@ -92,7 +92,8 @@ struct TriedValue {
   }
 };
 
-/// At most `count` values: those with most failures, and by turns those with the largest value of each score.
+/// At most `count` values: first those with most failures, then equally many with the largest value of each
+/// score.
 std::vector<TriedValue> most_suspicious(const std::vector<TriedValue>& tried, std::size_t count,
                                         std::size_t scores) {
   if (tried.size() <= count) return tried;
@@ -172,7 +173,7 @@ class Estimator {
     return true;
   }
 
-  /// Goes on with plain trials.
+  /// Switches to plain trials.
   void draw_plainly() {
     state_.proposal = {};
     state_.cap = 1.0;
@@ -180,7 +181,7 @@ class Estimator {
     state_.learnings = std::max<std::int64_t>(state_.learnings, 1);
   }
 
-  /// Trials of their own distribution: where failures are common, they are enough to learn from.
+  /// Runs trials drawn from their own distribution. If failures are common, these are enough to learn from.
   void run_plain() {
     NumberSource numbers = numbers_for("plain", static_cast<std::uint32_t>(state_.searched));
     std::vector<std::vector<double>> points;
@@ -192,9 +193,9 @@ class Estimator {
     }
   }
 
-  /// Trials at every value of each discrete draw, whatever its probability: a value that fails need not be
-  /// near others that do. Values with frequent failures become pinned values of the proposal.
-  /// @return whether it came to an end in the budget
+  /// Runs trials at every value of each discrete draw, whatever its probability, because a value that fails
+  /// need not be near other such values. Values with frequent failures become pinned values of the proposal.
+  /// @return whether the budget was enough
   bool try_values() {
     if (std::ssize(searched_.z) >= enough_plain_failures) return true;
     for (std::size_t draw = 0; draw < settings_.space.discrete.size(); ++draw) {
@@ -206,7 +207,8 @@ class Estimator {
     return true;
   }
 
-  /// The values that look worst are tried again, ever more often.
+  /// Tries the values of one discrete draw. The values that look worst are tried again, with ever more
+  /// trials.
   bool try_values_of(std::size_t draw) {
     NumberSource numbers =
         numbers_for(fmt::format("values/{}", draw), static_cast<std::uint32_t>(state_.searched));
@@ -234,7 +236,8 @@ class Estimator {
     return true;
   }
 
-  /// Runs so many trials at each value. @return whether it came to an end in the budget
+  /// Runs `trials_of_each` trials at each value.
+  /// @return whether the budget was enough
   bool run_tried(std::vector<TriedValue>& values, std::int64_t trials_of_each, NumberSource& numbers) {
     const auto at_once =
         static_cast<std::size_t>(std::max<std::int64_t>(trials_of_values_at_once / trials_of_each, 1));
@@ -253,7 +256,8 @@ class Estimator {
     return true;
   }
 
-  /// Splitting along all scores. @return whether it came to an end in the budget
+  /// Splits along all scores.
+  /// @return whether the budget was enough
   bool search_all() {
     double best = 0.0;
     auto stream = static_cast<std::uint32_t>(state_.searched) << 8U;
@@ -281,8 +285,9 @@ class Estimator {
     return true;
   }
 
-  /// Runs trials of a search for failures other than those at pinned values, which lead nowhere there.
-  /// @param plain they are drawn from their own distribution
+  /// Runs trials of splitting, which seeks failures apart from the pinned values. Failures at pinned values
+  /// lead nowhere and count as no failures here.
+  /// @param plain whether the trials are drawn from their own distribution
   void run_beside_pinned(std::span<Trial> trials, bool plain) {
     run_trials(trials);
     for (Trial& trial : trials) {
@@ -307,7 +312,7 @@ class Estimator {
 
   // The proposal.
 
-  /// Those points that no pinned value explains, as normal components see them.
+  /// Points without a pinned value, in the coordinates of the normal components (proposal_coordinates()).
   WeightedPoints unexplained(const WeightedPoints& points) const {
     WeightedPoints found;
     for (std::size_t i = 0; i < points.z.size(); ++i) {
@@ -317,8 +322,9 @@ class Estimator {
     return found;
   }
 
-  /// Beside the pinned values, the mixture of the failures of the pilots, and those of splitting as far as
-  /// the pilots have few; and of the levels.
+  /// Fits the normal components of the proposal. They are a mixture fitted to the failures of the pilots, and
+  /// a normal distribution for each level of splitting. Failures of splitting are added with more weight if
+  /// the pilots found few.
   void fit(NumberSource& numbers) {
     WeightedPoints points = unexplained(pilots_);
     WeightedPoints searched = unexplained(searched_);
@@ -331,8 +337,8 @@ class Estimator {
                                     : mixed(fitted_mixture(points, numbers), levels_, share_of_levels));
   }
 
-  /// Sets the normal components beside the pinned values. Where every failure is at a pinned value there are
-  /// none.
+  /// Sets the normal components and the proportions of the proposal. There are no components if every failure
+  /// is at a pinned value.
   void set_components(std::vector<NormalComponent> components) {
     Proposal& proposal = state_.proposal;
     proposal.natural = natural_proportion;
@@ -344,7 +350,8 @@ class Estimator {
     return likelihood_ratio(settings_.space, state_.proposal, z);
   }
 
-  /// @return the probability by these trials
+  /// Draws trials from the proposal, and adds their failures to the pilots.
+  /// @return the probability of a failing move, estimated from these trials
   double run_pilot(NumberSource& numbers) {
     WeightedPoints found;
     double sum = 0.0;
@@ -358,7 +365,7 @@ class Estimator {
     return sum / static_cast<double>(pilot_trials);
   }
 
-  /// A likelihood ratio that 99.8 % of the failures do not exceed, by the weights of these points.
+  /// Weighted 99.8 % quantile of the likelihood ratio at these points; 0 without points.
   double usual_largest(const WeightedPoints& points) const {
     std::vector<std::pair<double, double>> ratios;
     for (std::size_t i = 0; i < points.z.size(); ++i)
@@ -372,7 +379,7 @@ class Estimator {
     return ratios.empty() ? 0.0 : ratios.back().first;
   }
 
-  /// The bounds are to allow for failures at these points.
+  /// Raises the cap so that the bounds allow for failures at these points.
   void raise_cap(const std::vector<std::vector<double>>& points) {
     for (const std::vector<double>& z : points)
       state_.cap = std::max(state_.cap, cap_beyond_usual * ratio_at(z));
@@ -422,7 +429,7 @@ class Estimator {
     state_.trials += std::ssize(trials);
   }
 
-  /// Runs trials at these points, with numbers of their own.
+  /// Runs a trial at each of these points. Each gets a new Trial::number.
   std::vector<Trial> run_at(std::vector<std::vector<double>> points) {
     std::vector<Trial> trials;
     trials.reserve(points.size());
@@ -432,7 +439,7 @@ class Estimator {
     return trials;
   }
 
-  /// Weighted trials of the proposal, without scores.
+  /// Runs trials drawn from the proposal. Returns them with their weights and without scores.
   std::vector<Trial> draw_trials(std::size_t count, NumberSource& numbers) {
     std::vector<std::vector<double>> points;
     std::vector<bool> natural;
@@ -464,15 +471,17 @@ class Estimator {
   const EstimatorSettings& settings_;
   const Simulation& simulate_;
   const std::function<bool(const EstimatorState&)>& go_on_;
-  WeightedPoints searched_;                         ///< failures found by plain trials and splitting
-  std::vector<std::vector<double>> plain_failing_;  ///< those of plain trials
-  WeightedPoints pilots_;  ///< those of pilots that no pinned value explains; the sum of weights is their
-                           ///< effective size
-  std::vector<NormalComponent> levels_;  ///< a normal distribution of each level of splitting
+  WeightedPoints searched_;                         ///< Failures found by plain trials and splitting.
+  std::vector<std::vector<double>> plain_failing_;  ///< Failures found by plain trials.
+  /// Failures found by pilots, without those at pinned values. The sum of the weights is their effective
+  /// size.
+  WeightedPoints pilots_;
+  std::vector<NormalComponent> levels_;  ///< Normal distribution of each level of splitting.
 };
 
-/// Confidence of the bounds of one proposal: the error probabilities of all have the sum that is allowed. The
-/// first has most of it, then the plain trials that follow a proposal of no use.
+/// Confidence of the bounds of the current proposal. The error probabilities of all proposals sum to the
+/// allowed one. The first proposal has the largest fraction, then the plain trials that follow a useless
+/// proposal.
 double confidence_of(const EstimatorState& state, double confidence) {
   const double part = state.learnings <= 1 ? 0.7
                       : state.proposal.is_natural()
@@ -481,9 +490,9 @@ double confidence_of(const EstimatorState& state, double confidence) {
   return 1.0 - (1.0 - confidence) * part;
 }
 
-/// Whether splitting along the first score found failures of a far larger probability than the bounds allow,
-/// each time that it found some. Along the others it may end with copies of a few failures, whose number says
-/// little.
+/// Whether splitting along the first score found a failure probability far above the bounds, every time that
+/// it reached failures. The other scores are ignored: along them splitting may end with copies of a few
+/// failures, whose number says little.
 bool splitting_disagrees(const EstimatorState& state, double high) {
   const auto is_meant = [](const ScoreSearch& search) { return search.score == 0 && search.reached; };
   return std::ranges::any_of(state.searches, is_meant) &&

@@ -19,7 +19,7 @@ constexpr std::int64_t max_failures = 2000;
 constexpr std::int64_t examined_machines = 48;
 constexpr std::int64_t moves_of_machine = 64;
 
-/// So many failures drawn by their weights, at equal steps of the cumulative weight.
+/// Draws `count` failures by their weights, at equal steps of the cumulative weight.
 std::vector<Trial> drawn_failures(const EstimatorState& state, std::int64_t count) {
   double sum = 0.0;
   for (const Trial& trial : state.drawn) sum += trial.weight * trial.failed;
@@ -40,7 +40,7 @@ InputRange range_of(const std::vector<double>& sorted) {
   return {quantile(0.05), quantile(0.5), quantile(0.95)};
 }
 
-/// Φ⁻¹ of the rank of a value in a sorted sample, with equal values in the middle.
+/// Normal score of a value in a sorted sample: Φ⁻¹ of its relative rank. Equal values have their mean rank.
 double normal_score(const std::vector<double>& sorted, double value) {
   const auto [first, last] = std::equal_range(sorted.begin(), sorted.end(), value);
   const double rank = 0.5 * static_cast<double>((first - sorted.begin()) + (last - sorted.begin()));
@@ -55,7 +55,7 @@ double mean_of(const Values& values, const Get& get) {
   return sum / static_cast<double>(values.size());
 }
 
-/// Mean of the random coordinate that alone decides this input; nothing if there is none.
+/// Mean over the failures of the random coordinate that alone decides this input; nothing if there is none.
 std::optional<double> mean_coordinate(const Question& question, std::string_view input,
                                       const std::vector<Trial>& failed) {
   if (!question.study.correlations.empty()) return std::nullopt;
@@ -67,7 +67,7 @@ std::optional<double> mean_coordinate(const Question& question, std::string_view
   return mean_of(failed, [&](const Trial& trial) { return trial.z[index]; });
 }
 
-/// [input column][trial] what the trials have drawn, each sorted.
+/// [input column] Drawn values of all trials, sorted.
 std::vector<std::vector<double>> sorted_inputs(const Question& question, const std::vector<Trial>& trials) {
   std::vector<std::vector<double>> inputs(trials.size());
   parallel::for_each_index(

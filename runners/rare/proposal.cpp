@@ -76,14 +76,15 @@ double log_sum(std::span<const double> x) {
   return largest + numerics::log(sum);
 }
 
-/// Points to fit to, as columns.
+/// Points to which a mixture is fitted, as columns.
 struct FittedPoints {
   Eigen::MatrixXd z;        ///< [coordinate, point]
-  Eigen::VectorXd weights;  ///< [point]; their sum is their effective number
+  Eigen::VectorXd weights;  ///< [point] Weights; the sum is the effective sample size.
 };
 
-/// The part of the whole weight that these points have, and a normal distribution of their moments, with a
-/// part of the standard normal distribution.
+/// Normal component fitted to points with these weights. Its weight is the proportion of these weights in the
+/// whole weight. Its covariance is that of the points, mixed with d + 2 points of the standard normal
+/// distribution.
 NormalComponent component_of(const FittedPoints& points, const Eigen::VectorXd& weights) {
   const double sum = weights.sum();
   const Eigen::VectorXd mean = numerics::product(points.z, weights) / sum;
@@ -96,13 +97,15 @@ NormalComponent component_of(const FittedPoints& points, const Eigen::VectorXd& 
   return component_of(sum / points.weights.sum(), mean, covariance);
 }
 
-/// The mixture while it is fitted.
+/// A mixture during its fit.
 struct Fit {
   std::vector<NormalComponent> components;
-  double log_likelihood{-std::numeric_limits<double>::infinity()};  ///< mean per unit of weight
+  /// Mean log-likelihood per unit of weight.
+  double log_likelihood{-std::numeric_limits<double>::infinity()};
 };
 
-/// Points far from each other, from which the components begin (k-means++, Arthur and Vassilvitskii 2007).
+/// Indices of points far from each other, at which the components start (k-means++, Arthur and Vassilvitskii
+/// 2007).
 std::vector<Eigen::Index> first_centres(const FittedPoints& points, std::size_t count,
                                         NumberSource& numbers) {
   Eigen::VectorXd distance = Eigen::VectorXd::Ones(points.weights.size());
@@ -123,7 +126,8 @@ std::vector<Eigen::Index> first_centres(const FittedPoints& points, std::size_t 
   return centres;
 }
 
-/// [component] The weights of the points in it; the mean log-likelihood goes to `fit`.
+/// [component] Weights of the points in the component (expectation step). Sets the mean log-likelihood of
+/// `fit`.
 std::vector<Eigen::VectorXd> weights_in(const FittedPoints& points, Fit& fit) {
   std::vector<Eigen::VectorXd> in_component;
   for (const NormalComponent& component : fit.components)
@@ -182,7 +186,7 @@ NormalComponent widened(const NormalComponent& component) {
                       covariance + 0.5 * (added + added.transpose()));
 }
 
-/// The points, or as many of them as a fit takes, drawn by their weights.
+/// The points, or a sample drawn by their weights if they are more than a fit takes.
 FittedPoints fitted_points(const WeightedPoints& points, NumberSource& numbers) {
   const double effective = effective_size(points.weights);
   const std::size_t size = points.z.size();
@@ -209,7 +213,7 @@ FittedPoints fitted_points(const WeightedPoints& points, NumberSource& numbers) 
   return fitted;
 }
 
-/// Density over that of the trials' own distribution, of the pinned values.
+/// Density of the pinned values divided by the density of the trials' own distribution.
 double density_of_pinned(const TrialSpace& space, const Proposal& proposal, std::span<const double> z) {
   double density = 0.0;
   for (const PinnedValue& one : proposal.values) {
@@ -219,7 +223,7 @@ double density_of_pinned(const TrialSpace& space, const Proposal& proposal, std:
   return density;
 }
 
-/// The element in whose part of the cumulative weights `place` lies.
+/// The element in whose interval of the cumulative weights `place` lies.
 template <class Weighted>
 const Weighted& chosen_by(const std::vector<Weighted>& all, double place) {
   std::size_t chosen = 0;

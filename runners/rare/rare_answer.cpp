@@ -35,7 +35,7 @@ bool is_estimated(Of answer) {
   return answer.estimate.status == EstimateStatus::estimated;
 }
 
-/// Whether failures were found and weighted, so that there is a number.
+/// Whether failures were found and weighted, so that there is an estimate of the probability.
 bool has_probability(Of answer) {
   return !answer.state.drawn.empty() && answer.estimate.probability > 0.0;
 }
@@ -56,7 +56,7 @@ std::string_view reason_of(Of answer) {
   return "";
 }
 
-/// What the upper bound assumes; nothing where the answer does not rest on what was learned.
+/// Assumption of the upper bound; nothing if the answer does not depend on a learned proposal.
 std::optional<std::string> premise_of(Of answer) {
   if (!is_estimated(answer) || answer.state.proposal.is_natural()) return std::nullopt;
   std::vector<std::string> untried;
@@ -100,7 +100,8 @@ std::string undecided_sentence(Of answer) {
   return text;
 }
 
-/// Plain trials with bounds that have the same ratio: of k failures high/low is about exp(2·z/√k).
+/// Sentence with the number of plain trials that would give bounds of the same ratio. With k failures,
+/// high/low is about exp(2·z/√k).
 std::string plain_need_sentence(Of answer) {
   const auto& [low, high] = answer.estimate.bounds;
   const double probability = answer.estimate.probability;
@@ -131,7 +132,7 @@ std::string replays_sentence(Of answer) {
 
 // Tables and objects.
 
-/// A part of an answer, with the question that says what it is of.
+/// A part of an answer, with the question that gives its names.
 template <class Part>
 struct PartOf {
   Part part;

@@ -34,7 +34,7 @@ constexpr std::size_t weight_column = 1;
 constexpr std::size_t failed_column = 2;
 constexpr std::size_t first_coordinate = 3;
 
-/// The table of the trials drawn from the proposal; the inputs come behind the coordinates.
+/// Table of the trials drawn from the proposal. The inputs follow the coordinates.
 layout::Table drawn_table(const std::vector<randomness::RandomCoordinate>& coordinates,
                           const std::vector<study::InputColumn>& inputs) {
   layout::Table table{"drawn", {"draw", "1", "index of the drawn trial", hdf5::Element::int64}, {}, {}};
@@ -52,7 +52,7 @@ layout::Table drawn_table(const std::vector<randomness::RandomCoordinate>& coord
   return table;
 }
 
-/// Whether the state can be that of an estimate of the question.
+/// Whether a state can belong to an estimate of the question.
 bool fits(const EstimatorState& state, const Question& question) {
   const std::size_t changed = question.coordinates.size() - question.space.unordered.size();
   const auto& [natural, pinned, values, components] = state.proposal;
@@ -70,7 +70,7 @@ bool fits(const EstimatorState& state, const Question& question) {
          });
 }
 
-/// Completes what was learned by what follows from it and from the manifest.
+/// Completes a proposal that was read: adds the values that follow from it and from the manifest.
 void complete(Proposal& proposal, const Question& question) {
   for (NormalComponent& one : proposal.components)
     one = normal_component(one.weight, std::move(one.mean), std::move(one.factor));

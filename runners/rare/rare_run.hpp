@@ -18,92 +18,95 @@
 #include "runners/rare/proposal.hpp"
 #include "runners/trials/effort.hpp"
 
-/// The probability of a rare failure of the moves of a study: trials by their random coordinates, the results
+/// Probability of a rare failure in the moves of a study: trials given by random coordinates, the results
 /// file, and the report.
 namespace zerocount::rare {
 
-/// The trials of which a probability is: a probability over all worlds, or conditions, would be an average
-/// over what nobody knows, or over what every machine bears.
+/// Trials to which a probability refers. A probability over all worlds would average over unknowns, and one
+/// over all conditions would average over conditions that every machine must bear.
 struct Population {
-  std::int64_t point{0};
-  std::optional<std::int64_t> world{};      ///< of a study with worlds
-  std::optional<std::int64_t> condition{};  ///< of a study with conditions
+  std::int64_t point{0};                    ///< Design point.
+  std::optional<std::int64_t> world{};      ///< World, if the study has worlds.
+  std::optional<std::int64_t> condition{};  ///< Condition, if the study has conditions.
 
   bool operator==(const Population&) const = default;
 };
 
-/// The event whose probability is sought, and the trials that decide it: each on a machine of its own.
+/// The event whose probability is sought, and the trials that decide it. Each trial has a machine of its own.
 struct Question {
-  study::Study whole;  ///< of the manifest
-  study::Study study;  ///< under the condition
-  Population of;
+  study::Study whole;  ///< Study of the manifest.
+  study::Study study;  ///< Study under the condition of the population.
+  Population of;       ///< Trials to which the probability refers.
   measures::MoveEvent event;
   std::vector<randomness::RandomCoordinate> coordinates;
-  TrialSpace space;  ///< of the coordinates
+  TrialSpace space;  ///< Space of the coordinates.
 };
 
 Question question_of(study::Study study, const Population& of, measures::MoveEvent event);
 
-/// The random numbers of a trial.
+/// Random numbers of a trial.
 study::GivenDraws draws_at(const Question& question, const Trial& trial);
 
-/// The parameters and inputs of a trial.
+/// Parameters and inputs of a trial.
 study::StudyTrial trial_at(const Question& question, const Trial& trial);
 
-/// Sets the proportion of the moves that are asked to which the event happens, and the scores
-/// measures::move_scores.
+/// Sets the result of a trial: the proportion of judged moves to which the event happens, and the scores
+/// (measures::move_scores).
 void set_result(Trial& trial, const Question& question, std::span<const trial::MoveOutcome> moves);
 
-/// Runs trials on all cores. @param draws of each trial; draws_at() where there are none
+/// Runs trials on all cores.
+/// @param draws [trial] random numbers; empty: draws_at()
 /// @throws trial::Interrupted
 void run_trials(const Question& question, std::span<Trial> trials, const trials::Effort& effort,
                 std::vector<study::GivenDraws> draws = {});
 
 /// Quantiles of an input.
 struct InputRange {
-  double low{0.0};  ///< 5 %
-  double median{0.0};
-  double high{0.0};  ///< 95 %
+  double low{0.0};     ///< 5 % quantile.
+  double median{0.0};  ///< Median.
+  double high{0.0};    ///< 95 % quantile.
 };
 
-/// An input of the trials: what it is in those that fail.
+/// Comparison of an input between failing trials and all trials.
 struct FailureInput {
-  std::string name;  ///< dotted path
+  std::string name;  ///< Dotted path.
   std::string unit;
-  /// Mean over the failures of the input's normal score: how many standard deviations failures lie above the
-  /// median. Of a random coordinate it is that; of another input it follows from the rank among some thousand
-  /// trials.
+  /// Mean normal score of the input over the failures: number of standard deviations by which failures lie
+  /// above the median. If a single random coordinate decides the input, the coordinate is the score.
+  /// Otherwise the score follows from the rank among some thousand trials.
   double shift{0.0};
-  InputRange usual;     ///< of all trials
-  InputRange failures;  ///< of those that fail
+  InputRange usual;     ///< Quantiles in all trials.
+  InputRange failures;  ///< Quantiles in failing trials.
 };
 
-/// The inputs that differ between trials; those that failure shifts most come first. Empty without a failure.
+/// Inputs that differ between trials, sorted by decreasing absolute shift. Empty without a failure.
 std::vector<FailureInput> failure_inputs(const Question& question, const EstimatorState& state);
 
-/// How often the machines fail that carry the probability.
+/// Failure rates of the machines on which failures occur. They show whether few machines carry the
+/// probability.
 struct CarryingMachines {
-  std::int64_t examined{0};    ///< machines, drawn from the failures
-  std::int64_t moves_each{0};  ///< trials of each, with new moves
-  double median_rate{0.0};     ///< of their proportion of failing moves
-  double mostly_failing{0.0};  ///< proportion of the failures on machines that fail in most of their moves
-  double probability_of_one{0.0};  ///< that a machine is one of these
+  std::int64_t examined{0};        ///< Number of examined machines, drawn from the failures.
+  std::int64_t moves_each{0};      ///< Number of trials of each machine, with new moves.
+  double median_rate{0.0};         ///< Median over these machines of the proportion of failing moves.
+  double mostly_failing{0.0};      ///< Proportion of failures on machines that fail in most of their moves.
+  double probability_of_one{0.0};  ///< Probability that a machine fails in most of its moves.
 };
 
-/// Runs further moves of machines that failed, drawn by the weights of the failures. Nothing without a
-/// failure, or where machines and moves are not told apart.
+/// Runs further moves of machines that failed. The machines are drawn by the weights of their failures.
+/// Nothing without a failure, or if random numbers of machine and move cannot be separated.
 /// @throws trial::Interrupted
 std::optional<CarryingMachines> carrying_machines(const Question& question, const EstimatorState& state,
                                                   double probability, const trials::Effort& effort);
 
+/// Settings of run_rare().
 struct RareSettings {
-  std::filesystem::path output;  ///< of the weighted trials; empty: none is written
+  std::filesystem::path output;  ///< File of the weighted trials; empty: no file is written.
   double confidence{statistics::summary_confidence};
-  double ratio{2.0};                       ///< wanted of the bounds, high / low
-  std::optional<std::int64_t> max_trials;  ///< of this run
-  std::optional<double> seconds;           ///< of this run
+  double ratio{2.0};                       ///< Wanted ratio of the bounds, high / low.
+  std::optional<std::int64_t> max_trials;  ///< Maximum number of trials of this run.
+  std::optional<double> seconds;           ///< Time limit of this run, s.
   bool quiet{false};
-  bool force{false};  ///< replace a file that answers another question
+  bool force{false};  ///< Whether to replace an existing file instead of resuming or refusing it.
 };
 
 struct RareAnswer {
@@ -113,44 +116,47 @@ struct RareAnswer {
   Estimate estimate{};
   std::vector<FailureInput> inputs{};
   std::optional<CarryingMachines> machines{};
-  double seconds{0.0};  ///< of all runs
+  double seconds{0.0};  ///< Time that all runs took together, s.
 };
 
-/// Estimates the probability of the event, and writes the results file. Goes on from an earlier file that
-/// answers the same question.
-/// @param question outlives the answer
+/// Estimates the probability of the event, and writes the results file. If the file exists and answers the
+/// same question, the estimate is resumed from it.
+/// @param question must outlive the answer
 /// @throws Failure: bad_input if the file exists and answers another question; machine_failed; interrupted,
 /// after the trials drawn so far are written
 RareAnswer run_rare(const Question& question, const RareSettings& settings, const std::stop_token& stop);
 
-/// The probability first, then what it rests on, and what failures have in common.
+/// Description of the answer: the probability first, then its assumptions, then what failures have in common.
 document::AnswerDescription<RareAnswer> rare_answer();
 
-/// The ranges of the inputs in failures and in all trials.
+/// Figures of the ranges of the inputs, in failures and in all trials.
 std::vector<document::Figure> rare_figures(const std::vector<FailureInput>& inputs);
 
-/// The contents of a file of `zerocount rare`: the header, the question, and the state of the estimate.
+/// Contents of a file of `zerocount rare`: header, question, and state of the estimate.
 struct RareRecord {
   layout::FileHeader header;
   Population of;
   std::string event;  ///< MoveEvent::text
   EstimatorState state;
-  double seconds{0.0};  ///< that the estimate took so far
+  double seconds{0.0};  ///< Time that the estimate took so far, s.
 };
 
-/// Writes the answer's file: the header and the manifest, /estimate (JSON: what was learned and the answer),
-/// and /drawn, a row for each trial drawn from the proposal with its weight, inputs and coordinates.
+/// Writes the file of an answer. It has the header and the manifest; /estimate, JSON with the learned
+/// proposal and the answer; and /drawn, with a row for each trial drawn from the proposal: its weight, inputs
+/// and coordinates.
 /// @throws Failure (machine_failed)
 void write_rare_file(const RareAnswer& answer);
 
+/// Reads a file of write_rare_file().
 /// @throws Failure: bad_data for a damaged file, ForeignFile for another format
 RareRecord read_rare_file(const std::filesystem::path& path);
 
-/// Whether a file was written by write_rare_file(). @throws Failure as read_rare_file
+/// Whether a file was written by write_rare_file().
+/// @throws Failure as read_rare_file
 bool is_rare_file(const std::filesystem::path& path);
 
-/// The question that the file answers.
-/// @param plugin the user's controller; null: as recorded
+/// Question that a file answers.
+/// @param plugin the user's controller; null: the recorded one
 /// @throws Failure as layout::recorded_study
 Question recorded_question(const RareRecord& record, const std::filesystem::path& path,
                            std::shared_ptr<const plugin::ControllerPlugin> plugin = nullptr);

@@ -60,7 +60,7 @@ class Splitting {
   }
 
  private:
-  /// The score of a trial that was run; a failure has the largest.
+  /// Score of a trial that was run. A failure has the largest score.
   double score_of(const Trial& trial) const {
     if (trial.failed > 0.0) return failed_score;
     const double score = trial.scores[settings_.score];
@@ -78,7 +78,8 @@ class Splitting {
     return static_cast<double>(above) / static_cast<double>(particles_.size());
   }
 
-  /// The score that a fifth of the trials reach; where many trials have the same one, the next larger.
+  /// Next level: the score that a fifth of the particles reach. If too many particles have this score, the
+  /// next larger score.
   double next_level(double level) const {
     std::vector<double> scores;
     for (const Trial& particle : particles_) scores.push_back(score_of(particle));
@@ -90,7 +91,8 @@ class Splitting {
     return last_above == scores.begin() ? level : *std::prev(last_above);
   }
 
-  /// Moves the particles at or above the level, copied to all places, in it.
+  /// Keeps the particles at or above the level, copies them until their number is restored, and moves all
+  /// within the level.
   void climb(double level) {
     result_.search.probability *= proportion_from(level);
     std::erase_if(particles_, [&](const Trial& particle) { return score_of(particle) < level; });

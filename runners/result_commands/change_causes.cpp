@@ -44,8 +44,8 @@ bool can_change(const parameters::Parameter& row) {
 
 /// Sizes of a machine, as scales of amounts.
 struct Scales {
-  double torque;  ///< breakaway, without friction a hundredth of the converter's range, N m or N
-  double count;   ///< length of a count of the encoder that closes the loop, rad or m
+  double torque;  ///< Breakaway torque; without friction 1/100 of the converter's range, N m or N.
+  double count;   ///< Length of a count of the encoder that closes the loop, rad or m.
   bool has_load;
 };
 

@@ -22,15 +22,17 @@ using monitor::ChangeKind;
 using Machines = std::vector<monitor::MachineMoves>;
 
 constexpr std::int64_t max_simulated_machines = 64;
-constexpr std::int64_t pilot_trials = 16;     ///< of a change: enough to see whether it acts
-constexpr std::int64_t screened_trials = 64;  ///< of a change: enough to see which parameters are far off
+constexpr std::int64_t pilot_trials = 16;  ///< Trials per change; enough to see whether it acts.
+/// Trials per change; enough to see which parameters do not fit.
+constexpr std::int64_t screened_trials = 64;
 
-/// Changes about the likeliest one, simulated with more trials.
+/// Stage that simulates changes near the likeliest change with more trials.
 struct Refinement {
-  std::int64_t trials;         ///< trials of each change
-  std::size_t max_parameters;  ///< likeliest ones that fit; others that fit stay as they are
-  std::size_t min_parameters;  ///< likeliest ones, even if they do not fit
-  std::size_t changes;         ///< changes of each parameter
+  std::int64_t trials;  ///< Number of trials of each change.
+  /// Number of likeliest parameters that fit; other fitting ones stay as they are.
+  std::size_t max_parameters;
+  std::size_t min_parameters;  ///< Number of likeliest parameters to refine even if they do not fit.
+  std::size_t changes;         ///< Number of changes of each parameter.
 };
 constexpr std::array refinements{
     Refinement{.trials = 128, .max_parameters = 8, .min_parameters = 3, .changes = 5},
@@ -39,10 +41,10 @@ constexpr std::array refinements{
 struct WatchedField {
   const layout::RecordField<trial::MoveOutcome>* field;
   monitor::MonitoredMeasure measure;
-  double evidence;  ///< of its change
+  double evidence;  ///< Evidence that the measure has changed.
 };
 
-/// What an alarm is about.
+/// Data behind an alarm.
 struct Alarm {
   const study::Study& study;
   const monitor::ModelMoves& moves;
@@ -67,18 +69,18 @@ bool machines_differ(const study::Study& study, std::int64_t point) {
   return false;
 }
 
-/// The machines that are simulated. They are those of the study, or without `machines` its trials; where
-/// nothing that is drawn differs between them, all trials are of one machine.
+/// Numbers of simulated machines and trials. The machines are the machines of the study or, without
+/// `machines`, its trials. If no drawn quantity differs between them, all trials belong to one machine.
 struct SimulatedMachines {
   std::int64_t machines;
   std::int64_t trials_of_machine;
-  bool are_one;  ///< The trials of all machines are those of one.
+  bool are_one;  ///< All trials belong to one machine.
 
   std::int64_t trials() const { return machines * trials_of_machine; }
 };
 
-/// At most so many trials. Of machines that differ two trials each are simulated, so that the differences
-/// between them are told from those within.
+/// Machines to simulate, with at most `max_trials` trials. If machines differ, each has two trials, so that
+/// differences between machines can be separated from differences within a machine.
 SimulatedMachines machines_of(const Alarm& alarm, std::int64_t max_trials) {
   const study::Study& study = alarm.study;
   if (alarm.moves.machine) return {1, std::min(study.trials / study.machines, max_trials), false};
@@ -107,7 +109,7 @@ class Simulations {
     return simulated(*study, [](trial::TrialParameters&) {});
   }
 
-  /// What the moves of the log say of the candidates.
+  /// Explanation of the change by these candidates, from the moves of the log.
   monitor::ChangeExplanation explained(std::vector<monitor::ChangeCandidate> candidates) const;
 
  private:
@@ -145,7 +147,7 @@ class Simulations {
 
   const Alarm& of_;
   SimulatedMachines machines_;
-  Machines same_;  ///< without a change
+  Machines same_;  ///< Moves of the machines without a change.
 };
 
 /// Replaces the values of each machine's moves by their ranks among the unchanged moves like them, so that
@@ -222,7 +224,7 @@ monitor::ChangeExplanation Simulations::explained(std::vector<monitor::ChangeCan
 /// The candidates that act on what is watched.
 struct Screening {
   std::vector<monitor::ChangeCandidate> candidates{};
-  std::vector<std::string> untried{};  ///< for which the effort did not suffice
+  std::vector<std::string> untried{};  ///< Parameters for which the effort was not enough.
 };
 
 /// Whether the parameter acts on what is watched: its smallest or its largest change does.

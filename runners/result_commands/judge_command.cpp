@@ -35,9 +35,10 @@ struct Judgement {
   const summary::StudySummary& summary;
   summary::JudgedPoint judged;
   std::optional<worlds::PointWorlds> worlds;
-  std::vector<summary::CellOfPoint> claims;          ///< each goal under each condition
-  std::vector<summary::CellOfPoint> ages;            ///< [age]; empty without ages
-  std::optional<summary::SaturatedMoves> saturated;  ///< of the worst goal and condition, unless it is met
+  std::vector<summary::CellOfPoint> claims;  ///< All pairs of goal and condition.
+  std::vector<summary::CellOfPoint> ages;    ///< [age] Claims at each age; empty without ages.
+  /// Saturated moves of the worst goal and condition; nothing if met.
+  std::optional<summary::SaturatedMoves> saturated;
 
   const std::string& label() const { return summary.labels[static_cast<std::size_t>(judged.chosen.point)]; }
   const goal::JudgedPart& worst_goal() const { return summary.question.parts[judged.verdict.goal]; }

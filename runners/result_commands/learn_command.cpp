@@ -49,16 +49,16 @@ constexpr const char* learn_help =
     "Example: zerocount learn unknown-friction.h5\n"
     "         zerocount learn unknown-friction.h5 --point 2 --precision 0.05 --format json\n";
 
-/// What to do next.
+/// Recommended next step.
 enum class Next {
-  nothing,      ///< the goal is met in every world
-  change_axis,  ///< it is missed in every world
-  more_trials,  ///< these trials show no difference between the worlds, and do not decide the goal
-  measure,      ///< measure what Outcome::best() names
-  no_single     ///< worlds differ, but no single measurement is shown to tell them apart
+  nothing,      ///< The goal is met in every world.
+  change_axis,  ///< The goal is missed in every world.
+  more_trials,  ///< The trials show no difference between the worlds and do not decide the goal.
+  measure,      ///< Measure the unknown that Outcome::best() names.
+  no_single     ///< Worlds differ, but no single measurement is shown to tell them apart.
 };
 
-/// What a measurement of one unknown decides.
+/// Value of measuring one unknown.
 struct Measurement {
   const worlds::Learned& learned;
   const worlds::WorldInput& input;
@@ -72,7 +72,7 @@ struct Measurement {
 struct Outcome {
   const summary::StudySummary& summary;
   summary::ChosenPoint chosen;
-  std::optional<summary::JudgedPoint> judged;  ///< of a study with a goal
+  std::optional<summary::JudgedPoint> judged;  ///< Judged point, if the study has a goal.
   double precision;
   worlds::PointWorlds worlds;
   std::vector<worlds::Learned> learned{};
@@ -116,8 +116,8 @@ struct Outcome {
 constexpr std::array<const char*, 5> next_words{"nothing", "change_axis", "more_trials", "measure",
                                                 "no_single_measurement"};
 
-/// What the numbers rest on, what the table takes for granted, and what its derived quantities are, a line
-/// each.
+/// Text below the table: basis of the numbers, assumptions of the table, and definitions of its derived
+/// quantities, one line each.
 std::string text_below_table(const Outcome& outcome) {
   const std::size_t all = outcome.worlds.bad.size();
   std::string text =

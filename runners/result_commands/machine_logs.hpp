@@ -13,27 +13,31 @@
 #include "results/reading/all_trials_file.hpp"
 #include "runners/command_line/command_line.hpp"
 
-/// What the commands on machines in use have in common: logs of moves, and the simulated moves beside them.
+/// Common functions of the commands on machines in use: logs of moves, and the simulated moves that belong to
+/// them.
 namespace zerocount::result_commands {
 
-/// Reads all of a log. @param group column of the groups of moves; empty: none
+/// Reads a complete log.
+/// @param group column with the groups of moves; empty: none
 monitor::MoveLog read_log(const std::filesystem::path& path, const std::string& group = {});
 
-/// Refuses what read_log() does not open, such as a directory.
+/// Refuses a path that read_log() does not open, such as a directory.
 void require_log(const std::filesystem::path& path);
 /// Refuses a log of more bytes than read_log() reads.
 void require_log_size(const std::filesystem::path& path, std::size_t size);
 
-/// A log that another process writes. It may be written anew or moved, as a copy of a growing log is, as long
-/// as it begins with what was read: its first and the last bytes that were read are compared each time.
+/// A log that another process writes. The file may be rewritten or replaced, as copies of a growing log are,
+/// as long as it begins with the part that was read. To check this, the first and the last bytes of this part
+/// are compared each time.
 class GrowingLog {
  public:
-  /// @param group as read_log() has it
+  /// @param group as for read_log()
   explicit GrowingLog(std::filesystem::path path, const std::string& group = {})
       : path_(std::move(path)), log_(path_.string(), group) {}
 
-  /// Reads the lines that are new. @returns whether there are moves among them
-  /// @throws Failure (bad_data) if the file does not begin any more with what was read
+  /// Reads new lines.
+  /// @returns whether they contain moves
+  /// @throws Failure (bad_data) if the file no longer begins with the part that was read
   bool read();
   const monitor::MoveLog& log() const { return log_; }
 
@@ -44,15 +48,16 @@ class GrowingLog {
 
   std::filesystem::path path_;
   monitor::MoveLog log_;
-  std::size_t read_{0};  ///< bytes
-  std::string first_{};  ///< bytes that were read
-  std::string last_{};   ///< likewise, up to read_
+  std::size_t read_{0};  ///< Number of bytes that were read.
+  std::string first_{};  ///< First bytes of the part that was read.
+  std::string last_{};   ///< Last bytes of the part that was read, up to read_.
 };
 
-/// The trials under the condition of --condition at the age of --age, which a study with several needs.
+/// Trials under the condition of --condition at the age of --age. A study with several conditions or ages
+/// needs these options.
 reading::AllTrialsFile with_condition(const command_line::Arguments& arguments, reading::AllTrialsFile file);
 
-/// The point of --point, which a study with several points needs.
+/// Design point of the option --point. A study with several points needs this option.
 std::int64_t point_of(const command_line::Arguments& arguments, const std::vector<std::string>& labels);
 
 }  // namespace zerocount::result_commands

@@ -70,7 +70,7 @@ struct LoadedBaseline {
   monitor::Baseline moves;
   std::optional<reading::AllTrialsFile> file{};
   monitor::ModelMoves of_file{};
-  std::vector<std::string> unchanged{};  ///< parameters of the study that cannot have changed
+  std::vector<std::string> unchanged{};  ///< Parameters of the study that cannot have changed.
 };
 
 LoadedBaseline load_baseline(const command_line::Arguments& arguments) {
@@ -99,7 +99,8 @@ LoadedBaseline load_baseline(const command_line::Arguments& arguments) {
   return {std::move(baseline), std::move(file), moves, std::move(unchanged)};
 }
 
-/// What changed in the model, after an alarm; nothing beside measured moves, and with a plugin.
+/// Explanation of an alarm by changed parameters of the model. Nothing without an alarm, if the baseline
+/// consists of measured moves, or with a plugin.
 std::optional<monitor::ChangeExplanation> explanation_of(const command_line::Arguments& arguments,
                                                          const LoadedBaseline& baseline,
                                                          const monitor::MachineMonitor& machine,

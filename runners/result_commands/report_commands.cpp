@@ -186,7 +186,8 @@ std::vector<command_line::OptionSpec> with_part_options(std::vector<command_line
   return own;
 }
 
-/// The options of both commands. @param own those of one of them, which come first
+/// Options of both commands.
+/// @param own options of a single command, which come first
 std::vector<command_line::OptionSpec> options_of_report(std::vector<command_line::OptionSpec> own) {
   own.insert(
       own.end(),

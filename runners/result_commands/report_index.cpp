@@ -25,11 +25,11 @@ namespace fs = std::filesystem;
 struct IndexedFile {
   fs::path file;
   std::string study{};
-  std::string created{};  ///< as layout::Header::created; empty where it is not known
+  std::string created{};  ///< Date as in layout::Header::created; empty if unknown.
   std::string goal{};
   std::string verdict{};
   bool has_report{false};
-  std::string page{};  ///< its name; empty without one
+  std::string page{};  ///< File name of the report's page; empty without a page.
 };
 
 /// The results files in the folder, and those that unfinished runs will write.

@@ -67,7 +67,8 @@ std::optional<std::int64_t> worst_world(const Asked& asked) {
   return static_cast<std::int64_t>(goal::worst_worlds_first(study.goals[verdict.goal], verdict).front());
 }
 
-/// Under each condition a probability of its own.
+/// Part `rare` of the report: the probability that a move fails, as estimated for rare failures. One answer
+/// for each condition; a single answer without conditions. With worlds: only in the worst world.
 Answers rare_part(const Asked& asked, const trials::Effort& effort) {
   const study::Study& study = asked.study();
   const std::optional<std::int64_t> world = worst_world(asked);
@@ -88,9 +89,9 @@ Answers rare_part(const Asked& asked, const trials::Effort& effort) {
 struct Part {
   std::string_view name;
   const char* question;
-  bool judges_moves;  ///< it simulates moves, and needs targets
+  bool judges_moves;  ///< Whether the part simulates moves, so that the study needs targets.
   Answers (*answer)(const Asked&, const trials::Effort&);
-  std::int64_t (*trials)(const Asked&);  ///< that it runs, about, or at most
+  std::int64_t (*trials)(const Asked&);  ///< Approximate or maximum number of its trials.
 };
 
 constexpr std::array<Part, 4> all_parts{{
@@ -117,7 +118,7 @@ std::string all_names() {
   return fmt::format("{}", fmt::join(names, ","));
 }
 
-/// The answers of a part as HTML and figures.
+/// Section with the answers of a part, as HTML and figures.
 report::PageSection section_of(const Part& part, const Answers& answers) {
   report::PageSection section{std::string(part.name), part.question, "", {}};
   for (const auto& [title, answer] : answers) {
@@ -134,7 +135,7 @@ report::PageSection section_of(const Part& part, const Answers& answers) {
   return section;
 }
 
-/// The answers of a part or, in place of them, why there are none.
+/// Answers of a part. If there are none, the reason.
 report::PageSection answered(const Part& part, const Asked& asked, const trials::Effort& effort) {
   const auto stopped = [&] {
     return std::string(effort.is_interrupted() ? "interrupted" : "the budget is not enough");

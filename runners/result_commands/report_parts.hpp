@@ -14,36 +14,36 @@
 
 namespace zerocount::result_commands {
 
-/// The page of a folder of results, such as a nightly job publishes: for each file its study, date, goal and
-/// verdict, and a link to its report; the newest first. A file that cannot be read says why, and a run that
-/// has not ended says so.
-/// @param write_page writes the report of a file to a page beside the index; it is not called if the page
-/// there has the source commands::report_source() of the file
-/// @throws Failure (bad_input) without a results file in the folder, and what `write_page` throws
+/// Page of a folder of results, such as a nightly job publishes. It lists for each file its study, date, goal
+/// and verdict, and a link to its report; the newest first. For a file that cannot be read it shows the
+/// reason, and a run that has not ended is marked as such.
+/// @param write_page writes the report of a file to a page next to the index; not called if the existing page
+/// has the source commands::report_source() of the file
+/// @throws Failure (bad_input) if the folder has no results file; and all exceptions of `write_page`
 report::ReportPage folder_index(const std::filesystem::path& folder, const std::filesystem::path& index,
                                 const std::function<void(const std::filesystem::path& file,
                                                          const std::filesystem::path& page)>& write_page);
 
-/// `--with`, the parts of a report that are answers of other commands, and `--budget` of them.
+/// Options `--with`, which adds answers of other commands to a report, and `--budget` for these answers.
 std::vector<command_line::OptionSpec> part_options();
 
-/// The names of --with in the order in which they are answered; none without the option.
+/// Names in the option --with, in the order in which they are answered; empty without the option.
 /// @throws Failure (bad_input) for another name
 std::vector<std::string_view> parts_option(const command_line::Arguments& arguments);
 
-/// The study and point of the parts.
+/// Study and design point of the parts.
 struct PartsSubject {
   const reading::AllTrialsFile& file;
-  std::optional<std::int64_t> point;  ///< default: the best
+  std::optional<std::int64_t> point;  ///< Design point; nothing: the best point.
 };
 
-/// The answers of these commands on the file's study, each as a section under its question. A part that
-/// cannot be answered says why.
+/// Answers of these commands on the file's study, each as a section under its question. A part that cannot be
+/// answered shows the reason.
 ///
-///     tell how long each takes at most, by the trials that it runs and the speed of the study here
-///     for each part: answer it within half of what is left of the budget, the last one within all
+///     tell the maximum duration of each part, from its number of trials and the measured speed
+///     for each part: answer it within half of the remaining budget, the last part within all of it
 ///
-/// @param stop leaves out the part that is in work, and the later ones
+/// @param stop a stop request leaves out the current part and the later ones
 std::vector<report::PageSection> part_sections(const PartsSubject& subject,
                                                const std::vector<std::string_view>& names,
                                                const command_line::Budget& budget,

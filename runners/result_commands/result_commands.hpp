@@ -6,8 +6,8 @@
 
 namespace zerocount::result_commands {
 
-/// The answer of `learn` on a point of a study.
-/// @param name of the file, for messages
+/// Answer of `learn` for a design point of a study.
+/// @param name name of the file, for messages
 /// @throws Failure (bad_input) if nothing differs between worlds, or no move is judged
 document::Answer learned_of(const std::string& name, const summary::StudySummary& summary,
                             const summary::ChosenPoint& chosen);

@@ -94,8 +94,8 @@ std::optional<summary_answer::Confirmation> confirmation_of(const command_line::
   return study_run::confirm_point(file, point, *trials, commands::plugin_option(arguments));
 }
 
-/// Bounds of means take their time: people are shown only those of the true motion, and data have them of the
-/// points that are asked for.
+/// Whether the answer is for data. Bounds of means take time to compute. So people are shown only the bounds
+/// for the true motion, whereas data contain the bounds for the points that are asked for.
 bool shows_data(const command_line::Arguments& arguments) {
   return answers::audience_of(arguments.choice("format")) != document::Audience::people;
 }
@@ -106,7 +106,7 @@ summary_answer::PointSelection selection_of(const command_line::Arguments& argum
           arguments.whole_number("top", 1, std::int64_t{1} << 40)};
 }
 
-/// What `select` returns. What is wrong with the selection is said of the options.
+/// Result of `select`. Errors in the selection are reported as errors of the options.
 template <class Select>
 auto selected_by(const command_line::Arguments& arguments, const Select& select) {
   try {

@@ -51,7 +51,7 @@ struct Pieces {
   std::vector<std::string> problems;
   std::string name;
   std::int64_t trials{0};
-  bool changed{false};  ///< a file vanished, because it was joined to others
+  bool changed{false};  ///< Whether a file vanished, because it was joined to others.
 };
 
 void read_piece(const fs::path& path, Pieces& found) {

@@ -5,23 +5,23 @@
 
 #include <fmt/format.h>
 
-/// The output of the commands. It repeats names from manifests and files, which may contain control
-/// characters.
+/// Output of the commands. Names from manifests and files may contain control characters, which are not sent
+/// to a terminal.
 namespace zerocount::standard_output {
 
-/// Writes data (JSON, CSV, pictures) as they are; to a terminal, with the control characters replaced.
+/// Writes data (JSON, CSV, pictures) unchanged. On a terminal, control characters are replaced.
 /// @throws std::system_error if it cannot be written
 void write(std::string_view data);
 
-/// Writes tables and sentences for people, as terminal::fitted_to.
+/// Writes tables and sentences for people, fitted by terminal::fitted_to().
 /// @throws std::system_error if they cannot be written
 void write_fitted(std::string_view text);
 
-/// Lets readers have what was written, before the command goes on.
+/// Flushes the output, so that readers get it before the command goes on.
 /// @throws std::system_error if it cannot be written
 void flush();
 
-/// Writes a formatted text likewise.
+/// Formats a text and writes it with write_fitted().
 template <class... Arguments>
 void print(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
   write_fitted(fmt::format(format, std::forward<Arguments>(arguments)...));

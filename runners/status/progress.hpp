@@ -10,15 +10,16 @@
 
 namespace zerocount::status {
 
-/// Turns SIGINT, SIGTERM, SIGHUP (the terminal has closed), SIGXCPU (the limit of processor time) and SIGUSR1
-/// (the warning of a batch system) into a request to stop during its lifetime. Signals within a second after
-/// the first one are the same request. A later SIGINT or SIGTERM ends the process at once, with the exit code
-/// of an interruption.
+/// Turns signals into a request to stop, during the lifetime of this object. The signals are SIGINT, SIGTERM,
+/// SIGHUP (the terminal has closed), SIGXCPU (the limit of processor time) and SIGUSR1 (the warning of a
+/// batch system). Signals within a second after the first one belong to the same request. A later SIGINT or
+/// SIGTERM ends the process at once, with the exit code of an interruption.
 ///
-/// Construct it before other threads are started, because threads inherit the set of blocked signals.
+/// The object must be constructed before other threads start, because threads inherit the set of blocked
+/// signals.
 class InterruptionWatch {
  public:
-  /// What becomes of work that does not stop soon after a request.
+  /// Treatment of work that does not stop soon after a request.
   enum class Unstopped : std::uint8_t {
     wait,  ///< It goes on until it stops by itself, since something is to be kept or removed.
     end    ///< The process ends, with the exit code of an interruption; nothing is lost.
@@ -39,12 +40,14 @@ class InterruptionWatch {
 /// Prints the progress of a run to stderr, and a final line.
 class Progress {
  public:
-  /// @param total trials to run @param kept trials of earlier runs @param samples per trial, for the rate
+  /// @param total number of trials to run
+  /// @param kept number of trials kept from earlier runs
+  /// @param samples mean number of samples per trial, for the rate
   Progress(std::int64_t total, std::int64_t kept, double samples, bool quiet, Listener listener = {});
 
   /// Sets a projected total, which may change again.
   void project(std::int64_t total);
-  /// `done` trials of the total are finished.
+  /// Tells that `done` trials of the total are finished.
   void update(std::int64_t done);
   void finish(std::int64_t done);
 
@@ -60,7 +63,7 @@ class Progress {
   Clock::time_point start_;
 };
 
-/// A duration as text: "850 ms", "12 s", "3 min 20 s", "5 h 02 min".
+/// Text of a duration: "850 ms", "12 s", "3 min 20 s", "5 h 02 min".
 std::string duration_text(double seconds);
 
 }  // namespace zerocount::status

@@ -54,21 +54,22 @@ constexpr const char* check_help =
 
 constexpr std::int64_t points_shown = 20;
 
-/// A design point under a condition, its theory, and the targets of its trial 0 in counts, if they are in SI
-/// units.
+/// Theory of a design point under a condition.
 struct PointReading {
   std::int64_t point{0};
   std::string label;
-  std::optional<std::string> name;       ///< a short label; none in a study of one point
-  std::optional<std::string> condition;  ///< none without conditions
+  std::optional<std::string> name;       ///< Short label; nothing in a study with one point.
+  std::optional<std::string> condition;  ///< Name of the condition; nothing without conditions.
   theory::PointTheory theory;
-  std::optional<theory::HuntingPrediction> hunting;  ///< of trial 0
+  std::optional<theory::HuntingPrediction> hunting;  ///< Predicted hunting of trial 0.
+  /// Targets of trial 0 as text, each in SI units and in counts, at most five. Nothing if the manifest gives
+  /// the targets in counts.
   std::optional<std::string> targets;
 };
 
-/// A loop of a point, for the table of loops.
+/// A loop of a design point, for the table of loops.
 struct PointLoop {
-  std::optional<std::string> point;  ///< its name
+  std::optional<std::string> point;  ///< Name of the design point.
   std::optional<std::string> condition;
   const theory::LoopRanges* loop;
 };
@@ -77,7 +78,7 @@ struct Plan {
   const study::Study& study;
   forecast::StudyCost cost;
   forecast::StudySize size;
-  std::vector<PointReading> points;  ///< the first ones
+  std::vector<PointReading> points;  ///< Readings of the first design points.
 
   std::int64_t all_points() const { return study::point_count(study); }
   std::int64_t points_shown() const { return std::ssize(points) / study::condition_count(study); }
@@ -106,7 +107,7 @@ std::string plan_headline(const Plan& plan) {
                      status::duration_text(plan.cost.seconds()));
 }
 
-/// "16 trials", those of each of the groups.
+/// Text such as "16 trials", the number of trials of each group.
 std::string of_each(std::int64_t all, std::int64_t groups, std::string_view noun) {
   return text::counted(all / std::max<std::int64_t>(groups, 1), noun);
 }

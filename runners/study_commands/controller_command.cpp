@@ -144,7 +144,8 @@ std::string margin_text(const theory::Range& margin, std::string_view unit, std:
   return margin.empty() ? std::string(none) : fmt::format("{:.3g} {}", margin.low, unit);
 }
 
-/// The margins of each loop of the point, the smallest over the examined machines.
+/// Lines on each loop of the design point under each condition: its stability, and its smallest gain and
+/// phase margins over the examined machines. A heading comes first; empty if there is no loop.
 std::vector<std::string> margin_lines(const study::Study& study, std::int64_t point) {
   std::vector<std::string> lines;
   std::vector<theory::KnownRotor> rotors;

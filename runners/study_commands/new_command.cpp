@@ -98,7 +98,7 @@ std::optional<double> guide_option(const command_line::Arguments& arguments, std
   return positive_number(arguments, option, *text, high);
 }
 
-/// What was measured of the spring; nothing without the options that say it.
+/// Measured values of the spring, from the options; nothing without these options.
 std::optional<guides::MeasuredSpring> measured_spring(const command_line::Arguments& arguments,
                                                       const guides::Guide& guide) {
   const bool applies = guides::has_load(guide);

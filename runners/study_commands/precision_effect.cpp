@@ -26,7 +26,7 @@ constexpr std::int64_t trials_of_block = 4;
 /// How a trial ends.
 struct End {
   bool meets{false};
-  double settled{0.0};  ///< s
+  double settled{0.0};  ///< Time at which the slowest move of the trial has settled, s.
 };
 
 std::vector<End> ends_of(const study::Study& study, std::int64_t point, std::int64_t count,
@@ -58,7 +58,7 @@ std::vector<End> ends_of(const study::Study& study, std::int64_t point, std::int
   return ends;
 }
 
-/// The quantile of the times at which the slowest moves of the trials have settled.
+/// Text of a quantile of the times at which the slowest moves of the trials have settled.
 std::string settled_text(const std::vector<End>& ends, double p) {
   std::vector<double> settled;
   settled.reserve(ends.size());

@@ -41,16 +41,17 @@ constexpr const char* status_help =
 
 constexpr const char* clear_screen = "\x1b[H\x1b[J";
 
-/// The state of a run, with the summary of its finished trials.
+/// State of a run, with the summary of its finished trials.
 struct StatusReading {
   const run_status::RunStatus& status;
   const std::filesystem::path& output;
-  const summary_answer::SummaryReading* summary{nullptr};  ///< of a run that has finished trials
-  std::string no_summary{};                                ///< why there is none
+  /// Summary of the finished trials; null without one.
+  const summary_answer::SummaryReading* summary{nullptr};
+  std::string no_summary{};  ///< Why there is no summary.
 };
 using Status = const StatusReading&;
 
-/// "study: running, 12000 of 50000 trials (24.0 %), 812.4 trials/s, 46 s to go".
+/// Headline such as "study: running, 12000 of 50000 trials (24.0 %), 812.4 trials/s, 46 s to go".
 std::string headline(Status s) {
   const run_status::RunStatus& status = s.status;
   std::string text = status.name.empty() ? "no trial is finished yet" : status.name;

@@ -11,12 +11,12 @@
 
 namespace zerocount::study_commands {
 
-/// What single precision changes in the trials of a point, in lines: "of 500 trials 499 meet the goal (in
-/// double precision 500), …". Simulates them with the controller in both precisions, the same machines and
-/// random numbers in both:
+/// Lines about the effect of single precision on the trials of a design point: "of 500 trials 499 meet the
+/// goal (in double precision 500), …". Simulates trials with the controller in both precisions, on the same
+/// machines and random numbers:
 ///
 ///     for evenly spaced trials of the point, as many as some seconds of computing time allow:
-///       run the trial with the program in double precision, and with that in single precision
+///       run the trial with the program in double precision, then with the program in single precision
 ///
 /// @throws trial::Interrupted
 std::vector<std::string> effect_of_single_precision(const study::Study& study, std::int64_t point,

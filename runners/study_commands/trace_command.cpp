@@ -91,7 +91,7 @@ shards::TrialResult write_trace_to(const std::filesystem::path& place, const Tra
   return result;
 }
 
-/// Tells from where on the samples of the reference engine are not those of the recorded trial.
+/// Tells from which sample on the reference engine differs from the recorded trial.
 void tell_parting(const std::string& input, const std::optional<verification::Parting>& parting) {
   if (!parting) return;
   status::tell(

@@ -12,7 +12,7 @@
 
 namespace zerocount::study_commands {
 
-/// The trial of a trace.
+/// Trial of a trace, with its study.
 struct TraceSubject {
   const study::Study& study;
   std::int64_t point{0};
@@ -20,9 +20,9 @@ struct TraceSubject {
   const study::StudyTrial& trial;
 };
 
-/// Writes the trace of one trial, record by record. The columns are those of the results file's /trace
-/// without `trial`, in the same order; the optional columns (Study::features) come last. Numbers read
-/// back to the same double; in JSON non-finite values are null.
+/// Writes the trace of one trial, record by record. The columns are the columns of /trace in the results file
+/// without `trial`, in the same order. The optional columns (Study::features) come last. Numbers read back to
+/// the same double. In JSON, non-finite values are null.
 class TraceWriter {
  public:
   using Sink = std::function<void(std::string_view)>;
@@ -39,8 +39,8 @@ class TraceWriter {
  private:
   Sink sink_;
   bool json_;
-  std::vector<layout::RecordField<layout::TraceRecord>> columns_;  ///< set by begin()
-  std::vector<layout::RecordField<trial::MoveOutcome>> measures_;  ///< set by begin()
+  std::vector<layout::RecordField<layout::TraceRecord>> columns_;  ///< Set by begin().
+  std::vector<layout::RecordField<trial::MoveOutcome>> measures_;  ///< Set by begin().
   bool first_{true};
 };
 

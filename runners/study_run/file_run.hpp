@@ -24,11 +24,12 @@
 
 namespace zerocount::study_run {
 
+/// Settings of assemble().
 struct AssembleSettings {
-  std::span<const theory::PointPrediction> predictions{};  ///< see theory::study_predictions
-  shards::Renumbering renumber{};                          ///< see shards::MergeOptions
+  std::span<const theory::PointPrediction> predictions{};  ///< Predictions (theory::study_predictions).
+  shards::Renumbering renumber{};                          ///< Renumbering of trials (shards::MergeOptions).
   std::stop_token stop{};
-  timeline::Timeline* timeline{nullptr};  ///< gets spans of the stages; null: none
+  timeline::Timeline* timeline{nullptr};  ///< Receives spans of the stages; null: none.
 };
 
 /// Joins shards into the results file `output`. A file with the whole study gets the statistics of all design
@@ -38,12 +39,14 @@ void assemble(std::span<const shards::ShardInfo> shards, const study::Study& stu
               const std::filesystem::path& output, layout::RowRange rows,
               const AssembleSettings& settings = {});
 
-/// Runs about `trials` new trials of a point of a results file, on all cores, and writes nothing. Everything
-/// is drawn anew, what is drawn once per study too, from a seed that follows from that of the study. The
-/// design is monte_carlo, whatever that of the file. Every machine bears every condition of the study. In a
-/// study with machines every trial has a machine of its own, so that Clopper–Pearson bounds hold; if the
-/// study has a goal, new machines have as many trials each as those of the file. The result does not depend
-/// on the number of cores.
+/// Runs about `trials` new trials of a design point of a results file on all cores, without writing a file.
+/// Everything is drawn anew, including the draws made once per study, from a seed that follows from the
+/// study's seed. The design is monte_carlo, whatever the design of the file. Every machine is tried under
+/// every condition of the study.
+///
+/// In a study with machines, every trial has a machine of its own, so that Clopper–Pearson bounds hold.
+/// Exception: if the study has a goal, each new machine has as many trials as a machine of the file. The
+/// result does not depend on the number of cores.
 /// @param plugin the user's controller, if the study has one
 /// @throws Failure (bad_input) for a study without targets, or whose plugin is not loaded.
 summary_answer::Confirmation confirm_point(const reading::ResultsFile& file, std::int64_t point,
@@ -53,26 +56,26 @@ summary_answer::Confirmation confirm_point(const reading::ResultsFile& file, std
 /// File name extension of damaged shards, which are kept.
 inline constexpr const char* damaged_extension = ".damaged";
 
-/// The shards of earlier runs.
+/// Shards of earlier runs.
 struct EarlierShards {
-  std::vector<shards::ShardInfo> usable;   ///< in order of rows, without overlaps
-  std::vector<std::filesystem::path> all;  ///< all valid shards of the study
+  std::vector<shards::ShardInfo> usable;   ///< Usable shards in ascending order of rows, without overlaps.
+  std::vector<std::filesystem::path> all;  ///< Paths of all valid shards of the study.
 };
 
-/// Selects shards within `wanted` that do not overlap. Shards of runs with other parts may extend beyond it
-/// or overlap; trials of unused shards are run again.
+/// Selects shards within `wanted` that do not overlap. Shards of runs with other parts may overlap or extend
+/// beyond `wanted`. Trials of unused shards are run again.
 EarlierShards choose_shards(const std::vector<shards::ShardInfo>& sound, layout::RowRange wanted);
 
 /// Treatment of shards of another study.
 enum class ForeignShards { refuse, remove };
 
-/// Finds the shards of earlier runs, whose checksums prove their values. Damaged shards are renamed and their
-/// trials run again.
+/// Finds the shards of earlier runs, and checks their checksums. Damaged shards are renamed, and their trials
+/// are run again.
 /// @throws Failure (bad_input) if the folder has shards of another study and `refuse` is given.
 EarlierShards earlier_shards(const std::filesystem::path& directory, const study::Study& study,
                              layout::RowRange wanted, ForeignShards foreign = ForeignShards::refuse);
 
-/// Removes the shards, and their folder if it is then empty.
+/// Removes the shards, and also their folder if it is empty afterwards.
 void remove_shards(const std::filesystem::path& directory, const std::vector<std::filesystem::path>& shards);
 
 /// Positions of the retained trials' records in a file, by global row.
@@ -80,21 +83,22 @@ using RecordPlaces = std::map<std::int64_t, layout::RowRange>;
 
 RecordPlaces places_of_records(const reading::TrialTables& trials);
 
-/// Reads the kept trials among `rows` with everything that is stored of them.
-/// @param first_row  row of the results that corresponds to rows.first, in the study that they are for
+/// Reads the kept trials among `rows` with all their stored data.
+/// @param first_row row that rows.first gets in the study for which the trials are read
 /// @throws Failure as TrialTables
 std::vector<shards::TrialResult> read_trials(const reading::TrialTables& trials, layout::RowRange rows,
                                              std::int64_t first_row, const RecordPlaces& records);
 
 /// Treatment of an existing output file.
 enum class ExistingUse {
-  none,      ///< there is no file, or it is replaced
-  complete,  ///< the file has all wanted trials
-  extend     ///< the file is complete, and the study differs only in having more trials
+  none,      ///< There is no file, or it is replaced.
+  complete,  ///< The file has all wanted trials.
+  extend     ///< The file is complete, and the study differs from it only by having more trials.
 };
 
+/// Use that a run makes of an existing output file.
 /// @param wanted rows of the run
-/// @throws Failure (bad_input) for any other file, with the differences.
+/// @throws Failure (bad_input) for any other file, with the differences
 ExistingUse use_of_existing(const std::filesystem::path& output, const study::Study& study,
                             layout::RowRange wanted);
 
@@ -102,29 +106,29 @@ ExistingUse use_of_existing(const std::filesystem::path& output, const study::St
 struct FileRun {
   study::Study study;
   std::filesystem::path output;
-  layout::RowRange wanted;  ///< rows of the study
-  int threads{0};           ///< 0: all that the machine has
+  layout::RowRange wanted;  ///< Rows of the study that are to be in the file.
+  int threads{0};           ///< Number of threads; 0: all processors of the computer.
   bool quiet{false};
   ForeignShards foreign{ForeignShards::refuse};
-  bool check_room{true};  ///< refuse a run for which the disk has no room
+  bool check_room{true};  ///< Whether to refuse a run for which the disk has no room.
   status::Listener listener{};
-  timeline::Timeline* timeline{nullptr};  ///< gets spans of the stages; null: none
+  timeline::Timeline* timeline{nullptr};  ///< Receives spans of the stages; null: none.
 };
 
-/// Of a study without `stop`: runs the trials that are missing, by way of shards, and writes the results
-/// file.
-/// @throws Failure: interrupted if `stop` was requested; the finished trials are kept in shards.
+/// Runs a study without `stop`: runs the missing trials into shards, and writes the results file.
+/// @throws Failure: interrupted if `stop` was requested; the finished trials are kept in shards
 void run_to_file(const FileRun& request, ExistingUse existing, const std::stop_token& stop);
 
-/// Start of the last override in the file of such a study; the final number of trials follows.
+/// Beginning of the last override in the results file of a study with `stop`. The final number of trials
+/// follows.
 inline constexpr std::string_view decided_key = "stop.max_trials=";
 
-/// Runs a study with `stop`: blocks of trials at every point, until the rule is met. The decision depends
-/// only on the trials, so an interrupted and continued run gives the same result.
+/// Runs a study with `stop`: blocks of trials at every point, until the stopping rule is met. The decision
+/// depends only on the trials, so an interrupted and resumed run gives the same result.
 ///
-/// The output is the file of the study with an additional override of `stop.max_trials` by the final number
-/// of trials. An existing file is replaced.
-/// @param request of all rows of the study; the room on the disk is not checked
+/// The output is the results file of the study with one more override, of `stop.max_trials` by the final
+/// number of trials. An existing file is replaced.
+/// @param request request with all rows of the study; the room on the disk is not checked
 /// @throws Failure (interrupted) if `stop` was requested.
 void run_sequential(const FileRun& request, const std::stop_token& stop);
 

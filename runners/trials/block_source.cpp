@@ -73,44 +73,47 @@ void Turns::choose_point() {
 
 namespace {
 
-/// Limits of a block. It takes a fraction of a second, so that interruptions are handled quickly. The batch
-/// engine needs many trials per block, because the last ones do not fill its lanes: blocks of 128 take 4 %
-/// longer than those of 1024, blocks of 64 take 17 %.
+/// Limits of a block. A block takes a fraction of a second, so that interruptions are handled quickly. The
+/// batch engine needs many trials per block, because the last ones do not fill its lanes: blocks of 128
+/// trials take 4 % longer than blocks of 1024, blocks of 64 take 17 % longer.
 struct BlockLimits {
-  double samples;
+  double samples;  ///< Maximum number of samples.
   std::int64_t max_trials;
-  std::int64_t min_trials;  ///< unless the samples are more
-  double first_samples;     ///< of the first blocks, before the time of a trial is known
+  std::int64_t min_trials;  ///< Minimum number of trials, unless these have too many samples.
+  double first_samples;     ///< Maximum number of samples of a block before the time of a trial is known.
 };
 constexpr BlockLimits reference_block{1e5, 256, 16, 1.0};
 constexpr BlockLimits batch_block{1e7, 1024, 128, 1e6};
 
-/// Time of a block, s, by the time that the trials of an earlier one took.
+/// Maximum time of a block, s, estimated from the time of the trials in an earlier block.
 constexpr double max_block_seconds = 1.0;
 
 const BlockLimits& limits_of(const study::Study& study) {
   return study.engine == study::Engine::batch ? batch_block : reference_block;
 }
 
-/// Rows of a block of which each thread gets two, if there are so few left.
+/// Number of rows per block with which each thread gets two blocks of the remaining rows; at least
+/// BlockLimits::min_trials.
 std::int64_t rows_for_each(const BlockLimits& limits, std::int64_t rows, int threads) {
   return std::max(rows / (std::int64_t{2} * threads), limits.min_trials);
 }
 
-/// Number of trials that have so many samples, at least one.
+/// Number of trials that together have this number of samples, at least one.
 std::int64_t trials_with(double samples, const study::Study& study) {
   return std::max(static_cast<std::int64_t>(samples / std::max(samples_per_trial(study), 1.0)),
                   std::int64_t{1});
 }
 
-/// Number of trials of a block whose time is not known. Trials that the lanes cannot run may be slow.
+/// Maximum number of trials of a block before the time of a trial is known. Trials that the lanes cannot run
+/// may be slow.
 std::int64_t max_first_rows(const study::Study& study) {
   const bool in_lanes = study.engine == study::Engine::batch && lanes_run_first_trials(study);
   const BlockLimits& limits = in_lanes ? batch_block : reference_block;
   return std::min(trials_with(limits.first_samples, study), limits.min_trials);
 }
 
-/// A block ends with the trial whose trace takes the traces of its retained trials beyond this size.
+/// Limit of the memory for the traces of a block, bytes. The block ends with the first trial at which its
+/// traces exceed the limit.
 constexpr std::size_t max_trace_bytes_per_block = std::size_t{8} << 20;
 
 /// Bytes of the trace of a retained trial in memory.
@@ -156,14 +159,16 @@ std::optional<Block> BlockSource::next() {
   return Block{rows, begins_turn};
 }
 
-/// Progress of a turn at which it ends here. Short points share a turn, and a point that takes most of one
-/// has its shard to itself. Shards that begin with a chunk are cheap to join (shards::concatenate).
+/// Value of TurnClock::progress() at which the turn ends before the next row. A turn that has finished a
+/// point ends early, so that short points share a turn, and a point that takes most of a turn has a shard of
+/// its own. Otherwise the turn ends preferably before a chunk, because shards that begin with a chunk are
+/// cheap to join (shards::concatenate).
 double BlockSource::end_of_turn() const {
   if (turns_.is_at_new_point()) return 0.5;
   return next_row() % layout::chunk_elements == 0 ? 1.0 : 1.5;
 }
 
-/// Number of trials that take at most a second, as far as that is known.
+/// Number of trials that take at most max_block_seconds, estimated from the blocks that have ended.
 std::int64_t BlockSource::max_quick_rows() const {
   const double seconds = trial_seconds_;
   if (seconds == 0.0) return max_first_rows_;

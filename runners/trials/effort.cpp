@@ -15,20 +15,20 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Times beyond a century are none: a clock cannot hold them.
-constexpr double longest = 3e9;  // s
+/// Longest time limit, s: about a century. The clock could not hold much longer times.
+constexpr double longest = 3e9;
 
 }  // namespace
 
 struct Effort::Account {
-  std::shared_ptr<Account> whole;  ///< null: there is none
+  std::shared_ptr<Account> whole;  ///< Account of which this one is a part; null: none.
   std::int64_t limit{std::numeric_limits<std::int64_t>::max()};
   std::int64_t spent{0};
   std::optional<Clock::time_point> end;
-  std::stop_token stopped;  ///< by the whole, or from outside
-  std::stop_source over;    ///< by the time
+  std::stop_token stopped;  ///< Stop request of the whole or from outside.
+  std::stop_source over;    ///< Requests a stop when the time is over.
   std::optional<std::stop_callback<std::function<void()>>> passes_on;
-  std::jthread timer;  ///< the last member: it ends before the others
+  std::jthread timer;  ///< Last member, so that it ends before the others are destroyed.
 
   void start_timer() {
     passes_on.emplace(stopped, [this] { over.request_stop(); });

@@ -125,12 +125,13 @@ class ShardPipeline {
   oneapi::tbb::enumerable_thread_specific<TrialRunner> runners_;
   ShardCollector collector_;
   FinishedTrials finished_;
-  std::int64_t unreported_{0};  ///< finished trials
-  ShardWriter writer_;          ///< ends before what its tasks use
+  std::int64_t unreported_{0};  ///< Number of finished trials that were not reported yet.
+  ShardWriter writer_;          ///< Destroyed before the members that its tasks use.
 };
 
-/// Gives the system what the threads have freed. Otherwise each keeps its share for blocks of trials that do
-/// not come any more, beside the memory of what follows.
+/// Returns memory that the threads have freed to the operating system. Otherwise each thread would keep its
+/// freed memory for further blocks of trials, which do not come, in addition to the memory of the next
+/// stages.
 void return_freed_memory() {
 #ifdef __GLIBC__
   malloc_trim(0);

@@ -16,41 +16,44 @@
 
 namespace zerocount::trials {
 
-/// True if the trials with this index, of all points, keep their traces.
+/// Whether the trials with this index keep their traces, at every point.
 bool is_retained(const study::Study& study, std::int64_t index);
 
-/// The engine that runs the trials of the study, as its file names it: the one asked for; the reference also
-/// if the lanes of the batch engine lack a feature of each examined trial: up to 64 of each design point
-/// under each condition, some 4096 in all. If lanes can run some of them, it is the batch engine, which
-/// passes the other trials to the reference.
+/// Engine that runs the trials of the study, as the results file names it. It is the engine that the study
+/// asks for. Exception: the reference engine, if the lanes of the batch engine cannot run any examined trial.
+/// Up to 64 trials of each design point under each condition are examined, some 4096 in all. If lanes can run
+/// some of these, the batch engine is used, which passes the other trials to the reference engine.
 study::Engine engine_that_runs(const study::Study& study);
 
-/// Trials that follow one another.
+/// Results of contiguous trials.
 struct TrialBlock {
-  std::vector<shards::TrialResult> results;          ///< in order of rows
-  std::vector<theory::PointPrediction> predictions;  ///< [point, from that of the first trial]
+  std::vector<shards::TrialResult> results;          ///< Results in ascending order of rows.
+  std::vector<theory::PointPrediction> predictions;  ///< [point, starting with the first trial's point]
 };
 
-/// Runs trials of a study on one thread with its engine, and returns the data of the results file. Trials
-/// with retained traces always run with the reference engine.
+/// Runs trials of a study on one thread with the engine of the study. Returns their data for the results
+/// file. Trials with retained traces always run with the reference engine.
 class TrialRunner {
  public:
   explicit TrialRunner(const study::Study& study);
 
-  /// The trials of the rows. If a stop is requested, it returns those before the first one that has not
-  /// ended, which may be none.
+  /// Runs the trials of the rows. If a stop is requested, it returns the trials before the first one that has
+  /// not ended; there may be none.
   TrialBlock run_block(layout::RowRange rows, const std::stop_token& stop = {});
-  /// The results alone. @throws trial::Interrupted if a stop is requested before the last trial ends
+  /// Runs the trials of the rows, without predictions.
+  /// @throws trial::Interrupted if a stop is requested before the last trial ends
   std::vector<shards::TrialResult> run(layout::RowRange rows, const std::stop_token& stop = {});
-  /// Those of any rows, in their order.
+  /// Runs the trials of any rows, without predictions. The results have the order of `rows`.
+  /// @throws trial::Interrupted if a stop is requested before the last trial ends
   std::vector<shards::TrialResult> run(std::span<const std::int64_t> rows, const std::stop_token& stop = {});
 
  private:
   using Drawn = std::function<void(std::int64_t row, const study::StudyTrial& trial)>;
-  /// Makes `trial` that of the row, and calls drawn(row, trial).
+  /// Draws the trial of a row into `trial`, then calls drawn(row, trial).
   void draw(std::int64_t row, const Drawn& drawn, study::StudyTrial& trial);
+  /// Runs the trial of `result.row` with the reference engine.
   void run_alone(shards::TrialResult& result, const Drawn& drawn, const std::stop_token& stop);
-  /// Runs the trials of `results`, which have their rows alone.
+  /// Runs the trials of `results`. Before the call, only the rows of the results are set.
   /// @throws trial::Interrupted if a stop is requested; then the trials that have not ended have no moves
   void run_results(std::vector<shards::TrialResult>& results, const std::stop_token& stop,
                    const Drawn& drawn);
@@ -61,7 +64,7 @@ class TrialRunner {
   const study::Study* study_;
   study::TrialDrawer drawer_;
   std::unique_ptr<batch::BatchEngine> engine_;
-  std::vector<study::StudyTrial> drawn_;  ///< [slot] trials in work
+  std::vector<study::StudyTrial> drawn_;  ///< [slot of the batch engine] Trials that are running.
 };
 
 }  // namespace zerocount::trials

@@ -12,53 +12,57 @@
 /// Studies that differ from a given one in some values.
 namespace zerocount::trials {
 
-/// Seed of random numbers that the study with this seed does not use, below 2⁵² so that every program reads
-/// it exactly. @param purpose another one gives other numbers
+/// Seed for random numbers that the study with this seed does not use. It is below 2⁵², so that every program
+/// reads it exactly.
+/// @param purpose text that distinguishes seeds; each purpose has a different seed
 std::uint64_t fresh_seed(std::uint64_t seed, std::string_view purpose);
 
-/// The study with these overrides ("key=value") after its own.
+/// Study with these overrides ("key=value") applied after its own.
 /// @throws Failure (bad_input) as parse_study
 study::Study variant_of(const study::Study& study, const std::vector<std::string>& overrides);
 
-/// The study under one of its conditions, or at one of its ages, or both, as a study of its own with the same
-/// machines and draws. Without either it is the study itself.
-/// @throws Failure (bad_input) with the conditions and ages that there are
+/// Study restricted to one of its conditions, to one of its ages, or to both. It has the same machines and
+/// draws. Without condition and age it is the study itself.
+/// @throws Failure (bad_input) with the existing conditions and ages
 study::Study restricted_to(const study::Study& study, const std::optional<std::string>& condition,
                            const std::optional<double>& age);
 
-/// Why these values together are not allowed; empty if they are. @param parameters as with_values()
+/// Reason why these values are not allowed together; empty if they are allowed.
+/// @param parameters dotted paths; no condition may override them
+/// @param values [parameter] value in the unit of the manifest
 std::string refusal_of_values(const study::Study& study, std::span<const std::string> parameters,
                               std::span<const double> values);
 
-/// A study of one design point with these values of some of its numbers, in the units of its manifest. All
-/// random numbers stay, and so does the text of its manifest. Nothing where such values together are not
-/// allowed.
-/// @param parameters dotted paths, none of which a condition overrides. @param values [parameter]
+/// Copy of a study with one design point in which some parameters have these values. The random numbers and
+/// the text of the manifest stay the same. Nothing if the values are not allowed together.
+/// @param parameters dotted paths; no condition may override them
+/// @param values [parameter] value in the unit of the manifest
 std::optional<study::Study> with_values(const study::Study& study, std::span<const std::string> parameters,
                                         std::span<const double> values);
 
-/// Replicates of a study: machines with `trials_each` trials or, where no trials share a machine, trials that
-/// have a machine each. With conditions each bears all of them equally often.
+/// Replicates of a study. A replicate is a machine with `trials_each` trials or, if no trials share a
+/// machine, a draw with a machine of its own. Each replicate has equally many trials under each condition.
 struct Replicates {
-  std::int64_t count{0};
-  std::int64_t trials_each{1};  ///< under all conditions together
-  std::int64_t point{0};        ///< design point
+  std::int64_t count{0};        ///< Number of replicates.
+  std::int64_t trials_each{1};  ///< Number of trials of a replicate, under all conditions together.
+  std::int64_t point{0};        ///< Design point.
 
   std::int64_t trials() const { return count * trials_each; }
 };
 
-/// Those of a study that is given: its machines, or its draws.
+/// Replicates of an existing study at a design point: its machines or, without machines, its draws.
 Replicates replicates_of(const study::Study& study, std::int64_t point);
 
-/// The trial of the study that is trial i (0 … trials_each − 1) of a replicate: it runs under condition i mod
-/// C.
+/// Number in the study of trial i (0 … trials_each − 1) of a replicate. With C conditions, it runs under
+/// condition i mod C.
 std::int64_t trial_of_replicate(const study::Study& study, const Replicates& replicates,
                                 std::int64_t replicate, std::int64_t i);
 
-/// So many replicates or a few more, as many in each world.
+/// Smallest number of replicates that is at least `count` and puts equally many in each world.
 std::int64_t in_equal_worlds(const study::Study& study, std::int64_t count);
 
-/// Overrides that make a study of these replicates: independent draws, nothing retained.
+/// Overrides that turn a study into one with these replicates. Its draws are independent, and no trace is
+/// retained.
 std::vector<std::string> overrides_for(const study::Study& study, const Replicates& replicates);
 
 }  // namespace zerocount::trials

@@ -19,7 +19,8 @@ constexpr double max_saturated = 0.01;
 constexpr double min_phase_margin = 30.0;  // degrees
 constexpr double max_noise_of_range = 0.1;
 
-/// Lets the motion at rest be measured within what the goals allow, unless the study measures it.
+/// Switches on the measures of the motion at rest, with a band as wide as the goals allow, unless the study
+/// already measures the motion.
 void measure_motion(const study::Study& study, trial::TrialParameters& p) {
   if (p.verdict.motion) return;
   p.verdict.motion = true;
@@ -30,7 +31,8 @@ void measure_motion(const study::Study& study, trial::TrialParameters& p) {
   }
 }
 
-/// " of goal 'large' under condition loaded", as far as there are several.
+/// Text such as " of goal 'large' under condition loaded". It names the goal only if there are several, and
+/// the condition only if the row has one.
 std::string text_of_row(const MoveBehaviour& row, const study::Study& study) {
   const bool is_asked = row.number < study.goals.size();
   std::string text;
@@ -40,7 +42,7 @@ std::string text_of_row(const MoveBehaviour& row, const study::Study& study) {
   return text + (study.ages.at.empty() ? " under condition " : " at ") + *row.condition;
 }
 
-/// The largest overshoot that stays within the band of the row's goal, counts.
+/// Largest overshoot that stays within the band or tolerance of the row's goal, counts.
 double overshoot_in_band(const MoveBehaviour& row, const study::Study& study) {
   if (row.number >= study.goals.size()) return 1.0;
   const study::Goal& goal = study.goals[row.number];

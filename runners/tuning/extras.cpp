@@ -50,7 +50,7 @@ double seconds_of(Wanted extras, const TunedAxis& axis) {
   return std::min(seconds, std::max(axis.effort.seconds_left(), 0.0));
 }
 
-/// Tells before the first one how long each takes at most.
+/// Tells, before the first extra, the maximum duration of each.
 void tell_all(Wanted wanted, const TunedAxis& axis, status::StatusLine& line) {
   std::vector<std::string> each;
   for (const Extra* one : wanted) {

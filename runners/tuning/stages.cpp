@@ -18,15 +18,15 @@ namespace {
 constexpr std::int64_t max_proof_moves = 2'000'000;
 constexpr std::int64_t units_of_frontier = 512;
 
-/// Limit of the trials of a proof; with a time as budget those of a part of what is left at the speed of the
-/// search, because the proof writes a file too.
+/// Maximum number of trials of a proof. With a budget of time, half of the search's speed is assumed, because
+/// the proof also writes a file.
 std::int64_t max_proof_trials(const Space& space) {
   constexpr double part = 0.5;
   const std::int64_t most = std::max<std::int64_t>(max_proof_moves / space.study.moves, 1);
   return std::min(most, affordable_trials(space.effort, part * space.speed));
 }
 
-/// Whether theory excludes the goal for all values of the free parameters, which are gains.
+/// Whether all free parameters are gains and theory excludes a goal for all their values.
 bool is_out_of_reach(const study::Study& proven) {
   const auto is_of_controller = [](const study::FreeParameter& one) {
     return one.name.starts_with("controller.") && one.name != "controller.delay" &&

@@ -15,130 +15,146 @@
 #include "runners/tuning/tune_plan.hpp"
 #include "runners/tuning/worst_machines/worst_machines.hpp"
 
-/// The stages of a tuning, each a function of what the earlier ones found: the space, the search in it, what
-/// its best values do, and their proof.
+/// Stages of a tuning: the space, the search in it, the behaviour of the best values, and their proof. Each
+/// stage is a function of the results of the earlier stages.
 namespace zerocount::tuning {
 
-/// A part of the answer for which the effort was not enough.
+/// A part of the answer that is missing because the effort was not enough.
 struct LeftOut {
   std::string part;
-  std::string_view extra{};  ///< to which it belongs; empty: to none
+  std::string_view extra{};  ///< Name of the extra to which the part belongs; empty: no extra.
 
   bool operator==(const LeftOut&) const = default;
 };
 
-/// Whether the work ended within the effort, and without an interruption.
+/// Runs `work`. Returns whether it ended within the effort and without an interruption.
 bool ended(const trials::Effort& effort, const std::function<void()>& work);
 
-/// What is tuned, and what it may take.
+/// The tuned study, with the budget and the effort of its tuning.
 struct Space {
-  const study::Study& study;  ///< whose machines are simulated
+  const study::Study& study;  ///< Study whose machines are simulated.
   TuneBudget budget{};
-  trials::Effort effort{};  ///< of all stages
-  /// By which a budget is planned, trials/s; infinite without a limit of time.
+  trials::Effort effort{};  ///< Effort of all stages together.
+  /// Speed for planning a budget of time, trials/s; infinity without a limit of time.
   double speed{std::numeric_limits<double>::infinity()};
-  double measured_speed{0.0};  ///< by which times are estimated, trials/s; 0 where nothing was measured
+  double measured_speed{0.0};  ///< Speed for estimating times, trials/s; 0 if it was not measured.
 
   const std::vector<study::FreeParameter>& free() const { return study.tuning->free; }
   bool has_budget() const { return budget.trials || budget.seconds; }
 };
 
-/// @throws Failure (bad_input) if the study does not say what to tune, or has several points
+/// Checks that a study can be tuned.
+/// @throws Failure (bad_input) if the manifest does not say what to tune, or the study has several design
+/// points
 void require_tunable(const study::Study& study);
 
-/// @param known_speed of an earlier run; else it is measured, if a time is to be planned
+/// Space of a tuning. Its speed is measured if the budget has a time and no speed is known.
+/// @param known_speed speed measured by an earlier run, trials/s
 /// @throws trial::Interrupted
 Space space_of(const study::Study& study, const TuneBudget& budget, const trials::Effort& effort,
                const std::optional<double>& known_speed);
 
-/// What a search found.
+/// Result of a search.
 struct Searched {
-  SearchResult result{};               ///< its points and trials with those for other controls
-  std::vector<TriedPoint> frontier{};  ///< between success and speed
-  std::int64_t examined{0};            ///< points whose margins were examined
+  SearchResult result{};               ///< Its points and trials include the searches for other controls.
+  std::vector<TriedPoint> frontier{};  ///< Frontier between success and speed (frontier_of()).
+  std::int64_t examined{0};            ///< Number of points whose margins were examined.
   Landscape landscape{};
 };
 
-/// Searches, and measures the speed of the space by it.
-/// @param tell called after each generation @throws trial::Interrupted
+/// Searches for the best values. Sets the speed of the space to the measured one.
+/// @param tell called after each generation
+/// @throws trial::Interrupted
 Searched search_values(Space& space, StudySearch& search, const SearchPlan& plan,
                        const std::function<void(const SearchProgress&)>& tell);
 
-/// Why a search found no values.
+/// Explanation for a search that found no values.
 struct Unfound {
-  std::optional<NearestPoint> nearest{};
-  std::string refusal{};  ///< why no point at all was allowed; empty if any was
+  std::optional<NearestPoint> nearest{};  ///< Examined point closest to the wanted margins.
+  std::string refusal{};                  ///< Why no point at all was allowed; empty if some point was.
 };
+/// Explains a search that found no values.
 Unfound nearest_to_margins(const StudySearch& search);
 
-/// What values do, on machines of the search.
+/// Margins and moves of values, on machines of the search.
 struct Examined {
   Values values;
   std::optional<SmallestMargins> margins{};
-  std::optional<double> lowest_mode{};          ///< of a load, that the loops bear (LoopExaminer), Hz
-  bool slides{false};                           ///< whether the machines of the margins slide
-  std::vector<summary::MoveBehaviour> moves{};  ///< of some machines
+  std::optional<double> lowest_mode{};          ///< LoopExaminer::lowest_mode(), Hz.
+  bool slides{false};                           ///< Whether the margins include loops of sliding machines.
+  std::vector<summary::MoveBehaviour> moves{};  ///< Behaviour of the moves of some machines.
 };
 
-/// Sets the margins. @param slides whether the machines of the values slide @throws trial::Interrupted
+/// Sets the margins and the lowest mode of `examined`.
+/// @param slides whether the machines slide with these values
+/// @throws trial::Interrupted
 void examine_margins(const StudySearch& search, bool slides, const std::stop_token& stop, Examined& examined);
 
-/// How the moves of the first `count` units are made, each with one trial under each condition. The torque at
-/// rest is measured from the dwell within `verdict.rest_band` on; where the study does not measure it, within
-/// the largest band or tolerance of its goals.
+/// Behaviour of the moves of the first `count` machines, each with one trial under each condition. The torque
+/// at rest is measured from the dwell within `verdict.rest_band` on. If the study does not measure it, the
+/// band is the largest band or tolerance of the goals.
 /// @throws trial::Interrupted, trials::Spent
 std::vector<summary::MoveBehaviour> simulated_behaviour(const study::Study& study,
                                                         const trials::Replicates& units, std::int64_t count,
                                                         const trials::Effort& effort);
 
-/// Trials of the tuned study on machines that the search never saw.
+/// Results of the tuned study on machines that the search did not use.
 struct Proof {
   study::Study study;
-  goal::Verdict verdict;  ///< as `judge` gives it on the results file; its confidence allows for all attempts
-  std::optional<goal::Needs> needs{};          ///< that would decide an undecided one
-  int attempts{1};                             ///< candidates or sizes that were proven, this one included
-  std::vector<summary::CellOfPoint> claims{};  ///< with bounds that allow for all attempts
-  double criterion{0.0};                       ///< infinite for never
-  /// Quantile study::Goal::moves of the criterion's values of the worst goal, under its worst condition.
+  goal::Verdict verdict;  ///< Verdict of `judge` on the results file; its confidence allows for all attempts.
+  std::optional<goal::Needs> needs{};  ///< Study size that would decide an undecided verdict.
+  /// Number of attempts (candidates or sizes), including this one.
+  int attempts{1};
+  std::vector<summary::CellOfPoint> claims{};  ///< Claims with bounds that allow for all attempts.
+  double criterion{0.0};                       ///< Estimate::criterion; infinity for "never".
+  /// Quantile of the criterion's values of the worst goal under its worst condition, at the probability
+  /// study::Goal::moves.
   double late_limit{0.0};
   std::optional<WorstMachine> worst{};
-  std::vector<std::string> obstacles{};  ///< what keeps the axis from a goal that is not met, in theory
+  std::vector<std::string> obstacles{};  ///< Reasons from theory why a goal is not met.
   std::vector<summary::MoveBehaviour> moves{};
   bool keeps_margins{true};  ///< ProvenFinalist::keeps_margins
   bool all_tried{true};      ///< ProvenFinalist::all_tried
 
-  /// Whether the values are no answer: they miss a goal or do not keep a margin.
+  /// Whether the values are not an answer, because they miss a goal or violate a margin.
   bool fails() const { return !keeps_margins || verdict.status == goal::Status::missed; }
 };
 
-/// @param study of one point, and its units @param file of its trials @param results of these
+/// Evaluates a finished proof.
+/// @param study study with one design point
+/// @param units machines of the study
+/// @param results results of these machines
+/// @param file results file with their trials
 Proof proof_of(study::Study study, const trials::Replicates& units, std::span<const UnitResult> results,
                const reading::AllTrialsFile& file);
 
-/// Where a proof is written.
+/// Results file of a proof, and the number of threads that make it.
 struct ProofPlace {
   std::filesystem::path output;
   int threads{0};
 };
 
+/// The proof that prove_values() ended with.
 struct Proven {
-  std::size_t finalist{0};
-  bool slid{false};  ///< whether machines slid in the search, or in the proof
+  std::size_t finalist{0};  ///< Index in SearchResult::finalists.
+  bool slid{false};         ///< Whether machines slid in the search or in the proof.
   Proof proof;
 };
 
-/// Proves the best finalist that can be proven (prove()). @returns nothing if the time ended before the first
-/// attempt
+/// Proves the finalists of a search (prove()).
+/// @returns the last attempt; nothing if the time ended before the first attempt
 /// @throws Failure (interrupted)
 std::optional<Proven> prove_values(const Space& space, StudySearch& search, const SearchResult& found,
                                    const ProofPlace& place, status::StatusLine& line);
 
-/// What the proof and its search say together: a goal that the proof misses is undecided unless the search
-/// followed rates that rise, came no nearer at the end, and all that may meet the goal was tried; or theory
-/// excludes it for all gains.
+/// Status of a tuning from its proof and its search. A failed proof is "undecided" by default. It is "missed"
+/// if the rates gave the search a direction (Landscape::leads), the search came no closer at its end, and all
+/// finalists that may meet the goal were tried. It is also "missed" if theory excludes the goal for all
+/// gains.
 goal::Status status_of(const Proof& proof, const Searched& searched);
 
-/// "controller.ki = 5000 is at the lower end of its range".
+/// Sentences for the values at an end of their range, such as "controller.ki = 5000 is at the lower end of
+/// its range".
 std::vector<std::string> edges_of(const std::vector<study::FreeParameter>& free, const Values& values);
 
 }  // namespace zerocount::tuning

@@ -37,7 +37,8 @@ TuningJournal open_journal(const study::Study& study, const TuneSettings& settin
                             settings.output.string(), exists ? "exists already" : "has an unfinished run"));
 }
 
-/// A little of the time is kept back for the start and the end of the program, and for the page.
+/// Effort of the whole tuning. A little of the time is kept for the start and end of the program and for the
+/// page.
 trials::Effort whole_effort(const TuneSettings& settings, double elapsed, const std::stop_token& stop) {
   const TuneBudget& budget = settings.budget;
   if (!budget.seconds) return trials::Effort(stop).share(budget.trials, {});
@@ -53,7 +54,7 @@ Failure out_of_time(TuningJournal& journal, const TuneBudget& budget, const std:
                       seconds, what, 2.0 * seconds)};
 }
 
-/// The answer that grows from stage to stage.
+/// State of a tuning; its answer grows from stage to stage.
 struct Work {
   const TuneSettings& settings;
   TuningJournal& journal;
@@ -62,7 +63,7 @@ struct Work {
   TuneAnswer answer{.free = space.free(), .budget = space.budget, .blind = search.examiner().is_blind()};
   status::StatusLine line{settings.quiet, settings.listener};
 
-  /// Makes a part of the answer that is not proven; one for which the effort is not enough is named.
+  /// Makes an unproven part of the answer. If the effort is not enough, the part is listed as left out.
   void find_part(const std::string& name, const std::function<void()>& work) {
     line.show([&] { return name; });
     const bool found = ended(space.effort, work);
@@ -77,7 +78,7 @@ struct Work {
   }
 };
 
-/// Without a budget: what the search may take on this machine.
+/// If there is no budget, tells how long the search may take on this computer.
 void tell_default(Work& work) {
   if (work.space.has_budget() || work.settings.quiet) return;
   status::tell("no --budget: the search takes at most {}, as measured here, then the proof and the extras\n",
@@ -99,7 +100,7 @@ void find_values(Work& work, const SearchPlan& plan) {
   });
 }
 
-/// Where no candidate keeps the margins.
+/// Explains a search in which no candidate keeps the margins, and sets the status of the answer.
 /// @throws Failure (inconclusive) if the search ended too soon to say that there are no such values
 void explain_missing(Work& work, const SearchPlan& plan) {
   const Searched& searched = work.answer.searched;
@@ -122,7 +123,7 @@ void examine_margins(Work& work, bool slides) {
                  [&] { examine_margins(work.search, slides, work.space.effort.stop(), work.answer.tuned); });
 }
 
-/// What the values of a finalist do, on machines of the search.
+/// Examines the margins and moves of a finalist, on machines of the search.
 void examine(Work& work, const Candidate& finalist) {
   work.answer.tuned = {finalist.values};
   work.answer.extras.left_out.clear();  // of another finalist
@@ -140,7 +141,8 @@ void examine(Work& work, const Candidate& finalist) {
   });
 }
 
-/// Takes a proof. The torque at rest that it does not measure is that of the machines of the search.
+/// Puts a proof into the answer. If the proof did not measure the torque at rest, the value from the machines
+/// of the search is kept.
 void take_proof(Proof proof, TuneAnswer& answer) {
   for (summary::MoveBehaviour& row : proof.moves) {
     const auto same = std::ranges::find_if(answer.tuned.moves, [&](const summary::MoveBehaviour& one) {
@@ -152,7 +154,9 @@ void take_proof(Proof proof, TuneAnswer& answer) {
   answer.proof = std::move(proof);
 }
 
-/// @throws Failure (inconclusive) if the time ended before the first attempt
+/// Tests on new machines whether the best finalists meet the goals. The last completed attempt becomes the
+/// proof of the answer.
+/// @throws Failure (inconclusive) if the time ended before the first attempt was complete
 void prove(Work& work) {
   const parallel::Recording stage("proof");
   const SearchResult& found = work.answer.searched.result;
@@ -165,7 +169,7 @@ void prove(Work& work) {
   take_proof(std::move(proven->proof), work.answer);
 }
 
-/// Shows the proven answer, and makes the extras.
+/// Passes on the proven answer, then makes the extras.
 void add_extras(Work& work) {
   TuneAnswer& answer = work.answer;
   work.count_effort();
@@ -203,7 +207,7 @@ TuneAnswer tuned(const study::Study& study, const TuneSettings& settings, const 
   return std::move(work.answer);
 }
 
-/// The margins of values on the machines of the study.
+/// Adds the margins of the answer's values, on the machines of the study.
 void add_margins_in(const study::Study& study, bool slides, const trials::Effort& effort,
                     TuningJournal& journal, TuneAnswer& answer) {
   const StudySearch search(study, answer.free, default_search_size(study), journal, effort);

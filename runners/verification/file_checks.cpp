@@ -63,8 +63,9 @@ void require_allowed_inputs(const reading::TrialTables& trials, const study::Stu
   }
 }
 
-/// Checks that inputs, measures and jerks of the trials are possible, and that the sums can be those of the
-/// trials and count the failures that the file keeps.
+/// Checks that the inputs, measures and jerks of the trials in the file are possible. If the file has sums,
+/// checks also that they are possible for the number of trials at each design point and, if the file keeps
+/// the failed trials, that the failures counted in the sums are as many as these trials.
 /// @throws Failure (bad_data)
 void check_contents(const reading::ResultsFile& file, const study::Study& study) {
   if (file.trials()) {
@@ -85,8 +86,9 @@ void check_contents(const reading::ResultsFile& file, const study::Study& study)
   }
 }
 
-/// Checks that the sample records are those of the retained trials in their order, each from its first sample
-/// on: a file that is made again takes over their numbers.
+/// Checks that the sample records belong to the retained trials in their order, each starting with its first
+/// sample. This must be checked here, because a file that is made again takes over the numbers of the
+/// records.
 void check_records(const reading::ResultsFile& file, const study::Study& study, ProblemList& problems) {
   if (!file.trials() || study.retained_trials.empty()) return;
   std::vector<std::int64_t> expected;
@@ -174,7 +176,7 @@ std::size_t datasets_in(const hdf5::Group& group) {
   return count;
 }
 
-/// What the check of the statistics covers.
+/// Text about the extent of the check of the statistics.
 std::string detail_of(const reading::ResultsFile& file, const study::Study& study) {
   const layout::FileHeader& header = file.header();
   std::string values;

@@ -241,7 +241,7 @@ void check_trials(CheckReport& report, const reading::ResultsFile& file, const s
 
 namespace {
 
-/// What the loop does at a sample.
+/// Encoder count and converter code of a loop at one sample.
 struct LoopSample {
   std::int64_t count{0};
   std::int64_t code{0};

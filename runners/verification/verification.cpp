@@ -53,7 +53,7 @@ namespace fs = std::filesystem;
 /// A file that was opened without problems so far, so that its trials can be run again.
 struct OpenedFile {
   CheckReport report;
-  std::optional<Described> described;  ///< nothing if the file cannot be read
+  std::optional<Described> described;  ///< Description of the file; nothing if it cannot be read.
 };
 
 /// A shard whose header was read.
@@ -103,9 +103,10 @@ Check unfinished(std::span<const layout::RowRange> gaps) {
           .skipped = true};
 }
 
-/// Checks that the shards of a folder are of one study, build and engine, and that they hold each of its
-/// trials once. The study is that of most shards.
-/// @param stops the study has a stopping rule: it may hold fewer trials than its manifest allows
+/// Checks that the shards of a folder belong to one study, build and engine, and that they contain each trial
+/// of the study once. The study is the study of most shards.
+/// @param stops whether the study has a stopping rule, so that there may be fewer trials than its manifest
+/// allows
 void check_shard_set(CheckReport& report, std::span<const ShardHeader> shards, bool stops) {
   std::vector<layout::RowRange> gaps;
   add_check(report, "shards", [&](Check& check, ProblemList& problems) {

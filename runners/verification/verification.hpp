@@ -12,31 +12,32 @@
 #include "core/failure/failure.hpp"
 #include "core/plugin/controller_plugin.hpp"
 
-/// Checks whether results files are whole, and hold what their manifests say.
+/// Checks whether results files are undamaged, and contain what their manifests describe.
 namespace zerocount::verification {
 
 /// One check of a file.
 struct Check {
   std::string name;
-  std::string detail{};                 ///< extent of the check: "400 trials"
-  std::vector<std::string> problems{};  ///< one line each; none: the check holds
-  bool skipped{false};                  ///< `detail` says why
+  std::string detail{};                 ///< Extent of the check: "400 trials".
+  std::vector<std::string> problems{};  ///< Problems, one line each; empty: the check holds.
+  bool skipped{false};                  ///< Whether the check was skipped; `detail` says why.
 };
 
-/// The checks of a file, or of a folder of shards as a whole.
+/// Checks of a file, or of a folder of shards as a whole.
 struct CheckReport {
   std::filesystem::path path;
   std::vector<Check> checks{};
-  bool unreadable{false};  ///< the machine failed to read it, or to write what a check needs
-  std::stop_token stop{};  ///< interrupts the checks
+  bool unreadable{false};  ///< The computer failed to read the file, or to write what a check needs.
+  std::stop_token stop{};  ///< Interrupts the checks.
 };
 
+/// Whether all checks hold.
 bool holds(const CheckReport& report);
 
-/// Maximum number of problems that a check lists; it counts the others.
+/// Maximum number of problems that a check lists. Further problems are only counted.
 inline constexpr std::size_t max_problems = 20;
 
-/// Adds a problem, or counts it if there are too many.
+/// Adds problems to a check. Problems beyond max_problems are only counted.
 class ProblemList {
  public:
   explicit ProblemList(Check& check) : check_(check) {}
@@ -51,14 +52,15 @@ class ProblemList {
   std::size_t others_{0};
 };
 
-/// The message of a failure without the path of the file that it begins with.
+/// Message of a failure without the path of the file at its beginning.
 std::string problem_of(const Failure& failure, const std::filesystem::path& path);
 
-/// @throws Failure (interrupted) if a stop was requested.
+/// Checks for a stop request.
+/// @throws Failure (interrupted) if a stop was requested
 void require_no_stop(const std::stop_token& stop);
 
 /// Makes a check and adds it to the report. A Failure that `work(check, problems)` throws is a problem too.
-/// @return the check holds
+/// @return whether the check holds
 /// @throws Failure (interrupted) if a stop was requested.
 template <class Work>
 bool add_check(CheckReport& report, std::string_view name, const Work& work) {
@@ -78,15 +80,16 @@ bool add_check(CheckReport& report, std::string_view name, const Work& work) {
   return report.checks.back().problems.empty();
 }
 
+/// Settings of verify().
 struct VerifySettings {
-  std::int64_t trials{20};  ///< to run again: of each file, or of all shards of a folder together
-  std::uint64_t seed{1};    ///< of their choice
-  std::shared_ptr<const plugin::ControllerPlugin> plugin{};  ///< the user's controller; null: none is given
+  std::int64_t trials{20};  ///< Number of trials to rerun, per file or per folder of shards.
+  std::uint64_t seed{1};    ///< Seed for the choice of these trials.
+  std::shared_ptr<const plugin::ControllerPlugin> plugin{};  ///< User's controller; null: none is given.
   std::stop_token stop{};
 };
 
-/// Verifies results files, parts, shards, and folders of these. Goes on after a failure, but a read that
-/// fails after the checksum was right ends the process (hdf5/file_driver.hpp).
+/// Verifies results files, parts, shards, and folders of these. It goes on after a failed check. But a read
+/// that fails although the checksum was right ends the process (hdf5/file_driver.hpp).
 /// @returns one report per file, in the order of the operands, and one per folder of shards after its files
 /// @throws Failure: interrupted if a stop was requested; bad_input if an operand does not exist, a folder has
 /// no results files, or the controller of a study is a plugin that is not given

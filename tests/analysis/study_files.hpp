@@ -11,23 +11,24 @@
 
 namespace zerocount::testing {
 
-/// What a test says of one trial.
+/// The results of one trial, as a test specifies them.
 struct TrialRecord {
   trial::TrialOutcome outcome;
   std::vector<trial::Jerk> jerks;
 };
 
-/// A study of this size without a manifest that could be read: names, labels and one axis.
+/// A study of this size with names, labels and one axis. Its manifest cannot be parsed.
 study::Study plain_study(std::int64_t points, std::int64_t trials, std::int64_t moves);
 
-/// Some trial with `moves` moves: random, a function of the row alone. Some have no jerks, some dozens.
+/// A random trial with `moves` moves, which is a function of the row alone. Some trials have no jerks, some
+/// dozens.
 TrialRecord random_trial(std::int64_t row, std::int64_t moves);
 
-/// Some trial with `moves` torque levels: random, a function of the row alone. In some the motion is lost in
-/// a level; nothing is then measured of those after it.
+/// A random trial with `moves` torque levels, which is a function of the row alone. In some trials the motion
+/// is lost in a level; the levels after it then have no measures.
 TrialRecord random_open_loop_trial(std::int64_t row, std::int64_t moves);
 
-/// Writes the results file of `study` with these trials, [row], by way of one shard in the folder of `path`.
+/// Writes the results file of `study` with these trials, [row], from one shard in the folder of `path`.
 void write_study_file(const std::filesystem::path& path, const study::Study& study,
                       const std::vector<TrialRecord>& trials,
                       const std::vector<layout::PointColumn>& statistics = {});

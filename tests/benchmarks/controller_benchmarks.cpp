@@ -38,7 +38,7 @@ loop::ControllerParameters built_in_law() {
   return law;
 }
 
-/// The same law from the library, whose parameters are kp, ki and zone.
+/// The control law of a plugin library, with the parameters kp, ki and zone.
 loop::ControllerParameters law_of(const std::string& library) {
   loop::ControllerParameters law;
   law.user.plugin = std::get<std::shared_ptr<const plugin::ControllerPlugin>>(plugins::load_plugin(library));
@@ -56,7 +56,7 @@ double thread_time() {
 /// One trial's decisions by a controller, with the check that each torque is finite.
 struct Decisions {
   double seconds{0.0};
-  double sum{0.0};  ///< of the torques, N m
+  double sum{0.0};  ///< sum of the torques, N m
 };
 
 Decisions decide(const loop::ControllerParameters& law, const std::vector<std::int64_t>& counts) {

@@ -33,7 +33,7 @@ void simulate_batch(batch::BatchEngine& engine, const Workload& workload) {
   benchmark::DoNotOptimize(outcomes.data());
 }
 
-/// Up to a breakaway, which is as far as it is compared.
+/// The records of a trial by the batch engine up to the first breakaway. Later samples are not compared.
 std::vector<trial::SampleRecord> batch_records(batch::BatchEngine& engine,
                                                const trial::TrialParameters& trial) {
   const loop::Encoder coarse = loop::coarse_encoder(trial.encoder, trial.initial.encoder_phase);

@@ -9,7 +9,7 @@
 
 namespace zerocount::testing {
 
-/// Something that simulates whole trials, to be timed on one thread.
+/// An engine that simulates whole trials and is timed on one thread.
 struct TimedEngine {
   std::string name;
   /// Simulates the trials of the workload, with all their measures. Whoever needs the study instead of the
@@ -17,12 +17,12 @@ struct TimedEngine {
   std::function<void(const Workload&)> simulate;
   /// The samples of one trial by this engine, which are checked before it is timed; empty for the reference.
   TrialRecorder record;
-  /// How often `simulate` runs the trials of the workload: an engine that runs many at a time is timed with
-  /// as many as a run gives it.
+  /// Number of times that `simulate` runs the trials of the workload. An engine that runs many trials at a
+  /// time is timed with as many as a run gives it.
   int copies{1};
 };
 
-/// All engines that this was built with, ours first. Another one is one more entry here.
+/// All engines that the program was built with, ours first. A new engine is one more entry in this list.
 std::vector<TimedEngine> all_engines();
 
 }  // namespace zerocount::testing

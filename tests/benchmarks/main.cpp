@@ -6,7 +6,7 @@
 
 namespace {
 
-/// What the compiler was allowed to use.
+/// Name of the instruction set for which the program is compiled.
 const char* instruction_set() {
 #if defined(__AVX512F__)
   return "AVX-512";

@@ -16,14 +16,14 @@ using TrialRecorder = std::function<std::vector<trial::SampleRecord>(const trial
 /// All samples of a trial by the scalar reference.
 std::vector<trial::SampleRecord> reference_records(const trial::TrialParameters& parameters);
 
-/// How an engine agrees with the scalar reference on the trials of a study.
+/// Agreement of an engine with the scalar reference on the trials of a study.
 struct EngineAgreement {
-  Agreement samples;              ///< up to the first breakaway of each trial
-  std::int64_t calm_trials{0};    ///< compared that never break away
-  std::int64_t broken_trials{0};  ///< compared up to where they do
+  Agreement samples;              ///< agreement up to the first breakaway of each trial
+  std::int64_t calm_trials{0};    ///< compared trials that never break away
+  std::int64_t broken_trials{0};  ///< trials compared up to their first breakaway
 
   bool holds() const;        ///< no failure, and at most one trial in fifty cut short on an encoder edge
-  std::string text() const;  ///< one line of figures, and one for each failure
+  std::string text() const;  ///< figures in one line, and one line for each failure
 };
 
 /// Compares an engine with the reference on the first trials of the study (of one design point) until `calm`

@@ -10,33 +10,33 @@ namespace zerocount {
 /// The five keys that a manifest must have, on five lines, and `more` after them.
 std::string minimal_manifest(const std::string& more = "");
 
-/// The same with this value of the key `command`, on the fifth line.
+/// A minimal manifest with this value of the key `command`, on the fifth line.
 std::string manifest_commanding(const std::string& command, const std::string& more = "");
 
 /// A manifest that uses the sections of the paper's experiments, distributions, a profile and a sweep.
 std::string full_manifest();
 
-/// A manifest that uses whatever can be switched on beside that in a closed loop.
+/// A manifest that uses all further features of a closed loop, beyond those of full_manifest().
 std::string extended_manifest();
 
-/// The message with which the text is refused; empty where it is understood. The text is named "m.yaml".
+/// The message with which the text is refused; empty if it is accepted. The text is named "m.yaml".
 std::string refusal_of(const std::string& text, const std::vector<std::string>& overrides = {});
 
-/// parse_study of the text under the name "m.yaml".
+/// The study that parse_study() makes of the text under the name "m.yaml".
 study::Study study_of(const std::string& text, const std::vector<std::string>& overrides = {});
 
 /// Index of the input column with this name.
 std::size_t column_of(const study::Study& study, const std::string& name);
 
-/// Which of encoder noise, delay and amplifier lag the study leaves out without a word, as it names them.
+/// The premises about encoder noise, delay and amplifier lag that the study assumes without being told.
 std::vector<std::string_view> unstated_premises(const study::Study& study);
 
-/// Whether a message has these faults, one a line. "6:9: plant.inertai | inertia" is a line that begins with
-/// "m.yaml:6:9: plant.inertai: " and has the word "inertia" behind it; there may be several words. A fault
-/// that does not begin with a digit names its source, such as "--set trials=x: trials | number".
+/// Whether a message has these faults, one per line. "6:9: plant.inertai | inertia" is a line that begins
+/// with "m.yaml:6:9: plant.inertai: " and has the word "inertia" behind it; there may be several words. A
+/// fault that does not begin with a digit names its source, such as "--set trials=x: trials | number".
 ::testing::AssertionResult has_faults(const std::string& message, std::string_view faults);
 
-/// Whether these warnings have these faults, one a warning.
+/// Whether these warnings have these faults, one per warning.
 ::testing::AssertionResult has_faults(const std::vector<std::string>& warnings, std::string_view faults);
 
 }  // namespace zerocount

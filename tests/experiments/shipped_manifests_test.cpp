@@ -169,7 +169,7 @@ std::string pages() {
   return text.str();
 }
 
-/// What stands between fences, with the word behind the opening fence.
+/// The fenced blocks of the pages, each with the word after the opening fence.
 std::vector<Block> fenced_blocks() {
   std::vector<Block> blocks;
   std::istringstream text(pages());

@@ -12,11 +12,11 @@ namespace zerocount::fuzz {
 
 /// An attribute of a group or dataset.
 struct AttributePlace {
-  std::string object;  ///< path
+  std::string object;  ///< path of the group or dataset
   std::string name;
 };
 
-/// A valid results file without its checksum trailer, and what can be changed in it.
+/// A valid results file without its checksum trailer, with lists of its parts that can be changed.
 struct SampleFile {
   std::string bytes;
   std::vector<std::string> objects;  ///< paths of groups and datasets
@@ -24,13 +24,13 @@ struct SampleFile {
   std::vector<std::size_t> used;  ///< offsets of the bytes that are not 0
 };
 
-/// One change. The fuzzer finds useful changes faster in this form than in a file, most of whose bytes are
-/// padding or protected by checksums of HDF5.
+/// One change of a file. The fuzzer finds useful changes faster in this form than by changing bytes of a
+/// file, because most bytes are padding or protected by checksums of HDF5.
 struct Edit {
-  std::uint8_t kind{0};     ///< modulo edit_kinds; see file_edits.cpp
-  std::uint8_t choice{0};   ///< of a value or type
-  std::uint16_t object{0};  ///< modulo the number of objects or attributes
-  std::uint32_t place{0};   ///< of an element or byte
+  std::uint8_t kind{0};     ///< kind of the edit, modulo edit_kinds; see file_edits.cpp
+  std::uint8_t choice{0};   ///< choice of a value or type
+  std::uint16_t object{0};  ///< index of an object or attribute, modulo their number
+  std::uint32_t place{0};   ///< index of an element or byte
   std::uint64_t value{0};
 };
 
@@ -44,7 +44,8 @@ std::vector<Edit> edits_of(std::span<const std::uint8_t> bytes);
 /// left out.
 void write_edited(const SampleFile& sample, std::span<const Edit> edits, MemoryFile& file);
 
-/// Chooses a sample by the first byte of an input of the fuzzer, and writes it with the edits of the others.
+/// Chooses a sample by the first byte of a fuzzer input, and writes it with the edits that the other bytes
+/// encode.
 void write_input(const std::vector<SampleFile>& samples, std::span<const std::uint8_t> input,
                  MemoryFile& file);
 

@@ -44,7 +44,8 @@ void set_attribute(hid_t file, const AttributePlace& attribute, hid_t type, cons
   if (made >= 0) H5Awrite(made, type, value);
 }
 
-/// Writes one element; `type` is that of the memory.
+/// Writes one element of a dataset.
+/// @param type type of the value in memory
 void write_element(hid_t dataset, hid_t type, std::uint64_t place, const void* value) {
   const Id space(H5Dget_space(dataset), H5Sclose);
   const int rank = H5Sget_simple_extent_ndims(space);

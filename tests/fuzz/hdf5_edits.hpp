@@ -7,7 +7,8 @@
 
 namespace zerocount::fuzz {
 
-/// An HDF5 file that is changed with the library alone. Every function ignores what the library refuses.
+/// An HDF5 file that is changed with the HDF5 library alone. Every function ignores changes that the library
+/// refuses.
 class EditedHdf5 {
  public:
   explicit EditedHdf5(const std::filesystem::path& path);
@@ -19,7 +20,7 @@ class EditedHdf5 {
   void set_text(const AttributePlace& attribute, const std::string& value) const;
   void remove(const AttributePlace& attribute) const;
 
-  /// Element `place`, modulo the size, of a dataset of numbers or of texts.
+  /// Changes element `place`, modulo the size, of a dataset of numbers or of texts.
   void set_element(const std::string& dataset, std::uint64_t place, std::uint64_t bits) const;
   void set_element(const std::string& dataset, std::uint64_t place, const std::string& text) const;
   void resize(const std::string& dataset, std::uint64_t rows) const;
@@ -27,7 +28,7 @@ class EditedHdf5 {
   void remove(const std::string& path) const;
   void rename(const std::string& path, const std::string& other) const;
   void replace_by_group(const std::string& path) const;
-  /// Replaces it by a dataset of another type and rank; it keeps its attributes.
+  /// Replaces a dataset by one of another type and rank. The attributes are kept.
   void replace_by_dataset(const std::string& path, std::uint8_t type, unsigned rank,
                           std::uint64_t size) const;
 

@@ -246,7 +246,7 @@ std::filesystem::path write_sample_file(const std::filesystem::path& directory, 
   return path;
 }
 
-/// Seven worlds, of which five have six of the 40 trials at a point, and two have five.
+/// A study with seven worlds. Of the 40 trials at a point, five worlds have six each and two have five each.
 study::Study sample_study_in_worlds() {
   study::Study study = sample_study(3, 40, 2);
   study.worlds = 7;

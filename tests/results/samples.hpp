@@ -12,18 +12,18 @@
 namespace zerocount::testing {
 
 /// A study with two sweep axes (numbers and a case), two inputs, one profile and one retained trial whose
-/// record has all columns that there are. Nothing reads its manifest, which is any text.
+/// record has all existing columns. The text of its manifest is arbitrary, because nothing reads it.
 study::Study sample_study(std::int64_t points = 3, std::int64_t trials = 40, std::int64_t moves = 2);
 
-/// The same on 8 machines, with one input that is drawn for each, and a rotor for each.
+/// A sample study on 8 machines, with one input and one rotor drawn for each machine.
 study::Study sample_study_with_machines(std::int64_t points = 3, std::int64_t trials = 40,
                                         std::int64_t moves = 2);
 
-/// Some result of a row: random, a function of the row alone. Some trials have no jerks, some many.
+/// A random result of a row, which is a function of the row alone. Some trials have no jerks, some many.
 shards::TrialResult sample_result(const study::Study& study, std::int64_t row);
 std::vector<shards::TrialResult> sample_results(const study::Study& study, layout::RowRange rows);
 
-/// The same for every call, so that whole files can be compared.
+/// A provenance that is equal in every call, so that whole files can be compared.
 layout::Provenance sample_provenance();
 
 /// Writes one shard into `directory`.
@@ -35,24 +35,24 @@ std::vector<shards::ShardInfo> write_sample_shards(const std::filesystem::path& 
                                                    const study::Study& study, layout::RowRange rows,
                                                    std::int64_t size);
 
-/// Two statistics, computed from the file: trials per point, and the mean settling time of the first move;
-/// and sample_table.
+/// Statistics computed from the file: the number of trials per point, the mean settling time of the first
+/// move, and sample_table.
 layout::StoredStatistics sample_statistics(const reading::AllTrialsFile& file);
 layout::StatisticTable sample_table(const reading::AllTrialsFile& file);
 
-/// A whole results file of the study, by way of shards of `size` rows.
+/// Writes a complete results file of the study by merging shards of `size` rows.
 std::filesystem::path write_sample_file(const std::filesystem::path& directory, const study::Study& study,
                                         std::int64_t size = 17);
 
-/// Seven worlds, of which five have six of the 40 trials at a point, and two have five.
+/// A study with seven worlds. Of the 40 trials at a point, five worlds have six each and two have five each.
 study::Study sample_study_in_worlds();
 
-/// Counts of the trials in the file. A trial is taken to meet the goal if its first move arrived.
+/// Counts of the trials in the file. A trial counts as meeting the goal if its first move arrived.
 layout::GroupCounts counted_worlds(const reading::AllTrialsFile& file, std::int64_t worlds);
 
-/// A results file of a study with worlds, whose conditions, if it has any, are counted like worlds. A trial
-/// is taken to meet the goal if its first move arrived.
-/// @param size trials of a shard
+/// Writes a results file of a study with worlds. Conditions, if there are any, are counted like worlds. A
+/// trial counts as meeting the goal if its first move arrived.
+/// @param size number of trials of a shard
 std::filesystem::path write_file_in_worlds(const std::filesystem::path& directory, const study::Study& study,
                                            bool has_goal = true, std::int64_t size = 17);
 

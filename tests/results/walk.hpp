@@ -13,10 +13,10 @@ void for_each_dataset(const std::filesystem::path& path,
 
 /// Opens a results file (a part or a shard too) and reads every dataset, so that HDF5's checksums are
 /// compared.
-/// @throws Failure (bad_data) for the first that does not read.
+/// @throws Failure (bad_data) for the first dataset that cannot be read
 void read_everything(const std::filesystem::path& path);
 
-/// Expects that all of a results file reads, and that every numbering of its trials counts as it should.
+/// Expects that the whole results file can be read, and that all indices of its trials are consistent.
 void expect_sound(const std::filesystem::path& path);
 
 }  // namespace zerocount::testing

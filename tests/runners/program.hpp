@@ -11,9 +11,9 @@ namespace zerocount::testing {
 
 using Json = nlohmann::json;
 
-/// What a finished program said.
+/// Result of a finished program.
 struct ProgramResult {
-  int code{0};      ///< exit code; 128 + signal where a signal ended it
+  int code{0};      ///< exit code; 128 + signal number if a signal ended the program
   std::string out;  ///< standard output
   std::string err;  ///< standard error
 };
@@ -23,21 +23,22 @@ struct ProgramResult {
 ProgramResult zerocount_program(const std::vector<std::string>& words, const std::filesystem::path& directory,
                                 const std::vector<std::string>& environment = {});
 
-/// A test with a folder of its own, in which it runs `zerocount`.
+/// A test that runs `zerocount` in its own temporary folder.
 class ProgramTest : public ::testing::Test {
  protected:
   ProgramResult program(const std::vector<std::string>& words) const {
     return zerocount_program(words, folder_.path());
   }
-  /// What the program says in JSON. @param code the exit code that is expected; without, any
+  /// The program's JSON output.
+  /// @param code expected exit code; empty: any
   nlohmann::json json_of(std::vector<std::string> words, std::optional<int> code = {}) const;
-  /// What a command that ends with this exit code says of the reason.
+  /// The error message of a command that ends with this exit code.
   std::string refusal(const std::vector<std::string>& words, int code = 2) const;
 
   TemporaryFolder folder_;
 };
 
-/// A `zerocount` that is running.
+/// A running `zerocount` process.
 class RunningProgram {
  public:
   /// @param out file for its standard output
@@ -45,16 +46,16 @@ class RunningProgram {
                  const std::filesystem::path& out = "/dev/null");
   void send(int signal) const;
 
-  /// Waits until the folder has so many shards of its run; it is an error if the program ends before.
+  /// Waits until the folder has `number` shards of its run. It is an error if the program ends before.
   void wait_for_shards(const std::filesystem::path& folder, std::ptrdiff_t number = 1) const;
 
-  int wait();  ///< exit code; 128 + signal where a signal ended it
+  int wait();  ///< exit code; 128 + signal number if a signal ended the program
 
  private:
   pid_t process_;
 };
 
-/// Number of the shards in a folder; 0 if there is none.
+/// Number of shards in a folder; 0 if the folder does not exist.
 std::ptrdiff_t shards_in(const std::filesystem::path& folder);
 
 /// A small study with random friction, two cases and jerks: 2 × `trials` trials of 300 samples.

@@ -62,7 +62,7 @@ TEST(PaperFig4, TheSpringRemembersReversalPointsUntilTheyAreWipedOut) {
   });
 }
 
-/// The elongation at which the spring carries `torque`, gone to from where it is.
+/// The elongation at which the spring carries `torque`, reached from its present elongation.
 double elongation_at(const StopElements& spring, double torque) {
   const bool rising = torque > spring.torque();
   double low = -1e-3, high = 1e-3;
@@ -137,7 +137,7 @@ double asked(const trial::TrialParameters& parameters, double torque) {
   return std::pow(std::abs(torque), friction.n) / friction.lambda;
 }
 
-/// Whether a level takes the contact beyond what it has hardened to at the levels before.
+/// Whether a level loads the contact beyond the torque to which the earlier levels have hardened it.
 bool goes_beyond(const std::vector<double>& levels, std::size_t level) {
   for (std::size_t before = 0; before < level; ++before) {
     if (std::abs(levels[before]) >= std::abs(levels[level])) return false;

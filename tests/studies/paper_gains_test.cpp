@@ -140,13 +140,13 @@ Peaks peaks(const study::Study& study, const std::string& label) {
   return {0.5 * static_cast<double>(highest[half - 1] + highest[half]), highest.back()};
 }
 
-/// Of the move of 10 counts in paper-fig7, whose axis ends at 12 counts.
+/// The peaks of the move of 10 counts in paper-fig7. The figure's axis ends at 12 counts.
 Peaks peaks_of_fig7(const std::vector<std::string>& settings) {
   return peaks(shipped_study("paper-fig7", settings), "command.targets.0=10");
 }
 
-/// Of the move of 30 counts in paper-fig8, whose axis ends at 40 counts. Its jerks, which come later, are of
-/// one count and do not reach beyond the first swing.
+/// The peaks of the move of 30 counts in paper-fig8. The figure's axis ends at 40 counts. The later jerks of
+/// one count do not exceed the first oscillation.
 Peaks peaks_of_fig8(std::vector<std::string> settings) {
   settings.insert(settings.end(), {"command.hold=0.3", "retain={}"});
   return peaks(shipped_study("paper-fig8", settings), "all");

@@ -9,20 +9,20 @@
 
 namespace zerocount::testing {
 
-/// A manifest of experiments/manifests, with settings as after --set.
+/// The study of a manifest in experiments/manifests, with settings in the form of --set.
 study::Study shipped_study(const std::string& name, const std::vector<std::string>& settings = {});
 
-/// The design point with this label.
+/// Index of the design point with this label.
 std::int64_t point_named(const study::Study& study, const std::string& label);
 
 /// The parameters of trial `index` at the point with this label.
 trial::TrialParameters trial_of(const study::Study& study, const std::string& label, std::int64_t index);
 
-/// Outcomes of trials 0 … trials − 1 at that point, by the batch engine, as `run` has them.
+/// Outcomes of trials 0 … trials − 1 at the point with this label, computed by the batch engine as in `run`.
 std::vector<trial::TrialOutcome> outcomes_of(const study::Study& study, const std::string& label,
                                              std::int64_t trials);
 
-/// A trial with all that can be seen of it.
+/// A trial with everything that can be observed of it.
 struct WatchedTrial {
   trial::TrialParameters parameters;
   trial::TrialOutcome outcome;
@@ -32,7 +32,7 @@ struct WatchedTrial {
 
 WatchedTrial watched(const trial::TrialParameters& parameters);
 
-/// How many of the trials' moves have `what`.
+/// Number of moves of the trials for which the predicate `what` is true.
 template <class Predicate>
 std::int64_t moves_with(const std::vector<trial::TrialOutcome>& trials, const Predicate& what) {
   std::int64_t count = 0;

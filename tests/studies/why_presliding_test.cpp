@@ -39,12 +39,12 @@ TEST(WhyPresliding, JerksAreOfCreepAndTheSpringAloneHasNone) {
   EXPECT_TRUE(share_above(0.3, moves_with(outcomes_of(study, "presliding", trials), jerks), trials));
 }
 
-/// One leap of a Coulomb plant, from where the hook stuck to where it sticks again.
+/// One leap of a Coulomb plant, from the position where the hook stuck to where it sticks again.
 struct CoulombLeap {
-  std::int64_t from{0};  ///< error before, counts
-  std::int64_t to{0};    ///< error after
-  double torque{0.0};    ///< that broke it away, N m
-  double peak{0.0};      ///< largest |torque| on the way, N m
+  std::int64_t from{0};  ///< error before the leap, counts
+  std::int64_t to{0};    ///< error after the leap, counts
+  double torque{0.0};    ///< torque at breakaway, N m
+  double peak{0.0};      ///< largest |torque| during the leap, N m
 };
 
 /// The leaps that begin after a rest of at least two samples, and end in another rest.
@@ -118,7 +118,7 @@ TEST_P(WithCoulomb, NoLeapEndsInTheTargetsCountAtAnyGain) {
   }
 }
 
-/// How much farther beyond the target than before it a leap ends, without a static level and damping: with
+/// Ratio of the error after a leap to the error before it, without a static level and damping. With
 /// J·y‴ = −K·y, y(0) = −1, y′(0) = y″(0) = 0, the solution is y = −⅓[exp(−τ) + 2·exp(τ/2)·cos(√3·τ/2)],
 /// τ = (K/J)^⅓·t, which ends at the first zero of y′ ∝ exp(−3τ/2) − 2·cos(√3·τ/2 + π/3).
 double growth_of_a_leap() {

@@ -8,25 +8,25 @@
 
 namespace zerocount::testing {
 
-/// How well two integrations of the same trial agree, sample by sample.
+/// Agreement of two integrations of the same trial, sample by sample.
 struct Agreement {
-  std::int64_t samples{0};            ///< compared
+  std::int64_t samples{0};            ///< number of compared samples
   double before_breakaway{0.0};       ///< largest difference of θ until the first breakaway, counts
-  double after_breakaway{0.0};        ///< largest difference of θ after it, counts
-  double after_breakaway_share{0.0};  ///< the same, over the accuracy promised there
+  double after_breakaway{0.0};        ///< largest difference of θ after the first breakaway, counts
+  double after_breakaway_share{0.0};  ///< largest ratio of that difference to the accuracy promised there
   std::int64_t depth_differences{0};  ///< samples with different stack depths (the rest rules may differ)
   std::int64_t slide_samples{0};      ///< samples taken while the hook slid
   std::int64_t edge_trials{
       0};  ///< trials cut short: θ on an encoder edge, within the accuracy, read differently
-  std::vector<std::string> failures;  ///< what disagrees, one line each
+  std::vector<std::string> failures;  ///< disagreements, one line each
 
-  /// Takes in another comparison.
+  /// Adds the results of another comparison.
   void add(const Agreement& other);
-  /// One line of figures.
+  /// The figures in one line of text.
   std::string figures() const;
 };
 
-/// Accuracy promised of θ (rad): 1e-6 count until the first breakaway, and 1e-3 count + 1e-7 of the travel
+/// Promised accuracy of θ (rad): 1e-6 count until the first breakaway, and 1e-3 count + 1e-7 of the travel
 /// after it.
 ///
 /// Counts, codes, errors, coarse counts and modes must be equal. Where a count differs because θ stands on an

@@ -22,7 +22,7 @@ class Draws {
   std::int64_t integer(std::int64_t low, std::int64_t high) {
     return low + static_cast<std::int64_t>(engine_() % static_cast<std::uint64_t>(high - low + 1));
   }
-  /// Standard normal (Box and Muller, 1958).
+  /// A standard normal number (Box and Muller, 1958).
   double normal() {
     const double radius = std::sqrt(-2.0 * numerics::log(1.0 - uniform(0.0, 1.0)));
     return radius * numerics::cos(2.0 * std::numbers::pi * uniform(0.0, 1.0));

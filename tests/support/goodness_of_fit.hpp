@@ -10,8 +10,7 @@
 
 namespace zerocount::testing {
 
-/// Probability that uniform numbers on (0, 1) lie farther from even than `values` do, by Kolmogorov and
-/// Smirnov, for many values.
+/// p-value of the Kolmogorov–Smirnov test that `values` are uniform on (0, 1), for many values.
 inline double kolmogorov_probability(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const double n = static_cast<double>(values.size());
@@ -28,8 +27,8 @@ inline double kolmogorov_probability(std::vector<double> values) {
   return std::clamp(probability, 0.0, 1.0);
 }
 
-/// Probability that counts drawn from `expected` lie farther from it than `observed` do, by chi-square.
-/// Neighbouring cells are joined until each expects at least 10.
+/// p-value of the chi-square test that `observed` counts come from `expected`. Neighbouring cells are joined
+/// until each expects at least 10.
 inline double chi_square_probability(const std::vector<double>& observed,
                                      const std::vector<double>& expected) {
   double statistic = 0.0;

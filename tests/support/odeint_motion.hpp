@@ -11,29 +11,30 @@
 
 namespace zerocount::testing {
 
-/// What happened to the contact so far.
+/// Counts of the contact's events so far.
 struct EventCounts {
   std::int64_t reversals{0};
   std::int64_t closures{0};
   std::int64_t creep_kinks{0};
   std::int64_t breakaways{0};
-  std::int64_t breakaways_against_spring{
-      0};  ///< the damper alone overcame the hook, the spring pulling the other way
+  /// Breakaways in which the damper alone overcame the hook, while the spring pulled the other way.
+  std::int64_t breakaways_against_spring{0};
   std::int64_t resticks{0};
 };
 
 /// The rotor on its friction contact, integrated by Boost.odeint's Fehlberg 7(8) in 64-bit-mantissa
-/// arithmetic, with every kink located in time. Written from the equations alone, to judge another
-/// integrator; slow, and not for studies. Knows all three friction models, and starts of every kind.
+/// arithmetic, with every kink located in time. It is written from the equations alone, so that it can judge
+/// another integrator. It is slow and not meant for studies. It has all three friction models, and starts of
+/// every kind.
 ///
-/// Rest rule: where, at the start of an interval of constant torque, the speed of the elongation is below
+/// Rest rule: if, at the start of an interval of constant torque, the speed of the elongation is below
 /// δ·ω₀ and its acceleration below δ·ω₀² (δ = 1e-17 rad, ω₀ = √((k1 + k2)/J)), reversals are not looked for
 /// during that interval. The neglected oscillation is below 3e-12 count.
 class OdeintMotion {
  public:
   using Real = long double;
-  using State =
-      std::array<Real, 4>;  ///< travel since the contact formed (rad), ω (rad/s), xp (rad), xh (rad)
+  /// Travel since the contact formed (rad), ω (rad/s), xp (rad), xh (rad).
+  using State = std::array<Real, 4>;
 
   /// u(t) = settled + (now − settled)·exp(−rate·t), N m.
   struct Torque {
@@ -42,16 +43,16 @@ class OdeintMotion {
     Real rate{0};  ///< 1/s
   };
 
-  /// @param history torques (N m) that the spring went to before t = 0, after the preload; at the end it went
-  /// back to 0.
+  /// @param history torques (N m) to which the spring was loaded before t = 0, after the preload; finally it
+  /// was unloaded to 0
   explicit OdeintMotion(const trial::TrialParameters& parameters, const std::vector<double>& history = {});
 
   /// Moves the rotor under `torque` for `duration` (s).
   void advance(const Torque& torque, Real duration);
-  /// The same under a constant torque (N m).
+  /// Moves the rotor under a constant torque (N m) for `duration` (s).
   void advance(Real torque, Real duration) { advance({torque, torque, 0}, duration); }
 
-  Real theta() const { return origin_ + state_[0]; }  ///< rad
+  Real theta() const { return origin_ + state_[0]; }  ///< rotor angle, rad
   const State& state() const { return state_; }
   std::int64_t depth() const { return static_cast<std::int64_t>(stack_.size()); }
   bool sliding() const { return sliding_; }
@@ -69,9 +70,9 @@ class OdeintMotion {
     event_count
   };
   using Guards =
-      std::array<Real, event_count>;  ///< each falls below zero at its event; +∞ where it cannot occur
+      std::array<Real, event_count>;  ///< each falls below zero at its event; +∞ if the event cannot occur
 
-  struct Contact {  ///< the parameters of core/friction/parameters.hpp
+  struct Contact {  ///< parameters as in core/friction/parameters.hpp
     Real k1, k2, beta, alpha, lambda, n, breakaway, coulomb_ratio, stribeck_velocity;
   };
   struct Crossing {
@@ -97,7 +98,8 @@ class OdeintMotion {
   bool closure_ahead(Real& target) const;
   Guards guards(const State& y) const;
   State state_after(Real time) const;
-  Real longest_step() const;  ///< s; short enough that no Stribeck peak and no oscillation is jumped over
+  /// Longest step, s, that does not skip a Stribeck peak or an oscillation.
+  Real longest_step() const;
   Real longest_step_at_constant_torque() const;
   Crossing first_crossing(const State& end, Real length) const;
   Real locate(Event event, Real low, Real low_value, Real high) const;
@@ -116,13 +118,13 @@ class OdeintMotion {
   Real position_;
   Contact contact_{};
   Real frequency_{0};  ///< ω₀, rad/s
-  Torque torque_;      ///< applied since the start of the interval, N m
-  Real clock_{0};      ///< since then, s
+  Torque torque_;      ///< torque since the start of the interval, N m
+  Real clock_{0};      ///< time since the start of the interval, s
   Real origin_{0};     ///< θ where the contact formed, rad
-  Real offset_{0};     ///< elongation there, rad
+  Real offset_{0};     ///< elongation where the contact formed, rad
   State state_{};
   std::vector<std::pair<Real, Real>> stack_;  ///< (elongation, torque) of the surviving reversal points
-  int direction_{0};    ///< of the elongation, or of the slide; 0 before the first motion
+  int direction_{0};    ///< direction of the elongation or slide; 0 before the first motion
   int virgin_sign_{1};  ///< side of the virgin curve
   bool coulomb_{false};
   bool sliding_{false};
@@ -130,7 +132,7 @@ class OdeintMotion {
   bool frozen_{false};
   bool creeping_{true};
   Real held_torque_{0};  ///< spring torque at breakaway, N m
-  Real step_{0};         ///< length to try next, s
+  Real step_{0};         ///< step length to try next, s
   EventCounts events_;
 };
 

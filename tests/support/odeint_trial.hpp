@@ -7,9 +7,9 @@
 
 namespace zerocount::testing {
 
-/// The samples of a trial by a second, deliberately different way: Boost.odeint with located events for the
-/// plant, and a controller written apart. The judge of run_trial; `events`, where given, receives what
-/// happened at the contact.
+/// The samples of a trial, computed in a deliberately different way to check run_trial(): Boost.odeint with
+/// located events for the plant, and a separately written controller.
+/// @param events receives the counts of the contact's events; may be null
 std::vector<trial::SampleRecord> odeint_trial(const trial::TrialParameters& parameters,
                                               EventCounts* events = nullptr);
 

@@ -6,7 +6,7 @@
 
 namespace zerocount::testing {
 
-/// Kinds of random trials, by what the loop does with them.
+/// Kinds of random trials, by the behaviour of the loop.
 enum class TrialKind {
   calm,              ///< a few counts at low gain: settles, creeps, jerks; the hook holds
   ringing,           ///< gains around and above the stability bounds

@@ -10,15 +10,15 @@
 
 namespace zerocount::testing {
 
-/// What is stored of every dataset of a file, by path: extent, type, filters, and the bytes of every chunk as
-/// they stand on the disk (for texts, which the library keeps elsewhere, the texts). Read with the library
-/// alone.
+/// Stored contents of every dataset of a file, by path: extent, type, filters, and the raw bytes of every
+/// chunk. For texts, which the HDF5 library stores elsewhere, the texts themselves. Reads with the HDF5
+/// library alone.
 std::map<std::string, std::string> stored_datasets(const std::filesystem::path& path);
 
 /// Expects the same stored datasets in both files.
 void expect_same_datasets(const std::filesystem::path& one, const std::filesystem::path& other);
 
-/// The elements of a dataset of numbers, read with the library alone; none if it refuses.
+/// The elements of a dataset of numbers, read with the HDF5 library alone; empty if the library refuses.
 std::optional<std::string> elements_of(const std::filesystem::path& path, const std::string& dataset);
 
 /// The number of elements of every dataset of numbers, by path.
@@ -40,16 +40,16 @@ void replace_attribute(const std::filesystem::path& path, const std::string& nam
 void replace_attribute(const std::filesystem::path& path, const std::string& name, const std::string& value);
 void remove_attribute(const std::filesystem::path& path, const std::string& name);
 
-/// Replaces a dataset by one of `rows` texts, none of which is written, and writes the checksum trailer anew.
+/// Replaces a dataset by one of `rows` texts, without writing any text, and writes the checksum trailer anew.
 void replace_by_texts(const std::filesystem::path& path, const std::string& dataset, std::uint64_t rows);
 
-/// A file of the HDF5 format with nothing in it.
+/// Writes an empty HDF5 file.
 void write_empty_hdf5(const std::filesystem::path& path);
 
-/// Takes the checksum trailer off the end of a file, so that it can be changed.
+/// Removes the checksum trailer from the end of a file, so that the file can be changed.
 void unseal(const std::filesystem::path& path);
 
-/// Where in the file the first chunk of a dataset is stored.
+/// Offset in the file of the first chunk of a dataset.
 std::uint64_t chunk_address(const std::filesystem::path& path, const std::string& dataset);
 
 }  // namespace zerocount::testing

@@ -5,7 +5,7 @@
 
 namespace zerocount {
 
-/// The message with which an action is refused, with this exit code; "" where it is not.
+/// The message with which an action is refused with this exit code; empty if it is not refused.
 template <class Action>
 std::string refusal_by(const Action& action, ExitCode code = ExitCode::bad_input) {
   try {

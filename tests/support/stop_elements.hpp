@@ -23,13 +23,13 @@ class StopElements {
  public:
   StopElements(const friction::FrictionParameters& friction, std::size_t elements);
 
-  /// Stretches to the elongation x (rad), monotonically from where it is.
+  /// Stretches the spring to the elongation x (rad), monotonically from its present elongation.
   void move_to(double x);
 
   double torque() const;  ///< σ, N m
-  double energy() const;  ///< stored: ½k1·x² + Σ ½wᵢ·eᵢ², J
+  double energy() const;  ///< stored energy: ½k1·x² + Σ ½wᵢ·eᵢ², J
 
-  /// Bound on the error of the torque (N m) after a history of which `depth` reversal points survive: ε on
+  /// Bound on the error of the torque (N m) after a history that leaves `depth` reversal points: ε on
   /// the virgin curve, and 2ε for every branch f(u) = 2·½f(2·u/2) since.
   double error_bound(std::size_t depth) const {
     return (1.0 + 2.0 * static_cast<double>(depth)) * virgin_error_;

@@ -7,12 +7,12 @@
 
 namespace zerocount::testing {
 
-/// The whole contents of a file; empty where it cannot be read.
+/// The whole contents of a file; empty if it cannot be read.
 std::string read_bytes(const std::filesystem::path& path);
-/// Writes a file in place of what stood there.
+/// Writes a file, replacing an existing one.
 void write_bytes(const std::filesystem::path& path, const std::string& bytes);
 
-/// A fresh folder, removed at the end of its life with all it holds.
+/// A new temporary folder. The destructor removes it with all its contents.
 class TemporaryFolder : public storage::TemporaryFolder {
  public:
   std::filesystem::path write(const std::string& name, const std::string& bytes) const;

@@ -56,7 +56,7 @@ std::string laws_left_out_text(const LawComparison& comparison) {
   return text;
 }
 
-/// What was left out of the records, a line each.
+/// The parts that were left out of the records, a line for each record.
 std::string left_out_of_records_text(const LawComparison& comparison) {
   std::string text;
   for (const RecordExtent& record : comparison.records) {

@@ -37,9 +37,9 @@ FitSetting with_steps(FitSetting setting, int steps) {
   return setting;
 }
 
-/// Points about `centres`, in turns: of the free coordinates but the time offset about half move far at
-/// random, the others little. Most are logarithms of a parameter. Where the slow parts of the records have
-/// fixed the stiffness, such points try inertia and damping of other orders of magnitude beside it.
+/// Random points about `centres`, taken in turn. Of the free coordinates except the time offset, about half
+/// move far, the others little. Most coordinates are logarithms of a parameter. If the slow parts of the
+/// records have fixed the stiffness, such points try other orders of magnitude of inertia and damping.
 std::vector<Point> scattered(const FitModel& model, const std::vector<Point>& centres) {
   constexpr std::size_t points = 96;
   constexpr double near = 0.1;
@@ -61,8 +61,8 @@ std::vector<Point> scattered(const FitModel& model, const std::vector<Point>& ce
 /// Rounds in which scattered points are followed.
 constexpr SearchRounds wide_search{{12, 3}, {6, 4}};
 
-/// The best fits from the law's starting points, or from points scattered about them where none of those can
-/// be simulated.
+/// The best fits from the law's starting points; if none of these can be simulated, from points scattered
+/// about them.
 std::vector<FitResult> first_minima(Records records, const FitModel& model, const Observations& readings,
                                     const FitSetting& setting) {
   std::vector<FitResult> minima = promising_fits(records, readings, model.starts, setting);
@@ -76,8 +76,8 @@ std::vector<FitResult> first_minima(Records records, const FitModel& model, cons
                   friction::traits_of(model.law).word));
 }
 
-/// The fit to all readings from `minima`. The time offset is left free in the last steps only: far from a
-/// minimum it would make up for a wrong inertia.
+/// The fit to all readings from `minima`. The time offset is free only in the last steps, because far from a
+/// minimum it would compensate for a wrong inertia.
 FitResult fit_all_readings(Records records, const FitModel& model, const Observations& readings,
                            std::vector<FitResult> minima, double least_squares) {
   const FitSetting setting = setting_of(model);
@@ -92,8 +92,9 @@ FitResult fit_all_readings(Records records, const FitModel& model, const Observa
   return std::isfinite(delayed.squares) ? delayed : found;
 }
 
-/// The fit to the observations, from a fit to all readings. One that leaves more than the rounding of the
-/// readings stays as it is: what it leaves is the law's, and finer observations cost most of the time.
+/// The fit to the observations, starting from a fit to all readings. If that fit leaves residuals above the
+/// rounding of the readings, it is returned unchanged: the law causes them, and finer observations take most
+/// of the time.
 LawFit refined(Records records, const FitModel& model, const FitResult& rough) {
   LawFit fit;
   fit.setting = setting_of(model);
@@ -153,7 +154,7 @@ namespace {
 constexpr double max_widened_log_halfwidth = 2.3;  // a factor of 10 to each side
 constexpr double max_widened_halfwidth = 2.0;
 
-constexpr std::size_t replicates = 300;  ///< of the readings
+constexpr std::size_t replicates = 300;  ///< Number of simulated replicates of the readings.
 
 ParameterEstimate estimate_of(const Quantity& quantity, const FitErrors& errors) {
   const QuantityEstimate found = interval_of_errors(quantity, errors.errors, errors.checks.widening);
@@ -202,7 +203,7 @@ struct FittedLaw {
   IdentifiedLaw law;
 };
 
-/// The number of independent residuals of each record, from those of the law with the least squares.
+/// [record] Number of independent residuals, from the residuals of the law with the smallest sum of squares.
 std::vector<double> effective_readings(Records records, const std::vector<FittedLaw>& fitted) {
   std::vector<double> effective;
   for (std::size_t r = 0; r < records.size(); ++r) {
@@ -228,7 +229,7 @@ double information_criterion(const FittedLaw& fitted, const std::vector<double>&
   return criterion + parameters * std::log(all);
 }
 
-/// Refuses a state at the start of a record that the law does not have.
+/// Refuses a record that starts in a state that the law does not have.
 void require_start(Records records, friction::FrictionModel law) {
   const friction::LawTraits& traits = friction::traits_of(law);
   for (const TestRecord& record : records) {
@@ -282,7 +283,7 @@ FittedLaw fitted_law(Records records, friction::FrictionModel law, bool series_c
   return result;
 }
 
-/// The fits of the laws. Those that cannot be fitted are left out of it.
+/// The fits of the laws. Laws that cannot be fitted are left out.
 std::vector<FittedLaw> first_fits(Records records, const LawChoice& choice, const StageReport& enter,
                                   std::vector<LawLeftOut>& left_out) {
   enter("starting values");
@@ -304,8 +305,8 @@ std::vector<FittedLaw> first_fits(Records records, const LawChoice& choice, cons
   return fitted;
 }
 
-/// Searches again for the laws that do not explain the records; where another one does, not for those that
-/// leave a hundred times its squares.
+/// Searches again for the laws that do not explain the records. If another law does, laws with more than a
+/// hundred times the smallest sum of squares are not searched again.
 void search_failed_again(Records records, const StageReport& enter, std::vector<FittedLaw>& fitted) {
   double least_squares = std::numeric_limits<double>::infinity();
   for (const FittedLaw& one : fitted) least_squares = std::min(least_squares, one.fit.squares);
@@ -325,7 +326,7 @@ void search_failed_again(Records records, const StageReport& enter, std::vector<
   }
 }
 
-/// Sets what is reported of the fit.
+/// Sets the reported results of the fit.
 void describe(Records records, FittedLaw& fitted) {
   IdentifiedLaw& found = fitted.law;
   found.axis = records.front().axis;

@@ -18,14 +18,15 @@
 
 namespace zerocount::fit {
 
-/// Coordinates that a fit may change by a factor of 1000 each; the last one is the time offset.
+/// Ranges of the coordinates of a law: a fit may change each by a factor of 1000. The last coordinate is the
+/// time offset.
 std::vector<CoordinateRange> law_coordinates(std::size_t dimension);
 
 /// Properties of the records from which the starting points follow.
 struct RecordScales {
   Point contact;                 ///< starting point of the pre-sliding model
-  double creep_torque{1.0};      ///< σ0 of its coordinates, N m
-  double largest_torque{0.0};    ///< N m
+  double creep_torque{1.0};      ///< σ0 of the coordinates of `contact`, N m.
+  double largest_torque{0.0};    ///< Largest |torque| of the records, N m.
   double secant_stiffness{0.0};  ///< range of the torque over travel, N m/rad
 };
 
@@ -37,48 +38,50 @@ std::span<const friction::FrictionModel> fitted_laws();
 /// The model of a law. `law` is one of fitted_laws().
 FitModel law_model(friction::FrictionModel law, const RecordScales& scales, Records records);
 
-/// The model with the compliance of a fixture, whose logarithm becomes the coordinate before the time offset:
-/// the angle that is read is the rotor's plus compliance times torque.
+/// The model with the compliance of a fixture in series. The logarithm of the compliance becomes the
+/// coordinate before the time offset. The reading is then the rotor's angle plus compliance times torque.
 FitModel with_series_compliance(FitModel model, const RecordScales& scales);
 
-/// Elements that stick or slip, beside the rotor's inertia and damping.
+/// The Maxwell-slip model: parallel elements that stick or slip, with the rotor's inertia and damping.
 FitModel maxwell_slip_model(const RecordScales& scales, Records records);
 
-/// Squares in multiples of those of another law from which a law is not searched further.
+/// Ratio of a law's sum of squares to that of the best other law above which the law is not searched further.
 inline constexpr double hopeless = 100.0;
 
 /// A law fitted to records.
 struct LawFit : Fit {
-  /// [record] residuals of all readings that are not masked, of the fit to them, in the record's unit
+  /// [record] Residuals of the fit to all readings that are not masked, in the record's unit.
   std::vector<std::vector<double>> residuals;
-  double squares{0.0};  ///< of the fit to all readings, over the variance of a count
+  /// Sum of squared residuals of the fit to all readings, over the variance of a count.
+  double squares{0.0};
   bool converged{false};
 };
 
-/// Fits a law by non-linear least squares: first to all readings with equal weights, from the best of the
-/// starting points (follow_best()); then, where the law explains the readings, to the observations
-/// (observe()), in three rounds. A law whose best starting points leave a hundred times the squares of
-/// another one is fitted with fewer steps.
-/// @param least_squares of the laws fitted before; infinite without any
+/// Fits a law by non-linear least squares. The first fit is to all readings with equal weights, from the best
+/// of the starting points (follow_best()). If the law explains the readings, three rounds of fits to the
+/// observations (observe()) follow. A law whose best starting points have a hundred times the sum of squares
+/// of another law is fitted with fewer steps.
+/// @param least_squares smallest sum of squares of the laws fitted before; infinite if this is the first
 /// @throws Failure (bad_data) if the law cannot be simulated from any of its starting points.
 LawFit fit_law(Records records, const FitModel& model, double least_squares);
 
-/// Fits a law whose fit `found` does not explain the records again, from many more starting points, scattered
-/// at random about those of the law and about `found`. @returns the better fit of both.
+/// Repeats the fit of a law whose fit `found` does not explain the records. It starts from many more points,
+/// scattered at random about the starting points of the law and about `found`.
+/// @returns the better of both fits.
 LawFit search_again(Records records, const FitModel& model, double least_squares, LawFit found);
 
 /// A friction law identified from records.
 struct IdentifiedLaw : FitReport {
   friction::FrictionModel law{friction::FrictionModel::presliding};
-  std::size_t fitted{0};              ///< coordinates of the fit, with the time offset
-  double misfit{0.0};                 ///< root mean square of the residuals of all readings, rad or m
-  double misfit_over_travel{0.0};     ///< the same over the travel of the records, dimensionless
-  double information_criterion{0.0};  ///< BIC less that of the best law
+  std::size_t fitted{0};              ///< Number of fitted coordinates, including the time offset.
+  double misfit{0.0};                 ///< Root mean square of the residuals of all readings, rad or m.
+  double misfit_over_travel{0.0};     ///< `misfit` over the travel of the records, dimensionless.
+  double information_criterion{0.0};  ///< BIC minus the BIC of the best law.
   ResidualChecks checks;
   bool converged{true};
 };
 
-/// A law that could not be fitted to the records. That says nothing about the contact.
+/// A law that could not be fitted to the records. Such a failure says nothing about the contact.
 struct LawLeftOut {
   friction::FrictionModel law{friction::FrictionModel::presliding};
   std::string reason;
@@ -87,19 +90,20 @@ struct LawLeftOut {
 /// The laws that were fitted to the same records.
 struct LawComparison {
   parameters::AxisKind axis{parameters::AxisKind::rotary};
-  /// Those that explain the records first, each group by its information criterion.
+  /// The fitted laws. Laws that explain the records come first; within both groups they are sorted by the
+  /// information criterion.
   std::vector<IdentifiedLaw> laws;
   std::vector<LawLeftOut> left_out;
   std::vector<RecordExtent> records;
   double effective_readings{0.0};  ///< number of independent residuals
   std::size_t readings{0};
-  double sample_time{0.0};  ///< of the time offsets, s
+  double sample_time{0.0};  ///< Sampling interval that is the unit of the time offsets, s.
 };
 
-/// The words of the laws that compare_laws() takes: those that move before they slide.
+/// The words for the laws that compare_laws() can fit: the laws that move before they slide.
 std::vector<std::string> law_words();
 
-/// The law of one of these words.
+/// The law for one of law_words().
 friction::FrictionModel law_of(const std::string& word);
 
 /// The laws that are fitted.
@@ -126,7 +130,7 @@ struct LawChoice {
 LawComparison compare_laws(std::vector<TestRecord> records, const LawChoice& choice,
                            const StageReport& report = {});
 
-/// The comparison, the parameters of every law, and the fragment of a manifest of the best one.
+/// The answer: the comparison, the parameters of every law, and a fragment of a manifest for the best law.
 document::AnswerDescription<LawComparison> laws_answer();
 
 }  // namespace zerocount::fit

@@ -73,7 +73,7 @@ Eigen::VectorXd possible_travels(Records records) {
 struct TorqueAlongPath {
   Eigen::MatrixXd
       strains;  ///< products of the strains of all possible elements, and of the sticking one, last
-  Eigen::VectorXd torque;  ///< their products with the torque that the elements carry
+  Eigen::VectorXd torque;  ///< Products of the strains with the torque that the elements carry.
 };
 
 TorqueAlongPath torque_along_path(Records records, const Eigen::VectorXd& travels,
@@ -100,8 +100,8 @@ TorqueAlongPath torque_along_path(Records records, const Eigen::VectorXd& travel
   return sums;
 }
 
-/// For each smallest slip travel, the elements whose torque along the measured path is nearest to the applied
-/// one. None is softer than a thousandth of the stiffest: a fit could not bring it back.
+/// The elements whose torque along the measured path is closest to the applied torque, for each smallest slip
+/// travel. None is softer than a thousandth of the stiffest, because a fit could not make it stiffer again.
 std::vector<Point> nearest_elements(const RecordScales& scales, Records records) {
   constexpr double faint = 1e-3;
   const motion::PlantParameters plant = contact_at(scales.contact, scales.creep_torque).plant;

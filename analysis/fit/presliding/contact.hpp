@@ -38,8 +38,8 @@ inline constexpr std::size_t coordinate_count = 9;
 /// coordinate_count as an Eigen index.
 inline constexpr auto contact_dimension = static_cast<Eigen::Index>(coordinate_count);
 
-/// Name of the parameter of each coordinate: its manifest key (for log_limit friction.lambda), and that of
-/// the time offset, which is not a parameter of a manifest.
+/// Name of each coordinate: the manifest key of its parameter (friction.lambda for log_limit), and
+/// "time_offset", which is not a parameter of a manifest.
 inline constexpr std::array<std::string_view, coordinate_count> coordinate_keys{
     "friction.k1",   "friction.k2",    "friction.beta",   "plant.presliding_damping",
     "plant.inertia", "friction.alpha", "friction.lambda", "friction.n",
@@ -49,8 +49,8 @@ inline constexpr std::array<std::string_view, coordinate_count> coordinate_keys{
 /// and exponent are strongly correlated. @returns parameters whose breakaway torque is never reached.
 ContactParameters contact_at(const Point& point, double creep_torque);
 
-/// The pre-sliding model in these coordinates. Its quantities are those of the report, in its order: k1, k2,
-/// k1_plus_k2, beta, presliding_damping, inertia, alpha, lambda, n, time_offset.
+/// The pre-sliding model as a function of these coordinates. Its quantities, in the order of the report, are
+/// k1, k2, k1_plus_k2, beta, presliding_damping, inertia, alpha, lambda, n and time_offset.
 FitModel contact_model(double creep_torque);
 
 /// The inverse of contact_at, except for the breakaway torque, with a time offset of 0.
@@ -59,9 +59,9 @@ Point point_of(const ContactParameters& contact, double creep_torque);
 /// The coordinate that a quantity depends on: the first of several.
 Coordinate coordinate_of(const Quantity& quantity);
 
-/// The interval by profile likelihood: its ends are the values at which the minimum sum of squares exceeds
-/// that of the fit by the amount that the ends of `estimate` would have in a linear model. An end that is not
-/// found within a factor of 4 (n: ± 2) is infinite. Only for quantities that are parameters of the manifest.
+/// The interval by profile likelihood. At its ends the minimum sum of squares exceeds the sum of squares of
+/// the fit as much as a linear model does at the ends of `estimate`. An end that is not found within a factor
+/// of 4 (n: ± 2) is infinite. Only for quantities that are parameters of the manifest.
 QuantityEstimate interval_by_profile(Records records, const ContactFit& fit, const Quantity& quantity,
                                      const QuantityEstimate& estimate);
 

@@ -16,12 +16,12 @@ namespace zerocount::fit {
 
 namespace {
 
-/// Largest rate of a rotor beside the sampling at which the fits of slow parts start: what is faster shows as
-/// little of itself, and takes longer to simulate.
+/// Largest ratio of the rotor's rate to the sampling rate at which the fits of slow parts start. A faster
+/// rotor shows as little of its own motion, and takes longer to simulate.
 constexpr double max_slow_rate = 4.0;
 
-/// Simulated samples at which a single fit ends: a fit that converges simulates each record some hundred
-/// times.
+/// Number of simulated samples at which a single fit ends. A fit that converges simulates each record about a
+/// hundred times.
 constexpr double min_fit_samples = 8e6;
 constexpr double fit_paths = 400.0;
 
@@ -75,10 +75,10 @@ bool can_be_followed(const FittedModel& model) {
   return std::all_of(model.motions.begin(), model.motions.end(), is_finite);
 }
 
-/// The setting with only those coordinates free that the observations determine. The others keep their
-/// values: far from a minimum, or where the law is not exact, they would run away to what a wrong spring
-/// leaves. Residuals that are larger and longer correlated than the
-/// errors of the observations count as errors.
+/// The setting in which only the coordinates that the observations determine are free. The others keep their
+/// values; far from a minimum, or if the law is not exact, they would diverge to fit the residuals of a wrong
+/// spring. Residuals that are larger and longer correlated than the errors of the observations count as
+/// errors.
 FitSetting with_told_coordinates(const FittedModel& model, const Observations& observations,
                                  const FitSetting& setting) {
   // Standard deviations from which a coordinate counts as not determined.
@@ -111,8 +111,8 @@ FitSetting with_told_coordinates(const FittedModel& model, const Observations& o
   return told;
 }
 
-/// The fit from the starting point. If the slow parts are the whole test, that is already their best fit, and
-/// only what the readings determine beside it is left free.
+/// The fit from the starting point. If the test consists of slow parts only, the starting point is already
+/// their best fit, and only the remaining coordinates that the readings determine are free.
 FitResult first_fit(Records records, const Observations& observations, const FitPoint& start,
                     const FitSetting& setting) {
   if (!are_slow_alone(records)) return fit_jointly(records, observations, start, setting);
@@ -131,9 +131,9 @@ FitResult with_time_offset(Records records, const Observations& observations, co
   return found.squares < from.squares ? found : from;
 }
 
-/// The points with another inertia and damping than the model's that explain the observations better, with
-/// the other coordinates adapted. Slow parts show little of the inertia, and a fit adapts the others to a
-/// wrong one.
+/// The points with another inertia and damping that explain the observations better than the model, with the
+/// other coordinates adapted. Slow parts contain little information on the inertia, and a fit adapts the
+/// others to a wrong one.
 std::vector<FitResult> with_other_inertia(Records records, const Observations& observations,
                                           const FittedModel& model, const FitSetting& setting) {
   if (!setting.free[log_inertia] || !setting.free[log_damping]) return {};
@@ -166,7 +166,7 @@ bool has_spent_effort(const FitSetting& setting, double effort) {
   return static_cast<double>(setting.model.simulated->load()) > effort * usual_effort;
 }
 
-/// The records with the torque so many samples later.
+/// The records with the torque delayed by the given number of samples.
 std::vector<TestRecord> with_later_torque(Records records, int samples) {
   std::vector<TestRecord> shifted(records.begin(), records.end());
   for (TestRecord& record : shifted) {
@@ -182,8 +182,8 @@ std::vector<TestRecord> with_later_torque(Records records, int samples) {
   return shifted;
 }
 
-/// The rough fit, to all readings with equal weights: from the starting point, or from others if that
-/// explains too little.
+/// The rough fit to all readings with equal weights, from the starting point, or from other points if that
+/// fit explains too little.
 FitPoint fit_roughly(Records records, const FitStart& start, double creep_torque, double effort) {
   const FitSetting& setting = start.setting;
   const Observations observations = all_readings(records);
@@ -277,7 +277,8 @@ double remaining_step(const ContactFit& fit, const FitSetting& setting) {
   return (step.array().abs() / covariance.diagonal().array().sqrt()).maxCoeff();
 }
 
-/// The coordinates that a fit leaves free: those of its setting, or of them what the readings tell.
+/// The coordinates that are free in a fit: all free coordinates of its setting, or only those that the
+/// readings determine.
 enum class Freedom { all, told };
 
 Freedom usual_freedom(Records records) {
@@ -318,8 +319,9 @@ void improve_inertia(Records records, ContactFit& fit) {
   if (spread(other) < spread(fit)) fit = other;
 }
 
-/// A few steps with all coordinates free from the point of `fit` plus each of `changes`, and the best of them
-/// to the end. False if that is not better than `fit`, which then stays as it is.
+/// Takes a few steps with all coordinates free from the point of `fit` plus each of `changes`, and fits the
+/// best result to the end.
+/// @returns false if that is not better than `fit`, which then stays unchanged.
 bool improve_from(Records records, std::span<const Point> changes, ContactFit& fit) {
   if (has_spent_effort(fit.setting, fit.effort)) return false;
   std::vector<Point> starts;

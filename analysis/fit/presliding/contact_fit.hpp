@@ -14,8 +14,8 @@ namespace zerocount::fit {
 
 /// A parameter with a value given by the user.
 struct KnownParameter {
-  Coordinate coordinate{log_k1};  ///< coordinate of the parameter, by coordinate_keys
-  double value{0.0};              ///< in the parameter's own unit
+  Coordinate coordinate{log_k1};  ///< Coordinate of the parameter, see coordinate_keys.
+  double value{0.0};              ///< Value in the parameter's own unit.
 };
 
 /// Called with the name of each stage of a computation when it begins, for messages; may be empty.
@@ -24,7 +24,7 @@ using StageReport = std::function<void(std::string_view)>;
 /// A contact fitted to records.
 struct ContactFit : Fit {
   double creep_torque{1.0};  ///< σ0 of the coordinates, N m
-  double effort{1.0};        ///< see fit_contact()
+  double effort{1.0};        ///< Factor on the search effort, see fit_contact().
 };
 
 /// Root mean square of the residuals of a record's readings, in the record's unit. Quantisation alone gives
@@ -52,7 +52,8 @@ void keep_time_offset(Records records, ContactFit& fit);
 
 /// Repeats the fit from other values of β and keeps the fit with the smallest spread of residuals. A spring
 /// that softens within a count or two has little influence on the rough fit, which may end far away. Records
-/// of slow parts alone are left as they are: their β has been searched.
+/// that consist of slow parts only are not fitted again, because the fit of the slow parts has already
+/// searched β.
 /// @returns whether `fit` changed.
 bool improve_softening(Records records, ContactFit& fit);
 
@@ -73,7 +74,7 @@ void refuse_glitches(Records records, const FitPoint& point, const FitSetting& s
 /// @param tolerance factor on these limits
 void refuse_unexplained(Records records, const ContactFit& fit, double tolerance);
 
-/// Refuses a spread of the residuals of more than 30 times that of the simulated replicates.
+/// Refuses residuals whose spread is more than 30 times the spread of the simulated replicates.
 /// @param cause a sentence that names a likely cause, without its full stop; may be empty
 void refuse_gross_misfit(Records records, const ContactFit& fit, const ResidualChecks& checks,
                          const std::string& cause);

@@ -198,7 +198,7 @@ CheckedFit checked_fit(Records records, ContactFit fit, const IdentificationOpti
   return {std::move(fit), std::move(errors)};
 }
 
-/// The fit, repeated in other ways while encoder and noise do not explain its residuals.
+/// Repeats the fit in other ways until encoder and noise explain the residuals, or no way is left.
 CheckedFit explained_fit(Records records, const IdentificationOptions& options) {
   const auto enter = [&](std::string_view stage) {
     if (options.report) options.report(stage);
@@ -313,7 +313,7 @@ Eigen::MatrixXd errors_of(std::span<const EstimatedQuantity> quantities, const E
   return found;
 }
 
-/// The ratio of two distances from the value; 1 where the second is none.
+/// Ratio of two distances from the value; 1 if the second is not positive.
 double ratio_of(double distance, double of_replicates) {
   return of_replicates > 0.0 ? distance / of_replicates : 1.0;
 }

@@ -20,66 +20,71 @@ namespace zerocount::fit {
 
 /// A sample of the joint distribution of the estimated parameters.
 struct JointDraws {
-  std::vector<std::string> keys;          ///< in a manifest, one for each column
-  std::vector<std::vector<double>> rows;  ///< [draw][column] in the parameter's own unit
+  std::vector<std::string> keys;          ///< [column] Manifest key of the parameter.
+  std::vector<std::vector<double>> rows;  ///< [draw][column] Value in the parameter's own unit.
 };
 
-/// An estimated parameter of the manifest with its intervals, on the quantity's own scale.
+/// An estimated parameter of the manifest with its intervals, on the scale of Quantity::value.
 struct EstimatedQuantity {
   Quantity quantity;
-  QuantityEstimate by_replicates;  ///< see interval_of_errors()
-  QuantityEstimate reported;       ///< the same, or the profile's
+  QuantityEstimate by_replicates;  ///< Interval from the replicates, see interval_of_errors().
+  /// Reported interval: `by_replicates`, or the interval by profile likelihood.
+  QuantityEstimate reported;
 };
 
-/// Appends one draw for each row of `errors` (see ReadingReplicates): with the error e of a replicate, whose
-/// mean is ē, and the widening w, the draw is value − w·(e − ē). Where the reported interval is the
-/// profile's, the distances above and below the value are scaled to its two ends. Both are monotonic, so that
-/// the rank correlations are those of the replicates. Draws with n < 1 are left out.
-/// @param max_rows ends the draws
+/// Appends one draw for each row of `errors` (see ReadingReplicates). With the error e of a replicate, the
+/// mean error ē and the widening w, the draw is value − w·(e − ē). If the reported interval comes from the
+/// profile likelihood, the distances above and below the value are scaled to its two ends. Both maps are
+/// monotonic, so the rank correlations are those of the replicates. Draws with n < 1 are left out.
+/// @param max_rows number of draws at which to stop
 void append_draws(std::span<const EstimatedQuantity> quantities, const Eigen::MatrixXd& errors,
                   double widening, std::size_t max_rows, JointDraws& draws);
 
-/// Reason why there are fewer draws than wanted; empty if there are as many.
+/// Reason why there are fewer draws than wanted; empty if there are enough.
 std::string reason_of_missing_draws(const JointDraws& draws, std::size_t wanted);
 
-/// Covariance of the errors of estimated quantities, on their own scales: of logarithms, except for n and the
-/// time offset.
+/// Covariance of the errors of estimated quantities, on the scale of Quantity::value: logarithms, except for
+/// n and the time offset.
 struct JointErrors {
   std::vector<std::string> names;
-  Eigen::MatrixXd covariance;  ///< [names, names]
+  Eigen::MatrixXd covariance;  ///< [names, names] Covariance of the errors.
 
   double correlation(Eigen::Index one, Eigen::Index other) const;
 };
 
-/// The covariance of the errors of replicates, widened.
+/// The covariance of the errors of the replicates, with the errors multiplied by `widening`.
 JointErrors joint_errors(std::span<const EstimatedQuantity> quantities, const Eigen::MatrixXd& errors,
                          double widening);
 
 /// The detected parts of a record, and the quality of the fit.
 struct RecordSummary : RecordExtent {
-  double duration{0.0};  ///< s
+  double duration{0.0};  ///< Duration of the record, s.
   bool counted{false};
-  double unit{0.0};  ///< of the readings, rad or m
+  double unit{0.0};  ///< Unit of the readings, rad or m.
   std::size_t branches{0};
   std::size_t reversals{0};
   std::size_t holds{0};
   std::size_t ring_downs{0};
   double misfit{0.0};  ///< root mean square of the residuals, in the readings' unit
-  double noise{0.0};   ///< of the readings, standard deviation in their unit
+  double noise{0.0};   ///< Standard deviation of the readings' noise, in the readings' unit.
 };
 
-/// The parameters k1, k2, k1_plus_k2, beta, presliding_damping, inertia, alpha, lambda, n and time_offset.
+/// Result of an identification: the parameters k1, k2, k1_plus_k2, beta, presliding_damping, inertia, alpha,
+/// lambda, n and time_offset, and the quality of the fit.
 struct Identification : FitReport {
-  double sample_time{0.0};  ///< of the time offset, s: of the first record
+  double sample_time{0.0};  ///< Sampling interval of the first record, s: the unit of the time offset.
   std::vector<RecordSummary> records;
-  std::vector<FittedRecord> fitted;  ///< [record] for figures
+  std::vector<FittedRecord> fitted;  ///< [record] Readings and fitted values, for figures.
   ResidualChecks checks;
   /// Frequencies at which the fitted rotor rings: on k1 after large steps, on k1 + k2 after small ones.
   FrequencyRange own_ringing;
-  /// Searched only if the checks failed, below own_ringing.low/1.2 and above 1.2·own_ringing.high.
+  /// Peak in the spectrum of the residuals. It is searched only if the checks failed, below
+  /// own_ringing.low/1.2 and above 1.2·own_ringing.high.
   std::optional<ResidualLine> residual_line;
-  double effort{1.0};        ///< see fit_contact()
-  bool search_ended{false};  ///< not explained, and no more starting points were tried because of the effort
+  double effort{1.0};  ///< Factor on the search effort, see fit_contact().
+  /// True if the residuals are not explained and no more starting points were tried because of the effort
+  /// limit.
+  bool search_ended{false};
   /// Correlation of the errors of a pair of estimated parameters; listed if its magnitude is 0.9 or more.
   struct Correlation {
     std::string one;
@@ -87,15 +92,15 @@ struct Identification : FitReport {
     double value{0.0};
   };
   std::vector<Correlation> correlations;
-  JointErrors errors;  ///< of all estimated parameters but k1 + k2
-  JointDraws draws;    ///< so many as the options ask for
+  JointErrors errors;  ///< Errors of all estimated parameters except k1 + k2.
+  JointDraws draws;    ///< As many draws as IdentificationOptions::draws.
 };
 
 struct IdentificationOptions {
   std::vector<KnownParameter> known;
   std::size_t replicates{500};
-  std::size_t draws{0};  ///< joint draws of the parameters
-  double effort{1.0};    ///< see fit_contact()
+  std::size_t draws{0};  ///< Number of joint draws of the parameters.
+  double effort{1.0};    ///< Factor on the search effort, see fit_contact().
   StageReport report{};
 };
 

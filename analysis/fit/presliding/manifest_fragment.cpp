@@ -17,14 +17,14 @@ namespace {
 
 constexpr double two_sided_95 = 1.959963984540054;  // Φ⁻¹(0.975)
 
-/// Whether it is of λ and n.
+/// Whether the correlation is between λ and n.
 bool is_of_creep(const Identification::Correlation& pair) {
   const auto is_one = [](const std::string& name) { return name == "lambda" || name == "n"; };
   return is_one(pair.one) && is_one(pair.other);
 }
 
-/// The middle of the interval on the scale of its distribution: of n, unless it was cut at 1, the mean of its
-/// ends, of others their geometric mean.
+/// The middle of the interval on the scale of the parameter's distribution. For n it is the mean of the ends,
+/// or the value if the interval was cut at 1. For other parameters it is the geometric mean of the ends.
 double middle_of(const ParameterEstimate& parameter) {
   if (parameter.name != "n") return std::sqrt(parameter.low * parameter.high);
   const bool cut = parameter.low <= 1.0;  // so the middle of the rest is not the estimate
@@ -33,13 +33,15 @@ double middle_of(const ParameterEstimate& parameter) {
 
 /// Creep as an extension under a torque (friction.measured.creep).
 struct MeasuredCreep {
-  double torque{0.0};  ///< T: at which the errors of ln(extension) and n do not correlate
+  /// Torque T at which the errors of ln(extension) and n do not correlate, N m.
+  double torque{0.0};
   ParameterEstimate extension, rate, exponent;
 };
 
-/// With x = ln λ: ln(extension) = n·ln T − x, whose error does not correlate with that of n if
-/// ln T = cov(n, x)/var(n); its variance is var(x) − cov(n, x)²/var(n) then. Nothing where λ or n is not
-/// estimated, or where their errors do not correlate strongly: then they are drawn independently as well.
+/// The creep as an extension, so that its parameters can be drawn independently. With x = ln λ, ln(extension)
+/// = n·ln T − x. The error of ln(extension) does not correlate with that of n at ln T = cov(n, x)/var(n),
+/// where its variance is var(x) − cov(n, x)²/var(n). Nothing if λ or n is not estimated, or if their errors
+/// do not correlate strongly: λ and n are then drawn independently as well.
 std::optional<MeasuredCreep> measured_creep(const Identification& found) {
   const auto estimate = [&](std::string_view name) {
     const auto place = std::ranges::find(found.parameters, name, &ParameterEstimate::name);
@@ -74,7 +76,7 @@ std::string creep_lines(const MeasuredCreep& creep, parameters::AxisKind axis) {
                      indent, manifest_line(creep.exponent, "exponent"));
 }
 
-/// Whether not all lines of a map are comments: those alone are not a map.
+/// Whether some line of a map is not a comment. Comments alone do not form a map.
 bool has_values(const std::string& lines) {
   for (std::size_t start = 0; start < lines.size(); start = lines.find('\n', start) + 1) {
     if (!lines.substr(start).starts_with("  #")) return true;

@@ -13,8 +13,8 @@ namespace {
 
 /// Torque over travel of one branch, from its reversal point.
 struct Chord {
-  std::vector<double> travel;  ///< rad
-  std::vector<double> torque;  ///< N m
+  std::vector<double> travel;  ///< Travel from the reversal point, rad.
+  std::vector<double> torque;  ///< Torque from the reversal point, N m.
 };
 
 /// @param doubled whether the branch is the virgin curve sgn(x)·½·f(2|x|); doubling travel and torque gives
@@ -132,8 +132,8 @@ std::size_t oscillating_samples(const TorqueHold& hold) {
   return std::min((hold.last - hold.first + 1) / 4, oscillation_samples);
 }
 
-/// The longest such time of all holds, s. Creep is told from an oscillation only if it is slower, and where
-/// there are longer holds the shorter ones are left out.
+/// Longest time of all holds in which the rotor may oscillate, s. Creep can be distinguished from an
+/// oscillation only if it is slower. If there are longer holds, shorter ones are left out.
 double longest_oscillation(Records records) {
   double longest = 0.0;
   for (const TestRecord& record : records) {

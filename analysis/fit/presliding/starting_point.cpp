@@ -288,15 +288,17 @@ constexpr double min_slow_travel = 0.3;
 constexpr double max_change = 8.0;
 constexpr double max_exponent = 6.0;
 
-/// Slow parts of a record: the torques that matter in the order of time, and the angles that answer some.
+/// Slow parts of a record: the torques that matter in the order of time, and for some of them the responding
+/// angle.
 struct SlowParts {
   struct Point {
-    double torque{0.0};     ///< N m
-    std::size_t sample{0};  ///< of its answer
-    bool read{false};       ///< otherwise only a turning point
+    double torque{0.0};     ///< Torque, N m.
+    std::size_t sample{0};  ///< Sample whose reading is the response to the torque.
+    /// True if the reading is compared; otherwise the point is only a turning point of the torque.
+    bool read{false};
   };
   std::vector<Point> points;
-  std::size_t read{0};  ///< number of angles
+  std::size_t read{0};  ///< Number of points with a reading.
 };
 
 /// The torque (N m) whose answer is the reading at sample k.

@@ -14,9 +14,9 @@ Eigen::VectorXd measured_angle(const TestRecord& record);
 
 /// Creep law estimated from the holds.
 struct CreepEstimate {
-  double alpha{0.0};     ///< 1/s
+  double alpha{0.0};     ///< Creep rate α, 1/s.
   double exponent{2.0};  ///< n
-  double limit{0.0};     ///< σ0ⁿ/λ, rad; 0 if there is no visible creep
+  double limit{0.0};     ///< Creep limit σ0ⁿ/λ, rad; 0 if there is no visible creep.
 };
 
 /// Fits the creep law to the holds by least squares, over a grid of α and n; without visible creep α is three
@@ -29,9 +29,9 @@ Eigen::VectorXd creep_extension(const TestRecord& record, const CreepEstimate& c
 
 /// Spring parameters estimated from the slow branches.
 struct SpringEstimate {
-  double k1{0.0};      ///< N m/rad
-  double offset{0.0};  ///< k2/β, N m
-  double beta{0.0};    ///< 1/rad
+  double k1{0.0};      ///< Stiffness k1, N m/rad.
+  double offset{0.0};  ///< Offset k2/β, N m.
+  double beta{0.0};    ///< Softening rate β, 1/rad.
 };
 
 /// Median over the branches. k1 is the slope of the last 40 % of the travel, k2/β the intercept of that line
@@ -40,10 +40,12 @@ SpringEstimate estimate_spring(Records records, const CreepEstimate& creep, doub
 
 /// The first oscillation after a step of the torque.
 struct FirstOvershoot {
-  std::size_t peak{0};    ///< samples from the step to the first peak; of a rotor that creeps, to the end
-  std::size_t rise{0};    ///< samples from the step to 63 % of the travel
-  double travel{0.0};     ///< from the start to the settled position, in the direction of the step, rad
-  double overshoot{0.0};  ///< as a fraction of the travel
+  /// Samples from the step to the first peak. If the rotor creeps without a peak: to the end.
+  std::size_t peak{0};
+  std::size_t rise{0};  ///< samples from the step to 63 % of the travel
+  /// Travel from the start to the settled position in the direction of the step, rad.
+  double travel{0.0};
+  double overshoot{0.0};  ///< Overshoot as a fraction of the travel.
 };
 
 FirstOvershoot first_overshoot(const TestRecord& record, const TorqueHold& ring_down);
@@ -52,10 +54,10 @@ FirstOvershoot first_overshoot(const TestRecord& record, const TorqueHold& ring_
 /// step shows, at least k1.
 motion::PlantParameters estimate_ring_down(Records records, double k1);
 
-/// Starting points of the joint fit, the best one first: the estimates above, with β, J and c from a coarse
-/// grid search around them (sum of squares over all readings). Where there are slow parts, the spring and its
-/// creep are those of the law without inertia and damping (see fit_slow_parts()); with visible creep both are
-/// returned.
+/// Starting points of the joint fit, the best one first. The creep and the spring come from estimate_creep()
+/// and estimate_spring(); β, J and c from a coarse grid search around the estimates (sum of squares over all
+/// readings). If there are slow parts, the spring and its creep come from the law without inertia and damping
+/// (see fit_slow_parts()). With visible creep both results are returned.
 /// @param known values of the coordinates that are not `free`
 std::vector<Point> starting_points(Records records, double creep_torque, const Point& known,
                                    const FreeCoordinates& free);
@@ -64,11 +66,12 @@ std::vector<Point> starting_points(Records records, double creep_torque, const P
 /// best J and c of the grid.
 std::vector<Point> starts_with_other_softening(Records records, const Point& start, double creep_torque);
 
-/// Other starting points: springs estimated for little, some and much creep instead of that of the holds,
-/// each with other softening. The holds of a closed loop are short and show its motion rather than creep.
+/// Other starting points: springs estimated for little, some and much creep instead of the creep of the
+/// holds, each with other softening. The holds of a closed loop are short and show the motion of the loop
+/// rather than creep.
 std::vector<Point> starts_with_other_creep(Records records, const Point& start, double creep_torque);
 
-/// A change of a point: of these coordinates by so much.
+/// A change of a point: each pair gives a coordinate and the amount added to it.
 Point change_of(std::initializer_list<std::pair<Coordinate, double>> changes);
 
 /// Changes of J and c by each pair of factors.
@@ -81,14 +84,15 @@ struct SlowFit {
   double squares{std::numeric_limits<double>::infinity()};  ///< sum of squares, in units of the readings
 };
 
-/// Whether the slow parts show the creep law, or keep that of the start.
+/// Whether the fit of the slow parts also fits the creep law, or keeps the creep law of the start.
 enum class SlowCreep { kept, fitted };
 
-/// Least squares of the law without inertia and damping on the slow branches and the later halves of holds:
-/// the spring and its creep, for a spring that always carries the applied torque. It takes a fraction of a
-/// second, and its minimum does not depend on inertia and damping, which such parts show little of. The
-/// spring is fitted first, from the nine best of `starts` with nine values of β each; from the two best of
-/// these all six coordinates. At most some thousand samples of a record are used, evenly chosen.
+/// Fits the law without inertia and damping to the slow branches and the later halves of holds by least
+/// squares: the spring and its creep, for a spring that always carries the applied torque. The fit takes a
+/// fraction of a second. Its minimum does not depend on inertia and damping, on which such parts have little
+/// information. First the spring is fitted, from the nine best of `starts` with nine values of β each; then
+/// all six coordinates, from the two best results. At most about a thousand samples of each record are used,
+/// evenly chosen.
 /// @param free coordinates that may change
 /// @returns the first start with the fitted coordinates; it itself and infinity if there are no slow
 /// branches.

@@ -12,7 +12,7 @@ namespace zerocount::fit {
 
 namespace {
 
-/// Unit of angles that are not counts, of the record's travel.
+/// Unit of angles that are not counts, as a proportion of the record's travel.
 constexpr double travel_per_unit = 1e-3;
 
 /// A record is cut where it begins to slide. What is left is then checked like any other.
@@ -248,11 +248,12 @@ std::vector<double> growing_ranges(const std::vector<double>& values, double sta
 
 /// The course of a test, as the criterion needs it.
 struct Course {
-  std::vector<double> angle;         ///< [sample]
-  std::vector<double> travel;        ///< [sample] range of the angle up to it
-  std::vector<double> torque_range;  ///< [sample] range of the torque up to it, N m
-  double min_travel{0.0};            ///< before sliding can be told from pre-sliding
-  std::size_t lag{0};                ///< samples until a torque has acted on the rotor
+  std::vector<double> angle;         ///< [sample] Angle, masked readings replaced.
+  std::vector<double> travel;        ///< [sample] Range of the angle up to this sample.
+  std::vector<double> torque_range;  ///< [sample] Range of the torque up to this sample, N m.
+  /// Smallest travel before a slide with which sliding can be distinguished from pre-sliding.
+  double min_travel{0.0};
+  std::size_t lag{0};  ///< Number of samples until a torque has acted on the rotor.
 };
 
 /// Samples from a torque in the series until the amplifier has reached it to exp(−3).

@@ -15,7 +15,7 @@ using records::place_of;
 using records::RawSeries;
 using records::TorqueKind;
 
-/// Kind of the axis of a series.
+/// Kind of the axis from which a series was recorded.
 inline parameters::AxisKind axis_of(const RawSeries& series) {
   return series.linear ? parameters::AxisKind::linear : parameters::AxisKind::rotary;
 }
@@ -40,9 +40,9 @@ std::vector<motion::TorqueCourse> courses_of(const RawSeries& series, const Test
 /// @returns the sampling interval, s.
 double checked_sample_time(const RawSeries& series);
 
-/// The interval after each sample, s, of a series with checked times that deviate from a regular grid by more
-/// than a quarter of the sampling interval; empty for one on the grid, whose deviations are taken for those
-/// of its clock.
+/// [sample] Interval after the sample, s, if the checked times deviate from a regular grid by more than a
+/// quarter of the sampling interval. Empty for a series on the grid, whose deviations are taken as errors of
+/// its clock.
 std::vector<double> uneven_intervals(const RawSeries& series);
 
 /// Requires magnitudes that are plausible for an axis on its bearing's friction, in SI units. Values wrong by
@@ -77,11 +77,12 @@ void check_clipping(const RawSeries& series, const TestRecord& record);
 
 /// A record beside the fit, sample by sample. Readings are in the record's unit.
 struct FittedRecord {
-  std::vector<double> time;     ///< [sample] as recorded, s
-  std::vector<double> torque;   ///< [sample] of the motor, N m, without the fitted time offset
-  std::vector<double> reading;  ///< [sample] as recorded; masked ones too
-  std::vector<double> fitted;   ///< [sample] expected reading: the fitted angle, less half a count for counts
-  std::vector<bool> excluded;   ///< [sample] masked readings
+  std::vector<double> time;     ///< [sample] Time as recorded, s.
+  std::vector<double> torque;   ///< [sample] Motor torque, N m, without the fitted time offset.
+  std::vector<double> reading;  ///< [sample] Readings as recorded, including masked ones.
+  /// [sample] Expected reading: the fitted angle, minus half a count if the readings are counts.
+  std::vector<double> fitted;
+  std::vector<bool> excluded;  ///< [sample] masked readings
 };
 
 /// @param path [sample] fitted angle with the encoder's offset, in the record's unit
@@ -94,10 +95,12 @@ inline double residual(const FittedRecord& record, std::size_t sample) {
 
 /// A stretch in which the rotor slides, seen from torque and angle.
 struct GrossSliding {
-  std::size_t first{0};     ///< sample at or shortly before the breakaway
-  std::size_t seen{0};      ///< sample at which sliding is certain
-  double travel{0.0};       ///< in the window that ends there, in the unit of the series' angle
-  double travel_before{0};  ///< maximum − minimum angle before that window, in the same unit
+  std::size_t first{0};  ///< Sample at or shortly before the breakaway.
+  std::size_t seen{0};   ///< Sample at which sliding is certain.
+  /// Travel in the window that ends at `seen`, in the unit of the series' angle.
+  double travel{0.0};
+  /// Maximum − minimum angle before that window, in the unit of the series' angle.
+  double travel_before{0};
 };
 
 /// Finds the first gross sliding of a material test.

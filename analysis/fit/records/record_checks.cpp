@@ -137,9 +137,9 @@ bool is_masked(const RawSeries& series, std::size_t k) {
   return !series.excluded.empty() && (series.excluded[k] || series.excluded[k - 1]);
 }
 
-/// The 10 samples to both sides of a step of the angle.
+/// Steps and torque in the 10 samples to both sides of a step of the angle.
 struct Surroundings {
-  double longest_step{0.0};  ///< but for those longer than a limit
+  double longest_step{0.0};  ///< Longest step of the angle below a limit, in its unit.
   double torque_range{0.0};
 };
 

@@ -130,7 +130,7 @@ constexpr std::size_t max_factors = 12;
 /// Sensitivities of one output at one point, under each condition.
 struct OutputAtPoint {
   std::vector<const sensitivity::PointSensitivity*> points;
-  std::vector<const sensitivity::OutputSensitivity*> outputs;  ///< [points]
+  std::vector<const sensitivity::OutputSensitivity*> outputs;  ///< [point] Sensitivity of the output.
 };
 
 std::vector<OutputAtPoint> outputs_at_points(const sensitivity::StudySensitivity& study) {
@@ -156,7 +156,7 @@ void add_index(FigureData& data, const sensitivity::FactorSensitivity& factor, c
       {factor.name, index, datum(number.value), datum(number.low), datum(number.high), condition}));
 }
 
-/// "settling time" for "arrival_time".
+/// A measure's name as a label in a figure: "settling time" for "arrival_time".
 std::string label_text(std::string name) {
   std::replace(name.begin(), name.end(), '_', ' ');
   return name;

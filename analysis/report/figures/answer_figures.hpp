@@ -41,18 +41,19 @@ document::Figure experiment_figure(const experiment_design::ExperimentDesign& de
 /// rounding and noise, and the torque over both angles.
 std::vector<Figure> identification_figures(const fit::Identification& identification);
 
-/// The samples of a record for a figure: of each of at most `buckets` groups of equal length, and of the
-/// parts of a group that are masked or not, the first, the last, and those with the extreme torque, reading,
-/// fitted value and residual.
+/// The samples of a record that a figure needs. The record is divided into at most `buckets` groups of equal
+/// length, and each group into masked and unmasked parts. Kept are the first and the last sample of each
+/// part, and those with the extreme torque, reading, fitted value and residual.
 std::vector<std::size_t> drawn_samples(const fit::FittedRecord& record, std::size_t buckets);
 
-/// Standard deviation of the noise of a record's readings, in their unit. Of readings that are not counts by
-/// the differences of successive residuals, to which slow departures of the model from the record add little:
-/// σ² is half their mean square (von Neumann et al., Ann. Math. Statist. 12 (1941) 153).
+/// Standard deviation of the noise of a record's readings, in their unit. For readings that are not counts it
+/// comes from the differences of successive residuals, to which slow deviations of the model contribute
+/// little: σ² is half the mean square of the differences (von Neumann et al., Ann. Math. Statist. 12 (1941)
+/// 153).
 double reading_noise(const fit::RecordSummary& record, const fit::FittedRecord& fit);
 
-/// Half the width of the band in which rounding and noise leave the residuals, in the record's unit: half a
-/// count for counts, plus 1.96 standard deviations of the noise.
+/// Half the width of the band in which the residuals lie because of rounding and noise, in the record's unit:
+/// half a count for counts, plus 1.96 standard deviations of the noise.
 double residual_band(const fit::RecordSummary& record, const fit::FittedRecord& fit);
 
 }  // namespace zerocount::report

@@ -68,8 +68,8 @@ std::string label_of_loop(const theory::TrialLoop& loop, const theory::Stability
                      stability_label(theory::stability_of(loop.loop, hold)));
 }
 
-/// The curves from a decade below the lowest crossover, or below the lowest natural frequency on a spring
-/// where that is lower. A loop without gain has none.
+/// The curves of the loops. They begin a decade below the lowest crossover, or below the lowest natural
+/// frequency on a spring if that is lower. A loop without gain has no curve.
 std::vector<LoopCurve> loop_curves(const trial::TrialParameters& parameters) {
   double corner = 0.5 * parameters.controller.sample_rate;
   const std::vector<theory::TrialLoop> loops = theory::trial_loops(parameters);
@@ -140,7 +140,7 @@ FigureData margin_data(const std::vector<LoopCurve>& curves) {
   return data;
 }
 
-/// −180° and what differs from it by whole turns, where the curves pass.
+/// The phase −180°, and the phases that differ from it by whole turns within the range of the curves.
 FigureData reversal_levels(const theory::Range& phases) {
   FigureData data{"levels", {{"level", "", "°"}}};
   data.rows.push_back(ordered_json::array({-180}));
@@ -151,7 +151,8 @@ FigureData reversal_levels(const theory::Range& phases) {
   return data;
 }
 
-/// The magnitudes that are shown, dB: a deep antiresonance, or an undamped resonance, would flatten the rest.
+/// Range of the shown magnitudes, dB. It is limited because a deep antiresonance or an undamped resonance
+/// would flatten the rest.
 theory::Range shown_magnitudes(const std::vector<LoopCurve>& curves) {
   constexpr double largest = 80.0;
   constexpr double step = 20.0;

@@ -36,7 +36,8 @@ std::string_view embedded_file(std::string_view name);
 inline constexpr std::array<std::string_view, 4> drawing_scripts{"vega.min.js", "vega-lite.min.js",
                                                                  "vega-embed.min.js", "figures.js"};
 
-/// @throws Failure (machine_failed) if the program was built without one of them, so before work is lost.
+/// Checks early that figures can be drawn, so that no work is lost.
+/// @throws Failure (machine_failed) if the program was built without one of the drawing libraries.
 void require_drawing_libraries();
 
 /// A figure with the embedded specification `specification`.vl.json.
@@ -52,8 +53,8 @@ void put_on_axis(Figure& figure, parameters::AxisKind axis);
 /// {"name", "specification", "parameters", "data": [{"name", "columns": [[field, title, unit]], "rows"}]}
 nlohmann::ordered_json figure_json(const Figure& figure);
 
-/// For the content of <script type="application/json">: escapes every '<', so that the content cannot end the
-/// script or open a comment. Replaces bytes that are not UTF-8 by U+FFFD; NaN and infinity become null.
+/// JSON as the content of <script type="application/json">. Every '<' is escaped, so that the content cannot
+/// end the script or open a comment. Bytes that are not UTF-8 become U+FFFD; NaN and infinity become null.
 std::string script_json(const nlohmann::ordered_json& json);
 
 /// JavaScript for the content of <script>: escapes "</script" and "<!--" in its literals.
@@ -76,23 +77,28 @@ struct CellEdges {
   double y_from{0.0}, y_to{0.0};
 };
 
-/// The dataset of boundaries on a map: edges between neighbouring cells of which one has a property.
+/// Empty dataset for boundaries on a map: edges between two neighbouring cells of which only one has a
+/// property.
 FigureData boundaries_data();
-/// Adds a boundary to it. @param cells of a grid, x fastest @param columns of it
+/// Adds a boundary to boundaries_data().
+/// @param cells cells of a grid, x fastest
+/// @param columns number of columns of the grid
+/// @param has whether a cell has the property
 void add_boundary(FigureData& boundaries, const std::string& line, const std::vector<CellEdges>& cells,
                   std::size_t columns, const std::function<bool(std::size_t)>& has);
 
 /// A number for a dataset, with `digits` significant digits; null for NaN and infinities.
 nlohmann::ordered_json datum(double value, int digits = 6);
 
-/// The horizontal axis of figures of the specification `ages`: logarithmic where the ages span decades, and
-/// linear below the first age above 0. @param ages rising
+/// Sets the horizontal axis of figures with the specification `ages`: logarithmic if the ages span decades,
+/// and linear below the first age above 0.
+/// @param ages in rising order
 void scale_ages(Figure& figure, const std::vector<double>& ages);
 
 /// Whether sorted positive numbers are closer to equal ratios than to equal differences.
 bool spaced_by_ratio(const std::vector<double>& sorted);
 
-/// A quantity of a sample, by its number.
+/// A quantity of a sample as a function of the sample's number.
 using SampleQuantity = std::function<double(std::size_t)>;
 
 /// The samples of [first, end) that a line needs: the first, the last, and those with the minimum and the
@@ -100,7 +106,8 @@ using SampleQuantity = std::function<double(std::size_t)>;
 std::vector<std::size_t> extreme_samples(std::size_t first, std::size_t end,
                                          const std::vector<SampleQuantity>& quantities);
 
-/// These of each group of `length` samples. @param begins whether a sample begins a group of its own
+/// extreme_samples() of each group of `length` samples.
+/// @param begins whether a sample begins a new group
 std::vector<std::size_t> thinned_samples(std::size_t samples, std::size_t length,
                                          const std::vector<SampleQuantity>& quantities,
                                          const std::function<bool(std::size_t)>& begins = {});

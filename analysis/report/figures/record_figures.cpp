@@ -16,10 +16,11 @@ using fit::Identification;
 using fit::RecordSummary;
 using nlohmann::ordered_json;
 
-constexpr double normal_95 = 1.96;  ///< standard deviations to each side of 95 % of a normal distribution
+/// 95 % of a normal distribution lie within so many standard deviations.
+constexpr double normal_95 = 1.96;
 
-/// Groups of samples per record: about two pixels each. Many records share `all_buckets`, so that the page
-/// stays below 5 MB.
+/// Largest number of groups of samples per record: about two pixels each. Many records share `all_buckets`,
+/// so that the page stays below 5 MB.
 constexpr std::size_t max_buckets = 400;
 constexpr std::size_t min_buckets = 20;
 constexpr std::size_t all_buckets = 6000;
@@ -27,7 +28,7 @@ constexpr std::size_t all_buckets = 6000;
 /// The unit in which a figure shows the readings of a record.
 struct ShownUnit {
   std::string name;
-  double size{1.0};  ///< of a unit of the readings, in it
+  double size{1.0};  ///< Factor from the record's unit to this unit.
 };
 
 ShownUnit shown_unit(const RecordSummary& record) {

@@ -18,8 +18,8 @@ namespace zerocount::report {
 struct ReplayedTrial {
   std::int64_t point{0};
   trial::TrialParameters parameters;
-  shards::TrialResult result;                ///< to compare with the record
-  std::vector<trial::SampleRecord> samples;  ///< thinned
+  shards::TrialResult result;                ///< Result, for comparison with the record in the file.
+  std::vector<trial::SampleRecord> samples;  ///< Thinned samples, see TraceThinner.
 };
 
 /// Reduces the samples of a trial while it runs, so that a line through the kept samples looks the same.
@@ -47,25 +47,26 @@ class TraceThinner {
 ReplayedTrial replay_trial(const study::Study& study, std::int64_t point, std::int64_t index,
                            std::int64_t buckets);
 
-/// Success per point with bounds and what is asked: over a swept number if there is one, otherwise a row per
-/// point and condition. Several goals have a panel each. Nothing for an open-loop study.
+/// Success rate per point with bounds and the required rate. It is drawn over a swept number if there is one,
+/// otherwise as a row per point and condition. Several goals have a panel each. Nothing for an open-loop
+/// study.
 std::optional<Figure> success_figure(const ReportedStudy& reported);
 
 /// Success over two swept numbers, with the curves of the criteria (6) and (7): one map for each combination
 /// of the other axes.
 std::vector<Figure> stability_maps(const ReportedStudy& reported);
 
-/// Distribution functions with bounds: of the times from which the error of the chosen point stays within
-/// what each goal asks, under each condition, with the goals; without a goal, of the arrival at several
-/// points, and of settling in each band.
+/// Distribution functions with bounds. With goals: the times from which the error at the chosen point stays
+/// within each goal, under each condition, with the goals. Without a goal: the arrival times at several
+/// points, and the settling times in each band.
 std::vector<Figure> distribution_figures(const ReportedStudy& reported);
 
-/// At the chosen point of a study with ages: the proportions of moves and machines in the goal at each, and
-/// the lives of the machines as a survival curve.
+/// Figures for the chosen point of a study with ages: the proportions of moves and machines that meet the
+/// goal at each age, and the lives of the machines as a survival curve.
 std::vector<Figure> age_figures(const ReportedStudy& reported);
 
-/// At the chosen point of a study with worlds: the times of settling in each, and the rates over each
-/// parameter that differs between them (at most six).
+/// Figures for the chosen point of a study with worlds: the settling times in each world, and the rates over
+/// each parameter that differs between the worlds (at most six).
 std::vector<Figure> world_figures(const ReportedStudy& reported);
 
 /// Jerks of single moves, and the rate of jerks, at the point with the most jerks.
@@ -79,11 +80,11 @@ std::optional<Figure> bode_figure(const ReportedStudy& reported);
 
 /// A shown trial of the study.
 struct SampleTrial {
-  std::string name;  ///< "median", "worst"
+  std::string name;  ///< Name: "median" or "worst".
   std::int64_t point{0};
   std::int64_t index{0};
-  std::int64_t buckets{400};  ///< resolution of its samples (see TraceThinner)
-  std::string condition{};    ///< empty without conditions
+  std::int64_t buckets{400};  ///< Largest number of groups of samples, see TraceThinner.
+  std::string condition{};    ///< Condition; empty without conditions.
 };
 
 /// The median and the worst trial of the chosen point under each condition, in order of goal::Badness. Empty

@@ -19,10 +19,10 @@ constexpr std::int64_t max_failures = 250;
 
 /// Final position of a trial on the rotor, and its outcome.
 struct EndOnRotor {
-  std::int64_t trial{0};  ///< index within the point
-  double angle{0.0};      ///< rad or m, in [0, period)
+  std::int64_t trial{0};  ///< Index of the trial within the point.
+  double angle{0.0};      ///< Final position, rad or m, in [0, period).
   trial::Outcome outcome{trial::Outcome::zero_count};
-  bool met{true};  ///< the trial meets the question
+  bool met{true};  ///< True if the trial meets the question.
 };
 
 double on_rotor(double angle, double period) {
@@ -39,13 +39,13 @@ std::optional<std::size_t> position_column(const reading::AllTrialsFile& file) {
   return std::nullopt;
 }
 
-/// The trials of a figure: those of a point, or of one machine at that point.
+/// The trials of a figure: all trials of a point, or the trials of one machine at that point.
 struct ShownTrials {
   std::int64_t point{0};
   std::optional<std::int64_t> machine{};
 };
 
-/// The trials with their final positions. Trials with a non-finite state have that of their start.
+/// The trials with their final positions. A trial with a non-finite state is shown at its start position.
 std::vector<EndOnRotor> ends_of(const ReportedStudy& reported, const ShownTrials& shown, std::size_t column) {
   const layout::RowRange rows = rows_of(reported, shown.point);
   const std::vector<double> starts = reported.file.input(column, rows);
@@ -64,7 +64,7 @@ std::vector<EndOnRotor> ends_of(const ReportedStudy& reported, const ShownTrials
   return ends;
 }
 
-/// A profile's point: the one in its name, otherwise the chosen one.
+/// The design point of a profile: the point in its name, otherwise the chosen point.
 std::int64_t point_of_profile(const ReportedStudy& reported, const std::string& profile) {
   const std::size_t at = profile.find('@');
   return at == std::string::npos ? reported.chosen.point : std::stoll(profile.substr(at + 1));

@@ -16,8 +16,9 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::int64_t max_curves = 6;   ///< of a figure; under conditions at least one for each
-constexpr std::int64_t max_steps = 160;  ///< of a curve
+/// Largest number of curves of a figure. With conditions there is at least one curve for each.
+constexpr std::int64_t max_curves = 6;
+constexpr std::int64_t max_steps = 160;  ///< Largest number of steps of a curve.
 
 /// Half-width of the simultaneous confidence band of a distribution function: √(ln(2M/α)/2n) for n
 /// independent clusters (trials or machines) of M dependent moves each. (Dvoretzky, Kiefer and Wolfowitz 1956
@@ -31,15 +32,17 @@ double band_of(const ReportedStudy& reported, const measures::PointSummary& poin
                    (2.0 * static_cast<double>(clusters)));
 }
 
-/// Moves that are asked, and the times from which they are settled.
+/// The judged moves, and the times from which they are settled.
 struct SettledMoves {
   statistics::Histogram<double> times{};
   std::int64_t asked{0};
 };
 
-/// The moves of a point, divided by the world of their trial. @param time of a move; NaN where it does not
-/// settle, nothing where it is not asked
+/// Settling time of a move, s. NaN if the move does not settle, nothing if it is not judged.
 using SettlingTime = std::function<std::optional<double>(const trial::MoveOutcome&)>;
+
+/// [world] Judged moves of a point, divided by the world of the trial; a single element without worlds.
+/// @param worlds number of worlds; 1 without worlds
 std::vector<SettledMoves> settled_by_world(const ReportedStudy& reported, std::int64_t point,
                                            std::size_t worlds, const SettlingTime& time) {
   std::vector<SettledMoves> settled(worlds);
@@ -59,7 +62,7 @@ std::vector<SettledMoves> settled_by_world(const ReportedStudy& reported, std::i
   return settled;
 }
 
-/// The time counts from where the goal's own does.
+/// The settling time of a move for a goal, counted from the same instant as the goal's limit.
 SettlingTime time_in(const measures::CountedGoal& goal) {
   return [&goal](const trial::MoveOutcome& move) -> std::optional<double> {
     if (!measures::asks(goal, move)) return std::nullopt;
@@ -72,7 +75,7 @@ std::optional<double> arrival_time(const trial::MoveOutcome& move) {
   return move.arrived ? move.arrival_time : std::nan("");
 }
 
-/// The latest time; 0 where no move settles.
+/// The latest settling time, s; 0 if no move settles.
 double end_of(const SettledMoves& moves) {
   return moves.times.size > 0 ? statistics::largest(moves.times) : 0.0;
 }
@@ -123,7 +126,7 @@ std::vector<std::int64_t> points_with_curves(const ReportedStudy& reported) {
   return shown;
 }
 
-/// Adds a curve with its band, which goes on to `end`.
+/// Adds a curve with its confidence band. Both continue to the time `end`.
 void add_curve(FigureData& data, const std::string& label, const SettledMoves& moves, double half_width,
                double end) {
   std::vector<std::pair<double, double>> steps = steps_of(moves, max_steps);
@@ -133,14 +136,14 @@ void add_curve(FigureData& data, const std::string& label, const SettledMoves& m
                          datum(std::min(1.0, proportion + half_width))});
 }
 
-/// "kp=400, loaded"; of a study with one point "loaded".
+/// Label of a curve: "kp=400, loaded"; "loaded" if the study has one point.
 std::string label_of_curve(const ReportedStudy& reported, const ReportedPart& part, std::int64_t point) {
   return has_conditions(reported) && reported.names.size() == 1
              ? part.condition
              : study::label_under(marked_label_of(reported, point), part.condition);
 }
 
-/// Says which confidence the bands about the curves have, and on how many trials they rest.
+/// Sentence on the confidence of the bands about the curves, and on the number of trials behind them.
 std::string bands_sentence(const ReportedStudy& reported) {
   const std::int64_t moves = reported.file.moves();
   return fmt::format(
@@ -203,10 +206,11 @@ std::optional<Figure> arrival_figure(const ReportedStudy& reported) {
 
 /// A goal or an error band in which moves settle.
 struct SettledSubject {
-  std::string name;                    ///< of the goal; of a band "±1 count"
-  std::string precision;               ///< "1 count", "10 nm"
-  measures::CountedGoal counted;       ///< the moves that are asked, and where they settle
-  std::optional<study::Goal> claim{};  ///< whose lines are drawn
+  std::string name;       ///< Name of the goal, or of the band: "±1 count".
+  std::string precision;  ///< Precision as text: "1 count", "10 nm".
+  /// Selects the judged moves, and the band or tolerance in which they settle.
+  measures::CountedGoal counted;
+  std::optional<study::Goal> claim{};  ///< Goal whose lines are drawn.
 };
 
 std::vector<SettledSubject> settled_subjects(const ReportedStudy& reported) {
@@ -320,10 +324,10 @@ std::vector<Figure> distribution_figures(const ReportedStudy& reported) {
 namespace {
 
 constexpr std::size_t max_parameters = 6;
-constexpr std::size_t max_world_curves = 200;  ///< worlds with a curve
-constexpr std::int64_t max_world_steps = 80;   ///< of a curve
+constexpr std::size_t max_world_curves = 200;  ///< Largest number of worlds with a curve.
+constexpr std::int64_t max_world_steps = 80;   ///< Largest number of steps of a world's curve.
 
-/// The parameter of a rule, or the first.
+/// Index of the parameter in the rule; without a rule, of the first parameter.
 std::size_t leading_input(const worlds::PointWorlds& point) {
   return point.rule ? point.rule->conditions.front().input : 0;
 }

@@ -16,17 +16,17 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::int64_t max_lines = 60;  ///< maximum number of points with a line of their own
-constexpr std::int64_t max_series = 8;  ///< number of colours
+constexpr std::int64_t max_lines = 60;  ///< Largest number of points with a line of their own.
+constexpr std::int64_t max_series = 8;  ///< Largest number of series: the number of colours.
 
-/// The trials that a point has a row or line of its own for: of one goal, under one condition.
+/// The trials that have their own row or line in a figure: for one goal and one condition.
 struct ShownLine {
-  std::string goal;       ///< empty where the study has not several
-  std::string condition;  ///< empty without conditions
+  std::string goal;       ///< Name of the goal; empty unless the study has several goals.
+  std::string condition;  ///< Name of the condition; empty without conditions.
   const ReportedStudy& study;
   goal::Question question;
 
-  /// Proportion of machines or moves that the goal claims; without a goal, of trials.
+  /// Proportion of machines or moves that meet the goal; without a goal, proportion of successful trials.
   goal::QuestionRate rate(std::int64_t point) const {
     const measures::PointSummary& shown = point_of(study, point);
     if (!goal::is_of_machines(question)) return goal::rate_of(question, shown);
@@ -41,7 +41,7 @@ struct ShownLine {
     rate.events = std::ssize(shown.goals[question.parts.front().number].sum({.world = world}).machines);
     return rate;
   }
-  /// The proportion that is asked for.
+  /// Required proportion.
   ordered_json asked() const {
     if (!question.claim()) return nullptr;
     return question.claim()->machines.value_or(question.claim()->moves);
@@ -59,12 +59,12 @@ std::vector<ShownLine> shown_lines(const ReportedStudy& reported) {
   return lines;
 }
 
-/// How the figure speaks of what it shows.
+/// Words for the quantities that a figure shows.
 struct RateWords {
-  std::string rate;     ///< "proportion of machines that meet the goal"
-  std::string hits;     ///< "machines in goal"
-  std::string events;   ///< "machines"
-  std::string meeting;  ///< "machines that meet the goal"
+  std::string rate;     ///< Rate, such as "proportion of machines that meet the goal".
+  std::string hits;     ///< Counted successes, such as "machines in goal".
+  std::string events;   ///< Counted objects, such as "machines".
+  std::string meeting;  ///< Successful objects, such as "machines that meet the goal".
 };
 
 RateWords words_of_rate(const ReportedStudy& reported) {
@@ -80,8 +80,8 @@ RateWords words_of_rate(const ReportedStudy& reported) {
   return {"proportion that the goal is about", "in goal", "of", "machines, or moves, that meet the goal"};
 }
 
-/// "kp=400 ★, large, loaded"; of the lines of a study with one point "large, loaded". @param with_goal
-/// whether the goals have no panels of their own
+/// Label of a line: "kp=400 ★, large, loaded"; "large, loaded" if the study has one point.
+/// @param with_goal whether the goals have no panels of their own
 std::string label_of_line(const ReportedStudy& reported, std::int64_t point, const ShownLine& line,
                           bool with_goal) {
   const bool alone = reported.names.size() == 1;
@@ -109,7 +109,8 @@ ordered_json row_of(const std::string& label, const ShownLine& line, const goal:
                               rate.hits, rate.events, line.asked(), line.condition, line.goal});
 }
 
-/// @param line that shows what is asked, "dark", and what the bounds are, "bars"
+/// Caption text on the required rate and the bounds.
+/// @param line what shows the required rate, "dark", and what shows the bounds, "bars"
 std::string bounds_note(const ReportedStudy& reported, std::string_view line, std::string_view bounds) {
   return fmt::format(
       "{}The {} are {}, for each point separately.",
@@ -179,7 +180,7 @@ std::string axis_title(const study::SweepAxis& axis) {
   return fmt::format("{} ({})", axis.name, axis.unit);
 }
 
-/// Evenly spaced groups, the nearest one replaced by that of the chosen point.
+/// Evenly spaced groups. The group nearest to that of the chosen point is replaced by it.
 std::vector<std::int64_t> groups_shown(const ReportedStudy& reported, const std::vector<PointGroup>& groups,
                                        std::int64_t most) {
   std::vector<std::int64_t> shown = statistics::spread_over(std::ssize(groups), most);
@@ -308,7 +309,7 @@ FigureData cells_of(const MapOfPoints& map) {
   return cells;
 }
 
-/// Whether what is observed is what every goal asks for, under every condition.
+/// Whether the observed rates meet every goal under every condition.
 bool seems_met(const ReportedStudy& reported, std::int64_t point) {
   return std::ranges::all_of(shown_lines(reported), [&](const ShownLine& line) {
     return line.rate(point).value >= line.asked().get<double>();
@@ -345,7 +346,8 @@ FigureData curves_of(const MapOfPoints& map) {
   return data;
 }
 
-/// Where the goal is met by the rate of the trials; nothing without one, or where cells are missing.
+/// Boundary around the points at which the observed rate meets the goal. Empty without a goal, or if cells of
+/// the map are missing.
 FigureData goal_boundary(const MapOfPoints& map) {
   FigureData data = boundaries_data();
   const std::size_t columns = map.x.values.size();

@@ -14,9 +14,10 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::int64_t buckets = 250;  ///< of a trial: several share the figure
+/// Number of groups of samples of a trial, because several trials share the figure.
+constexpr std::int64_t buckets = 250;
 
-/// The trials of the chosen point under one condition, [trial], with how badly they do.
+/// [trial] Trials of the chosen point under one condition, with their badness.
 using RankedTrials = std::vector<std::pair<goal::Badness, std::int64_t>>;
 
 std::vector<RankedTrials> ranked_trials(const ReportedStudy& reported) {
@@ -52,13 +53,15 @@ std::vector<std::int64_t> starts_of_moves(const trial::TrialParameters& paramete
 
 /// A mass whose response is shown.
 struct ShownMass {
-  std::optional<motion::EncoderPlace> mass{};  ///< none: that whose encoder closes the loop
-  bool of_position{false};  ///< its position error (trial::PositionError), not the error of the readings
-  std::vector<goal::JudgedPart> parts{};  ///< what is asked of it
+  /// Mass; nothing: the mass whose encoder closes the loop.
+  std::optional<motion::EncoderPlace> mass{};
+  /// True to show the position error (trial::PositionError), not the error of the readings.
+  bool of_position{false};
+  std::vector<goal::JudgedPart> parts{};  ///< Parts of the goals that judge the mass.
 };
 
-/// The masses whose response is shown: that of the first goal, and the other one where a goal or an encoder
-/// is of it.
+/// The masses whose response is shown: the mass of the first goal, and the other mass if a goal or an encoder
+/// refers to it.
 std::vector<ShownMass> shown_masses(const goal::Question& question, const trial::TrialParameters& p) {
   using enum motion::EncoderPlace;
   const auto mass_of = [](const goal::JudgedPart& part) {
@@ -102,13 +105,13 @@ std::vector<double> errors_of(const ReplayedTrial& replayed, const ShownMass& sh
   return errors;
 }
 
-/// Half the width of what a goal asks for, rad; a band ends halfway to the next reading.
+/// Half the width of a goal's band or tolerance, rad. A band ends halfway to the next reading.
 double half_width(const std::optional<study::Goal>& goal, double resolution) {
   if (goal && goal->tolerance) return *goal->tolerance;
   return (static_cast<double>(goal ? goal->band : 0) + 0.5) * resolution;
 }
 
-/// Goals as boxes, one for each move that they are about, from the time that they allow to its end.
+/// Goals as boxes: one for each move that a goal judges, from the allowed time to the end of the move.
 FigureData boxes_of(const std::vector<goal::JudgedPart>& parts, const ReplayedTrial& replayed) {
   const trial::TrialParameters& parameters = replayed.parameters;
   FigureData data{"goals",
@@ -181,7 +184,8 @@ std::string courses_of(const goal::Question& question, const std::vector<SampleT
   return courses + ".";
 }
 
-/// @param one_of_two whether the figure is of one of two shown masses
+/// Figure of the response of a mass.
+/// @param one_of_two whether the mass is one of two that are shown
 Figure response_figure(const ReportedStudy& reported, const std::vector<SampleTrial>& trials,
                        const std::vector<ReplayedTrial>& replayed, const ShownMass& shown, bool one_of_two) {
   const goal::Question& question = question_of(reported);
@@ -262,14 +266,15 @@ namespace {
 
 constexpr const char* targets_axis = "command.targets.0";
 
-/// Fig. 7: needs points with one move each that differ only in the target.
+/// Whether the study can reproduce Fig. 7, which needs points with one move each that differ only in the
+/// target.
 bool shows_targets(const ReportedStudy& reported) {
   const std::vector<study::SweepAxis>& axes = reported.summary.axes;
   return axes.size() == 1 && axes[0].name == targets_axis && reported.file.moves() == 1 &&
          !numeric_axes(reported, 3).empty() && axes[0].numbers.size() <= 30;
 }
 
-/// Fig. 8: needs one point with one move, and jerks in most trials.
+/// Whether the study can reproduce Fig. 8, which needs one point with one move, and jerks in most trials.
 bool shows_jerks(const ReportedStudy& reported) {
   const measures::PointSummary& point = reported.summary.points.front();
   return reported.summary.points.size() == 1 && reported.file.moves() == 1 &&
@@ -327,12 +332,12 @@ Figure jerks_in_time(const ReplayedTrial& trial) {
       {data_of("samples", trial.samples, {time_column, count_column, torque_column})});
 }
 
-/// A place that an open-loop trial loads, over which its torque is drawn.
+/// A position quantity of an open-loop trial over which the torque is drawn.
 struct LoadedPlace {
   const char* field;
   const char* title;
   double trial::SampleRecord::*of_sample;
-  double trial::MoveOutcome::*at_end;  ///< of a level
+  double trial::MoveOutcome::*at_end;  ///< Value at the end of a torque level.
 };
 
 /// The ends of the torque levels. Levels that end at the same point share a row.
@@ -359,7 +364,8 @@ FigureData level_ends(const ReplayedTrial& trial, const LoadedPlace& place) {
   return data;
 }
 
-/// The torque over a place that it loads. @param meaning what the curve shows
+/// The torque over a position that it loads.
+/// @param meaning sentence on what the curve shows
 Figure loading_figure(const ReplayedTrial& trial, const char* name, const char* title,
                       const LoadedPlace& place, const char* meaning) {
   const SampleColumn column{{place.field, place.title, "µrad"},

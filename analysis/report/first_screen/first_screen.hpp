@@ -45,42 +45,43 @@ class PointValues {
   /// Whether the study has a parameter or a list with this dotted path.
   bool has(std::string_view name) const;
 
-  /// "3.2 … 4.6 kg", "presliding", "none"; of a distribution without ends "about 130 N m/rad"; of a list its
-  /// values.
+  /// The value as text: "3.2 … 4.6 kg", "presliding", "none"; for a distribution without ends "about 130 N
+  /// m/rad"; for a list its values.
   std::string text(std::string_view name) const;
   std::string text(std::size_t slot) const;
 
-  /// "per machine", "per trial", … where the value is drawn; else empty.
+  /// Unit of sampling of a drawn value: "per machine", "per trial", …; empty if the value is not drawn.
   std::string draw_text(std::size_t slot) const;
 
  private:
   std::size_t slot_of(std::string_view name) const;
-  std::vector<double> typical_values(std::size_t slot) const;  ///< under each condition
+  std::vector<double> typical_values(std::size_t slot) const;  ///< [condition] Typical value.
 
   const study::Study& study_;
   std::int64_t point_;
 };
 
-/// The axis of a design point as HTML, by axis.html: blocks with what is on in some trial under some
-/// condition, which page.css lays out and joins by arrows, from left to right on wide screens and paper, from
-/// top to bottom on phones.
+/// The axis of a design point as an HTML diagram, made from axis.html. Its blocks contain the parts that are
+/// on in some trial under some condition. page.css joins them by arrows, from left to right on wide screens
+/// and paper, from top to bottom on phones.
 std::string diagram_html(const study::Study& study, std::int64_t point);
 
 /// A goal in SI units: "±10 nm for good after 30 ms; true overshoot ≤ 1 µm; in 95 % of moves 0, 3 of 95 % of
 /// the machines, with 95 % confidence".
 std::string requirement_text(const study::Goal& goal, const study::Study& study);
 
-/// Each goal under each condition at the chosen point: the verdict with its bounds, and what the moves do:
-/// overshoot, peak torque, saturation. Without a goal the latter alone.
+/// Table of each goal under each condition at the chosen point: the verdict with bounds, and overshoot, peak
+/// torque and saturation of the moves. Without a goal only the latter.
 /// @param claims by goal and condition
 std::string requirements_html(const ReportedStudy& reported, const std::vector<summary::CellOfPoint>& claims);
 
-/// Parts that the results file does not contain. A part that is not given is made from the file.
+/// Parts of the first screen that the results file does not contain. A part that is not given is made from
+/// the file.
 struct FirstScreenParts {
-  std::string warnings{};  ///< HTML, above all
+  std::string warnings{};  ///< Warnings as HTML, placed above everything else.
   std::string headline{};
-  std::vector<summary::CellOfPoint> claims{};  ///< by goal and condition
-  std::string margins{};                       ///< HTML, in place of the loops of `check`
+  std::vector<summary::CellOfPoint> claims{};  ///< Claims by goal, then by condition.
+  std::string margins{};                       ///< Margins as HTML, in place of the loops of `check`.
 };
 
 /// The first screen of a page: the verdict, the axis as a diagram, the requirements with their verdicts, the

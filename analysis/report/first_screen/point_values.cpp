@@ -27,7 +27,7 @@ std::string_view level_text(study::DrawLevel level) {
   return "per contact";
 }
 
-/// Without places for a line break but behind a comma and beside "…".
+/// The text with non-breaking spaces, so that lines break only after a comma and beside "…".
 std::string unbroken(std::string text) {
   constexpr std::string_view no_break_space = "\u00a0", to = "…";
   const auto may_break = [&](std::size_t at) {

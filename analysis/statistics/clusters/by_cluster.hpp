@@ -8,12 +8,13 @@
 
 namespace zerocount::statistics {
 
-/// A sum for each cluster, such as a machine, zero at first, that parts of a study add up. In memory from the
-/// first cluster that was added to up to the last one: a block of trials is in few of many clusters.
+/// A sum for each cluster, such as a machine. All sums are zero at first. Sums of parts of a study can be
+/// added. Memory is used from the first to the last cluster that was added to, because a block of trials
+/// belongs to few of many clusters.
 template <class Sum = std::int64_t>
 class ByCluster {
  public:
-  /// That of a cluster, to add to.
+  /// The sum of a cluster, as a reference to add to.
   Sum& sum_of(std::int64_t cluster) {
     hold(cluster, cluster + 1);
     return sums_[at(cluster)];
@@ -66,7 +67,7 @@ class ByCluster {
   }
 
   std::int64_t first_{0};
-  std::vector<Sum> sums_;  ///< [cluster − first_]
+  std::vector<Sum> sums_;  ///< [cluster − first_] Sum of the cluster.
 };
 
 }  // namespace zerocount::statistics

@@ -37,7 +37,7 @@ struct Estimate {
   double error{0.0};
 };
 
-/// @param drawn [cluster] weight: how often the resample contains it
+/// @param drawn [cluster] number of times that the resample contains the cluster, its weight
 Estimate estimate_of(const Clusters& totals, const std::vector<std::int32_t>& drawn, double clusters) {
   double sum = 0.0, number = 0.0, sum_sum = 0.0, sum_number = 0.0, number_number = 0.0;
   for (std::size_t i = 0; i < drawn.size(); ++i) {
@@ -72,8 +72,8 @@ struct Tails {
   double high{unknown};
 };
 
-/// Of all samples of m clusters drawn with replacement, each with its probability m!/(Π kᵢ!·mᵐ), kᵢ the
-/// number of times that cluster i is drawn.
+/// The distribution of (θ* − θ)/e* over all samples of m clusters drawn with replacement. A sample has the
+/// probability m!/(Π kᵢ!·mᵐ), where kᵢ is the number of times that cluster i is drawn.
 class EverySample {
  public:
   EverySample(const Clusters& totals, double mean)
@@ -115,7 +115,7 @@ class EverySample {
   const Clusters& totals_;
   double mean_;
   std::vector<std::int32_t> drawn_;
-  std::vector<std::pair<double, double>> values_;  ///< with their weights
+  std::vector<std::pair<double, double>> values_;  ///< Values of (θ* − θ)/e* with their weights.
 };
 
 /// (θ* − θ)/e* of every resample, sorted.

@@ -10,28 +10,31 @@
 
 namespace zerocount::statistics {
 
-/// A larger number of clusters is merged into this many groups, which again are independent clusters. More
-/// groups would slow the bootstrap without better bounds.
+/// Largest number of clusters that are kept apart. More clusters are merged into this many groups, which are
+/// independent clusters again. More groups would slow the bootstrap without improving the bounds.
 inline constexpr std::int64_t max_clusters = 4096;
 
 inline constexpr std::int64_t bootstrap_resamples = 2000;
 
-/// With so few clusters there are fewer different resamples, C(2m − 1, m), than are drawn otherwise: 1716.
+/// Largest number m of clusters for which all resamples are enumerated. The number of different resamples,
+/// C(2m − 1, m) = 1716 for m = 7, is then smaller than bootstrap_resamples.
 inline constexpr std::int64_t max_enumerated_clusters = 7;
 
 /// Sum and number of the values of each cluster. The mean is Σ sums/Σ numbers. Totals of parts of a sample,
-/// added in any order, are those of the whole.
+/// added in any order, equal the totals of the whole sample.
 struct ClusterTotals {
-  ByCluster<ExactSum> sums;  ///< in the values' unit
-  ByCluster<> numbers;
-  ByCluster<> added;         ///< how often values were added, none being values too
-  std::int64_t highest{-1};  ///< of the clusters before grouping
+  ByCluster<ExactSum> sums;  ///< Sum of the values of each cluster, in the values' unit.
+  ByCluster<> numbers;       ///< Number of values of each cluster.
+  /// Number of calls of add() for each cluster, including calls without values.
+  ByCluster<> added;
+  std::int64_t highest{-1};  ///< Highest number of a cluster before grouping; −1 without clusters.
 
-  /// Adds values to a cluster; it belongs to group `cluster` mod max_clusters. A cluster to which none were
-  /// ever added is none.
+  /// Adds values to a cluster, which belongs to group `cluster` mod max_clusters. A cluster to which no
+  /// values were ever added does not count as a cluster.
   void add(std::int64_t cluster, std::span<const double> values);
   ClusterTotals& operator+=(const ClusterTotals& other);
-  /// Number of clusters before grouping, where each was added to once, or none below the highest is missing.
+  /// Number of clusters before grouping. It is correct if each cluster was added to once, or if no cluster
+  /// below the highest is missing.
   std::int64_t clusters() const;
 
   template <class Self, class Archive>

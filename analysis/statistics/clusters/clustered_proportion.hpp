@@ -16,13 +16,14 @@ struct ClusteredProportion {
   std::int64_t events{0};        ///< n
   double value{unknown};         ///< k/n
   double effective_events{0.0};  ///< equivalent number of independent events, without t adjustment
-  ConfidenceInterval korn_graubard{0.0, 1.0};  ///< Clopper–Pearson with the effective number of events
-  ConfidenceInterval wilson{0.0, 1.0};         ///< Wilson with the same number
+  /// Clopper–Pearson interval with the effective number of events.
+  ConfidenceInterval korn_graubard{0.0, 1.0};
+  ConfidenceInterval wilson{0.0, 1.0};  ///< Wilson interval with the effective number of events.
 };
 
-/// Sums over clusters, of which cluster i has kᵢ hits in nᵢ events.
+/// Sums over clusters. Cluster i has kᵢ hits in nᵢ events.
 struct ClusterSums {
-  std::int64_t clusters{0};    ///< m: those with an event
+  std::int64_t clusters{0};    ///< Number m of clusters with at least one event.
   std::int64_t hits{0};        ///< Σ kᵢ
   std::int64_t events{0};      ///< n = Σ nᵢ
   double hits_squared{0.0};    ///< Σ kᵢ²
@@ -47,8 +48,8 @@ struct ClusterSums {
   }
 };
 
-/// The sums over machines of trials, of which trial i runs on machine i mod machines. @param hits 1 for each
-/// trial that is one, otherwise 0
+/// ClusterSums of trials whose clusters are machines; trial i runs on machine i mod machines.
+/// @param hits [trial] 1 for a hit, otherwise 0
 ClusterSums sums_by_machine(std::span<const double> hits, std::int64_t machines);
 
 /// The equivalent number of independent events (effective sample size),
@@ -79,7 +80,7 @@ double most_shown_by_clusters(double clusters, double proportion, double confide
 /// @throws Failure (bad_input) for a confidence outside (0, 1).
 ClusteredProportion clustered_proportion(const ClusterSums& sums, double confidence = summary_confidence);
 
-/// The one-sided lower and upper bound of the proportion with the stated confidence.
+/// The one-sided lower and the one-sided upper bound of the proportion, each with the stated confidence.
 double clustered_at_least(const ClusterSums& sums, double confidence);
 double clustered_at_most(const ClusterSums& sums, double confidence);
 

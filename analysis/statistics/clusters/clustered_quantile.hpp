@@ -48,8 +48,8 @@ class ClusteredSample {
  private:
   /// Increments at x of sums over the clusters' numbers kᵢ(x) of values ≤ x.
   struct Step {
-    double hits_squared{0.0};    ///< of Σ kᵢ(x)²
-    double hits_by_events{0.0};  ///< of Σ kᵢ(x)·nᵢ
+    double hits_squared{0.0};    ///< Increment of Σ kᵢ(x)².
+    double hits_by_events{0.0};  ///< Increment of Σ kᵢ(x)·nᵢ.
 
     template <class Self, class Archive>
     static void transfer(Self& self, Archive& archive) {
@@ -60,7 +60,8 @@ class ClusteredSample {
   void count_in_steps();
   void add_step(double value, std::int64_t before, std::int64_t count, std::int64_t size);
 
-  bool single_values_{true};  ///< every cluster so far has one value: the histogram gives the increments
+  /// True while every cluster has one value. The increments then follow from the histogram.
+  bool single_values_{true};
   Histogram<double> observed_;
   std::map<double, Step> steps_;
   ClusterSums totals_;

@@ -45,14 +45,14 @@ std::int64_t passing(std::span<const MachineMoves> machines, std::int64_t met) {
                        [met](const MachineMoves& machine) { return machine.met >= met; });
 }
 
-/// As if all moves of a machine beyond the first `moves` met the requirement, and were left out.
+/// Reduces every machine to `moves` moves. The moves left out are taken to be moves that met the requirement.
 std::vector<MachineMoves> without_further_moves(std::span<const MachineMoves> machines, std::int64_t moves) {
   std::vector<MachineMoves> shortened(machines.begin(), machines.end());
   for (MachineMoves& machine : shortened) machine.met -= machine.moves - moves;
   return shortened;
 }
 
-/// The moves that miss in place of those that meet the requirement.
+/// The machines with the moves that miss the requirement in place of the moves that meet it.
 std::vector<MachineMoves> missing(std::span<const MachineMoves> machines) {
   std::vector<MachineMoves> missed(machines.begin(), machines.end());
   for (MachineMoves& machine : missed) machine.met = machine.moves - machine.met;

@@ -10,10 +10,10 @@
 
 namespace zerocount::statistics {
 
-/// Moves of one machine, of which some meet a requirement.
+/// Numbers of moves of one machine, and of those that meet a requirement.
 struct MachineMoves {
-  std::int64_t trials{0};  ///< independent, given the machine
-  std::int64_t moves{0};   ///< of all trials, each with as many
+  std::int64_t trials{0};  ///< Number of trials. They are independent given the machine.
+  std::int64_t moves{0};   ///< Number of moves of all trials; every trial has the same number.
   std::int64_t met{0};
 
   MachineMoves& operator+=(const MachineMoves& other) {
@@ -30,11 +30,11 @@ struct MachineMoves {
   }
 };
 
-/// The proportion π of all machines that meet the requirement in at least the proportion q of their moves,
-/// with one-sided bounds. p_r, the proportion of machine r in infinitely many moves, is not known: the
-/// machine was seen in n moves only.
+/// One-sided bounds of the proportion π of all machines that meet the requirement in at least the proportion
+/// q of their moves. The proportion p_r of machine r in infinitely many moves is not known, because the
+/// machine was seen in only n moves.
 struct MachineProportion {
-  std::int64_t meeting{0};  ///< machines with met/moves ≥ q
+  std::int64_t meeting{0};  ///< Number of observed machines with met/moves ≥ q.
   double low{0.0};
   double high{1.0};
 };
@@ -44,29 +44,34 @@ struct MachineProportion {
 struct MachineClaim {
   double proportion;  ///< q
   double wanted;
-  double confidence;  ///< of a bound
-  /// Machines meet the requirement under several conditions if they do under each, and show the fewest moves
-  /// of these, which may depend on each other: the ratio of two tails is not known then. Only for `low`.
+  double confidence;  ///< Confidence of each one-sided bound.
+  /// True if the requirement must be met under each of several conditions. A machine then counts with the
+  /// fewest moves met under any of them. These numbers may depend on each other, so the ratio of two tails is
+  /// not known. Used only for `low`.
   bool of_least{false};
 };
 
 /// The size of a study on machines.
 struct MachineStudy {
   std::int64_t machines{0};
-  std::int64_t trials{0};  ///< of a machine
-  std::int64_t moves{0};   ///< of a machine, of all its trials
-  bool all_alike{true};    ///< all machines have as many moves; otherwise these are the fewest
+  std::int64_t trials{0};  ///< Number of trials of each machine.
+  std::int64_t moves{0};   ///< Number of moves of each machine in all its trials.
+  /// True if all machines have the same number of moves. Otherwise `trials` and `moves` belong to the machine
+  /// with the fewest moves.
+  bool all_alike{true};
 };
 
-/// How probably a machine that meets the requirement in the proportion p of its moves shows `met` or more, at
-/// most (exactly for trials of one move): ε of MachineBound.
+/// Largest probability with which a machine that meets the requirement in the proportion p of its moves shows
+/// `met` or more moves that do: ε of MachineBound. It is exact for trials of one move.
 double chance_to_show(const MachineStudy& study, double p, std::int64_t met);
 
 /// Machines that pass a mark: c or more of their n moves meet the requirement.
 struct MachineMark {
-  std::int64_t met{0};    ///< c
-  std::int64_t among{0};  ///< b: the mark is of those machines alone that show b or more; 0: of all
-  double wrong{1.0};  ///< ρ: proportion of machines below q that pass, at most; of those that show b or more
+  std::int64_t met{0};  ///< c
+  /// b: only machines that show b or more moves are considered; 0: all machines.
+  std::int64_t among{0};
+  /// ρ: largest proportion of passing machines among the machines below q that show b or more moves.
+  double wrong{1.0};
 };
 
 /// The lower bound of π from the numbers of machines that pass some marks.
@@ -106,24 +111,26 @@ class MachineBound {
  public:
   MachineBound(const MachineStudy& study, const MachineClaim& claim);
 
-  /// @param passing number of machines that show so many moves or more
+  /// The lower bound of π.
+  /// @param passing number of machines that show `met` or more moves
   double at_least(const std::function<std::int64_t(std::int64_t met)>& passing) const;
 
-  /// Machines that show `met` moves or more, in a number that suffices to show the proportion that is wanted.
+  /// A result that suffices for the wanted proportion: at least `machines` machines show `met` or more moves.
   struct Enough {
     std::int64_t met{0};
-    std::int64_t machines{0};  ///< more than there are: no number suffices
+    /// Number of machines. If it exceeds the number of machines in the study, no number suffices.
+    std::int64_t machines{0};
   };
-  /// [mark]; of the marks that are of all machines.
+  /// [mark] The sufficient results, for the marks that consider all machines.
   std::vector<Enough> enough() const;
 
  private:
-  /// A mark of a stage, and its part of the error.
+  /// A mark that is tested in a stage, and its proportion of the error 1 − γ.
   struct Tested {
     MachineMark mark;
     double error;
   };
-  /// Proportions that are shown by the same marks.
+  /// A range of proportions that are tested by the same marks.
   struct Stage {
     std::vector<Tested> marks;
     double reach;
@@ -141,7 +148,7 @@ class MachineBound {
 /// @param machines with moves each @param confidence of each bound
 MachineProportion machine_proportion(std::span<const MachineMoves> machines, const MachineClaim& claim);
 
-/// The claim on the machines that do not meet the requirement.
+/// The complementary claim: on the machines that do not meet the requirement.
 MachineClaim of_missing(const MachineClaim& claim);
 
 }  // namespace zerocount::statistics

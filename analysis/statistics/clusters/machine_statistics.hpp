@@ -10,16 +10,16 @@
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/statistics/unknown.hpp"
 
-/// How much machines differ in their success. Repeatability concerns the trials of one machine, robustness
-/// the differences between machines.
+/// Statistics of the differences in success between machines. Repeatability concerns the trials of one
+/// machine, robustness the differences between machines.
 namespace zerocount::statistics {
 
 /// The trials of one machine at a design point.
 struct MachineTrials {
   std::int64_t trials{0};
-  std::int64_t successes{0};   ///< trials all of whose moves ended at zero error
-  std::int64_t moves{0};       ///< moves with a target
-  std::int64_t zero_moves{0};  ///< of them, those that ended at zero error
+  std::int64_t successes{0};   ///< Number of trials in which all moves ended at zero error.
+  std::int64_t moves{0};       ///< Number of moves with a target.
+  std::int64_t zero_moves{0};  ///< Number of moves with a target that ended at zero error.
 
   MachineTrials& operator+=(const MachineTrials& other);
 
@@ -59,8 +59,8 @@ struct MachineTolerance {
 MachineTolerance machine_tolerance(std::span<const MachineTrials> machines, double content,
                                    double confidence);
 
-/// The minimum number of machines for a MachineTolerance, and δ for a number of machines (0 below the
-/// minimum).
+/// The minimum number of machines for a MachineTolerance; and δ for a number of machines, 0 below that
+/// minimum.
 std::int64_t min_machines_for_tolerance(double content, double confidence);
 double tolerance_allowance(std::int64_t machines, double content, double confidence);
 
@@ -83,9 +83,9 @@ struct MachineStatistics {
   /// Mean observed success rate of the ⌈R/20⌉ worst machines. With few trials per machine it is biased below
   /// their true success probability, because the selection favours machines with bad luck.
   double worst_5_percent{unknown};
-  ClusterSums successes;                            ///< of the trials; each machine is a cluster
-  std::vector<std::int64_t> successes_of_machines;  ///< [machine]
-  std::int64_t trials_of_machine{0};                ///< on each
+  ClusterSums successes;  ///< Sums of the trials' successes; each machine is a cluster.
+  std::vector<std::int64_t> successes_of_machines;  ///< [machine] Number of successful trials.
+  std::int64_t trials_of_machine{0};                ///< Number of trials on each machine.
   MachineTolerance tolerance;
 };
 

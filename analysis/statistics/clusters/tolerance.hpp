@@ -25,8 +25,8 @@ inline constexpr std::array<double, 3> tolerance_contents{0.95, 0.99, 0.999};
 
 /// An upper tolerance limit of the settling time.
 struct ToleranceLimit {
-  double content{0.0};     ///< the proportion of axes
-  double within{unknown};  ///< s; NaN if there is no limit
+  double content{0.0};     ///< Proportion of axes that settle in time.
+  double within{unknown};  ///< Time within which they settle, s; NaN if there is no limit.
 };
 
 /// Tolerance statement about the success of all axes that the manifest describes, from the trials of a point.
@@ -34,18 +34,22 @@ struct SuccessClaim {
   std::int64_t trials{0};
   std::int64_t failures{0};
   double confidence{summary_confidence};
-  double success_at_least{0.0};  ///< proportion of axes, proportion_at_least
-  double failure_at_most{1.0};   ///< its complement
-  double success_at_most{
-      1.0};  ///< proportion of axes, proportion_at_most; not claimed together with success_at_least
-  std::int64_t machines{0};  ///< that ran the trials; 0: every trial is a different axis
+  /// Lower bound of the proportion of axes that succeed, by proportion_at_least().
+  double success_at_least{0.0};
+  /// Upper bound of the proportion of axes that fail: 1 − success_at_least.
+  double failure_at_most{1.0};
+  /// Upper bound of the proportion of axes that succeed, by proportion_at_most(). It is not claimed together
+  /// with success_at_least.
+  double success_at_most{1.0};
+  /// Number of machines that ran the trials; 0: every trial is a different axis.
+  std::int64_t machines{0};
 };
 
-/// For a number of trials that was fixed in advance.
+/// Claim for a number of trials that was fixed in advance.
 SuccessClaim success_claim(std::int64_t successes, std::int64_t trials, double confidence);
 
-/// For a number of trials that depended on the outcomes (sequential stopping): from
-/// confidence_sequence_bounds.
+/// Claim for a number of trials that depended on the outcomes (sequential stopping), by
+/// confidence_sequence_bounds().
 SuccessClaim success_claim_at_any_time(std::int64_t successes, std::int64_t trials, double confidence);
 
 /// Combines two claims about the same trials: `one` with the weaker bounds of both.

@@ -24,15 +24,16 @@ class TrialClusters {
   /// ones).
   /// @param observed in any order; the call may sort them
   void add_trial(std::int64_t trial, std::vector<double>& observed, std::int64_t size);
-  /// Adds trials with `of_trial` values each. @param trial index of the first @param values [trial, value];
-  /// NaN: none, or if `nan_is_late` one that is censored
+  /// Adds consecutive trials with `of_trial` values each.
+  /// @param trial index of the first trial
+  /// @param values [trial, value] NaN: no value, or a censored value if `nan_is_late`
   void add_trials(std::int64_t trial, std::span<const double> values, std::size_t of_trial, bool nan_is_late);
-  /// Adds other trials, of as many machines.
+  /// Adds the trials of another collection with the same number of machines.
   TrialClusters& operator+=(const TrialClusters& other);
 
   /// The sample of all trials added so far.
   ClusteredSample sample() const;
-  std::int64_t size() const;  ///< of the sample
+  std::int64_t size() const;  ///< Number of all values, including the censored ones.
 
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
@@ -45,7 +46,7 @@ class TrialClusters {
   }
 
  private:
-  /// How often a machine has a value.
+  /// Number of times that a machine has a value.
   struct Count {
     std::int64_t machine{0};
     double value{0.0};
@@ -58,11 +59,11 @@ class TrialClusters {
   };
 
   void add(const Count& count);
-  /// Sorts the counts by machine and value, and adds those of the same.
+  /// Sorts the counts by machine and value, and adds counts of the same machine and value.
   void combine();
 
-  /// For each machine from 0 on: the number of distinct values, each value with its count, the sum of the
-  /// counts, and the number of all values.
+  /// Writes for each machine from 0 on: the number of distinct values, each value with its count, the sum of
+  /// the counts, and the number of all values.
   template <class Archive>
   void write(Archive& archive) const {
     TrialClusters combined = *this;
@@ -97,10 +98,11 @@ class TrialClusters {
   }
 
   std::int64_t machines_in_all_;
-  std::vector<Count> counts_;  ///< of machines; the first ones are combined
-  std::size_t combined_{0};    ///< how many
-  ByCluster<> sizes_;          ///< numbers of values, with the censored ones
-  ClusteredSample trials_;     ///< without machines
+  /// Counts of the values of machines. The first `combined_` of them are combined.
+  std::vector<Count> counts_;
+  std::size_t combined_{0};  ///< Number of elements of `counts_` that are combined.
+  ByCluster<> sizes_;        ///< Number of values of each machine, including the censored ones.
+  ClusteredSample trials_;   ///< The clusters if there are no machines: every trial is one.
 };
 
 }  // namespace zerocount::statistics

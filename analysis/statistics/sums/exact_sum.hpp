@@ -7,7 +7,7 @@
 namespace zerocount::statistics {
 
 /// The exact sum of finite doubles and of their squares. It does not depend on the order of the additions, so
-/// that the statistics of parts of a sample, put together, are those of the whole.
+/// the statistics of parts of a sample can be combined to exactly those of the whole.
 ///
 /// A fixed-point number of as many digits as the values need: the digit at place i is worth 2^(32·i − 2176).
 /// Source: Kulisch, Computer Arithmetic and Validity (2008), section 8.
@@ -40,23 +40,25 @@ class ExactSum {
  private:
   /// Whether the restored digits and their places are within their ranges.
   bool is_valid() const;
-  /// Brings the digits into the one form that stands for the number, whatever it was the sum of.
+  /// Brings the digits into the unique form of the number, which does not depend on the summands.
   void normalise();
   ExactSum& add_digits(const ExactSum& other);
   void add_to_digits(double value);
   void add_square_to_digits(double value);
-  /// Brings the only summand into digits.
+  /// Converts the only summand `only_` to digits.
   void begin_digits();
-  /// The digits from this place on, `count` of them, to add less than 2^32 to each.
+  /// The `count` digits from `place` on, for adding less than 2^32 to each.
   std::int64_t* digits_at(std::int64_t place, std::int64_t count);
   void reach(std::int64_t low, std::int64_t high);
 
-  static constexpr std::int64_t last_place = 4224 / 32;  ///< of 2^2048, above the largest square
+  /// Place of the digit for 2^2048, which exceeds the largest square.
+  static constexpr std::int64_t last_place = 4224 / 32;
 
   double only_{0.0};  ///< the sum while it has no digits: a sum of one value takes no memory for them
   std::vector<std::int64_t> digits_;
-  std::int64_t first_{0};      ///< place of the first digit
-  std::int64_t additions_{0};  ///< since the last normalise(): the digits must not overflow
+  std::int64_t first_{0};  ///< place of the first digit
+  /// Number of additions since the last normalise(), so that the digits do not overflow.
+  std::int64_t additions_{0};
 };
 
 /// Σ(xᵢ − x̄)² = Σxᵢ² − (Σxᵢ)²/n, rounded to the nearest double.

@@ -39,8 +39,8 @@ struct Moments {
   double sd() const { return n < 2 ? unknown : std::sqrt(squares / static_cast<double>(n - 1)); }
 };
 
-/// Sums of a sample, from which its Moments follow. They are exact: those of parts of a sample, added in any
-/// order, are those of the whole.
+/// Sums of a sample from which Moments are computed. They are exact: sums of parts of a sample, added in any
+/// order, equal the sums of the whole sample.
 struct MomentSums {
   std::int64_t n{0};          ///< finite values
   std::int64_t nonfinite{0};  ///< values left out because they are not finite

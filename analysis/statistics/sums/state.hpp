@@ -55,11 +55,13 @@ class StateWriter {
   State& state_;
 };
 
-/// @throws Failure (bad_data), from every function, if the numbers end before the fields do, or cannot be
-/// those of the fields.
+/// Reads the fields of an accumulator from numbers. It does not check the values of fields: the accumulator
+/// calls require() with its own conditions.
+/// @throws Failure (bad_data) if numbers are missing, a length exceeds the number of those left, or the keys
+/// of a map do not rise; from require_end() if numbers are left
 class StateReader {
  public:
-  /// @param whole, real stay as long as this
+  /// @param whole, real must outlive the reader
   StateReader(std::span<const std::int64_t> whole, std::span<const double> real)
       : whole_(whole), real_(real) {}
 
@@ -73,7 +75,7 @@ class StateReader {
   }
   void require_end() const;
 
-  /// The numbers that are left.
+  /// The remaining numbers.
   std::span<const std::int64_t> whole() const { return whole_; }
   std::span<const double> real() const { return real_; }
 
@@ -81,7 +83,8 @@ class StateReader {
   [[noreturn]] static void fail();
   std::int64_t next_whole();
   double next_real();
-  std::size_t next_size();  ///< of a vector: no more than the numbers that are left
+  /// Number of elements of a vector. It is at most the number of remaining numbers.
+  std::size_t next_size();
 
   void read(std::int64_t& number) { number = next_whole(); }
   void read(double& number) { number = next_real(); }

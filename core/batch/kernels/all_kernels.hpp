@@ -17,7 +17,8 @@
 
 namespace zerocount::batch {
 
-/// All kernels. @tparam Width of the vectors. @tparam EventChains of them in the steps that locate events.
+/// All kernels. @tparam Width number of doubles in a vector. @tparam EventChains number of vectors side by
+/// side in the steps that locate events.
 template <int Width, int EventChains>
 inline constexpr Kernels kernels_with{
     .lanes_at_stop = lanes_at_stop_kernel<Simd<Width, 1>>,

@@ -12,23 +12,24 @@ namespace zerocount::batch {
 template <class P>
 struct VaryingTorque {
   using Mask = typename P::Mask;
-  P fixed[batch_order];     ///< without the ripples; [0] is the whole torque
-  P velocity[batch_order];  ///< coefficients of ω·h, in the unit of the motion's series
+  P fixed[batch_order];  ///< Series of the torque without the ripples; but [0] is the whole torque, ripples
+                         ///< included.
+  P velocity[batch_order];  ///< Coefficients of ω·h, in the unit of the motion's series
   int ripples;
   P amplitude[max_lane_ripples];
-  P per_travel[max_lane_ripples];  ///< q by the unit of `velocity`
+  P per_travel[max_lane_ripples];  ///< q in the unit of `velocity`
   motion::WaveSeriesOf<P[batch_order]> waves[max_lane_ripples];
 
-  Mask parabolic;      ///< lanes whose ripples are parabolas; of them:
-  bool has_parabolas;  ///< there are some
-  bool has_waves;      ///< there are others
-  P linear;            ///< Σ A·c·q
-  P quadratic;         ///< −Σ A·s·q²/2
-  P cubic;             ///< Σ |A·q³|/6
+  Mask parabolic;      ///< Lanes whose ripples are approximated by parabolas.
+  bool has_parabolas;  ///< Some lane approximates its ripples by parabolas.
+  bool has_waves;      ///< Some lane expands its ripples as waves.
+  P linear;            ///< Σ A·c·q of the parabolas
+  P quadratic;         ///< −Σ A·s·q²/2 of the parabolas
+  P cubic;             ///< Σ |A·q³|/6, which bounds the error of the parabolas per |travel|³
   P travel[batch_order];
-  P reach;  ///< Σ|coefficient of the travel|, which bounds it
+  P reach;  ///< Σ |coefficient of the travel|, a bound of the travel
 
-  /// Makes parabolas of the ripples of some lanes.
+  /// Approximates the ripples of these lanes by parabolas.
   ZEROCOUNT_ALWAYS_INLINE void set_parabolic(const Mask& lanes) {
     parabolic = lanes;
     has_parabolas = ripples > 0 && lanes.any();
@@ -43,7 +44,7 @@ struct VaryingTorque {
     }
   }
 
-  /// Coefficient k of the torque, in ascending order. @param velocity_k that of ω·h
+  /// Coefficient k of the torque. Call in ascending order of k. @param velocity_k coefficient k of ω·h.
   ZEROCOUNT_ALWAYS_INLINE P coefficient(int k, const P& velocity_k) {
     velocity[k] = velocity_k;
     P torque = fixed[k];
@@ -77,8 +78,8 @@ struct VaryingTorque {
   }
 };
 
-/// Loads the torque for a step of h (s). @param unit of the torque's coefficients, 1/(N m). @param
-/// travel_unit of VaryingTorque::velocity, rad.
+/// Loads the torque for a step of h (s). @param unit unit of the torque's coefficients, 1/(N m). @param
+/// travel_unit unit of VaryingTorque::velocity, rad.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void load_torque(const BatchState& batch, const At& at, const P& h, const P& unit,
                                          const P& travel_unit, VaryingTorque<P>& torque) {
@@ -104,7 +105,7 @@ ZEROCOUNT_ALWAYS_INLINE void load_torque(const BatchState& batch, const At& at, 
   torque.set_parabolic(P::Mask::of_bits(0));
 }
 
-/// How far the torque may be from its present value within `duration` (s), N m.
+/// Bound of the change of the torque from its present value within `duration` (s), N m.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE P torque_range(const BatchState& batch, const At& at, const P& duration) {
   const CourseLanes& c = batch.course;
@@ -123,7 +124,7 @@ ZEROCOUNT_ALWAYS_INLINE P torque_range(const BatchState& batch, const At& at, co
   return sum;
 }
 
-/// du/dt·T at this instant, N m.
+/// Rate of the torque per sample time, du/dt·T, at this instant, N m.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE P torque_rate(const BatchState& batch, const At& at, const P& omega) {
   const CourseLanes& c = batch.course;
@@ -147,7 +148,7 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask crosses_once(const P* c, int order) {
   return (abs(c[1]) > curvature_bound(c, order)) | (P(2.0) * abs(c[2]) > third);
 }
 
-/// The time since the nominal instant of the last sample, s.
+/// Time since the nominal instant k·T of the last sample, s.
 template <class At>
 ZEROCOUNT_ALWAYS_INLINE typename At::Vector time_since_sample(const BatchState& batch, const At& at) {
   using P = typename At::Vector;
@@ -156,7 +157,7 @@ ZEROCOUNT_ALWAYS_INLINE typename At::Vector time_since_sample(const BatchState& 
   return (at.load(batch.course.piece_end) + passing) - at.load(time.time_to_stop);
 }
 
-/// θ, rad.
+/// Angle θ of the rotor, rad.
 template <class At>
 ZEROCOUNT_ALWAYS_INLINE typename At::Vector theta_of(const BatchState& batch, const At& at) {
   const MotionLanes& m = batch.motion;

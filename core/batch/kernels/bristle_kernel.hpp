@@ -15,7 +15,7 @@ ZEROCOUNT_ALWAYS_INLINE friction::BristleConstants<P> bristle_of(const BatchStat
           {coulomb, at.load(c.breakaway) - coulomb, at.load(c.per_velocity_squared)}};
 }
 
-/// Which lanes are at rest under their torque.
+/// Mask of the lanes that are at rest under their present torque.
 template <class At, class P = typename At::Vector>
 ZEROCOUNT_ALWAYS_INLINE typename P::Mask rests_on_bristle(const BatchState& batch, const At& at) {
   const friction::BristleConstants<P> of = bristle_of(batch, at);
@@ -27,7 +27,7 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask rests_on_bristle(const BatchState& batc
                                             at.load(batch.time.rest));
 }
 
-/// Moves the lanes that are at rest to their next stop. @returns the others.
+/// Moves the lanes that are at rest to their next stop. @returns the lanes that are not at rest.
 template <class P>
 LaneSet bristle_rest_kernel(BatchState& batch, const LaneSet& lanes, Forcing forcing) {
   MotionLanes& m = batch.motion;
@@ -122,9 +122,9 @@ __attribute__((noinline)) void bristle(BatchState& batch, const At& at, Forcing 
 /// One step of each moving lane with a bristle: to the next stop, to ω = 0, or as far as the series converge.
 /// Reports beyond_kernel. See friction::Bristle.
 ///
-/// `Fast` is for lanes whose level is that of Coulomb to the last bit: with Dahl's law, and far above the
-/// Stribeck velocity, where (ω/ωs)² > 64. Their steps end where (ω/ωs)² = 42: exp(−42) = 6e-19. With a
-/// second mass see slide_kernel.
+/// `Fast` is for lanes whose friction level equals the Coulomb level to the last bit: lanes with Dahl's law,
+/// and lanes far above the Stribeck velocity, with (ω/ωs)² > 64. Their steps end where (ω/ωs)² = 42, because
+/// exp(−42) = 6e-19. For lanes with a second mass see slide_kernel.
 template <class V, bool Fast>
 void bristle_kernel(BatchState& batch, const LaneSet& lanes, Forcing forcing) {
   batch.event_count = 0;

@@ -5,26 +5,26 @@
 /// The torque on a rotor where it varies or a second mass is coupled to it.
 namespace zerocount::batch {
 
-/// The torque of lanes with a Forcing. A second mass takes up the torque of its coupling, which its series
-/// gives order by order (motion::expand):
+/// The torque of lanes with a Forcing. A second mass acts on the rotor by the torque Ts of its coupling. The
+/// series of δ and ωL give Ts order by order (motion::expand):
 ///
 ///   dδ/dt = ω − ωL,   JL·dωL/dt = Ts,   Ts = kL·δ + dL·(ω − ωL).
 template <class P>
 struct ForcedTorque {
   static constexpr bool forced = true;
   Forcing forcing;
-  VaryingTorque<P> alone;    ///< without the load, where that varies
+  VaryingTorque<P> alone;    ///< Torque without the load; used only if it varies.
   P twist[batch_order + 1];  ///< δ, rad
   P omega[batch_order + 1];  ///< ωL·h, rad
-  P change;        ///< Σ k·|coefficient k|: bound of the rate of the torque, in its unit by the step
-  P unit;          ///< of the torque's coefficients, 1/(N m)
-  P travel_unit;   ///< of the rotor's ω·h, rad
-  P stiffness;     ///< kL, N m/rad
-  P damping;       ///< dL/h, N m/rad
+  P change;       ///< Σ k·|coefficient k|, a bound of the torque's rate, in the unit of the torque per step
+  P unit;         ///< Unit of the torque's coefficients, 1/(N m)
+  P travel_unit;  ///< Unit of the rotor's ω·h, rad
+  P stiffness;    ///< kL, N m/rad
+  P damping;      ///< dL/h, N m/rad
   P acceleration;  ///< h²/JL, rad/(N m)
 
-  /// Coefficient k of the torque, in ascending order; that of order 0 without a torque that stays. @param
-  /// velocity_k that of the rotor's ω·h
+  /// Coefficient k of the torque. Call in ascending order of k. Coefficient 0 leaves out a torque that stays.
+  /// @param velocity_k coefficient k of the rotor's ω·h.
   ZEROCOUNT_ALWAYS_INLINE P coefficient(int k, const P& velocity_k) {
     P torque(0.0);
     if (forcing.varies) torque = alone.coefficient(k, velocity_k);
@@ -51,7 +51,7 @@ struct ConstantTorque {
   }
 };
 
-/// Their types tell that of the torque.
+/// Declared only for its return type: the type of the torque under this forcing.
 template <class P>
 ForcedTorque<P> torque_with(Forcing);
 template <class P>
@@ -61,8 +61,8 @@ template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void load_torque(const BatchState&, const At&, Unforced, const P&, const P&, const P&,
                                          ConstantTorque&) {}
 
-/// Loads the torque for a step of h (s). @param unit of the torque's coefficients, 1/(N m). @param
-/// travel_unit of the rotor's ω·h, rad.
+/// Loads the torque for a step of h (s). @param unit unit of the torque's coefficients, 1/(N m). @param
+/// travel_unit unit of the rotor's ω·h, rad.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void load_torque(const BatchState& batch, const At& at, Forcing forcing, const P& h,
                                          const P& unit, const P& travel_unit, ForcedTorque<P>& torque) {
@@ -89,8 +89,8 @@ ZEROCOUNT_ALWAYS_INLINE P torque_on_rotor(const BatchState& batch, const At& at,
   return torque - (at.load(l.stiffness) * at.load(l.twist) + at.load(l.damping) * (omega - at.load(l.omega)));
 }
 
-/// motion::heading_under: the sign of ω from now on. @param excess of the torque on the rotor over friction,
-/// N m.
+/// Sign of ω from this instant on, as motion::heading_under defines it. @param excess torque on the rotor
+/// minus friction, N m.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE P heading_under(const BatchState& batch, const At& at, Forcing forcing,
                                         const P& omega, const P& excess) {
@@ -99,7 +99,7 @@ ZEROCOUNT_ALWAYS_INLINE P heading_under(const BatchState& batch, const At& at, F
   return select(direction == P(0.0), sign(torque_rate(batch, at, omega)), direction);
 }
 
-/// motion::is_quiet of the loads of the lanes.
+/// Mask of the lanes whose load is quiet, as motion::is_quiet defines it.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE typename P::Mask load_is_quiet(const BatchState& batch, const At& at, const P& omega,
                                                        const P& torque, const P& steady) {

@@ -5,7 +5,7 @@
 
 namespace zerocount::batch {
 
-/// The motion at rest by its description.
+/// State of a lane at rest, evaluated from its description (CreepAheadLanes).
 template <class P>
 struct MotionAhead {
   P elongation;  ///< xs, rad
@@ -13,7 +13,7 @@ struct MotionAhead {
   P hardening;   ///< xh, rad
 };
 
-/// The motion at rest of the lanes of `wanted`, `elapsed` (s) after the start of its description.
+/// Evaluates the description of the motion at rest, `elapsed` (s) after its start, for the lanes of `wanted`.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE MotionAhead<P> motion_ahead(const BatchState& batch, const At& at, const P& elapsed,
                                                     const typename P::Mask& wanted) {
@@ -39,7 +39,7 @@ ZEROCOUNT_ALWAYS_INLINE MotionAhead<P> motion_ahead(const BatchState& batch, con
   return motion;
 }
 
-/// Stores the motion at rest of the lanes of `where`.
+/// Moves the lanes of `where` to `elapsed` (s) after the start of their description.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void store_ahead(BatchState& batch, const At& at, const P& elapsed,
                                          const P& time_to_stop, const typename P::Mask& where) {
@@ -54,7 +54,8 @@ ZEROCOUNT_ALWAYS_INLINE void store_ahead(BatchState& batch, const At& at, const 
   store(batch.time.time_to_stop, time_to_stop);
 }
 
-/// The lanes at rest that go on by their description for `elapsed` (s), up to the next sample.
+/// Mask of the lanes whose description covers the motion up to the next sample, `elapsed` (s) after its
+/// start, and whose torque is still the one under which they came to rest.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE typename P::Mask goes_on_ahead(const BatchState& batch, const At& at,
                                                        const P& elapsed) {
@@ -63,7 +64,8 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask goes_on_ahead(const BatchState& batch, 
          (at.load(m.torque) == at.load(m.rest_torque)) & (at.load(batch.time.samples_to_stop) == P(1.0));
 }
 
-/// Goes on at rest to the next stop of one vector. @returns the lanes that do; see creep_ahead_kernel.
+/// Moves one vector of lanes at rest to the next stop; see creep_ahead_kernel. @returns the lanes that it has
+/// moved.
 template <class At>
 __attribute__((noinline)) typename At::Vector::Mask creep_ahead(BatchState& batch, const At& at) {
   using P = typename At::Vector;

@@ -44,7 +44,7 @@ struct LaneElements {
   }
 };
 
-/// The rest rule of friction::GmsFriction, of one vector. @returns the lanes at rest.
+/// Applies the rest rule of friction::GmsFriction to one vector. @returns the lanes at rest.
 template <class At>
 ZEROCOUNT_ALWAYS_INLINE typename At::Vector::Mask elements_rest(BatchState& batch, const At& at,
                                                                 Forcing forcing) {
@@ -61,7 +61,8 @@ ZEROCOUNT_ALWAYS_INLINE typename At::Vector::Mask elements_rest(BatchState& batc
   return rests;
 }
 
-/// Moves the lanes that are at rest under their torque, which stays, to their next stop. @returns the others.
+/// Moves the lanes that are at rest under their constant torque to their next stop. @returns the lanes that
+/// are not at rest.
 template <class P>
 LaneSet elements_rest_kernel(BatchState& batch, const LaneSet& lanes, Forcing forcing) {
   MotionLanes& m = batch.motion;
@@ -123,7 +124,8 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask find_first_slip(const LaneElements<P>& 
   return unfit;
 }
 
-/// Moves the elements to the fraction x of the step, in the lanes of step.done. @returns where all slip.
+/// Moves the elements to the fraction x of the step, in the lanes of step.done. @returns the lanes in which
+/// all elements slip.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE typename P::Mask move(LaneElements<P>& elements, const ElementSeries<P>& s,
                                               const friction::GmsSums<P>& sums, const VelocityStep<P>& step) {

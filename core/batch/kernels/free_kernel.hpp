@@ -6,7 +6,7 @@
 namespace zerocount::batch {
 
 /// Moves each lane without friction to its next stop, one sample ahead, by the linear map of
-/// friction::free_motion. If it `varies` the torque is CourseLanes::settled and a lag.
+/// friction::free_motion. If `varies`, the torque is CourseLanes::settled plus a decaying lag.
 template <class V>
 void free_kernel(BatchState& batch, const LaneSet& lanes, bool varies) {
   for_each_stretch<V>(lanes, [&]<class At>(const At& at) {

@@ -8,18 +8,19 @@ namespace zerocount::batch {
 struct Kernels {
   using Move = void (*)(BatchState&, const LaneSet&, Forcing);
   using Rest = LaneSet (*)(BatchState&, const LaneSet&, Forcing);
-  LaneSet (*lanes_at_stop)(const BatchState&);  ///< and those without a trial
-  LaneSet (*fast_lanes)(const BatchState&);     ///< faster than ContactLanes::fast_velocity
+  LaneSet (*lanes_at_stop)(const BatchState&);  ///< Lanes at a stop, and lanes without a trial.
+  LaneSet (*fast_lanes)(const BatchState&);     ///< Lanes faster than ContactLanes::fast_velocity.
   LaneSet (*creep_ahead)(BatchState&, const LaneSet&);
   LaneSet (*noisy_rest)(BatchState&, const LaneSet&, const LaneSet& active, int max_samples);
-  void (*sample)(BatchState&, const LaneSet&);         ///< with the PID law alone
-  void (*sample_blocks)(BatchState&, const LaneSet&);  ///< with the blocks of the controller
-  void (*sample_noisy)(BatchState&, const LaneSet&);   ///< the same with a noisy encoder
+  void (*sample)(BatchState&, const LaneSet&);         ///< One sample with the PID law alone.
+  void (*sample_blocks)(BatchState&, const LaneSet&);  ///< One sample with the controller's blocks.
+  /// One sample with the PID law alone and a noisy encoder.
+  void (*sample_noisy)(BatchState&, const LaneSet&);
   void (*sample_noisy_blocks)(BatchState&, const LaneSet&);
-  void (*sample_given)(BatchState&, const LaneSet&);  ///< what LaneLoop has decided
+  void (*sample_given)(BatchState&, const LaneSet&);  ///< One sample as LaneLoop has decided it.
   Move stick_start;
   Move stick_step;
-  Move stick_event;  ///< a step that locates its events
+  Move stick_event;  ///< A step that locates its events.
   Move slide_fast;
   Move slide_slow;
   Rest bristle_rest;

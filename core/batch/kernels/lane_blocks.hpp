@@ -10,8 +10,9 @@ template <class P>
 struct ControlInput {
   using Mask = typename P::Mask;
   P error, last_error;  ///< counts
-  P count, change;      ///< counts; change since the last sample, at the first by loop::CountsBefore
-  Mask counted;         ///< there has been a sample before
+  P count, change;  ///< Count, and its change since the last sample, counts. CountsBefore gives the change at
+                    ///< the first sample.
+  Mask counted;     ///< There has been a sample before
 };
 
 /// Output of the compensators at a sample.
@@ -19,8 +20,8 @@ template <class P>
 struct Compensated {
   using Mask = typename P::Mask;
   P acting_error;  ///< e′, counts
-  Mask stands;     ///< the standstill gains act
-  Mask held;       ///< the torque is held, and the blocks pause
+  Mask stands;     ///< The standstill gains act
+  Mask held;       ///< The torque is held, and the blocks pause
 };
 
 /// Stores a new value, except where the torque is held.
@@ -30,7 +31,7 @@ ZEROCOUNT_ALWAYS_INLINE void store_unless(const typename P::Mask& held, const At
   at.store(lanes, select(held, at.load(lanes), value));
 }
 
-/// The dead zone of the error, and the states of standstill and hold.
+/// Applies the dead zone of the error, and updates the states of standstill and hold.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE Compensated<P> compensated(BatchState& batch, const At& at,
                                                    const ControlInput<P>& in) {
@@ -133,7 +134,7 @@ ZEROCOUNT_ALWAYS_INLINE P block_torque(BatchState& batch, const At& at, const Co
   return torque + dither + at.load(b.remainder);
 }
 
-/// Whether the torque may change while the error stays 0: by a memory that fades, or because a dwell ends.
+/// Mask of the lanes whose torque may change while the error stays 0, because a memory fades or a dwell ends.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE typename P::Mask has_memory(const BatchState& batch, const At& at) {
   const BlockLanes& b = batch.blocks;

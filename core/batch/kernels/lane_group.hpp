@@ -25,7 +25,7 @@ class LaneStretch {
 
  private:
   int base_;
-  unsigned taking_part_;  ///< one bit a lane of the vector
+  unsigned taking_part_;  ///< One bit a lane of the vector
 };
 
 /// Any lanes, filled up with the spare lane. Removes them from the set.
@@ -58,7 +58,8 @@ class LaneCollection {
     constexpr int width = sizeof(to.part[0]) / sizeof(double);
     for (int p = 0; p < P::lanes / width; ++p) to.part[p] = collect<width>(of, lane_ + p * width);
   }
-  /// Without a detour through memory: a vector load would wait for the scalar stores before it.
+  /// Collects lanes in registers. A detour through memory would be slower, because a vector load waits for
+  /// the scalar stores before it.
   template <int Width>
   static ZEROCOUNT_ALWAYS_INLINE auto collect(const double* of, const int* lane) {
     using Real = typename VectorOf<Width>::Real;
@@ -78,11 +79,12 @@ class LaneCollection {
     for (int i = 0; i < P::lanes; ++i) to[lane_[i]] = value[i];
   }
 
-  unsigned taking_part_;  ///< one bit a lane of the vector
+  unsigned taking_part_;  ///< One bit a lane of the vector
   int lane_[P::lanes];
 };
 
-/// Lanes of either kind: one function serves both, which costs half to compile and a branch at each access.
+/// A LaneStretch or a LaneCollection. One function serves both, which halves the compile time but costs a
+/// branch at each access.
 template <class P>
 class LaneGroup : public LaneStretch<P> {
  public:
@@ -104,14 +106,15 @@ class LaneGroup : public LaneStretch<P> {
   const LaneCollection<P>* collection_ = nullptr;  ///< null: the lanes of the stretch
 };
 
-/// The vectors of a kernel: with `Chains` chains of operations where there are enough lanes, else with one.
+/// Vector types of a kernel: Wide has `Chains` chains of operations, for enough lanes; Narrow has one.
 template <int Width, int Chains>
 struct Vectors {
   using Wide = Simd<Width, Chains>;
   using Narrow = Simd<Width, 1>;
 };
 
-/// Passes the lanes to `work` as LaneStretch, a narrow one where all of them are in one half.
+/// Passes the lanes to `work` as LaneStretch. A stretch whose lanes all lie in one half is passed as a narrow
+/// one.
 template <class V, class Work>
 ZEROCOUNT_ALWAYS_INLINE void for_each_stretch(const LaneSet& lanes, Work work) {
   using Wide = typename V::Wide;
@@ -130,8 +133,8 @@ ZEROCOUNT_ALWAYS_INLINE void for_each_stretch(const LaneSet& lanes, Work work) {
   }
 }
 
-/// Passes the lanes to `work`: as LaneStretch where at least half of a stretch takes part, the others as
-/// LaneCollection; the last few as narrow ones.
+/// Passes the lanes to `work`. A stretch is passed as LaneStretch if at least half of its lanes take part.
+/// The other lanes are passed as LaneCollection, the last few of them as narrow vectors.
 template <class V, class Work>
 ZEROCOUNT_ALWAYS_INLINE void for_each_vector(LaneSet lanes, Work work) {
   using Wide = typename V::Wide;
@@ -151,8 +154,8 @@ ZEROCOUNT_ALWAYS_INLINE void for_each_vector(LaneSet lanes, Work work) {
   if (!lanes.empty()) work(LaneCollection<Narrow>(lanes));
 }
 
-/// Passes the lanes to `work` as LaneGroup: as stretches where at least half of one takes part, the others
-/// collected.
+/// Passes the lanes to `work` as LaneGroup. A stretch is passed as it is if at least half of its lanes take
+/// part; the other lanes are collected.
 template <class P, class Work>
 ZEROCOUNT_ALWAYS_INLINE void for_each_group(LaneSet lanes, Work work) {
   int base = 0;
@@ -169,8 +172,8 @@ ZEROCOUNT_ALWAYS_INLINE void for_each_group(LaneSet lanes, Work work) {
   }
 }
 
-/// Passes the lanes with what acts on them to `work`: lanes without a forcing as for_each_vector does with
-/// Unforced, others as LaneGroup.
+/// Passes the lanes and their forcing to `work`. Without a forcing the vectors are made as by the other
+/// for_each_vector, and the forcing is Unforced; otherwise the lanes are passed as LaneGroup.
 template <class V, class Work>
 ZEROCOUNT_ALWAYS_INLINE void for_each_vector(const LaneSet& lanes, Forcing forcing, Work work) {
   if (forcing.any()) {
@@ -200,7 +203,7 @@ ZEROCOUNT_ALWAYS_INLINE void add_events(BatchState& batch, const At& at, const P
   if (noted.any()) append_events(batch, at, events, noted.bits());
 }
 
-/// A struct of quantities, such as loop::IntegralConstants, of these lanes.
+/// Loads a struct of quantities, such as loop::IntegralConstants, for these lanes.
 template <template <class> class Struct, class At>
 ZEROCOUNT_ALWAYS_INLINE Struct<typename At::Vector> load_struct(const At& at, const Struct<Lanes>& lanes) {
   using P = typename At::Vector;
@@ -231,7 +234,7 @@ struct StoreEach {
   }
 };
 
-/// A mask as 0 or 1, and back.
+/// The mask as numbers: 1 where it is set, else 0. to_mask() is the inverse.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P to_number(const typename P::Mask& mask) {
   return select(mask, P(1.0), P(0.0));
@@ -246,7 +249,7 @@ ZEROCOUNT_ALWAYS_INLINE P events_where(const typename P::Mask& mask, LaneEvent e
   return select(mask, P(static_cast<double>(event)), P(0.0));
 }
 
-/// Measures `passed` samples with zero error.
+/// Adds `passed` samples with zero error to the measures.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void measure_passed(BatchState& batch, const At& at, const P& passed) {
   MeasureLanes& q = batch.measures;
@@ -258,14 +261,14 @@ ZEROCOUNT_ALWAYS_INLINE void measure_passed(BatchState& batch, const At& at, con
 
 // Step control of all motions.
 
-/// The step h, or half of the time to the stop where h would leave only a little of it.
+/// The step h, or half of the time to the stop if h would leave only a short remainder.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P without_short_remainder(const P& h, const P& time_to_stop) {
   return select((h < time_to_stop) & (time_to_stop < P(1.4) * h), time_to_stop * P(0.5), h);
 }
 
-/// The step after one of h (s) that was too long: by `factor`, which its truncation error suggests, or half
-/// of h where it was too long for another reason than being `inexact`.
+/// The step (s) to try after a step h (s) that was too long. If it was `inexact`, h is scaled by `factor`,
+/// which the truncation error suggests. If it was too long for another reason, h is halved.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P shorter_step(const P& h, const typename P::Mask& inexact, const P& factor) {
   return select(inexact, h * min(max(factor, P(0.05)), P(0.8)), h * P(0.5));

@@ -54,15 +54,16 @@ ZEROCOUNT_ALWAYS_INLINE void set_uniform_at(const RandomLanes& r, const At& at, 
   uniform = ((drawn - shift) + P(0.5)) * P(0x1p-52);
 }
 
-/// What an encoder with noise reads at a sample.
+/// Reading of a noisy encoder at a sample.
 template <class P>
 struct NoisyReading {
   P count;
   P state;      ///< w of the noise
-  P disagrees;  ///< 1 where no single angle gives this count and that of the coarse encoder
+  P disagrees;  ///< 1 if no single angle gives both this count and the count of the coarse encoder
 };
 
-/// @param angle that the encoder reads, rad. @param k the sample, from the start of the trial.
+/// Reads the noisy fine encoder.
+/// @param angle true angle at the encoder, rad. @param k sample number from the start of the trial.
 /// @param last_state w of the sample before.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE NoisyReading<P> noisy_reading(const BatchState& batch, const At& at, const P& angle,

@@ -6,7 +6,7 @@
 
 namespace zerocount::batch {
 
-/// Passes samples of one vector. @returns the lanes that have moved; see noisy_rest_kernel.
+/// Passes samples in one vector of lanes; see noisy_rest_kernel. @returns the lanes that have moved.
 template <class At>
 __attribute__((noinline)) typename At::Vector::Mask noisy_rest(BatchState& batch, const At& at,
                                                                const LaneSet& active, int max_samples) {
@@ -54,11 +54,11 @@ __attribute__((noinline)) typename At::Vector::Mask noisy_rest(BatchState& batch
   return moved;
 }
 
-/// Moves lanes at rest with a noisy encoder through the samples at which it reads the last count, so that the
-/// torque stays: to the first one with another count, or the last one of the move, or as far as the
-/// description of their motion lasts, or by `max_samples` samples; and as long as most of the `active` lanes
-/// of a vector go on, because the others wait. @returns the lanes that it has moved; those that are between
-/// two samples then have passed one.
+/// Moves lanes at rest with a noisy encoder through the samples at which the encoder reads the last count, so
+/// that the torque stays. A lane stops at the first sample with another count, at the last sample of the
+/// move, at the end of the description of its motion, or after `max_samples` samples. A vector stops once
+/// fewer than three quarters of its `active` lanes go on, because the others wait for them. @returns the
+/// lanes that it has moved. A lane that is then between two samples has passed at least one sample.
 template <class V>
 LaneSet noisy_rest_kernel(BatchState& batch, const LaneSet& lanes, const LaneSet& active, int max_samples) {
   LaneSet moved;

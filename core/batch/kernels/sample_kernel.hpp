@@ -20,7 +20,7 @@ ZEROCOUNT_ALWAYS_INLINE P pid_torque(BatchState& batch, const At& at, const Cont
   return torque;
 }
 
-/// Takes sample k of the moves into the measures of their error bands. @param size |e|, counts
+/// Adds sample k of the moves to the measures of their error bands. @param size |e|, counts.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void measure_bands(MeasureLanes& q, const At& at, const P& k, const P& size) {
   for (BandLanes& lanes : q.bands) {
@@ -34,7 +34,7 @@ ZEROCOUNT_ALWAYS_INLINE void measure_bands(MeasureLanes& q, const At& at, const 
   }
 }
 
-/// The count of an encoder with noise. @param angle that it reads, rad.
+/// Count of the noisy fine encoder. @param angle true angle at the encoder, rad.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE P noisy_count(BatchState& batch, const At& at, const P& angle) {
   NoiseLanes& n = batch.noise;

@@ -112,7 +112,7 @@ struct NewtonSearch {
   P high;
   P x;
   P last_change;
-  Mask open;  ///< lanes that have not converged
+  Mask open;  ///< Lanes that have not converged
 
   /// One step to `newton`, or by bisection where that leaves the bracket or converges slowly. @param before
   /// whether the root is above x. @param close change whose square is below rounding.
@@ -143,8 +143,8 @@ ZEROCOUNT_ALWAYS_INLINE P root_between(const P* c, int order, const P& at_start,
   return search.x;
 }
 
-/// Start value of next_zero: the zero of the polynomial of degree 4 with equal first terms and equal value
-/// at 1.
+/// Start value of next_zero: the zero of the polynomial of degree 4 that has the same first terms and the
+/// same value at 1.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P rough_zero(const P* c, const P& at_end, const typename P::Mask& from_zero) {
   const P c0 = select(from_zero, c[1], c[0]);
@@ -165,9 +165,9 @@ ZEROCOUNT_ALWAYS_INLINE P rough_zero(const P* c, const P& at_end, const typename
   return select((x > P(0.0)) & (x < P(1.0)), x, secant);
 }
 
-/// The zero of a polynomial on (0, 1); with `from_zero`, where the polynomial is zero at 0, that of the
-/// polynomial divided by x. An error of its position enters the motion squared, because the velocity at a
-/// reversal is zero.
+/// The zero of a polynomial on (0, 1). In the lanes of `from_zero` the polynomial is zero at 0, and the zero
+/// of the polynomial divided by x is found. An error of its position enters the motion squared, because the
+/// velocity at a reversal is zero.
 /// @param at_start the value at 0, or the slope where that is zero. @param at_end the value at 1.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P next_zero(const P* c, int order, const P& at_start, const P& at_end,
@@ -193,7 +193,8 @@ ZEROCOUNT_ALWAYS_INLINE P torque_power(const P& torque, const P& exponent) {
   return select(other, pow(abs(torque), exponent), square);
 }
 
-/// Coefficient k ≥ 1 of |σ|ⁿ, σ ≠ 0 at the start, from those of σ up to k and those of |σ|ⁿ before it.
+/// Coefficient k ≥ 1 of |σ|ⁿ, given the coefficients of σ up to k and the coefficients of |σ|ⁿ up to k − 1. σ
+/// must not be 0 at the start.
 /// @param per_start 1/σ at the start
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P torque_power_coefficient(const P* torque, const P* power, const P& exponent,

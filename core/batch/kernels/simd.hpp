@@ -13,8 +13,8 @@
 /// Vectors of doubles for the kernels of the batch engine, by the vector extension of GCC and Clang.
 ///
 /// A Simd is `Chains` vectors of `Width` doubles that go through the same operations side by side, so that
-/// the latency of one vector's operation is filled with the others'. All operations are those of IEEE
-/// arithmetic, element by element: the result of a lane depends neither on width and chains nor on other
+/// the latency of one vector's operation is filled with the operations of the others. All operations follow
+/// IEEE arithmetic, element by element: the result of a lane depends neither on width and chains nor on other
 /// lanes.
 ///
 /// This header and the kernels are compiled once for each instruction set: see core/numerics/number.hpp for
@@ -26,7 +26,8 @@ template <int Width>
 struct VectorOf {
   typedef double Real __attribute__((vector_size(8 * Width)));
   typedef std::int64_t Bits __attribute__((vector_size(8 * Width)));
-  typedef std::int64_t Mask __attribute__((vector_size(8 * Width)));  ///< all bits of a lane set, or none
+  /// For each lane all bits set, or none.
+  typedef std::int64_t Mask __attribute__((vector_size(8 * Width)));
 
   static ZEROCOUNT_ALWAYS_INLINE Mask less(Real a, Real b) { return a < b; }
   static ZEROCOUNT_ALWAYS_INLINE Mask less_or_equal(Real a, Real b) { return a <= b; }
@@ -45,7 +46,7 @@ struct VectorOf {
     __builtin_memcpy(&a, lane, sizeof lane);
     return a;
   }
-  /// The products of the lower 32 bits of each lane.
+  /// Product of the lower 32 bits of a and b in each lane.
   static ZEROCOUNT_ALWAYS_INLINE Bits product_of_words(Bits a, Bits b) {
 #ifdef __AVX2__
     if constexpr (Width == 4) return (Bits)_mm256_mul_epu32((__m256i)a, (__m256i)b);
@@ -85,12 +86,12 @@ struct VectorOf {
 };
 
 #ifdef __AVX512F__
-/// With the mask registers of AVX-512.
+/// Vector of eight doubles, with the mask registers of AVX-512.
 template <>
 struct VectorOf<8> {
   typedef double Real __attribute__((vector_size(64)));
   typedef std::int64_t Bits __attribute__((vector_size(64)));
-  using Mask = __mmask8;  ///< one bit a lane
+  using Mask = __mmask8;  ///< One bit per lane.
 
   static ZEROCOUNT_ALWAYS_INLINE Mask less(Real a, Real b) {
     return _mm512_cmp_pd_mask((__m512d)a, (__m512d)b, _CMP_LT_OQ);
@@ -105,7 +106,7 @@ struct VectorOf<8> {
     return (Real)_mm512_mask_blend_pd(mask, (__m512d)b, (__m512d)a);
   }
   static ZEROCOUNT_ALWAYS_INLINE Real sqrt(Real a) { return (Real)_mm512_sqrt_pd((__m512d)a); }
-  /// The products of the lower 32 bits of each lane.
+  /// Product of the lower 32 bits of a and b in each lane.
   static ZEROCOUNT_ALWAYS_INLINE Bits product_of_words(Bits a, Bits b) {
     return (Bits)_mm512_mul_epu32((__m512i)a, (__m512i)b);
   }
@@ -117,7 +118,7 @@ struct VectorOf<8> {
 };
 #endif
 
-/// Mask by lane.
+/// Mask of a Simd: true or false for each lane.
 template <int Width, int Chains>
 struct SimdMask {
   using Vector = VectorOf<Width>;
@@ -230,11 +231,11 @@ struct Simd {
   }
   friend ZEROCOUNT_ALWAYS_INLINE Mask operator!=(const Simd& a, const Simd& b) { return ~(a == b); }
 
-  /// Writes the lanes of `mask`.
+  /// Writes the lanes of `mask` to memory; the others keep their value there.
   ZEROCOUNT_ALWAYS_INLINE void store(double* to, const Mask& mask) const {
     for (int i = 0; i < Chains; ++i) Vector::store(to + std::ptrdiff_t{i} * Width, mask.part[i], part[i]);
   }
-  /// a where `mask`, else b.
+  /// a in the lanes of `mask`, b in the others.
   friend ZEROCOUNT_ALWAYS_INLINE Simd select(const Mask& mask, const Simd& a, const Simd& b) {
     Simd r;
     for (int i = 0; i < Chains; ++i) r.part[i] = Vector::select(mask.part[i], a.part[i], b.part[i]);
@@ -249,12 +250,12 @@ struct Simd {
   friend ZEROCOUNT_ALWAYS_INLINE Simd max(const Simd& a, const Simd& b) { return select(a < b, b, a); }
   /// a·(1/b), the reciprocal computed once for all a.
   friend ZEROCOUNT_ALWAYS_INLINE Simd by_fixed(const Simd& a, const Simd& b) { return a * (Simd(1.0) / b); }
-  /// −1, 0 or 1.
+  /// Sign of a: −1, 0 or 1.
   friend ZEROCOUNT_ALWAYS_INLINE Simd sign(const Simd& a) {
     return select(a > Simd(0.0), Simd(1.0), select(a < Simd(0.0), Simd(-1.0), Simd(0.0)));
   }
 
-  /// √a.
+  /// Square root of a.
   friend ZEROCOUNT_ALWAYS_INLINE Simd sqrt(const Simd& a) {
     Simd r;
     for (int i = 0; i < Chains; ++i) r.part[i] = Vector::sqrt(a.part[i]);

@@ -87,9 +87,10 @@ __attribute__((noinline)) void slide(BatchState& batch, const At& at, F forcing)
 /// One step of each lane whose hook slides: to the next stop, to ω = 0, or as far as the series converge.
 /// Reports velocity_zero, and beyond_kernel where the slide starts at ω = 0. See PreslidingFriction::slide.
 ///
-/// `Fast` is for lanes far above the Stribeck velocity, where (ω/ωs)² > 64 and friction is that of Coulomb to
-/// the last bit. Their steps end where (ω/ωs)² = 42: exp(−42) = 6e-19. A second mass has a torque that
-/// has no bound ahead: a step at whose end, or within which, ω is less is too long.
+/// `Fast` is for lanes far above the Stribeck velocity, with (ω/ωs)² > 64, whose friction equals Coulomb
+/// friction to the last bit. Their steps end where (ω/ωs)² = 42, because exp(−42) = 6e-19. The torque of a
+/// second mass has no bound known in advance, so a step during which (ω/ωs)² falls below 42 is tried and then
+/// rejected as too long.
 template <class V, bool Fast>
 void slide_kernel(BatchState& batch, const LaneSet& lanes, Forcing forcing) {
   batch.event_count = 0;

@@ -27,8 +27,8 @@ __attribute__((noinline)) void stand(BatchState& batch, const At& at) {
   add_events(batch, at, events_where<P>(released, breakaway));
 }
 
-/// Moves lanes that Coulomb's friction holds, and whose torque stays, to their next stop. Reports breakaway,
-/// where the torque is beyond that of breakaway; such a lane stays where it is.
+/// Moves lanes that Coulomb friction holds under a constant torque to their next stop. Reports breakaway if
+/// the torque exceeds the breakaway torque; such a lane is not moved.
 template <class V>
 void stand_kernel(BatchState& batch, const LaneSet& lanes) {
   batch.event_count = 0;
@@ -76,8 +76,8 @@ __attribute__((noinline)) void stand_forced(BatchState& batch, const At& at, For
   add_events(batch, at, events_where<P>(~held, breakaway));
 }
 
-/// One step of lanes that Coulomb's friction holds under a forcing, one sample ahead. Reports breakaway where
-/// a bound of the torque is beyond that of breakaway; such a lane stays where it is.
+/// One step, at most to the next sample, of lanes that Coulomb friction holds under a forcing. Reports
+/// breakaway if a bound of the torque exceeds the breakaway torque; such a lane is not moved.
 template <class V>
 void stand_forced_kernel(BatchState& batch, const LaneSet& lanes, Forcing forcing) {
   batch.event_count = 0;

@@ -4,23 +4,23 @@
 
 namespace zerocount::batch {
 
-/// xs at the end of the step, rad.
+/// Elongation xs at the end of the step, rad.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P elongation_end(const StickStep<P>& step) {
   return step.elongation_start + step.elongation_change;
 }
 
-/// The lanes with each event of the contact, but for reversals.
+/// Masks of the lanes that meet each event of the contact, except reversals.
 template <class P>
 struct ContactEvents {
   using Mask = typename P::Mask;
   Mask breakaway;  ///< |σ + c·ω| has reached the breakaway torque
-  Mask closure;    ///< the branch has ended
-  Mask creep_on;   ///< |σ| has passed the onset of creep
-  Mask creep_off;  ///< creep has reached its limit, or σ zero
+  Mask closure;    ///< The branch has ended and its hysteresis loop closes.
+  Mask creep_on;   ///< |σ| has passed the onset of creep.
+  Mask creep_off;  ///< Lanes whose creep ends: it has reached its limit, or σ is zero.
 
   ZEROCOUNT_ALWAYS_INLINE Mask any() const { return breakaway | closure | creep_on | creep_off; }
-  /// The value of the first event, in this order, of each lane.
+  /// Chooses a value for each lane by its first event, in the order of the parameters.
   ZEROCOUNT_ALWAYS_INLINE P choose(const P& if_breakaway, const P& if_closure, const P& if_creep_on,
                                    const P& if_creep_off) const {
     return select(breakaway, if_breakaway,
@@ -40,7 +40,7 @@ ZEROCOUNT_ALWAYS_INLINE P hook_torque_at_end(const StickStep<P>& step) {
   return step.torque + step.per_step * step.velocity;
 }
 
-/// The events whose threshold is passed at the end of a step.
+/// Events whose threshold is passed at the end of a step.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE ContactEvents<P> events_passed(const BatchState& batch, const At& at,
                                                        const StickStep<P>& step) {
@@ -52,8 +52,8 @@ ZEROCOUNT_ALWAYS_INLINE ContactEvents<P> events_passed(const BatchState& batch, 
           step.creeping & (~(remaining_creep > zero) | (step.torque_sign * step.torque <= zero))};
 }
 
-/// Whether the hook's torque may reach the breakaway torque within the step. @param at_ends its larger value
-/// at the ends, N m.
+/// Whether the hook's torque may reach the breakaway torque within the step. @param at_ends larger absolute
+/// value of the hook's torque at both ends of the step, N m.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE typename P::Mask may_break_away_within(const StickStep<P>& step, const P& at_ends) {
   P hook[batch_order + 1];
@@ -77,7 +77,8 @@ ZEROCOUNT_ALWAYS_INLINE void mark_events(const BatchState& batch, const At& at, 
   step.beyond = no_lanes<P>();
 }
 
-/// Moves the end of the step back to the first of the events, in the lanes of `open`, which all have one.
+/// Moves the end of the step back to the first of `events` in the lanes of `open`. Each of these lanes must
+/// have an event.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void go_back_to(const BatchState& batch, const At& at, const ContactEvents<P>& events,
                                         const typename P::Mask& open, StickStep<P>& step) {

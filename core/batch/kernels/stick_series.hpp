@@ -9,27 +9,28 @@ namespace zerocount::batch {
 /// branch.
 template <class P>
 struct StickSeries {
-  P rate[batch_order + 1];           ///< dxs/dt·h, the highest order without creep
-  P scaled_creep[batch_order + 1];   ///< xh·sgn(σ)
-  P scaled_torque[batch_order + 1];  ///< σ·h²/J
+  P rate[batch_order + 1];           ///< Coefficients of dxs/dt·h; the highest order leaves out creep.
+  P scaled_creep[batch_order + 1];   ///< Coefficients of xh·sgn(σ)
+  P scaled_torque[batch_order + 1];  ///< Coefficients of σ·h²/J
 
   // Over the whole step.
   P elongation_change;
   P creep_change;
-  P velocity_end;  ///< ω·h
+  P velocity_end;  ///< ω·h at the end of the step
   P scaled_torque_end;
-  P last_terms;  ///< sum of the absolute values of the two highest orders of elongation and velocity
+  P last_terms;  ///< Sum of the absolute values of the two highest orders of elongation and velocity
 };
 
-/// Coefficients of the equations of motion, scaled by h and the softening length.
+/// Coefficients of the equations of motion while the contact sticks. Times are divided by h, the length of
+/// the step (s); lengths are divided by −s times the softening length (rad), with s the sign of the branch.
 template <class P>
 struct StickLaw {
   P damping;      ///< c·h/J
   P applied;      ///< u·h²/J
   P stiffness;    ///< k1·h²/J
   P softening;    ///< s·softening torque·h²/J
-  P creep_limit;  ///< ±α·h/λ by σⁿ; where n = 2, by the square of scaled_torque; 0 where creep is off
-  P creep_recovery;  ///< α·h, 0 where creep is off
+  P creep_limit;  ///< ±α·h/λ per |σ|ⁿ, or per square of scaled_torque if n = 2; 0 while creep is off
+  P creep_recovery;  ///< α·h; 0 while creep is off
   P creep_exponent;  ///< n
 };
 
@@ -43,10 +44,10 @@ struct StickStart {
   P softness;        ///< exp(−y) of the branch
   P torque_power;    ///< |σ|ⁿ
   Mask at_reversal;  ///< dxs/dt is zero
-  Mask creeping;     ///< of the lanes that take part
+  Mask creeping;     ///< Lanes of the step that creep.
 };
 
-/// The lanes that creep with an exponent other than 2.
+/// Mask of the lanes that creep with an exponent n other than 2.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE typename P::Mask other_powers(const StickLaw<P>& law, const StickStart<P>& start) {
   return start.creeping & (law.creep_exponent != P(2.0));

@@ -115,8 +115,8 @@ __attribute__((noinline)) void start_step(BatchState& batch, const At& at, Forci
 }
 
 /// Prepares the step of a lane whose hook sticks: evaluates the branch, and reports the events at its start:
-/// creep_off, and one of may_rest, breakaway and reversal. See PreslidingFriction::stick.
-/// Under a torque that varies may_rest is that of the reference under such a torque.
+/// creep_off, and one of may_rest, breakaway and reversal. See PreslidingFriction::stick. Under a varying
+/// torque, may_rest is decided by the rule that the reference applies to varying torques.
 template <class V>
 void stick_start_kernel(BatchState& batch, const LaneSet& lanes, Forcing forcing) {
   batch.event_count = 0;

@@ -11,51 +11,53 @@ template <class P>
 struct StickStep {
   using Mask = typename P::Mask;
 
-  Mask here;       ///< lanes that take part
-  P h;             ///< length, s
+  Mask here;       ///< Lanes that take part.
+  P h;             ///< Length of the full step, s
   P per_h;         ///< 1/h, 1/s
-  P time_to_stop;  ///< to the next stop, s
+  P time_to_stop;  ///< Time to the next stop at the start of the step, s
   P time_scale;    ///< 1/ωn, s
-  P length;        ///< unit of the series' lengths: −s/(softening rate), rad
-  P torque_unit;   ///< unit of scaled_torque: J/h²·length, N m
+  P length;        ///< Unit of the lengths in the series: −s/(softening rate), rad
+  P torque_unit;   ///< Unit of scaled_torque: J/h²·length, N m
 
   // The start.
   P elongation_start;  ///< xs, rad
   P creep_start;       ///< xh·sgn(σ), rad
-  P creep_limit;       ///< ±α·h/λ, by |σ|ⁿ; 0 where creep is off
+  P creep_limit;       ///< ±α·h/λ, creep per |σ|ⁿ; 0 while creep is off
   Mask at_reversal;    ///< dxs/dt is zero
   Mask creeping;
-  P torque_sign;       ///< of σ
-  P direction;         ///< of the elongation
-  P per_step;          ///< c/h: damper's torque by ω·h, N m/rad
+  P torque_sign;       ///< Sign of σ, ±1
+  P direction;         ///< Direction of the elongation: −1, 0, 1
+  P per_step;          ///< c/h, torque of the damper per ω·h, N m/rad
   P breakaway_torque;  ///< Fs, N m
-  P hook_torque;       ///< σ + c·ω, N m
+  P hook_torque;       ///< Torque σ + c·ω on the hook at the start of the step, N m
   StickLaw<P> law;
   StickSeries<P> series;
 
   // Step control.
-  P forced_rate;          ///< bound of dxs/dt·h that a varying torque adds, by the softening length
-  Mask reverses;          ///< dxs/dt changes its sign
-  Mask ends_at_reversal;  ///< the step ends at that reversal
+  P forced_rate;  ///< Bound of the contribution of a varying torque to dxs/dt·h, divided by the softening
+                  ///< length
+  Mask reverses;  ///< dxs/dt changes its sign within the step.
+  Mask ends_at_reversal;  ///< The step ends at the reversal.
   Mask too_long;
-  Mask inexact;        ///< too long by the truncation error
-  P last_terms;        ///< of elongation and velocity, rad
-  P allowed;           ///< truncation error allowed in the full step, rad
-  P truncation_error;  ///< truncation error at x, rad
-  P allowed_at_x;      ///< `allowed` for the part of the step up to x, rad
-  P rate_start;        ///< dxs/dt·h, or where that is zero its slope, by the softening length
-  P rate_end;          ///< dxs/dt·h after the whole step, by the softening length
+  Mask inexact;        ///< The step is too long because its truncation error exceeds `allowed_at_x`.
+  P last_terms;        ///< Last two terms of the series of elongation and velocity, rad
+  P allowed;           ///< Truncation error allowed for the full step, rad
+  P truncation_error;  ///< Truncation error at the fraction x of the step, rad
+  P allowed_at_x;      ///< Truncation error allowed for the step up to x, rad
+  P rate_start;  ///< dxs/dt·h at the start, or its slope if dxs/dt is zero there, divided by the softening
+                 ///< length
+  P rate_end;    ///< dxs/dt·h at the end of the full step, divided by the softening length
 
   // The part that is used.
-  P x;                  ///< the fraction of the full step that is used
-  P event;              ///< LaneEvent at the end of it
-  Mask has_event;       ///< the step has an event that this kernel does not locate
-  Mask beyond;          ///< the kernel cannot take the step
-  P torque;             ///< σ at its end, N m
-  P elongation_change;  ///< of xs, rad
-  P creep_change;       ///< of xp, rad
-  P creep_velocity;     ///< sgn(σ)·dxp/dt·h at its end, rad
-  P velocity;           ///< ω·h at its end, rad
+  P x;                  ///< Fraction of the full step that is used.
+  P event;              ///< LaneEvent at the end of the used step.
+  Mask has_event;       ///< The step has an event that this kernel does not locate.
+  Mask beyond;          ///< The kernel cannot take the step.
+  P torque;             ///< σ at the end of the used step, N m
+  P elongation_change;  ///< Change of xs over the used step, rad
+  P creep_change;       ///< Change of xh·sgn(σ), and of xp, over the used step, rad
+  P creep_velocity;     ///< sgn(σ)·dxp/dt·h at the end of the used step, rad
+  P velocity;           ///< ω·h at the end of the used step, rad
 };
 
 /// The empty mask.
@@ -111,7 +113,8 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask is_parabolic(const StickStep<P>& step,
   return ripples.cubic * (reach * reach * reach) * abs(step.length) <= P(0.1) * allowed * step.law.stiffness;
 }
 
-/// The series under a torque that may have ripples: parabolas of them, where the travel is short enough.
+/// Expands the series of a step under a Forcing. Ripples are approximated by parabolas in the lanes whose
+/// travel is short enough.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void expand_forced(const BatchState& batch, const At& at, Forcing forcing,
                                            const StickStart<P>& start, const P& per_torque,
@@ -185,7 +188,8 @@ ZEROCOUNT_ALWAYS_INLINE void expand_step(const BatchState& batch, const At& at, 
   step.hook_torque = torque + step.per_step * velocity;
 }
 
-/// Whether the exponential of the branch grows too much, as it does inwards along a virgin curve.
+/// Whether the exponential of the branch grows too much for its series. It grows on an inward motion along a
+/// virgin curve.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE typename P::Mask grows_too_much(const BatchState& batch, const At& at,
                                                         const StickStep<P>& step) {
@@ -203,8 +207,9 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask grows_too_much(const BatchState& batch,
   return inwards & (growth > P(6.0)) & (softening_rate * travel - growth < P(40.0));
 }
 
-/// The truncation error allowed in this step, rad: its proportion, by time, of the lane's tolerance per
-/// torque step, or of a small fraction of the amplitude of a small oscillation.
+/// The truncation error allowed in this step, rad. It is in proportion to the length of the step: h/T times
+/// the lane's tolerance per torque step, or times a small fraction of the amplitude if the oscillation is
+/// small.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE P allowed_error(const BatchState& batch, const At& at, const StickStep<P>& step) {
   constexpr double of_amplitude = 4e-6;
@@ -217,9 +222,9 @@ ZEROCOUNT_ALWAYS_INLINE P allowed_error(const BatchState& batch, const At& at, c
   return min(at.load(time.tolerance), relative) * (step.h * at.load(time.sample_rate));
 }
 
-/// The lanes in which dxs/dt may have more zeros within the step than the signs at its ends show. Creep may
-/// cause two where dxs/dt is as small as the contribution of creep, and a varying torque where it is as small
-/// as what that adds.
+/// Mask of the lanes in which dxs/dt may have more zeros within the step than the signs at its ends show.
+/// Creep may cause two zeros if dxs/dt is as small as creep's contribution to it, and a varying torque may do
+/// so if dxs/dt is as small as that torque's contribution.
 template <class P, class At, class F>
 ZEROCOUNT_ALWAYS_INLINE typename P::Mask may_reverse_twice(const BatchState& batch, const At& at, F forcing,
                                                            const StickStep<P>& step) {
@@ -295,7 +300,7 @@ ZEROCOUNT_ALWAYS_INLINE void end_at(const P& x, const typename P::Mask& where, S
   step.creep_change = select(where, step.length * (creep * x), step.creep_change);
 }
 
-/// The rate of creep at the end of the step, by its law.
+/// Evaluates the creep law at the end of the step: sets creep_velocity.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE void evaluate_creep(StickStep<P>& step) {
   P power = step.torque * step.torque;

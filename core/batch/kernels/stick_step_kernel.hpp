@@ -5,17 +5,18 @@
 
 namespace zerocount::batch {
 
-/// Sampling instants within a step. They are passed over, so the count must be the same at all of them.
+/// Time and sampling instants of a step. The instants within the step are passed over, so the count must be
+/// the same at all of them.
 template <class P>
 struct StepTiming {
   using Mask = typename P::Mask;
-  P samples_to_stop;       ///< at the start of the step
-  P time_to_stop_then;     ///< at its end, s
-  P samples_to_stop_then;  ///< at its end
-  P passed;                ///< samples within the step
-  P elongation;            ///< xs at its end, rad
-  P extension;             ///< xp at its end, rad
-  Mask count_may_change;   ///< within the step, which is then not made
+  P samples_to_stop;       ///< Samples to the next stop, at the start of the step
+  P time_to_stop_then;     ///< Time to the next stop, at the end of the step, s
+  P samples_to_stop_then;  ///< Samples to the next stop, at the end of the step
+  P passed;                ///< Number of samples within the step
+  P elongation;            ///< xs at the end of the step, rad
+  P extension;             ///< xp at the end of the step, rad
+  Mask count_may_change;   ///< The count may change within the step, so the step is not made.
 };
 
 template <class P, class At>
@@ -98,7 +99,7 @@ ZEROCOUNT_ALWAYS_INLINE void store_motion_of(BatchState& batch, const At& at, co
   at.store(m.spring_torque, select(done, step.torque, at.load(m.spring_torque)));
 }
 
-/// Keeps the passed samples for the observer.
+/// Records the samples that the step passes, for the observer.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void record_passed(BatchState& batch, const At& at, const StickStep<P>& step,
                                            const P& passed) {
@@ -121,7 +122,8 @@ ZEROCOUNT_ALWAYS_INLINE void record_passed(BatchState& batch, const At& at, cons
   }
 }
 
-/// The step of one vector; see stick_step_kernel. Not inlined: a function of its own for each kind of vector.
+/// One step of one vector; see stick_step_kernel. It is not inlined, so that each kind of vector has one
+/// copy.
 template <bool Events, class At, class F>
 __attribute__((noinline)) void step_of(BatchState& batch, const At& at, F forcing) {
   using P = typename At::Vector;

@@ -36,8 +36,9 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask grows_too_much(const P* exponent) {
   return growth > max(P(6.0), P(-23.0) - exponent[0]);
 }
 
-/// Whether a motion that starts faster than that surely stays above the velocity at which the Stribeck curve
-/// begins to matter throughout a step of h (s). @param velocity the series of ω·h.
+/// Whether a fast motion surely stays above the velocity at which the Stribeck curve begins to matter,
+/// throughout a step of h (s). It must be above that velocity at the start. @param velocity the series of
+/// ω·h.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE typename P::Mask stays_fast(const P* velocity, const P& stribeck_velocity,
                                                     const P& h) {
@@ -48,30 +49,31 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask stays_fast(const P* velocity, const P& 
                                            curvature_bound(velocity, batch_order));
 }
 
-/// The sum of the last two terms of a series at the end of the step.
+/// Sum of the absolute values of the last two terms of a series at the end of the step.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE P last_terms_of(const P* c) {
   return abs(c[batch_order - 1]) + abs(c[batch_order]);
 }
 
-/// A step and its control.
+/// A step of a motion without a sticking hook, and its step control.
 template <class P>
 struct VelocityStep {
   using Mask = typename P::Mask;
-  P time_to_stop;      ///< at its start, s
-  P h;                 ///< s
-  P x;                 ///< fraction of the step that is used
-  P truncation_error;  ///< truncation error, rad
-  P allowed;           ///< largest truncation error, rad
+  P time_to_stop;      ///< Time to the next stop at the start of the step, s
+  P h;                 ///< Length of the full step, s
+  P x;                 ///< Fraction of the full step that is used
+  P truncation_error;  ///< Estimate of the truncation error, rad
+  P allowed;           ///< Largest truncation error allowed, rad
   Mask inexact;        ///< truncation_error > allowed
-  Mask too_long;       ///< for this or another reason: nothing moves
-  Mask done;           ///< the motion goes on to x
-  Mask halts;          ///< ω is 0 at x
+  Mask too_long;       ///< The step is inexact, or too long for another reason; nothing moves.
+  Mask done;           ///< The motion goes on to x.
+  Mask halts;          ///< ω is 0 at x.
 };
 
 /// Expands a motion in the unit of time of a step of h (s), as motion::motion_series does.
-/// @param torque on the rotor at the start, N m. @param per_inertia 1/J. @param law computes the coefficients
-/// k of a law, given that of the torque on the rotor, and returns that of the torque that accelerates it.
+/// @param torque torque on the rotor at the start, N m. @param per_inertia 1/J. @param law friction law:
+/// receives coefficient k of the torque on the rotor, computes its own coefficients k, and returns
+/// coefficient k of the torque that accelerates the rotor.
 template <class P, class Series, class Applied, class Law>
 ZEROCOUNT_ALWAYS_INLINE void expand_motion(Series& s, Applied& applied, const P& h, const P& torque,
                                            const P& per_inertia, Law law) {
@@ -84,7 +86,8 @@ ZEROCOUNT_ALWAYS_INLINE void expand_motion(Series& s, Applied& applied, const P&
   }
 }
 
-/// The sum of the last two terms of the series of a motion and of its load at the end of the step.
+/// Sum of the absolute values of the last two terms of the series of a motion and its load at the end of the
+/// step.
 template <class Series, class Applied>
 ZEROCOUNT_ALWAYS_INLINE auto last_terms_of(const Series& s, const Applied& applied) {
   const auto of_rotor = last_terms_of(s.position) + last_terms_of(s.omega);
@@ -94,7 +97,7 @@ ZEROCOUNT_ALWAYS_INLINE auto last_terms_of(const Series& s, const Applied& appli
     return of_rotor + last_terms_of_load(applied);
 }
 
-/// A step of h (s) with its truncation error (rad), up to its end.
+/// A full step of length h (s) with this truncation error (rad).
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE VelocityStep<P> velocity_step(const BatchState& batch, const At& at,
                                                       const P& time_to_stop, const P& h,
@@ -109,8 +112,9 @@ ZEROCOUNT_ALWAYS_INLINE VelocityStep<P> velocity_step(const BatchState& batch, c
   return step;
 }
 
-/// Whether ω comes to 0 within the step, which sets step.halts, and whether that is unsure: neither ω, nor
-/// ω/t where ω starts at 0, may have two zeros. @param careful also where the signs at both ends differ.
+/// Sets step.halts where ω comes to 0 within the step. @returns the lanes in which that is unsure, because ω
+/// may have two zeros within the step (or ω/t, if ω starts at 0). @param careful also checks the lanes in
+/// which the signs at both ends differ.
 template <class P>
 ZEROCOUNT_ALWAYS_INLINE typename P::Mask halts_unsurely(const P* velocity, bool careful,
                                                         VelocityStep<P>& step) {
@@ -128,7 +132,7 @@ ZEROCOUNT_ALWAYS_INLINE typename P::Mask halts_unsurely(const P* velocity, bool 
   return unsure & ((curvature > P(0.0)) | (part[1] != P(0.0)));
 }
 
-/// Ends the step where ω comes to 0, unless it is too long.
+/// Ends the step at the instant at which ω comes to 0, unless the step is too long.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE void end_at_halt(const P* velocity, const At& at, VelocityStep<P>& step) {
   const auto seeks = at.taking_part() & step.halts & ~step.too_long;
@@ -173,7 +177,7 @@ ZEROCOUNT_ALWAYS_INLINE void store_motion(BatchState& batch, const At& at, const
   if constexpr (Applied::forced) store_load(batch, at, applied, step.x, step.h, step.done);
 }
 
-/// The event of lanes that have made too many steps since the last sample.
+/// The event beyond_kernel in the lanes that have made too many steps since the last sample.
 template <class P, class At>
 ZEROCOUNT_ALWAYS_INLINE P lost_in_steps(const BatchState& batch, const At& at) {
   return events_where<P>(at.load(batch.time.steps) > P(max_steps_to_stop), beyond_kernel);

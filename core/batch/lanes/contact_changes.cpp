@@ -24,17 +24,18 @@ void store_branch(BatchState& batch, int lane, const friction::HystereticSpring&
   m.branch_end[lane] = spring.branch_end().value_or(none);
 }
 
-/// Lower bound of the rate (1/s) at which an error of the motion decays: that of the slower mode of
-/// J·q″ + c·q′ + k1·q = 0, because k1 is the least stiffness of the spring.
+/// Lower bound of the rate (1/s) at which an error of the motion decays. It is the decay rate of the slower
+/// mode of J·q″ + c·q′ + k1·q = 0, because k1 is the lowest stiffness of the spring.
 double error_decay(const ContactLanes& c, int lane, double k1) {
   const double gamma = 0.5 * c.damping[lane] * c.per_inertia[lane];
   const double discriminant = gamma * gamma - k1 * c.per_inertia[lane];
   return discriminant > 0.0 ? k1 * c.per_inertia[lane] / (gamma + std::sqrt(discriminant)) : gamma;
 }
 
-/// The same with a load. An oscillating mode with the shape φ decays at the rate ½·φᵀCφ/φᵀMφ, which is at
-/// least half of the lowest eigenvalue of the dampers C by the masses M; a mode that only creeps decays at
-/// least as fast as the slower of the two springs relaxes against its damper.
+/// Lower bound of the rate (1/s) at which an error of the motion decays, with a load. An oscillating mode of
+/// shape φ decays at the rate ½·φᵀCφ/φᵀMφ, which is at least half the lowest eigenvalue of M⁻¹C, C being the
+/// damping matrix and M the mass matrix. A mode that only creeps decays at least as fast as the slower of the
+/// two springs relaxes against its damper.
 double error_decay(const ContactLanes& c, int lane, double k1, const motion::LoadParameters& load) {
   const double by_rotor = (c.damping[lane] + load.damping) * c.per_inertia[lane];
   const double by_load = load.damping / load.inertia;
@@ -48,8 +49,9 @@ double error_decay(const ContactLanes& c, int lane, double k1, const motion::Loa
 }
 
 /// Truncation error (rad) allowed per torque step, so that the errors of all steps add up to about 1e-7
-/// count, their sum being that of one step over 1 − exp(−decay·T). The loop does not amplify them, because
-/// equal counts give equal torques. At least the tolerance of the reference, `reference` (rad).
+/// count. Their sum is the error of one step divided by 1 − exp(−decay·T). The loop does not amplify them,
+/// because equal counts give equal torques. The result is at least `reference` (rad), the tolerance of the
+/// reference engine.
 double step_tolerance(const BatchState& batch, int lane, double decay, double reference) {
   const double in_sample = decay * batch.time.sample_time[lane];
   return std::max(-1e-7 * numerics::expm1(-in_sample) * batch.loop.resolution[lane], reference);

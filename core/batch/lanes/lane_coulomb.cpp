@@ -6,7 +6,7 @@
 namespace zerocount::batch {
 namespace {
 
-/// Lets the reference advance the lanes that the last kernel could not hold.
+/// Advances the lanes that the last kernel could not hold by the reference engine.
 void leave_rest(RunningBatch& run) {
   for (int i = 0; i < run.state.event_count; ++i) {
     const int lane = run.state.event_lanes[i];
@@ -14,7 +14,7 @@ void leave_rest(RunningBatch& run) {
   }
 }
 
-/// Stands for a step under torques that vary, or with a second mass.
+/// One step of standing lanes with a varying torque or a second mass.
 void stand_coupled(RunningBatch& run, const LaneSet& lanes) {
   for_each_lane(lanes.in_both(run.lanes.loaded), [&](int lane) { stop_at_next_sample(run.state, lane); });
   follow_torques_of(run, lanes);
@@ -25,7 +25,7 @@ void stand_coupled(RunningBatch& run, const LaneSet& lanes) {
   }
 }
 
-/// Stands up to the next stop, or until the torque releases the rotor.
+/// Moves standing lanes under a constant torque to the next stop, or until the torque releases the rotor.
 void stand_under_constant_torque(RunningBatch& run, const LaneSet& lanes) {
   BatchState& batch = run.state;
   double before[max_lanes];

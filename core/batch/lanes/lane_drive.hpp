@@ -52,21 +52,21 @@ class LaneDrive {
   /// Whether the torque on the rotor stays as it is as long as the same torque is decided.
   bool stays() const;
 
-  /// The present piece: without the disturbance.
+  /// Present piece of the motor's torque, without the disturbance.
   const loop::TorquePiece& piece() const { return pieces_[present_]; }
   /// The end of the present piece, s from the nominal instant k·T of the last sample.
   double piece_end() const { return piece_end_; }
   bool is_last_piece() const { return present_ + 1 == count_; }
   void next_piece();
 
-  /// Without its constant part.
+  /// The disturbance without its constant part.
   const motion::Disturbance& disturbance() const { return disturbance_; }
   /// Whether the torque ever varies between two stops.
   bool may_vary() const { return lags_ || disturbance_varies(); }
   bool disturbance_varies() const { return motion::varies(disturbance_); }
   /// Whether the lanes have the lines of the vibration one by one, in place of vibration().
   bool lanes_have_lines() const { return disturbance_.vibration.size() <= max_lane_lines; }
-  /// About sample k.
+  /// Series of the vibration about sample k, coefficients in (t − k·T)/T, N m.
   VibrationSeries::Coefficients vibration(std::int64_t k) { return vibration_.about_sample(k); }
   std::size_t vibration_terms() const { return vibration_.terms(); }
   bool jitters() const { return jitters_; }

@@ -9,14 +9,14 @@
 namespace zerocount::batch {
 namespace {
 
-/// The measures of one lane.
+/// Measures of one lane, copied from the batch state.
 trial::RunningMeasures<double> measures_of(const MeasureLanes& lanes, int lane) {
   trial::RunningMeasures<double> measures;
   trial::for_each_measure([lane](double& to, const Lanes& from) { to = from[lane]; }, measures, lanes);
   return measures;
 }
 
-/// The measures of its error bands.
+/// Measures of the error bands of one lane, copied from the batch state.
 std::array<trial::BandMeasures<double>, trial::max_error_bands> bands_of(const MeasureLanes& lanes,
                                                                          int lane) {
   std::array<trial::BandMeasures<double>, trial::max_error_bands> bands;
@@ -27,7 +27,7 @@ std::array<trial::BandMeasures<double>, trial::max_error_bands> bands_of(const M
   return bands;
 }
 
-/// The outcome of the move that ends now. @param stopped it has diverged.
+/// The outcome of the move that ends now. @param stopped whether the move has diverged.
 trial::MoveOutcome outcome_of(const BatchState& batch, int lane, LaneTrial& trial, bool stopped) {
   const trial::TrialParameters& p = *trial.parameters;
   const MeasureLanes& q = batch.measures;

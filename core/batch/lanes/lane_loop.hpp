@@ -25,23 +25,24 @@ class LaneLoop {
   void start_move(std::size_t number, std::int64_t target, std::int64_t first_sample);
 
   struct Decision {
-    std::int64_t count;  ///< of the fine encoder, less reference_offset()
+    std::int64_t count;  ///< Count of the fine encoder, less reference_offset()
     loop::DacOutput dac;
-    double torque;  ///< that the converter gives, N m
-    bool may_stay;  ///< while count and error stay 0, so does the torque
-    bool stays;     ///< the torque stays until the end of the move, and nothing is drawn
+    double torque;  ///< Torque that the converter gives, N m
+    bool may_stay;  ///< The torque stays while count and error stay 0.
+    bool stays;     ///< The torque stays until the end of the move, and no random number is drawn.
   };
-  /// Sample i of the move, the mass that the encoder reads at `theta` and the other one at `other` (rad).
-  /// Empty where the encoder cannot count θ, or the controller gives no finite torque.
+  /// Decides sample i of the move. @param theta angle of the mass that the encoder reads, rad. @param other
+  /// angle of the other mass, rad. @returns nothing if the encoder cannot count θ, or the controller gives no
+  /// finite torque.
   std::optional<Decision> sample(std::int64_t i, double theta, double other);
 
-  /// Whether it is that of a trial with torque levels, whose errors are not measured.
+  /// Whether the trial has torque levels, so that the loop is open and errors are not measured.
   bool is_open() const { return open_.has_value(); }
 
   /// Reference − target at the last sample, counts; 0 unless the reference moves for ever.
   std::int64_t reference_offset() const { return reference_offset_; }
 
-  /// Ends the move: adds what is measured of it here to its outcome.
+  /// Ends the move: adds the measures that this loop keeps to the outcome of the move.
   void finish(trial::MoveOutcome& outcome);
 
  private:

@@ -19,13 +19,14 @@
 namespace zerocount::batch {
 namespace {
 
-/// Whether the torque changes from sample to sample for ever, by a dither or a remainder.
+/// Whether a dither or the remainder of a sigma-delta converter changes the torque from sample to sample for
+/// ever.
 bool never_settles(const trial::TrialParameters& p) {
   return p.controller.dither.amplitude != 0.0 || p.dac.sigma_delta;
 }
 
-/// Whether the loop needs the scalar control law: a window of counts or a velocity command on its way would
-/// be a queue in every lane.
+/// Whether the loop needs the scalar control law, because a window of counts or a delayed velocity command
+/// would be a queue in every lane.
 bool has_queues(const loop::ControlBlocks& blocks) {
   const loop::CascadeParameters& c = blocks.cascade;
   return blocks.derivative_window > 1 || (blocks.structure == loop::ControlStructure::cascade &&
@@ -86,7 +87,7 @@ std::string_view lacking(const loop::ControllerParameters& controller,
   return lacking(blocks);
 }
 
-/// @param max_frequency of a vibration whose series over a sample is accurate, Hz.
+/// @param max_frequency highest frequency of a vibration whose series over a sample is accurate, Hz.
 std::string_view lacking(const trial::DisturbanceParameters& disturbance, LaneMotion motion,
                          double max_frequency) {
   [[maybe_unused]] const auto& [torque, ripple, vibration, spectra] = disturbance;
@@ -112,7 +113,7 @@ std::string_view lacking(const trial::DisturbanceParameters& disturbance, LaneMo
   return ripple.size() > max_lane_ripples ? "more than eight ripples" : "";
 }
 
-/// The features of the load's side, which the lanes lack altogether.
+/// Features of the load side that the trial has. The lanes lack all of them.
 std::vector<std::string_view> lacking(const motion::LoadParameters& load,
                                       const trial::LoadSideParameters& side) {
   [[maybe_unused]] const auto& [inertia, stiffness, damping, encoder, gap, damping_to_ground] = load;
@@ -134,7 +135,7 @@ std::string_view lacking(const trial::CommandParameters& command) {
   return targets.empty() && torque.levels.empty() ? "no moves" : "";
 }
 
-/// Whether each move has a sample: a torque level without a hold may have none.
+/// Whether each move has at least one sample. A torque level without a hold may have none.
 bool has_samples(const trial::TrialParameters& p) {
   const std::size_t moves = p.command.torque.levels.empty() ? 1 : p.command.torque.levels.size();
   for (std::size_t m = 0; m < moves; ++m)

@@ -8,10 +8,10 @@
 /// Features of the lanes that a trial needs.
 namespace zerocount::batch {
 
-/// How the kernels move a lane, by its friction law.
+/// Kind of kernel that moves a lane. The friction law decides it.
 enum class LaneMotion { contact, coulomb, bristle, elements, free };
 
-/// Empty for a law that the kernels lack.
+/// The kind of kernel for a friction model; empty if the kernels lack its law.
 std::optional<LaneMotion> lane_motion(friction::FrictionModel model);
 
 /// Whether the controller has blocks beyond the PID law, or a dither or a remainder of the converter.
@@ -31,18 +31,18 @@ bool needs_lane_noise(const trial::TrialParameters& parameters);
 /// more filters than they have.
 bool needs_lane_loop(const trial::TrialParameters& parameters);
 
-/// Whether the angle alone decides the counts, and the code the torque.
+/// Whether the counts depend on the angle alone, and the torque on the code alone.
 bool is_certain(const trial::TrialParameters& parameters);
 
-/// Whether the torque of a LaneLoop stays while count and error stay 0, the controller having run at this
-/// sample and the one before: in the fine phase of two.
+/// Whether the torque of a LaneLoop stays while count and error stay 0, provided that the controller has run
+/// at this sample and at the one before. With two phases this is asked in the fine phase.
 bool is_steady_at_zero(const trial::TrialParameters& parameters);
 
 /// Whether the torque on the rotor differs from the decided one: by a delay, an amplifier, jitter, or a
 /// disturbance that varies.
 bool needs_lane_drive(const trial::TrialParameters& parameters);
-/// Whether the drive kernel has these: the delay is of few whole samples, and of none with jitter; the lag of
-/// the amplifier lasts beyond a sample.
+/// Whether the drive kernel can replace the LaneDrive. The delay must be at most max_lane_delay whole
+/// samples, or 0 with jitter. The amplifier, if any, must not settle within a sample.
 bool needs_drive_kernel(const trial::TrialParameters& parameters);
 
 }  // namespace zerocount::batch

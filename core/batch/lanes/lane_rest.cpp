@@ -27,11 +27,11 @@ double count_at(const BatchState& batch, int lane, double theta) {
   return loop::ideal_count(theta, batch.loop.resolution[lane], batch.loop.phase[lane]);
 }
 
-/// Rest from now on.
+/// Creep and residual oscillation of a lane at rest, from now on.
 struct RestAhead {
   friction::CreepAtRest creep;
   friction::ResidualOscillation oscillation;
-  double elapsed;  ///< since the rest began, s
+  double elapsed;  ///< Time since the rest began, s
 };
 
 RestAhead rest_ahead(const LanePlant::Rest& rest) {
@@ -40,12 +40,13 @@ RestAhead rest_ahead(const LanePlant::Rest& rest) {
   return ahead;
 }
 
-/// Whether all samples may be passed, whatever is read.
+/// Whether all samples may be passed whatever the encoder reads, as in an open loop.
 bool is_open(const BatchState& batch, int lane) {
   return batch.loop.quiet_to[lane] == HUGE_VAL;
 }
 
-/// Whether a sample at θ may be passed: the count is the same, and the position quiet.
+/// Whether a sample at θ may be passed, because the count is the last one and the position lies within the
+/// quiet range (LoopLanes::quiet_from).
 bool is_quiet(const BatchState& batch, int lane, double theta) {
   const LoopLanes& l = batch.loop;
   if (is_open(batch, lane)) return true;
@@ -81,27 +82,27 @@ double quiet_time(const BatchState& batch, int lane, const RestAhead& rest, cons
 
 /// The sampling instants of a lane at rest, which may be late.
 struct InstantsAhead {
-  double to_first;         ///< from now, s
+  double to_first;         ///< Time from now to the next sample, s
   double sample_time;      ///< T, s
-  const LaneDrive* drive;  ///< that knows when they are; null without late samples
-  double max_lateness;     ///< s
-  std::int64_t first;      ///< number of the next sample from the start of the trial
+  const LaneDrive* drive;  ///< Gives the lateness of each sample; null without late samples
+  double max_lateness;     ///< Largest lateness of a sample, s
+  std::int64_t first;      ///< Number of the next sample from the start of the trial
 
-  /// δ (s) of the next sample i, from 1.
+  /// Lateness δ (s) of the i-th sample from now, i ≥ 1.
   double lateness(double i) const {
     return drive ? drive->lateness(first + static_cast<std::int64_t>(i) - 1) : 0.0;
   }
-  /// The time (s) from now (i = 0) or from the next sample i to the sample after that.
+  /// Time (s) to sample i + 1 from now: from sample i, or from the present instant if i = 0.
   double to_next(double i) const {
     return i == 0.0 ? to_first : sample_time + (lateness(i + 1.0) - lateness(i));
   }
-  /// The same to the sample `samples` after that.
+  /// Time (s) from sample i, or from the present instant if i = 0, to sample i + samples.
   double to(double i, double samples) const {
     return to_next(i) + (samples - 1.0) * sample_time + (lateness(i + samples) - lateness(i + 1.0));
   }
 };
 
-/// The number of samples after the next sample i (now where it is 0) that are likely to be quiet.
+/// Number of samples after the i-th sample from now (i = 0: the present instant) that are likely to be quiet.
 double quiet_samples(const BatchState& batch, int lane, const LanePlant& plant, const InstantsAhead& instants,
                      double i) {
   const double time = quiet_time(batch, lane, rest_ahead(*plant.rest()), plant);
@@ -119,7 +120,7 @@ bool is_unmoved(const BatchState& batch, int lane, const LanePlant& plant) {
          motion.creep.extension == batch.motion.extension[lane] && !motion.sliding;
 }
 
-/// Samples that are evaluated one by one before their motion is described ahead.
+/// Number of samples at rest that are evaluated one by one before the motion is described ahead.
 constexpr int samples_one_by_one = 4;
 constexpr double max_span = 256.0;  // samples
 constexpr double min_span = 8.0;    // fewer are not worth the description
@@ -150,7 +151,8 @@ SlowMotion slow_motion(const LanePlant& plant) {
           motion.creep.hardening - rest.creep.sign * oscillation.extension};
 }
 
-/// Describes the motion at rest over the next samples. @returns whether cubics do so to 1e-9 count.
+/// Describes the motion at rest over the next samples by cubics. @returns whether they are accurate to 1e-9
+/// count.
 bool describe_ahead(BatchState& batch, int lane, LaneTrial& trial, double torque) {
   CreepAhead& ahead = trial.ahead;
   if (ahead.span < min_span) return false;
@@ -208,14 +210,14 @@ void pass_samples(BatchState& batch, int lane, double samples) {
   trial::for_each_of_arrival([lane](Lanes& to, double from) { to[lane] = from; }, q, arrival);
 }
 
-/// Whether the lane has late samples and a torque that stays as long as its count does. Its next stop is the
-/// next sample nevertheless, because the kernels know only that one's lateness.
+/// Whether the lane has late samples and a torque that stays as long as its count does. The next stop of such
+/// a lane is still the next sample, because the kernels know only the lateness of that sample.
 bool is_late_and_steady(const RunningBatch& run, int lane) {
   return run.lanes.amplified.contains(lane) && run.state.drive.jitter[lane] > 0.0 &&
          run.state.loop.steady[lane] != 0.0 && !run.lanes.noisy.contains(lane);
 }
 
-/// The next `max_samples` samples.
+/// Instants of the next `max_samples` samples. @param late drive of a lane with late samples; otherwise null.
 InstantsAhead instants_ahead(const BatchState& batch, int lane, const LaneDrive* late, double max_samples) {
   const double to_last = batch.time.time_to_stop[lane];
   const double sample_time = batch.time.sample_time[lane];
@@ -224,7 +226,7 @@ InstantsAhead instants_ahead(const BatchState& batch, int lane, const LaneDrive*
   return {to_last, sample_time, late, d.jitter[lane], static_cast<std::int64_t>(d.sample[lane])};
 }
 
-/// See come_to_rest().
+/// Implements come_to_rest(), except the set LaneStates::ahead.
 bool rest(RunningBatch& run, int lane) {
   BatchState& batch = run.state;
   LaneTrial& trial = run.trial_of(lane);

@@ -21,7 +21,7 @@ void follow_jerk(RunningBatch& run, int lane, LaneTrial& trial) {
   run.state.measures.in_jerk[lane] = trial.jerks.in_jerk() ? 1.0 : 0.0;
 }
 
-/// Runs the lanes anew whose encoder could not count θ at this sample.
+/// Runs the trials of the lanes anew by the scalar engine whose encoder could not count θ at this sample.
 void rerun_unreadable(RunningBatch& run) {
   BatchState& batch = run.state;
   for (int i = 0; i < batch.event_count; ++i) {
@@ -60,7 +60,7 @@ void sample(RunningBatch& run, void (*kernel)(BatchState&, const LaneSet&), cons
   }
 }
 
-/// Lets the LaneLoop of each lane decide. @returns the lanes in which it has.
+/// Lets the LaneLoop of each lane decide its torque. @returns the lanes whose LaneLoop gave a decision.
 LaneSet decide_in_loops(RunningBatch& run, const LaneSet& due) {
   LoopLanes& l = run.state.loop;
   LaneSet decided = due;

@@ -21,7 +21,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Counts before the first sample, of the fine encoder, which closes every loop that the kernels run.
+/// Counts of the fine encoder before the first sample. The fine encoder closes every loop that the kernels
+/// run.
 loop::CountsBefore counts_before(const trial::TrialParameters& p) {
   const loop::StartOfMotion start = trial::start_of_motion(p);
   return {loop::fine_encoder(p.encoder, start.phase), start.theta, start.velocity,

@@ -8,7 +8,7 @@
 namespace zerocount::batch {
 namespace {
 
-/// Samples that the kernel of noisy lanes at rest may pass in one call.
+/// Largest number of samples that noisy_rest_kernel may pass in one call.
 constexpr int max_passed_samples = 256;
 
 /// Applies the rest rule. @returns whether the lane was at rest; then it is at a sampling instant.
@@ -19,7 +19,7 @@ bool rests(RunningBatch& run, int lane) {
   return true;
 }
 
-/// Brings the plants of lanes up to date whose rest ends because the torque has changed.
+/// Brings the plants up to date in the lanes whose rest ends because the torque has changed.
 void wake_ahead(RunningBatch& run, const LaneSet& lanes) {
   if (run.lanes.ahead.empty()) return;
   const MotionLanes& m = run.state.motion;
@@ -72,7 +72,7 @@ void end_sticking_steps(RunningBatch& run) {
   }
 }
 
-/// @returns the number of lanes that took a step.
+/// One step of sticking lanes under this forcing. @returns the number of lanes that took a step.
 int step_sticking(RunningBatch& run, LaneSet lanes, Forcing forcing) {
   const LaneSet varying = lanes.in_both(run.lanes.varying);
   for (const bool varies : {false, true}) {
@@ -88,7 +88,7 @@ int step_sticking(RunningBatch& run, LaneSet lanes, Forcing forcing) {
   return lanes.count();
 }
 
-/// Takes the steps of the waiting lanes up to their events.
+/// Moves the waiting lanes up to their events.
 void locate_events(RunningBatch& run) {
   const LaneSet waiting = std::exchange(run.lanes.waiting, {});
   for_each_lane(waiting, [&](int lane) { run.lanes.sticking.insert(lane); });
@@ -117,7 +117,7 @@ void step_sliding(RunningBatch& run, const LaneSet& lanes, Forcing forcing) {
   end_sliding_steps(run);
 }
 
-/// Runs the lanes anew that the last kernel could not follow.
+/// Runs the trials of the lanes that the last kernel could not follow anew by the scalar engine.
 void rerun_lost_lanes(RunningBatch& run) {
   for (int i = 0; i < run.state.event_count; ++i) fall_back_to_scalar(run, run.state.event_lanes[i]);
 }
@@ -135,7 +135,7 @@ void step_elements(RunningBatch& run, const LaneSet& lanes, Forcing forcing) {
   rerun_lost_lanes(run);
 }
 
-/// Moves those lanes on whose torque stays and which are at rest. @returns the others.
+/// Moves the lanes that are at rest under a constant torque on to their next stop. @returns the other lanes.
 LaneSet without_resting(RunningBatch& run, const LaneSet& lanes, Forcing forcing, Kernels::Rest rest) {
   const LaneSet steady = lanes.without(run.lanes.varying);
   return steady.empty() ? lanes : lanes.without(steady.without(rest(run.state, steady, forcing)));
@@ -169,7 +169,7 @@ void move_loaded_free(RunningBatch& run, const LaneSet& lanes) {
   }
 }
 
-/// The lanes at rest whose noisy encoder alone decides how long their torque stays.
+/// Lanes at rest in which only the noisy encoder decides how long the torque stays.
 LaneSet waiting_for_noise(const RunningBatch& run, const LaneSet& ahead) {
   LaneSet lanes = ahead.in_both(run.lanes.noisy).without(run.lanes.with_position);
   const DriveLanes& d = run.state.drive;
@@ -180,7 +180,7 @@ LaneSet waiting_for_noise(const RunningBatch& run, const LaneSet& ahead) {
   return lanes;
 }
 
-/// Moves lanes at rest along the description of their motion. @returns those that it has moved.
+/// Moves lanes at rest along the description of their motion. @returns the lanes that it has moved.
 LaneSet follow_descriptions(RunningBatch& run, const LaneSet& ahead) {
   LaneSet moved;
   if (const LaneSet noisy = waiting_for_noise(run, ahead); !noisy.empty()) {

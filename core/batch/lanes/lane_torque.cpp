@@ -6,13 +6,13 @@
 namespace zerocount::batch {
 namespace {
 
-/// Sets the vibration of the lane's torque to its series about sample k.
+/// Stores the series of the vibration about sample k in the lane.
 void store_vibration(BatchState& batch, int lane, LaneDrive& drive, std::int64_t k) {
   const VibrationSeries::Coefficients vibration = drive.vibration(k);
   for (std::size_t j = 0; j <= drive.vibration_terms(); ++j) batch.course.vibration[j][lane] = vibration[j];
 }
 
-/// Sets the torque of the lane to `torque` (N m), which stays.
+/// Sets the torque of the lane to the constant `torque` (N m).
 void hold_torque(BatchState& batch, int lane, double torque) {
   batch.motion.torque[lane] = torque;
   batch.course.settled[lane] = torque;

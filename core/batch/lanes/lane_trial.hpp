@@ -20,45 +20,47 @@ namespace zerocount::batch {
 
 /// The scalar plant of a lane with a hook.
 using LanePlant = plant::PlantWith<friction::PreslidingFriction>;
-/// That of a lane with Coulomb friction alone.
+/// The scalar plant of a lane with Coulomb friction alone.
 using CoulombPlant = plant::PlantWith<friction::CoulombFriction>;
 
-/// The number of samples for which the motion of a lane at rest is computed at once (CreepAheadLanes).
+/// How far ahead the motion of a lane at rest is described (CreepAheadLanes).
 struct CreepAhead {
-  int samples{0};     ///< evaluated one by one since the lane came to rest
-  double span{16.0};  ///< samples to describe next time
+  int samples{0};     ///< Samples evaluated one by one since the lane came to rest
+  double span{16.0};  ///< Number of samples that the next description covers
 };
 
 /// State of a lane that the kernels do not use: its trial, the memory of the spring, measures per jerk.
 struct LaneTrial {
   const trial::TrialParameters* parameters{nullptr};
-  std::size_t number{0};  ///< of the trial in the batch
+  std::size_t number{0};  ///< Index of the trial in the batch.
   trial::TrialOutcome* outcome{nullptr};
   std::size_t move{0};
-  std::int64_t first_sample{0};  ///< of the move, from the start of the trial
+  std::int64_t first_sample{0};  ///< Number of the move's first sample, from the start of the trial.
   LaneMotion motion{LaneMotion::contact};
 
   /// The contact, in lanes with LaneMotion::contact. Only its spring is always current; call load_motion()
   /// before reading anything else.
   std::optional<LanePlant> plant;
   CreepAhead ahead;
-  std::optional<CoulombPlant> coulomb;  ///< in lanes with LaneMotion::coulomb; load_motion() likewise
+  /// Scalar plant in lanes with LaneMotion::coulomb. Call load_motion() before reading its motion.
+  std::optional<CoulombPlant> coulomb;
   double elongation_tolerance{0.0};     ///< MotionTolerance::elongation, rad
-  double breakaway_spring_torque{0.0};  ///< σb of the slide, N m
+  double breakaway_spring_torque{0.0};  ///< Spring torque σb of the slide, N m
   double read_twist{0.0};               ///< LoopLanes::read_twist at the last sample, rad
 
-  std::int64_t breakaways{0};  ///< in this move
-  bool slid_at_start{false};   ///< of this move
-  std::int64_t deepest{0};     ///< in this move
+  std::int64_t breakaways{0};  ///< Breakaways in the present move.
+  bool slid_at_start{false};   ///< The contact slid when the present move began.
+  std::int64_t deepest{0};     ///< Largest depth of the reversal stack in the present move.
 
-  trial::Jerks jerks;              ///< of this move
-  std::int64_t reported_jerks{0};  ///< of the trial
-  trial::LastHalf last_half;       ///< of this move
+  trial::Jerks jerks;              ///< Jerks of the present move.
+  std::int64_t reported_jerks{0};  ///< Jerks of the trial that have been reported.
+  trial::LastHalf last_half;       ///< Last half of the present move.
 
-  std::optional<LaneLoop> loop;  ///< of a trial that needs one
-  /// Of a trial with a position error and without a LaneLoop, which would measure it.
+  std::optional<LaneLoop> loop;  ///< Scalar sampled loop; only in a trial that needs_lane_loop().
+  /// Measures the position error. Only in a trial that asks for it and has no LaneLoop, which would measure
+  /// it.
   std::optional<trial::PositionError> position;
-  std::optional<LaneDrive> drive;  ///< of a trial that needs one
+  std::optional<LaneDrive> drive;  ///< Scalar drive; only in a trial that needs_lane_drive().
 };
 
 // The contact between batch state and plant. (contact_changes.cpp)
@@ -67,7 +69,7 @@ struct LaneTrial {
 void load_motion(const BatchState& batch, int lane, LaneTrial& trial);
 /// Copies the plant's motion and spring branch into the batch state.
 void store_motion(BatchState& batch, int lane, LaneTrial& trial);
-/// store_motion(), and the contact's parameters, which a slide or a scalar step may have changed.
+/// Calls store_motion() and copies the contact's parameters, which a slide or a scalar step may have changed.
 void store_contact(BatchState& batch, int lane, LaneTrial& trial);
 
 /// Copies the level of friction of a slide into the batch state.
@@ -88,8 +90,8 @@ void close_loop(BatchState& batch, int lane, LaneTrial& trial);
 void end_creep(BatchState& batch, int lane, LaneTrial& trial);
 void break_away(BatchState& batch, int lane, LaneTrial& trial);
 void re_stick(BatchState& batch, int lane, LaneTrial& trial);
-/// Advances to the next sample by the lane's scalar plant. @param torque on the rotor, N m, without a
-/// disturbance that varies. @returns whether the motion stayed finite.
+/// Advances to the next sample by the lane's scalar plant. @param torque torque on the rotor, N m, without a
+/// varying disturbance. @returns whether the motion stayed finite.
 bool advance_by_reference(BatchState& batch, int lane, LaneTrial& trial, const motion::TorqueCourse& torque);
 
 /// Starts the trial that `trial` names, with its first move, in the lane. (lane_start.cpp)
@@ -108,7 +110,7 @@ void store_random(RandomLanes& to, int lane, const random::TrialRandomness& of, 
 
 /// Starts the drive of a trial that needs one. (lane_torque.cpp)
 void start_drive(BatchState& batch, int lane, LaneTrial& trial);
-/// The torque on the rotor from now on in a lane where it varies, without a disturbance that varies.
+/// The torque on the rotor from now on in a lane with a varying torque. It leaves out a varying disturbance.
 /// (lane_torque.cpp)
 motion::TorqueCourse present_course(const BatchState& batch, int lane);
 

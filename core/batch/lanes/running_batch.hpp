@@ -15,38 +15,39 @@ namespace zerocount::batch {
 
 /// The lanes by their state.
 struct LaneStates {
-  LaneSet active;  ///< with a trial
+  LaneSet active;  ///< Lanes with a trial.
 
   // Motion: each active lane is in one of these.
-  LaneSet sticking;  ///< the hook sticks
-  LaneSet waiting;   ///< the hook sticks, and an event lies in the step; located when enough lanes wait
-  LaneSet standing;  ///< Coulomb's friction holds the rotor
-  LaneSet sliding;   ///< the hook slides, or the rotor against Coulomb's friction
-  LaneSet bristles;  ///< with the friction of a bristle, or of elements
-  LaneSet elements;  ///< of them, those with elements
-  LaneSet free;      ///< without friction
+  LaneSet sticking;  ///< The hook sticks.
+  LaneSet waiting;  ///< The hook sticks, and an event lies in the step. It is located once enough lanes wait.
+  LaneSet standing;  ///< Coulomb friction holds the rotor.
+  LaneSet sliding;   ///< The hook slides, or the rotor slides against Coulomb friction.
+  LaneSet bristles;  ///< The friction law has a bristle or elements.
+  LaneSet elements;  ///< Subset of `bristles` with elements.
+  LaneSet free;      ///< Lanes without friction.
 
   // Decision at a sample: the PID law alone, if in neither.
-  LaneSet with_blocks;  ///< the controller has blocks
-  LaneSet with_loop;    ///< by a LaneLoop
+  LaneSet with_blocks;  ///< The controller has blocks.
+  LaneSet with_loop;    ///< A LaneLoop decides.
 
-  LaneSet noisy;  ///< with a noisy encoder that the kernels read
+  LaneSet noisy;  ///< The encoder has noise that the kernels read.
 
-  LaneSet with_position;  ///< the position error is measured, without a LaneLoop
+  LaneSet with_position;  ///< The position error is measured, and not by a LaneLoop.
 
-  LaneSet amplified;     ///< whose torque passes the drive kernel
-  LaneSet vibrating;     ///< with a vibration
-  LaneSet before_start;  ///< whose first sample is late, and yet to come
+  LaneSet amplified;     ///< The torque passes the drive kernel.
+  LaneSet vibrating;     ///< Lanes with a vibration given as a series.
+  LaneSet before_start;  ///< The first sample is late and has not been taken yet.
 
   // Torque until the next stop: constant for a whole sample, if in none.
-  LaneSet varying;   ///< it varies
-  LaneSet part;      ///< the stop ends only a part of a sample
-  LaneSet changing;  ///< the stop lies within a sample, and the torque changes there
+  LaneSet varying;   ///< The torque varies until the next stop.
+  LaneSet part;      ///< The stop ends only a part of a sample.
+  LaneSet changing;  ///< The stop lies within a sample, and the torque changes there.
 
-  LaneSet loaded;         ///< with a second mass
-  LaneSet loaded_driven;  ///< of them, those whose torque may vary: their steps always follow CourseLanes
+  LaneSet loaded;  ///< Lanes with a second mass.
+  /// Subset of `loaded` whose torque may vary. Their steps always follow CourseLanes.
+  LaneSet loaded_driven;
 
-  LaneSet ahead;  ///< at rest, with a plant that lags behind (CreepAheadLanes)
+  LaneSet ahead;  ///< At rest, with a plant that lags behind the lane (CreepAheadLanes).
 
   std::array<LaneSet*, 21> all() {
     return {&active,       &sticking,    &waiting,   &standing, &sliding,       &bristles,      &elements,
@@ -64,18 +65,18 @@ struct RunningBatch {
   std::int64_t samples_of(int lane) const { return static_cast<std::int64_t>(state.measures.samples[lane]); }
 
   const Kernels& kernels;
-  std::vector<LaneTrial> trials;         ///< one a lane
-  std::size_t trial_index[max_lanes]{};  ///< [lane] index in `trials`
-  BatchState state{};                    ///< of all lanes, as the kernels need it
+  std::vector<LaneTrial> trials;         ///< One per lane.
+  std::size_t trial_index[max_lanes]{};  ///< Index in `trials` of the trial in each lane.
+  BatchState state{};                    ///< State of all lanes, as the kernels need it.
   PassedSamples passed_samples[max_lanes]{};
   LaneStates lanes;
 
   const TrialSource* source{nullptr};
   std::span<trial::TrialOutcome> outcomes;
   const BatchObservers* observers{nullptr};
-  std::size_t next_trial{0};  ///< of the batch
+  std::size_t next_trial{0};  ///< Index in the batch of the trial to start next.
   std::int64_t rounds{0};
-  int used_lanes{0};  ///< lanes from this one on are idle
+  int used_lanes{0};  ///< Lanes from this index on are idle.
 };
 
 // The life of a lane. BatchEngine::run() calls the stages in this order; each takes all lanes that are due.
@@ -93,8 +94,8 @@ struct RunningBatch {
 //     end_moves                  the outcome of the move
 //   start_next_trial
 
-/// Starts the next trial that lanes can run, if any, in the lane. Runs those before it by run_trial().
-/// (lane_start.cpp)
+/// Starts the next trial that lanes can run, if any, in this lane. Runs the trials before it that lanes
+/// cannot run by run_trial(). (lane_start.cpp)
 void start_next_trial(RunningBatch& run, int lane);
 
 /// Goes on to the next piece of the torque in the lanes that stop within a sample. (lane_torque.cpp)
@@ -125,7 +126,7 @@ void set_motion(RunningBatch& run, int lane);
 /// finite. @returns whether it does. (lane_steps.cpp)
 bool follow_reference(RunningBatch& run, int lane);
 
-/// Divides lanes by what acts on them. (lane_steps.cpp)
+/// Divides lanes by their forcing. (lane_steps.cpp)
 std::array<std::pair<Forcing, LaneSet>, 4> by_forcing(const RunningBatch& run, const LaneSet& lanes);
 /// Computes the torques whose series the steps of these lanes follow. (lane_steps.cpp)
 void follow_torques_of(RunningBatch& run, const LaneSet& lanes);
@@ -156,13 +157,13 @@ void fall_back_to_scalar(RunningBatch& run, int lane);
 /// faster on neighbouring lanes, which share cache lines. (lane_end.cpp)
 void close_gaps(RunningBatch& run);
 
-/// Reports the jerk of the lane's trial that has ended last. (lane_records.cpp)
+/// Reports the last jerk of the trial that has ended. (lane_records.cpp)
 void report_jerk(RunningBatch& run, LaneTrial& trial);
 /// Reports the sample that has been taken last. (lane_records.cpp)
 void report_sample(RunningBatch& run, int lane);
 /// Reports the samples within steps, from their series. (lane_records.cpp)
 void report_passed_samples(RunningBatch& run);
-/// Reports the sample that each lane between two samples has passed last, at rest.
+/// Reports, for each lane between two samples, the last sample that it has passed at rest.
 void report_passed_at_rest(RunningBatch& run, const LaneSet& lanes);
 /// Reports a sample at rest, `passed` samples after the last one taken. (lane_records.cpp)
 void report_sample_at_rest(RunningBatch& run, int lane, double passed, double theta,

@@ -10,10 +10,10 @@
 
 namespace zerocount::friction {
 
-/// With the velocities 8·ωs and 6.5·ωs (slide_formulas.hpp).
+/// Constants of a bristle, with the velocities 8·ωs and 6.5·ωs (slide_formulas.hpp).
 struct BristleParameters : BristleConstants<double> {
-  double fast;  ///< |ω| beyond which g(ω) = Fc to the last bit, rad/s; 0 where g is constant
-  double slow;  ///< |ω| above which g(ω) = Fc to 6e-19 of Fs − Fc, rad/s; 0 where g is constant
+  double fast;  ///< |ω| beyond which g(ω) = Fc to the last bit, rad/s; 0 if g is constant
+  double slow;  ///< |ω| above which g(ω) = Fc to 6e-19 of Fs − Fc, rad/s; 0 if g is constant
 };
 
 BristleParameters bristle_parameters(double stiffness, double bristle_damping, double damping,
@@ -39,11 +39,12 @@ struct BristleMotion {
   double& omega;       ///< rad/s
   double& deflection;  ///< z, rad
 
-  /// Whether g is Fc as long as the motion lasts.
+  /// Whether g equals Fc throughout the motion.
   bool has_constant_level() const { return saturated || parameters.level.excess == 0.0; }
   BristleSeries start() const;
   double expand(BristleSeries& s, std::size_t k, double torque) const;
-  /// z is as accurate as θ, because an error of z becomes one of ω.
+  /// Longest step with a truncation error of z within the tolerance of θ, because an error of z becomes an
+  /// error of ω.
   static double step_of_state(const BristleSeries& series, double tolerance, double duration) {
     return motion::step_within(series.deflection, series.omega, series.exponent, tolerance, duration);
   }
@@ -62,7 +63,7 @@ class Bristle : public WithoutCreepAndReversals {
   static constexpr bool remembers_loading = false;
   static constexpr Breakaway breakaway = Breakaway::gradual;
 
-  /// Starts with z = 0; with `start.sliding` and ω ≠ 0, with that of steady sliding, sgn(ω)·g(ω)/σ0.
+  /// Starts with z = 0, or, with `start.sliding` and ω ≠ 0, with the z of steady sliding, sgn(ω)·g(ω)/σ0.
   Bristle(const BristleParameters& parameters, double inertia, const motion::PlantStart& start,
           const motion::MotionTolerance& tolerance);
 

@@ -11,11 +11,11 @@ template <class Number>
 struct BristleConstants {
   Number stiffness;               ///< σ0, N m/rad
   Number bristle_damping;         ///< σ1, N m s/rad
-  Number damping;                 ///< d, of the rotor, N m s/rad
-  StribeckCurveOf<Number> level;  ///< g
+  Number damping;                 ///< Viscous damping d of the rotor, N m s/rad
+  StribeckCurveOf<Number> level;  ///< Friction level g(ω)
 };
 
-/// With times in the unit of h (s).
+/// The constants with times in the unit of h (s).
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE BristleConstants<Number> in_unit_of_time(const BristleConstants<Number>& of,
                                                                  const Number& h) {
@@ -32,8 +32,9 @@ struct BristleSeriesOf : LevelSeriesOf<Series> {
 };
 
 /// Computes coefficients k of functions of the state, and k + 1 of θ and z (BristleMotion).
-/// @tparam ConstantLevel g is Fc. @param direction s. @param saturated z stays as it is; only with a constant
-/// level. @param torque coefficient k of u. @returns that of u − σ0·z − σ1·dz/dt − d·ω.
+/// @tparam ConstantLevel whether g is Fc. @param direction s. @param saturated whether z stays as it is; only
+/// with a constant level. @param torque coefficient k of u. @returns coefficient k of u − σ0·z − σ1·dz/dt −
+/// d·ω.
 template <bool ConstantLevel, class Number, class Mask, class Series>
 ZEROCOUNT_ALWAYS_INLINE Number bristle_coefficient(const BristleConstants<Number>& of,
                                                    const Number& direction,

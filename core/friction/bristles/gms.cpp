@@ -17,7 +17,7 @@ std::vector<GmsElement> gms_like_the_spring() {
 
 namespace {
 
-/// For the formulas.
+/// Access to the elements, as the formulas of gms_formulas.hpp need it.
 struct Elements {
   std::span<GmsState> states;
 
@@ -69,7 +69,7 @@ bool GmsMotion::may_slip(const GmsSeries& series, double step) const {
   });
 }
 
-/// ηi·g(ω) − s·Fi of a sticking element.
+/// Series of the margin ηi·g(ω) − s·Fi of a sticking element.
 numerics::Series GmsMotion::margin_of(const GmsState& state, const GmsSeries& series) const {
   numerics::Series margin;
   for (std::size_t k = 0; k <= numerics::series_order; ++k)

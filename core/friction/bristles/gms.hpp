@@ -31,18 +31,18 @@ struct GmsMotion {
   enum class Event { none, slip, velocity_zero };
 
   std::span<GmsState> elements;
-  GmsConstants<double> law;  ///< with its acting_attraction()
+  GmsConstants<double> law;  ///< Constants of the law, with acting_attraction() as the attraction.
   double direction;          ///< s, −1 or 1
   double& theta;             ///< rad
   double& omega;             ///< rad/s
-  GmsSums<double> sums;      ///< at the start of the step
+  GmsSums<double> sums;      ///< Sums over the elements at the start of the step.
 
   GmsSeries start() const;
   double expand(GmsSeries& s, std::size_t k, double torque) const {
     return gms_coefficient(law, sums, direction, s, k, torque);
   }
-  /// Torques of slipping elements, and the level that others may reach, are as accurate as the elongation of
-  /// the stiffest spring.
+  /// Longest step within the tolerance, s. It bounds the errors of the torques of slipping elements, and of
+  /// the level that sticking ones may reach, by the tolerance times the largest stiffness.
   double step_of_state(const GmsSeries& series, double tolerance, double duration) const;
   void complete(GmsSeries& s) const { s.expand_level(law.level, s.omega.data(), numerics::series_order); }
   motion::NextEvent<Event> first_event(const GmsSeries& series, double step) const;

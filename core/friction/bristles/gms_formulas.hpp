@@ -8,7 +8,7 @@
 /// change them.
 namespace zerocount::friction {
 
-/// An element with its state.
+/// An element of the Maxwell-slip model with its state.
 template <class Number>
 struct GmsStateOf {
   Number stiffness;  ///< κi, N m/rad
@@ -24,23 +24,23 @@ struct GmsConstants {
   Number damping;                 ///< cs, N m s/rad
 };
 
-/// With times in the unit of h (s).
+/// The constants with times in the unit of h (s).
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE GmsConstants<Number> in_unit_of_time(const GmsConstants<Number>& of,
                                                              const Number& h) {
   return {in_unit_of_time(of.level, h), of.attraction * h, of.damping / h};
 }
 
-/// Sums over the elements that stick, and over those that slip.
+/// Sums over the sticking elements, and over the slipping elements.
 template <class Number>
 struct GmsSums {
   Number sticking_torque;     ///< N m
   Number sticking_stiffness;  ///< N m/rad
   Number slipping_torque;     ///< N m
-  Number slipping_weight;     ///< H
+  Number slipping_weight;     ///< Sum H of the weights ηi of the slipping elements
 };
 
-/// Σ Fi, N m.
+/// Torque of all elements, Σ Fi, N m.
 template <class Number, class Elements>
 ZEROCOUNT_ALWAYS_INLINE Number torque_of_elements(const Elements& elements) {
   Number sum(0.0);
@@ -71,8 +71,9 @@ ZEROCOUNT_ALWAYS_INLINE GmsSums<Number> begin_to_slip(Elements& elements, const 
   return sums;
 }
 
-/// The rest rule of GmsFriction: the elements that carry a rotor at rest take over what the torque exceeds
-/// theirs by. @param level g(0), N m. @param rest ε, rad. @returns whether the rotor is at rest.
+/// The rest rule of GmsFriction. If the rotor is at rest, the elements that hold it take over the difference
+/// between the torque and ΣFi. @param level g(0), N m. @param rest ε, rad. @returns whether the rotor is at
+/// rest.
 template <class Number, class Elements, class Mask>
 ZEROCOUNT_ALWAYS_INLINE Mask rest_on_elements(Elements& elements, const Number& torque, const Number& omega,
                                               const Number& level, const Number& inertia, const Number& rest,
@@ -99,15 +100,16 @@ ZEROCOUNT_ALWAYS_INLINE Mask rest_on_elements(Elements& elements, const Number& 
 /// Taylor series of the elements and their rotor. @tparam Series an array of the coefficients.
 template <class Series>
 struct GmsSeriesOf : LevelSeriesOf<Series> {
-  Series position;        ///< travel since the start of the step, rad
+  Series position;        ///< Travel since the start of the step, rad
   Series omega;           ///< ω, rad/s
-  Series slipping;        ///< torque of all slipping elements, N m
+  Series slipping;        ///< Torque of all slipping elements, N m
   Series slipping_ratio;  ///< slipping/g(ω)
-  Series fading;          ///< E of GmsMotion, dimensionless
+  Series fading;          ///< Decay factor E of GmsMotion, dimensionless
   Series fading_ratio;    ///< fading/g(ω), 1/(N m)
 };
 
-/// C where elements relax, else 0: where g is constant, slipping elements stay at its level.
+/// Attraction C if there are slipping elements that relax, else 0. If g is constant, slipping elements stay
+/// at its level and do not relax.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number acting_attraction(const GmsConstants<Number>& of,
                                                  const GmsSums<Number>& sums) {
@@ -116,8 +118,8 @@ ZEROCOUNT_ALWAYS_INLINE Number acting_attraction(const GmsConstants<Number>& of,
 }
 
 /// Computes coefficients k of functions of the state, and k + 1 of the state except ω.
-/// @param of with its acting_attraction(). @param direction s. @param torque coefficient k of u. @returns
-/// that of u − ΣFi − cs·ω.
+/// @param of constants of the law, with acting_attraction() as the attraction. @param direction s. @param
+/// torque coefficient k of u. @returns coefficient k of u − ΣFi − cs·ω.
 template <class Number, class Series>
 ZEROCOUNT_ALWAYS_INLINE Number gms_coefficient(const GmsConstants<Number>& of, const GmsSums<Number>& sums,
                                                const Number& direction, GmsSeriesOf<Series>& s, std::size_t k,
@@ -138,14 +140,15 @@ ZEROCOUNT_ALWAYS_INLINE Number gms_coefficient(const GmsConstants<Number>& of, c
   return torque - sticking - s.slipping[k] - of.damping * s.omega[k];
 }
 
-/// Coefficient k of ηi·g(ω) − s·Fi of a sticking element.
+/// Coefficient k of the margin ηi·g(ω) − s·Fi of a sticking element.
 template <class Number, class Series>
 ZEROCOUNT_ALWAYS_INLINE Number margin_coefficient(const GmsStateOf<Number>& state, const Number& direction,
                                                   const GmsSeriesOf<Series>& s, std::size_t k) {
   return state.weight * s.level[k] - direction * (k == 0 ? state.torque : state.stiffness * s.position[k]);
 }
 
-/// Fi after a travel (rad). @param slipping, fading the values of their series there.
+/// Torque Fi of an element after a travel (rad). @param slipping, fading values of GmsSeriesOf::slipping and
+/// fading after that travel.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number torque_after(const GmsStateOf<Number>& state, const GmsSums<Number>& sums,
                                             const Number& travel, const Number& slipping,

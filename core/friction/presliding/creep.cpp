@@ -11,8 +11,8 @@ namespace {
 
 constexpr double slow = 0.1;  // max α over the rates at which the rotor's own motion decays
 
-/// Each round reduces the error to less than about 1e-2, because the other terms are small beside the leading
-/// ones, c·p in S and α·p in dp/dt.
+/// Number of rounds of the iteration. Each one reduces the error to less than about 1e-2 of it, because the
+/// other terms are small beside the leading ones, c·p in S and α·p in dp/dt.
 constexpr int rounds = 10;
 constexpr int rounds_of_error = 3;  // two digits are enough
 

@@ -42,9 +42,9 @@ inline double creep_onset_torque(const FrictionParameters& friction, double hard
   return std::max(torque_of_limit(friction, hardening), 1e-14 * friction.breakaway);
 }
 
-/// The |σ| (N m) at which creep that has ended sets in again: beyond the limit of `hardening` (rad), and
-/// beyond the rounding error of the present σ = `torque` at `elongation` (rad); otherwise creep would set in
-/// again at once where σ changes by less than that per step.
+/// The |σ| (N m) at which creep that has ended sets in again. It lies beyond the limit of `hardening` (rad),
+/// and beyond the present σ = `torque` at `elongation` (rad) by its rounding error. Without the second
+/// condition, creep would set in again at once if σ changes by less than its rounding error per step.
 inline double creep_onset_after_end(const FrictionParameters& friction, double hardening, double torque,
                                     double elongation) {
   const double rounding = 8.0 * std::numeric_limits<double>::epsilon() *
@@ -86,11 +86,11 @@ struct CreepAtRest {
   double s2{0.0};       ///< N m s²/rad²
   double w1{0.0};       ///< dimensionless
   double w2{0.0};       ///< s/rad
-  double rate{0.0};     ///< p₀, at t = 0, rad/s
+  double rate{0.0};     ///< Rate of creep p₀ at t = 0, rad/s
 };
 
-/// Creep at rest with `sign`·torque > 0. None where creep is too fast: α must be below a tenth of the rates
-/// at which the motion of the rotor decays, c/2J and k/c.
+/// Creep at rest with `sign`·torque > 0. Empty if creep is too fast: α must be below a tenth of the rates at
+/// which the motion of the rotor decays, c/2J and k/c.
 /// @param torque u, N m. @param sign s. @param stiffness k, N m/rad. @param hardening xh at t = 0, rad, with
 /// |u|ⁿ/λ beyond it.
 std::optional<CreepAtRest> creep_at_rest(const motion::PlantParameters& plant,
@@ -102,7 +102,7 @@ std::optional<CreepAtRest> creep_at_rest(const motion::PlantParameters& plant,
 double error_of_creep_at_rest(const CreepAtRest& rest, const motion::PlantParameters& plant,
                               const FrictionParameters& contact, double stiffness, double last_stiffness);
 
-/// p (rad/s) after the time t (s).
+/// Rate of creep p (rad/s) after the time t (s).
 double creep_rate_after(const CreepAtRest& rest, double t);
 
 /// ∫p dt (rad), the growth of xh and |xp| until the rate has fallen to `rate` (rad/s).
@@ -114,12 +114,12 @@ double rate_after_creep(const CreepAtRest& rest, double growth);
 /// The time (s) until the rate has fallen to `rate` (rad/s, positive).
 double time_until_rate(const CreepAtRest& rest, double rate);
 
-/// S (N m) at the rate p (rad/s).
+/// Spring torque S (N m) at the rate of creep p (rad/s).
 inline double spring_torque_at_rate(const CreepAtRest& rest, double rate) {
   return rest.balance - rate * (rest.s1 + rate * rest.s2);
 }
 
-/// w (rad/s) at the rate p (rad/s).
+/// Velocity w (rad/s) at the rate of creep p (rad/s).
 inline double velocity_at_rate(const CreepAtRest& rest, double rate) {
   return rate * (rest.w1 + rate * rest.w2);
 }

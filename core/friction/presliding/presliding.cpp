@@ -11,9 +11,9 @@
 namespace zerocount::friction {
 namespace {
 
-/// Below this fraction of the breakaway torque the sign of σ is a matter of rounding. A new contact then
-/// starts at the origin of the virgin curve, because the side on which it starts decides whether a reversal
-/// there is remembered.
+/// Fraction of the breakaway torque below which the sign of σ is a matter of rounding. A new contact with
+/// such a σ starts at the origin of the virgin curve, because the side on which it starts decides whether a
+/// reversal there is remembered.
 constexpr double torque_without_sign = 1e-14;
 
 }  // namespace
@@ -138,7 +138,7 @@ double PreslidingFriction::stick(const motion::TorqueCourse& torque, double dura
   return next.time;
 }
 
-/// Turns the creep law on or off by its conditions. @returns dxp/dt, rad/s.
+/// Turns the creep law on or off by its conditions. @returns the rate of creep dxp/dt, rad/s.
 double PreslidingFriction::switch_creep() {
   if (!creeping_ && std::abs(spring_.torque()) >= creep_onset_torque_) creeping_ = true;
   const double rate = creep_rate();
@@ -148,7 +148,7 @@ double PreslidingFriction::switch_creep() {
   return 0.0;
 }
 
-/// dxp/dt, rad/s.
+/// Rate of creep dxp/dt, rad/s; 0 while creep is off.
 double PreslidingFriction::creep_rate() const {
   if (!creeping_) return 0.0;
   const double torque = spring_.torque();

@@ -17,9 +17,9 @@ struct PlantMotion {
   double elongation{0.0};  ///< xs, rad
   double omega{0.0};       ///< ω, rad/s
   CreepState creep{};
-  bool creeping{false};            ///< the creep law is on
-  double creep_onset_torque{0.0};  ///< |σ| at which it sets in while it is off, N m
-  double hook{0.0};                ///< rad
+  bool creeping{false};            ///< The creep law is on
+  double creep_onset_torque{0.0};  ///< |σ| at which creep sets in while it is off, N m
+  double hook{0.0};                ///< Position of the hook, rad
   bool sliding{false};
   double slide_theta{0.0};              ///< θ, rad
   double slide_direction{0.0};          ///< −1, 1
@@ -88,47 +88,48 @@ class PreslidingFriction {
   /// State of rest under a constant torque.
   struct Rest {
     double torque;                    ///< u, N m
-    CreepAtRest creep;                ///< the motion by creep since the rest began
-    CreepState start;                 ///< of creep when the rest began
-    ResidualOscillation oscillation;  ///< about it
-    double time;                      ///< since the rest began, s
+    CreepAtRest creep;                ///< Motion by creep since the rest began
+    CreepState start;                 ///< State of creep when the rest began
+    ResidualOscillation oscillation;  ///< Oscillation about the motion by creep
+    double time;                      ///< Time since the rest began, s
   };
 
   /// Applies the rest rule under the constant torque `torque` (N m). If it returns true, step() with that
   /// torque takes the whole duration at once.
-  /// @param at_reversal dxs/dt is exactly zero. @param load the second mass; null without one
+  /// @param at_reversal whether dxs/dt is exactly zero. @param load the second mass; null without one
   bool come_to_rest(double torque, bool at_reversal, motion::Load* load = nullptr);
   /// Empty while the rotor is not at rest.
   const std::optional<Rest>& rest() const { return rest_; }
   /// The motion at rest at a later time.
   struct RestPoint {
-    double time;    ///< since the rest began, s
-    double rate;    ///< of creep, rad/s; 0 without it
-    double growth;  ///< of creep since the rest began, rad
+    double time;    ///< Time since the rest began, s
+    double rate;    ///< Rate of creep, rad/s; 0 without creep
+    double growth;  ///< Growth of creep since the rest began, rad
     ResidualOscillation::State oscillation;
   };
-  /// After another `time` (s) at rest. Called at rest only, as the next two.
+  /// The motion after another `time` (s) at rest. Call at rest only.
   RestPoint point_at_rest(double time) const;
-  /// θ (rad) there.
+  /// Angle θ (rad) at a point at rest. Call at rest only.
   double theta_at(const RestPoint& point) const;
-  /// Goes on at rest to a point.
+  /// Advances the rotor at rest to a point. Call at rest only.
   void go_to(const RestPoint& point);
   /// The present deviation from quasi-static creep; zero except at rest.
   const ResidualOscillation::State& oscillation() const { return oscillation_; }
-  /// At rest, its elongation is that of quasi-static creep, without the residual oscillation.
+  /// The spring of the contact. At rest, its elongation is that of quasi-static creep, without the residual
+  /// oscillation.
   HystereticSpring& spring() { return spring_; }
 
-  /// θ, rad.
+  /// Angle θ of the rotor, rad.
   double theta() const { return sliding_ ? slide_theta_ : hook_ + elongation() + creep_.extension; }
-  /// ω, rad/s.
+  /// Velocity ω of the rotor, rad/s.
   double omega() const { return omega_; }
-  /// State of the present contact, or of the last one while sliding.
+  /// State of creep in the present contact, or in the last one while the hook slides.
   const CreepState& creep() const { return creep_; }
   const HystereticSpring& spring() const { return spring_; }
   const FrictionParameters& contact() const { return contact_; }
   bool sliding() const { return sliding_; }
 
-  /// Since the start.
+  /// Number of breakaways since the start.
   std::int64_t breakaways() const { return breakaways_; }
   /// Largest stack depth since the last forget_deepest().
   std::int64_t deepest() const { return deepest_; }
@@ -144,7 +145,7 @@ class PreslidingFriction {
 
   /// Deviation of the motion from quasi-static creep.
   struct Excess {
-    CreepAtRest creep;  ///< quasi-static creep under the same torque
+    CreepAtRest creep;  ///< Quasi-static creep under the same torque
     double torque;      ///< δσ, N m
     double velocity;    ///< δω, rad/s
     double amplitude;   ///< A, rad

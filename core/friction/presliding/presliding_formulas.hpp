@@ -21,13 +21,13 @@ struct SpringBranchOf {
   Number softening_rate{0.0};    ///< 1/rad
 };
 
-/// |x − xr| at the elongation x (rad).
+/// Travel |x − xr| on the branch at the elongation x (rad).
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number travel_on(const SpringBranchOf<Number>& branch, const Number& x) {
   return branch.sign * (x - branch.elongation);
 }
 
-/// σ (N m) after the travel |x − xr| (rad), with softened = 1 − exp(−softening_rate·|x − xr|).
+/// Torque σ (N m) after the travel |x − xr| (rad). @param softened 1 − exp(−softening_rate·|x − xr|).
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number torque_after(const SpringBranchOf<Number>& branch, const Number& travel,
                                             const Number& softened) {
@@ -53,7 +53,8 @@ struct OscillationPhase {
   Number phase;      ///< φ, rad
 };
 
-/// With x = η·a₀·(1 − exp(−γt))/γ, a/a₀ = exp(−γt)/(1 + x) and ∫a/a₀ dt = log(1 + x)/(η·a₀).
+/// Amplitude and phase of the residual oscillation at the time t. With x = η·a₀·(1 − exp(−γt))/γ, a/a₀ =
+/// exp(−γt)/(1 + x) and ∫a/a₀ dt = log(1 + x)/(η·a₀).
 /// @param decayed 1 − exp(−γt). @param t s
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE OscillationPhase<Number> oscillation_phase(const OscillationConstants<Number>& of,
@@ -71,7 +72,8 @@ struct OscillationState {
   Number velocity;    ///< v, rad/s
 };
 
-/// @param amplitude a/a₀. @param s sin φ. @param c cos φ
+/// State of the residual oscillation.
+/// @param amplitude a/a₀. @param s sin φ. @param c cos φ.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE OscillationState<Number> oscillation_state(const OscillationConstants<Number>& of,
                                                                    const Number& amplitude, const Number& s,

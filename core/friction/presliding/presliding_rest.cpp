@@ -16,13 +16,14 @@ bool PreslidingFriction::come_to_rest(double torque, bool at_reversal, motion::L
   return begin_rest(torque, elongation_under(torque_now, creep_rate_now), was_at_rest, load == nullptr);
 }
 
-/// Whether the load, if any, does not keep the rotor from rest.
+/// Whether the rotor may rest as far as the load is concerned: there is no load, or it is quiet.
 bool PreslidingFriction::load_is_quiet(const motion::TorqueCourse& torque, double creep_rate_now) const {
   return motion::load_is_quiet(torque, omega_, plant_.inertia, 0.5 * contact_.k1 * tolerance_.rest,
                                -contact_.alpha * creep_rate_now);
 }
 
-/// @returns whether the rotor was at rest and its residual oscillation had ended.
+/// Ends the state of rest, if any. @returns whether the rotor was at rest and its residual oscillation had
+/// ended.
 bool PreslidingFriction::leave_rest() {
   if (!rest_) return false;
   const bool was_at_rest = !(rest_->time < rest_->oscillation.end);
@@ -33,7 +34,7 @@ bool PreslidingFriction::leave_rest() {
 }
 
 /// Applies the rest rule under the constant torque `torque` (N m). @returns whether the rotor is at rest.
-/// @param was_at_rest the rotor has been at rest until now, under another torque.
+/// @param was_at_rest whether the rotor has been at rest until now, under another torque.
 /// @param may_oscillate whether a residual oscillation at a reversal counts as rest.
 bool PreslidingFriction::begin_rest(double torque, const Elongation& elongation, bool was_at_rest,
                                     bool may_oscillate) {
@@ -65,12 +66,13 @@ bool PreslidingFriction::begin_rest(double torque, const Elongation& elongation,
   return true;
 }
 
-/// The state of creep without the contribution of the residual oscillation.
+/// State of creep without the contribution of the residual oscillation.
 CreepState PreslidingFriction::slow_creep(double sign) const {
   return {creep_.extension - oscillation_.extension, creep_.hardening - sign * oscillation_.extension};
 }
 
-/// Empty if the amplitude is above `max_amplitude` (rad), or creep is as fast as the oscillation.
+/// Deviation of the motion from quasi-static creep. Empty if the amplitude is above `max_amplitude` (rad), or
+/// if creep is as fast as the oscillation.
 std::optional<PreslidingFriction::Excess> PreslidingFriction::excess_over_rest(double torque,
                                                                                const Elongation& elongation,
                                                                                double max_amplitude) const {
@@ -176,7 +178,7 @@ ResidualOscillation PreslidingFriction::begin_oscillation(const Excess& excess) 
                               tolerance_.elongation);
 }
 
-/// The motion by creep alone, if its error stays below a tenth of the amplitude of the rest rule.
+/// The motion by creep alone; empty if its error exceeds a tenth of the amplitude of the rest rule.
 std::optional<CreepAtRest> PreslidingFriction::slow_motion(double torque, double sign) const {
   const bool onwards = spring_.direction() == static_cast<int>(sign);
   const double stiffness =

@@ -25,7 +25,7 @@ namespace zerocount::friction {
 ///
 /// The truncation error is of the order β·a² and does not grow with the number of periods.
 struct ResidualOscillation : OscillationConstants<double> {
-  double end{0.0};        ///< time from which q counts as 0, s
+  double end{0.0};        ///< Time from which q counts as 0, s
   double amplitude{0.0};  ///< a₀, rad
 
   using State = OscillationState<double>;

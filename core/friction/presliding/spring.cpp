@@ -11,12 +11,12 @@ namespace zerocount::friction {
 
 namespace {
 
-/// 1 − exp(−y)
+/// Softening term 1 − exp(−y) of the branch law.
 double softened(double y) {
   return -numerics::expm1_of_draws(-y);
 }
 
-/// The y at which the condition begins to hold, to the last bit. @param low, high y between them
+/// The y at which the condition begins to hold, to the last bit. @param low, high ends between which y lies.
 template <class Condition>
 double least_that(double low, double high, const Condition& holds) {
   return numerics::bisect(
@@ -204,7 +204,7 @@ double HystereticSpring::travel_ahead(const SpringBranch& branch, int direction)
   return branch.sign == direction ? travel_on(branch, elongation_) : -std::numeric_limits<double>::infinity();
 }
 
-/// σ at branch_end(), N m.
+/// Torque σ at branch_end(), N m.
 double HystereticSpring::branch_end_torque() const {
   if (stack_.size() >= 2) return stack_[stack_.size() - 2].torque;
   return stack_.empty() ? 0.0 : -stack_.front().torque;

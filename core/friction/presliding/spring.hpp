@@ -15,7 +15,7 @@ struct VirginPoint {
   double torque{0.0};  ///< σv(x), N m
 };
 
-/// How a spring softens from k1 + k2 to its final stiffness k1.
+/// Parameters by which a spring softens from k1 + k2 to its final stiffness k1.
 struct Softening {
   double k2{0.0};    ///< N m/rad
   double beta{0.0};  ///< 1/rad
@@ -25,18 +25,19 @@ struct Softening {
 ///
 ///     (1 − exp(−y))/y = (torque/travel − k1)/k2,   β = y/(2·travel)
 ///
-/// Nothing unless final < torque/travel < initial.
+/// The result is empty unless final < torque/travel < initial.
 /// @param initial, final  stiffnesses, N m/rad
 std::optional<Softening> softening_from(double initial, double final, const VirginPoint& point);
 
-/// The softening of a spring from two points of its virgin curve. With t = last.travel/first.travel, their
-/// ratio has β as its only unknown, and is monotonic in it:
+/// The softening of a spring from two points of its virgin curve. With t = last.travel/first.travel, the
+/// ratio of the two points has β as its only unknown, and is monotonic in it:
 ///
 ///     (1 − exp(−t·y))/(1 − exp(−y)) = (last.torque − k1·last.travel)/(first.torque − k1·first.travel)
 ///     β = y/(2·first.travel),   k2 = (first.torque/first.travel − k1)·y/(1 − exp(−y))
 ///
-/// Nothing unless k1 < first.torque/first.travel, first.travel < last.travel, and the last point lies above
-/// the line of slope k1 through the first one and below that through the origin and the first one.
+/// The result is empty unless k1 < first.torque/first.travel, first.travel < last.travel, and the last point
+/// lies above the line of slope k1 through the first point and below the line through the origin and the
+/// first point.
 /// @param final k1, N m/rad
 std::optional<Softening> softening_through(const VirginPoint& first, const VirginPoint& last, double final);
 
@@ -70,22 +71,23 @@ class HystereticSpring {
 
   explicit HystereticSpring(const FrictionParameters& friction) : friction_(friction) {}
 
-  /// An unstretched or re-stuck contact on the virgin curve at `elongation` (rad), last moving in `direction`
-  /// (−1, 0, 1).
+  /// Starts a contact on the virgin curve at `elongation` (rad), unstretched or re-stuck, that last moved in
+  /// `direction` (−1, 0, 1).
   void start_virgin(double elongation, int direction);
 
-  /// Stretched slowly from virgin to `torque` (N m) and let back to zero torque.
+  /// Starts a contact that has been stretched slowly from virgin to `torque` (N m) and released to zero
+  /// torque.
   void start_preloaded(double torque);
 
   double elongation() const { return elongation_; }                  ///< xs, rad
   double torque() const { return torque_on(branch_, elongation_); }  ///< σ, N m
-  int direction() const { return direction_; }  ///< sign of the last motion; 0 before any
+  int direction() const { return direction_; }  ///< Sign of the last motion; 0 before any motion
   std::size_t depth() const { return stack_.size(); }
   const SpringBranch& branch() const { return branch_; }
 
-  /// The elongation ahead (rad) at which the present branch ends: where the minor loop closes, where −xr of
-  /// the only reversal point is reached, or the origin of a virgin curve run inwards. None on an outward
-  /// virgin curve.
+  /// Elongation (rad) at which the present branch ends in the present direction. The branch ends at the
+  /// closure of the minor loop, at −xr of the only reversal point, or at the origin if a virgin curve is run
+  /// inwards. Empty on an outward virgin curve.
   std::optional<double> branch_end() const {
     if (stack_.size() >= 2) return stack_[stack_.size() - 2].elongation;
     if (stack_.size() == 1) {
@@ -100,7 +102,8 @@ class HystereticSpring {
   /// Sets the direction of motion. A change makes the present elongation a reversal point.
   void set_direction(int direction);
 
-  /// set_direction() at the elongation x (rad), where the torque on the present branch is known, N m.
+  /// Moves to the elongation x (rad) and calls set_direction() there. @param torque torque on the present
+  /// branch at x, N m.
   void set_direction(int direction, double x, double torque);
 
   /// Sets the elongation to x (rad), on the present branch short of its end.
@@ -127,7 +130,7 @@ class HystereticSpring {
 
   struct PointOnBranch {
     double elongation;  ///< rad
-    double stiffness;   ///< of the tangent, N m/rad
+    double stiffness;   ///< Tangent stiffness, N m/rad
   };
 
   /// The point that move_to_torque(`torque`) would reach; `torque` (N m) differs from the present one.

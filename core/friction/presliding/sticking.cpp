@@ -8,13 +8,13 @@
 namespace zerocount::friction {
 namespace {
 
-/// series − constant.
+/// The series minus a constant.
 numerics::Series less(numerics::Series series, double constant) {
   series[0] -= constant;
   return series;
 }
 
-/// constant − factor·series.
+/// A constant minus `factor` times the series.
 numerics::Series scaled_difference(double constant, double factor, numerics::Series series) {
   for (double& coefficient : series) coefficient *= -factor;
   series[0] += constant;

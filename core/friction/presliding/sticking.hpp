@@ -21,7 +21,7 @@ struct StickingSeries {
   numerics::Series softness{};         ///< exp(−y)
   numerics::Series magnitude{};        ///< |σ|, N m
   numerics::Series power{};            ///< |σ|ⁿ
-  double torque_sign{1.0};             ///< of σ, which does not change while creep is on
+  double torque_sign{1.0};             ///< Sign of σ, which does not change while creep is on
   double per_lambda{0.0};              ///< 1/λ
 };
 
@@ -35,11 +35,11 @@ struct Sticking {
   using Expansion = StickingSeries;
   enum class Event {
     none,
-    reversal,      ///< the elongation turns
-    closure,       ///< the present branch ends
+    reversal,      ///< The elongation turns
+    closure,       ///< The present branch ends
     creep_on,      ///< |σ| reaches the onset of creep
-    creep_off,     ///< the hardening catches up with |σ|ⁿ/λ
-    breakaway,     ///< the hook starts to slide
+    creep_off,     ///< The hardening catches up with |σ|ⁿ/λ
+    breakaway,     ///< The hook starts to slide
     velocity_zero  ///< ω = 0, which may start a slide in a contact already loaded beyond breakaway
   };
 
@@ -48,7 +48,7 @@ struct Sticking {
   HystereticSpring& spring;
   CreepState& creep;
   double& omega;              ///< rad/s
-  bool creeping;              ///< the creep law is on
+  bool creeping;              ///< The creep law is on
   double creep_onset_torque;  ///< |σ| (N m) at which creep starts, while it is off
 
   StickingSeries start() const;
@@ -67,7 +67,7 @@ struct Sticking {
   void go_to(const StickingSeries& series, const motion::NextEvent<Event>& next);
 
  private:
-  /// The coefficient of the branch's exponent, −y, for a coefficient of xs.
+  /// Coefficient of the branch's exponent −y, given the same coefficient of xs.
   double exponent_coefficient(double elongation_coefficient) const {
     return -spring.branch().softening_rate * spring.branch().sign * elongation_coefficient;
   }

@@ -7,11 +7,11 @@
 
 namespace zerocount::friction {
 
-/// Motion with which an engine of its own goes on.
+/// State of motion, for an engine that integrates the motion itself.
 struct CoulombMotion {
   double theta;      ///< rad
   double omega;      ///< rad/s
-  double direction;  ///< of the slide, −1 or 1; 0 while the rotor stands
+  double direction;  ///< Direction of the slide, −1 or 1; 0 while the rotor stands
   bool spent;        ///< StandingContact::spent
 };
 
@@ -54,7 +54,7 @@ class CoulombFriction : public WithoutCreepAndReversals {
 
  private:
   double stand(const motion::TorqueCourse& torque, double duration);
-  /// With a load or a varying disturbance.
+  /// Holds the rotor at rest under a load or a varying disturbance. @returns the time used, s.
   double stand_coupled(const motion::TorqueCourse& torque, double duration);
   double slide(const motion::TorqueCourse& torque, double duration);
   bool torque_drives(double direction, const motion::TorqueCourse& torque) const;

@@ -32,7 +32,7 @@ struct FreeSeries {
   numerics::Series exponent{};  ///< 0
 };
 
-/// J·dω/dt = u − c·ω, dθ/dt = ω. It has no events.
+/// The motion J·dω/dt = u − c·ω, dθ/dt = ω. It has no events.
 struct DampedRotor {
   using Expansion = FreeSeries;
   enum class Event { none };

@@ -59,7 +59,7 @@ class NoFriction : public WithoutCreepAndReversals {
   static std::int64_t breakaways() { return 0; }
 
  private:
-  /// With a load or a varying disturbance d, by Taylor series: J·dω/dt = u + d − Ts − c·ω.
+  /// Advances with a load or a varying disturbance d by a Taylor step: J·dω/dt = u + d − Ts − c·ω.
   double step_coupled(const motion::TorqueCourse& torque, double duration);
 
   motion::PlantParameters plant_;

@@ -4,8 +4,8 @@
 
 #include "core/numerics/series_recurrences.hpp"
 
-/// The motion without friction and that of a slide (Slide), for double and for the vectors of the batch
-/// engine.
+/// Formulas of the motion without friction and of a slide (Slide), for double and for the vectors of the
+/// batch engine.
 namespace zerocount::friction {
 
 // The Stribeck curve and its series along a motion, for double and for the vectors of the batch engine.
@@ -40,7 +40,7 @@ ZEROCOUNT_ALWAYS_INLINE StribeckCurveOf<Number> in_unit_of_time(const StribeckCu
 template <class Series>
 struct StribeckSeriesOf {
   Series exponent;  ///< −(ω/ωs)², dimensionless
-  Series slope;     ///< of the exponent
+  Series slope;     ///< Time derivative of the exponent, 1/s
   Series decay;     ///< exp(−(ω/ωs)²), dimensionless; decay[0] is given
 
   /// Computes coefficient k from omega[0…k].
@@ -54,7 +54,7 @@ struct StribeckSeriesOf {
   }
 };
 
-/// And of g(ω).
+/// Taylor series of exp(−(ω/ωs)²) and of the friction level g(ω).
 template <class Series>
 struct LevelSeriesOf : StribeckSeriesOf<Series> {
   Series level;  ///< g(ω), N m
@@ -72,7 +72,7 @@ struct LevelSeriesOf : StribeckSeriesOf<Series> {
 template <class Number>
 struct SlideConstants {
   Number damping;                 ///< cs, N m s/rad
-  StribeckCurveOf<Number> curve;  ///< g, its torques times the direction d
+  StribeckCurveOf<Number> curve;  ///< Friction level g, with its torques multiplied by the direction d
 };
 
 /// Taylor series of a slide. @tparam Series an array of the coefficients.
@@ -83,7 +83,7 @@ struct SlideSeriesOf : StribeckSeriesOf<Series> {
 };
 
 /// A motion with viscous damping alone: computes coefficient k + 1 of the position from k of ω.
-/// @param torque coefficient k of u. @returns that of u − damping·ω.
+/// @param torque coefficient k of u. @returns coefficient k of u − damping·ω.
 template <class Number, class Series>
 ZEROCOUNT_ALWAYS_INLINE Number damped_coefficient(const Number& damping, Series& s, std::size_t k,
                                                   const Number& torque) {
@@ -92,8 +92,8 @@ ZEROCOUNT_ALWAYS_INLINE Number damped_coefficient(const Number& damping, Series&
 }
 
 /// Computes coefficient k of the curve and k + 1 of the position.
-/// @tparam Fast g is Fc to the last bit. @param torque coefficient k of u. @returns that of u − cs·ω −
-/// d·g(ω).
+/// @tparam Fast whether g is Fc to the last bit. @param torque coefficient k of u. @returns coefficient k of
+/// u − cs·ω − d·g(ω).
 template <bool Fast, class Number, class Series>
 ZEROCOUNT_ALWAYS_INLINE Number slide_coefficient(const SlideConstants<Number>& of, SlideSeriesOf<Series>& s,
                                                  std::size_t k, const Number& torque) {

@@ -10,27 +10,27 @@ namespace zerocount::friction {
 
 using StribeckCurve = StribeckCurveOf<double>;
 
-/// Fs = breakaway, Fc = coulomb_ratio·Fs, ωs = stribeck_velocity.
+/// Stribeck curve of a contact: Fs = breakaway, Fc = coulomb_ratio·Fs, ωs = stribeck_velocity.
 inline StribeckCurve stribeck_curve(const FrictionParameters& contact) {
   const double coulomb = contact.coulomb_ratio * contact.breakaway;
   return {coulomb, contact.breakaway - coulomb,
           1.0 / (contact.stribeck_velocity * contact.stribeck_velocity)};
 }
 
-/// g(ω), N m.
+/// Friction level g(ω), N m.
 template <class Number>
 Number level_at(const StribeckCurveOf<Number>& curve, Number omega) {
   using numerics::exp;
   return curve.coulomb + curve.excess * exp(-curve.per_velocity_squared * omega * omega);
 }
 
-/// exp(−(ω/ωs)²), the coefficient 0 of StribeckSeriesOf::decay.
+/// Value of exp(−(ω/ωs)²), coefficient 0 of StribeckSeriesOf::decay.
 inline double decay_at(const StribeckCurve& curve, double omega) {
   return numerics::exp(-curve.per_velocity_squared * (omega * omega));
 }
 
-/// u − cs·ω − d·g(ω): the torque J·dω/dt that accelerates a hook which slides in the direction d = ±1, N m.
-/// @param damping cs, N m s/rad. @param curve g, not times d.
+/// Torque J·dω/dt = u − cs·ω − d·g(ω) that accelerates a hook which slides in the direction d = ±1, N m.
+/// @param damping cs, N m s/rad. @param curve g, not multiplied by d.
 template <class Number>
 Number sliding_torque(const Number& torque, const Number& damping, const StribeckCurveOf<Number>& curve,
                       double direction, const Number& omega) {
@@ -56,7 +56,8 @@ struct Slide {
   double theta;      ///< rad
   double omega;      ///< rad/s
   double direction;  ///< d, −1 or 1
-  /// At ω = 0: u has just reached d·g(0). Its rounded value does not decide whether the slide begins.
+  /// The slide starts at ω = 0 because u has just reached d·g(0). The rounded value of u then does not decide
+  /// whether the slide begins.
   bool at_level{false};
 
   SlidingSeries start() const;
@@ -72,7 +73,7 @@ struct Slide {
 bool leaves_rest(const Slide& slide, double inertia, const motion::TorqueCourse& torque);
 
 struct SlideStep {
-  double time;  ///< used, s
+  double time;  ///< Time used, s
   bool ended;   ///< ω has come to 0, or cannot leave it
 };
 

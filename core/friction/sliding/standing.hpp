@@ -9,15 +9,15 @@ namespace zerocount::friction {
 /// A rotor that Coulomb's friction holds.
 struct StandingContact {
   double breakaway;  ///< Fs, N m
-  double inertia;    ///< of the rotor, J, kg m²
-  bool spent;        ///< a slide that led nowhere (leads_nowhere) has just ended
+  double inertia;    ///< Inertia J of the rotor, kg m²
+  bool spent;        ///< A slide that led nowhere (leads_nowhere) has just ended.
 };
 
 struct StandingSeries {
   numerics::Series position{};  ///< 0
   numerics::Series omega{};     ///< 0
   numerics::Series exponent{};  ///< 0
-  numerics::Series torque{};    ///< on the rotor, N m
+  numerics::Series torque{};    ///< Torque on the rotor, N m
 };
 
 /// A rotor at rest while the torque on it, u − Ts, is within the breakaway torque.
@@ -26,18 +26,19 @@ struct StandingRotor {
   enum class Event { none, at_level, beyond };
 
   StandingContact contact;
-  const motion::Disturbance* disturbance;  ///< may be null
-  double direction{0};                     ///< of the torque on it at the end of the step: −1, 1
+  const motion::Disturbance* disturbance;  ///< Varying disturbance; may be null
+  double direction{0};  ///< Direction of the torque on the rotor at the end of the step: −1, 1
 
   static StandingSeries start() { return {}; }
   static double expand(StandingSeries& s, std::size_t k, double torque) {
     s.torque[k] = torque;
     return 0.0;
   }
-  /// The torque moves nothing while the rotor stands, so that no error of the position limits the step. Its
-  /// series ends before series_order. Of a motor and a load the last two terms, times t, stay below the
-  /// tolerance times t. Those of a line of a vibration may vanish, one at each extreme, and those of several
-  /// lines cancel: what they leave out is bounded line by line.
+  /// Longest step with an accurate series of the torque, s. While the rotor stands the torque moves nothing,
+  /// so no error of the position limits the step. The series of the torque ends before series_order. For a
+  /// motor and a load, the last two terms times t must stay below the tolerance times t. For a vibration that
+  /// test is not enough, because the last terms of one line vanish at its extremes and the terms of several
+  /// lines cancel. The truncation error of a vibration is therefore bounded line by line.
   double step_of_state(const StandingSeries& s, double tolerance, double duration) const;
   motion::NextEvent<Event> first_event(const StandingSeries& s, double step) const;
   void go_to(const StandingSeries& s, const motion::NextEvent<Event>& next) {
@@ -47,20 +48,22 @@ struct StandingRotor {
 
 /// A step of a rotor at rest.
 struct StandStep {
-  double time;       ///< that it took, s
-  double direction;  ///< in which the torque releases the rotor at its end: −1, 1; 0: it still stands
-  bool at_level;     ///< the torque is that of breakaway there (Slide::at_level); otherwise it is beyond
+  double time;  ///< Time that the step took, s
+  /// Direction in which the torque releases the rotor at the end: −1, 1; 0: it still stands
+  double direction;
+  bool at_level;  ///< The torque equals the breakaway torque at the end (Slide::at_level); otherwise it
+                  ///< exceeds it.
 };
 
-/// Lets a rotor stand under a torque with a load or a varying disturbance, as far as a Taylor step goes, or
-/// until the torque on it, u − Ts, exceeds the breakaway torque. Moves the load.
+/// Advances a standing rotor under a torque with a load or a varying disturbance. The step ends at the end of
+/// the Taylor step, or when the torque on the rotor, u − Ts, exceeds the breakaway torque. The load moves.
 ///
 /// Each step goes forward in time or releases the rotor, and a torque at the level releases it once at an
-/// instant. Where the torque reaches the level of breakaway, its rounded value lies on either side. It counts
-/// as that level, so that the slide begins with the rate of the torque. A slide that nevertheless leads
-/// nowhere leaves a contact that is `spent`: a torque within rounding of the level does not release it at
+/// instant. When the torque reaches the breakaway level, its rounded value may lie on either side. It counts
+/// as equal to the level, so that the slide begins with the rate of the torque. A slide that nevertheless
+/// leads nowhere leaves a `spent` contact, which a torque within rounding of the level does not release at
 /// this instant.
-/// @param tolerance of the load's twist, rad. @param duration longest step, s.
+/// @param tolerance tolerance of the load's twist, rad. @param duration longest step, s.
 StandStep stand_step(const StandingContact& contact, const motion::TorqueCourse& torque, double tolerance,
                      double duration);
 

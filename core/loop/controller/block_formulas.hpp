@@ -5,22 +5,23 @@
 /// The formulas of the controller's blocks, for double and for the vectors of the batch engine.
 namespace zerocount::loop {
 
-/// When and how the integral changes.
+/// Constants of the integral: deadband, zone, leak and range.
 template <class Number>
 struct IntegralConstants {
-  Number enter, leave;     ///< deadband, counts
-  Number zone;             ///< counts
-  Number retention;        ///< exp(−T/τ), the factor of I per sample
-  Number lowest, highest;  ///< of I, N m
+  Number enter, leave;     ///< Largest |e| that starts, and largest |e| that keeps, the deadband, counts
+  Number zone;             ///< Largest |e| at which the integral changes, counts
+  Number retention;        ///< Factor exp(−T/τ) of I per sample
+  Number lowest, highest;  ///< Range of I, N m
 };
 
 template <class Number>
 struct IntegralState {
   Number integral;  ///< I, N m
-  Number inside;    ///< the deadband: 0 or 1
+  Number inside;    ///< 1 inside the deadband, else 0
 };
 
-/// Whether the error is inside the deadband: from |e| ≤ enter on until |e| > leave. @returns a mask.
+/// Whether the error is inside the deadband, which begins at |e| ≤ enter and ends at |e| > leave. @returns a
+/// mask.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE auto inside_deadband(const IntegralConstants<Number>& c, const Number& inside,
                                              const Number& error) {
@@ -39,21 +40,21 @@ ZEROCOUNT_ALWAYS_INLINE void integrate(const IntegralConstants<Number>& c, Integ
   state.inside = select(inside, Number(1.0), Number(0.0));
 }
 
-/// The dead zone of the error.
+/// Constants of the dead zone of the error.
 template <class Number>
 struct ErrorDeadbandConstants {
   Number band;        ///< counts; negative: none
-  Number subtracted;  ///< from |e| beyond the band, counts: 0 or the band
+  Number subtracted;  ///< Counts subtracted from |e| beyond the band: 0 or the band
 };
 
-/// e′, counts.
+/// Error e′ after the dead zone, counts.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number acting_error(const ErrorDeadbandConstants<Number>& c, const Number& error) {
   return select(abs(error) <= c.band, Number(0.0), error - c.subtracted * sign(error));
 }
 
-/// For how many samples |e| ≤ band has lasted, with this one. A new target begins anew.
-/// @param run that of the sample before. @param new_target 0 or 1.
+/// Number of successive samples, including this one, with |e| ≤ band. A new target restarts the count.
+/// @param run result at the sample before. @param new_target 0 or 1.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number samples_within(const Number& band, const Number& run, const Number& new_target,
                                               const Number& error) {
@@ -61,7 +62,7 @@ ZEROCOUNT_ALWAYS_INLINE Number samples_within(const Number& band, const Number& 
   return select(abs(error) <= band, before + Number(1.0), Number(0.0));
 }
 
-/// When the standstill gains act.
+/// Constants of the standstill: when it begins, and its gains.
 template <class Number>
 struct StandstillConstants {
   Number band;        ///< counts
@@ -69,7 +70,7 @@ struct StandstillConstants {
   Number kp, ki, kd;  ///< N m/count
 };
 
-/// Takes this sample into `run` (samples_within). @returns a mask: the standstill gains act.
+/// Updates `run` (samples_within) by this sample. @returns a mask: true while the standstill gains act.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE auto stands_still(const StandstillConstants<Number>& c, Number& run,
                                           const Number& new_target, const Number& error) {
@@ -77,22 +78,22 @@ ZEROCOUNT_ALWAYS_INLINE auto stands_still(const StandstillConstants<Number>& c, 
   return (run >= c.dwell) & (new_target == Number(0.0));
 }
 
-/// When the wanted torque is held.
+/// Constants of the torque hold: when it begins and ends.
 template <class Number>
 struct HoldConstants {
-  Number enter, leave;  ///< counts
+  Number enter, leave;  ///< Largest |e| that starts, and largest |e| that keeps, the hold, counts
   Number dwell;         ///< samples
 };
 
 template <class Number>
 struct HoldState {
-  Number run;      ///< samples_within(enter)
-  Number holding;  ///< 0 or 1
-  Number torque;   ///< wanted at the last sample, N m
+  Number run;      ///< Number of successive samples with |e| ≤ enter (samples_within)
+  Number holding;  ///< 1 while the torque is held, else 0
+  Number torque;   ///< Wanted torque at the last sample, N m
 };
 
-/// Takes this sample into the state. @param fresh 1 at a new target and at the first sample, otherwise 0.
-/// @returns a mask: the torque is held.
+/// Updates the state by this sample. @param fresh 1 at a new target and at the first sample, otherwise 0.
+/// @returns a mask: true while the torque is held.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE auto holds_torque(const HoldConstants<Number>& c, HoldState<Number>& state,
                                           const Number& fresh, const Number& error) {
@@ -112,20 +113,20 @@ ZEROCOUNT_ALWAYS_INLINE Number dither_torque(const Number& amplitude, const Numb
   return select(floor(half) == half, amplitude, -amplitude);
 }
 
-/// d_k = a·d_{k−1} + (1 − a)·(count_k − count_{k−1}), counts.
+/// Filtered difference of counts, d_k = a·d_{k−1} + (1 − a)·(count_k − count_{k−1}), counts.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number filtered_difference(const Number& a, const Number& last,
                                                    const Number& change) {
   return a * last + (Number(1.0) - a) * change;
 }
 
-/// (b₀ + b₁·z⁻¹ + b₂·z⁻²)/(1 + a₁·z⁻¹ + a₂·z⁻²).
+/// Biquad (b₀ + b₁·z⁻¹ + b₂·z⁻²)/(1 + a₁·z⁻¹ + a₂·z⁻²).
 template <class Number>
 struct BiquadConstants {
   Number b0, b1, b2, a1, a2;
 };
 
-/// Direct form II transposed.
+/// State of a biquad in direct form II transposed.
 template <class Number>
 struct BiquadState {
   Number s1, s2;
@@ -141,7 +142,8 @@ ZEROCOUNT_ALWAYS_INLINE Number biquad_step(const BiquadConstants<Number>& c, Biq
   return y;
 }
 
-/// d̂ = A·(1 − z⁻¹)²/(1 + a₁·z⁻¹ + a₂·z⁻²)·count − q·(1 + z⁻¹)²/(1 + a₁·z⁻¹ + a₂·z⁻²)·torque.
+/// Constants of the disturbance observer: with N = 1 + a₁·z⁻¹ + a₂·z⁻², d̂ = A·(1 − z⁻¹)²/N·count − q·(1 +
+/// z⁻¹)²/N·torque.
 template <class Number>
 struct ObserverConstants {
   Number acceleration;  ///< A, N m/count
@@ -149,7 +151,9 @@ struct ObserverConstants {
   Number a1, a2;
 };
 
-/// @param travel count_k − count_0, counts. @param torque decided one sample before, N m. @returns d̂, N m.
+/// One step of the disturbance observer.
+/// @param travel count_k − count_0, counts. @param torque torque decided one sample before, N m. @returns the
+/// estimate d̂, N m.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number observer_step(const ObserverConstants<Number>& c, BiquadState<Number>& state,
                                              const Number& travel, const Number& torque) {
@@ -161,7 +165,7 @@ ZEROCOUNT_ALWAYS_INLINE Number observer_step(const ObserverConstants<Number>& c,
   return y;
 }
 
-/// Gains of the cascade, per count.
+/// Gains of the cascade in units of counts.
 template <class Number>
 struct CascadeConstants {
   Number kv;        ///< kv·Δx: velocity command per error, rad/s per count
@@ -170,20 +174,21 @@ struct CascadeConstants {
   Number ki;        ///< ki·T/2, N m s/rad
 };
 
-/// v* − v = v* − (Δx_v/T)·d_k, rad/s. @param command v*, rad/s: kv·Δx·e_k by way of VelocityCommand.
+/// Velocity error v* − v = v* − (Δx_v/T)·d_k, rad/s. @param command v*, rad/s: kv·Δx·e_k by way of
+/// VelocityCommand.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number velocity_error(const CascadeConstants<Number>& c, const Number& command,
                                               const Number& d) {
   return command - c.velocity * d;
 }
 
-/// v* rounded half to even to multiples of the resolution (rad/s), rad/s.
+/// Velocity command v* (rad/s), rounded half to even to a multiple of the resolution (rad/s).
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number rounded_command(const Number& command, const Number& resolution) {
   return resolution * rint(command / resolution);
 }
 
-/// kp·w + I, N m. @param w v* − v, rad/s.
+/// Torque of the velocity loop, kp·w + I, N m. @param w velocity error v* − v, rad/s.
 template <class Number>
 ZEROCOUNT_ALWAYS_INLINE Number cascade_torque(const Number& integral, const Number& kp, const Number& w) {
   return kp * w + integral;

@@ -9,6 +9,7 @@
 
 namespace zerocount::loop {
 
+/// Gains of the cascade in units of counts.
 /// @param resolution, velocity_resolution Δx of the encoders of the position and the velocity loop, rad per
 /// count.
 inline CascadeConstants<double> cascade_constants(const CascadeParameters& gains, double sample_rate,
@@ -16,15 +17,17 @@ inline CascadeConstants<double> cascade_constants(const CascadeParameters& gains
   return {gains.kv * resolution, sample_rate * velocity_resolution, gains.kp, 0.5 * gains.ki / sample_rate};
 }
 
-/// The velocity command of a position loop that may run in a host of its own: slower than the velocity loop,
-/// and sent to it as a number of few digits over a bus. With m = divider and q = latency, at sample k
+/// The velocity command of a position loop that may run in a host of its own. The host may be slower than the
+/// velocity loop and sends the command over a bus, as a number of few digits. With m = divider and q =
+/// latency, at sample k
 ///
 ///   v*_k = kv·Δx·e_k + feedforward·ṙ_k where k is a multiple of m, elsewhere v*_{k−1}          (rad/s)
 ///
 ///   V*(z) = z^−q·(1/m)·(1 + z⁻¹ + … + z^−(m−1))·kv·Δx·E(z), the images of the slower sampling left out.
 ///
-/// v*_k is rounded half to even to multiples of the resolution, and then clipped to ± the limit. The velocity
-/// loop gets v*_{k−q}, 0 before the first. The delay counts the samples at which the controller runs.
+/// v*_k is rounded half to even to a multiple of the resolution, and then clipped to ± the limit. The
+/// velocity loop gets v*_{k−q}, or 0 before the first command has arrived. The delay counts the samples at
+/// which the controller runs.
 class VelocityCommand {
  public:
   explicit VelocityCommand(const CascadeParameters& parameters)
@@ -44,7 +47,7 @@ class VelocityCommand {
     return arrived;
   }
 
-  /// `gain`·V*(z)/(kv·Δx·E(z)), between the steps of the resolution.
+  /// Transfer function `gain`·V*(z)/(kv·Δx·E(z)), without the rounding to the resolution.
   TransferFunction transfer(double gain) const {
     const auto divider = static_cast<std::size_t>(parameters_.divider);
     std::vector<double> b(sent_.size(), 0.0);
@@ -64,12 +67,12 @@ class VelocityCommand {
 ///   v*_k by VelocityCommand,   v_k = (Δx_v/T)·d_k,   w_k = v*_k − v_k                        (rad/s)
 ///   I ← I + (ki·T/2)·(w_k + w_{k−1}),   u = kp·w_k + I                                       (N m)
 ///
-///   U(z) = [kp + (ki·T/2)·(1 + z⁻¹)/(1 − z⁻¹)]·[V*(z) − (Δx_v/T)·D(z)],
+///   U(z) = [kp + (ki·T/2)·(1 + z⁻¹)/(1 − z⁻¹)]·[V*(z) − (Δx_v/T)·D(z)].
 ///
-/// with e′ of the dead zone (acting_error) in place of e, the conditions on I, by the position error e, and
-/// its leak by Integrator, and d the difference of the counts of the encoder that the velocity loop reads, of
-/// Δx_v, by CountDifference. Before the first sample w was 0. Source: Groß, Hamann, Wiegärtner, "Electrical
-/// Feed Drives in Automation", Siemens/MCD 2001, chapter 3.
+/// The error e′ after the dead zone (acting_error) replaces e. Integrator adds the conditions on I, which
+/// depend on the position error e, and the leak. CountDifference gives d, the difference of the counts of the
+/// encoder that the velocity loop reads, whose resolution is Δx_v. Before the first sample w was 0. Source:
+/// Groß, Hamann, Wiegärtner, "Electrical Feed Drives in Automation", Siemens/MCD 2001, chapter 3.
 class Cascade {
  public:
   Cascade(const ControllerParameters& parameters, const ControlStart& start)
@@ -118,7 +121,7 @@ class Cascade {
   double integral() const { return integral_.value(); }  ///< I, N m
 
  private:
-  /// v* that acts, rad/s.
+  /// Velocity command v* that acts at this sample, rad/s.
   double command(const Feedback& now) {
     return command_.step(now, constants_.kv * acting_error(deadband_, now.error));
   }

@@ -9,22 +9,22 @@
 
 namespace zerocount::loop {
 
-/// H(z) = (b₀ + b₁·z⁻¹ + …)/(1 + a₁·z⁻¹ + …).
+/// Transfer function H(z) = (b₀ + b₁·z⁻¹ + …)/(1 + a₁·z⁻¹ + …).
 struct TransferFunction {
-  std::vector<double> b;       ///< b₀, b₁, …
-  std::vector<double> a{1.0};  ///< 1, a₁, …
+  std::vector<double> b;       ///< Numerator coefficients b₀, b₁, …
+  std::vector<double> a{1.0};  ///< Denominator coefficients 1, a₁, …
 };
 
 /// Input signal of a stage of the controller at sample k.
 enum class LoopSignal {
-  torque,          ///< from the stage before it, N m (rad/s within the cascade); 0 for the first
-  error,           ///< e_k, counts
-  count,           ///< counts
-  velocity_count,  ///< of the encoder that the velocity loop of a cascade reads, counts of it; else `count`
-  torque_in_force  ///< decided at sample k − 1, N m
+  torque,          ///< Output of the stage before, N m (rad/s within the cascade); 0 for the first stage
+  error,           ///< Error e_k, counts
+  count,           ///< Count of the encoder that closes the loop
+  velocity_count,  ///< Count of the encoder that a cascade's velocity loop reads; without a cascade: `count`
+  torque_in_force  ///< Torque decided at sample k − 1, N m
 };
 
-/// From one of a stage's inputs to its output.
+/// Path from one of a stage's inputs to its output.
 struct SignalPath {
   LoopSignal from;
   TransferFunction transfer;
@@ -49,23 +49,24 @@ struct ReferenceMotion {
   double position{0.0};      ///< r, counts
 };
 
-/// Inputs of the controller at a sampling instant. Error and count are whole numbers, or those of a coarser
-/// encoder in counts of the fine one; velocity_count and other_count are of their own encoders.
+/// Inputs of the controller at a sampling instant. Error and count are in counts of the fine encoder; they
+/// are whole numbers unless a coarser encoder closes the loop. velocity_count and other_count are in counts
+/// of their own encoders.
 struct Feedback {
-  double error{0.0};            ///< reference − count, counts
+  double error{0.0};            ///< Reference − count, counts
   double count{0.0};            ///< counts
-  double torque_in_force{0.0};  ///< decided at the last sample, N m; 0 before the first
+  double torque_in_force{0.0};  ///< Torque decided at the last sample, N m; 0 before the first
   ReferenceMotion reference{};
-  bool new_target{false};  ///< the target is not that of the last sample
-  std::int64_t sample{0};  ///< its number, from the trial's start
-  double velocity_count{
-      0.0};                 ///< of the encoder that the velocity loop of a cascade reads; otherwise `count`
-  double other_count{0.0};  ///< of the encoder of the other mass; 0 without it
+  bool new_target{false};  ///< The target differs from that of the last sample.
+  std::int64_t sample{0};  ///< Number of the sample from the start of the trial
+  /// Count of the encoder that a cascade's velocity loop reads; otherwise `count`
+  double velocity_count{0.0};
+  double other_count{0.0};  ///< Count of the encoder on the other mass; 0 without it
 };
 
 /// Range and resolution of the converter.
 struct DacScale {
-  TorqueRange range{};     ///< to which anti-windup clamps the integral
+  TorqueRange range{};     ///< Range to which anti-windup clamps the integral.
   double resolution{0.0};  ///< Δu, N m
 };
 

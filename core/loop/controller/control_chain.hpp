@@ -35,8 +35,9 @@ class BlockChain {
   void pause(const Feedback& now) {
     for_each([&](auto& block) { block.pause(now); });
   }
-  /// The next sample, which may be the first, continues from this torque in force (N m). From the last block
-  /// to the first, each returns the torque that it needs from the one before.
+  /// Prepares the blocks so that the next sample, which may be the first, continues from this torque in force
+  /// (N m). From the last block to the first, each block returns the torque that it needs from the block
+  /// before.
   void take_over(double torque) { take_over_by<sizeof...(Blocks)>(torque); }
 
   LinearChain linear() const {
@@ -59,7 +60,7 @@ class BlockChain {
     std::apply([&](auto&... block) { (visit(block), ...); }, blocks_);
   }
 
-  /// The first `count` blocks.
+  /// Hands the torque over to the first `count` blocks, from the last to the first.
   template <std::size_t count>
   void take_over_by(double torque) {
     if constexpr (count > 0) take_over_by<count - 1>(std::get<count - 1>(blocks_).take_over(torque));
@@ -71,7 +72,7 @@ class BlockChain {
 /// The blocks of the controller, in order.
 using ControlBlockChain = BlockChain<ControlLaw, Filters, Feedforward, DisturbanceObserver>;
 
-/// These blocks, with a hold of their torque.
+/// The controller's blocks (ControlBlockChain), with a hold of their torque.
 class ControlChain {
  public:
   ControlChain(const ControllerParameters& parameters, const ControlStart& start)
@@ -93,7 +94,8 @@ class ControlChain {
   }
   /// The next sample continues from this torque in force (N m).
   void take_over(double torque) { blocks_.take_over(torque); }
-  LinearChain linear() const { return blocks_.linear(); }  ///< where the torque is not held
+  /// Stages away from their limits, while the torque is not held.
+  LinearChain linear() const { return blocks_.linear(); }
   double integral() const { return blocks_.block<ControlLaw>().integral(); }  ///< I, N m
 
  private:

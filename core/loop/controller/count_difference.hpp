@@ -15,15 +15,14 @@ inline double derivative_pole(const ControlBlocks& blocks, double sample_rate) {
   return numerics::exp(-2.0 * std::numbers::pi * blocks.derivative_cutoff / sample_rate);
 }
 
-/// The mean difference of successive counts over a window of N samples, through a first-order low-pass
-/// filter:
+/// Mean difference of successive counts over a window of N samples, filtered by a first-order low-pass:
 ///
 ///   d_k = a·d_{k−1} + (1 − a)·(count_k − count_{k−N})/N,   a = exp(−2π·f·T),
 ///
 ///   D(z) = (1 − a)·(1 − z⁻ᴺ)/(N·(1 − a·z⁻¹))·Count(z).
 ///
-/// The counts before the first are those of CountsBefore, and d before it is their mean difference v₀·T/Δx,
-/// the steady state of the filter.
+/// CountsBefore gives the counts before the first sample. d before it is their mean difference v₀·T/Δx, the
+/// steady state of the filter.
 class CountDifference {
  public:
   explicit CountDifference(double pole, int window = 1, const CountsBefore& before = {})
@@ -41,14 +40,14 @@ class CountDifference {
     return difference_;
   }
 
-  /// A sample that leaves d as it is.
+  /// Takes the count of a sample without changing d.
   void pass(double count) {
     last_counts_[oldest_] = count;
     oldest_ = (oldest_ + 1) % window_;
   }
   double value() const { return difference_; }  ///< d of the last step, counts
 
-  /// `gain`·D(z).
+  /// Transfer function `gain`·D(z).
   TransferFunction transfer(double gain) const {
     const double b = gain * (1.0 - pole_) / static_cast<double>(window_);
     std::vector<double> of_counts(window_ + 1);

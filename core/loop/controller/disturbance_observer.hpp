@@ -8,6 +8,7 @@
 
 namespace zerocount::loop {
 
+/// Constants of the observer in units of counts.
 /// @param resolution Δx, rad per count.
 inline ObserverConstants<double> observer_constants(const ObserverParameters& observer, double sample_rate,
                                                     double resolution) {
@@ -18,7 +19,7 @@ inline ObserverConstants<double> observer_constants(const ObserverParameters& ob
   return {observer.inertia * rate * rate * acceleration.b0 * resolution, q.b0, q.a1, q.a2};
 }
 
-/// The state after these counts without torque, with d̂ = 0 and the next count the first.
+/// State of the observer after these counts, without torque and with d̂ = 0. The next count is the first one.
 inline BiquadState<double> observer_state_after(const ObserverConstants<double>& c,
                                                 const CountsBefore& before) {
   const double last = counted_since(before, 1);

@@ -7,20 +7,21 @@ namespace zerocount::loop {
 
 template <class Number>
 struct FeedforwardConstants {
-  Number velocity;      ///< N m s/rad
-  Number acceleration;  ///< N m s²/rad
-  Number friction;      ///< N m
+  Number velocity;      ///< Feed-forward torque per velocity ṙ of the reference, N m s/rad
+  Number acceleration;  ///< Feed-forward torque per acceleration r̈ of the reference, N m s²/rad
+  Number friction;      ///< Feed-forward torque in the direction of ṙ, N m
 };
 
-/// velocity·ṙ + acceleration·r̈ + friction·sgn(ṙ), N m. @param velocity ṙ, rad/s. @param acceleration r̈,
-/// rad/s².
+/// Feed-forward torque velocity·ṙ + acceleration·r̈ + friction·sgn(ṙ), N m. @param velocity ṙ, rad/s. @param
+/// acceleration r̈, rad/s².
 template <class Number>
 Number feedforward_torque(const FeedforwardConstants<Number>& c, const Number& velocity,
                           const Number& acceleration) {
   return c.velocity * velocity + c.acceleration * acceleration + c.friction * sign(velocity);
 }
 
-/// Torque from the motion of the unrounded reference r (rad) at t_k, added to that of the blocks before:
+/// Feed-forward torque from the motion of the unrounded reference r (rad) at t_k. It is added to the torque u
+/// of the blocks before:
 ///
 ///   u + velocity·ṙ + acceleration·r̈ + friction·sgn(ṙ),   sgn(0) = 0.
 ///
@@ -45,7 +46,7 @@ class Feedforward {
 
  private:
   FeedforwardParameters gains_;
-  double added_{0.0};  ///< at the last sample, N m
+  double added_{0.0};  ///< Torque added at the last sample, N m
 };
 
 }  // namespace zerocount::loop

@@ -8,7 +8,8 @@
 
 namespace zerocount::loop {
 
-/// (n₂·p² + n₁·p + n₀)/(p² + 2ζ·p + 1) with p = (1 − z⁻¹)/(w·(1 + z⁻¹)), the bilinear transform of p = s/ω0.
+/// Biquad of (n₂·p² + n₁·p + n₀)/(p² + 2ζ·p + 1) with p = (1 − z⁻¹)/(w·(1 + z⁻¹)), the bilinear transform of
+/// p = s/ω0.
 /// @param w tan(ω0·T/2) if prewarped at ω0, ω0·T/2 if not.
 BiquadConstants<double> bilinear(double n2, double n1, double n0, double damping, double w);
 
@@ -23,16 +24,17 @@ BiquadConstants<double> bilinear(double n2, double n1, double n0, double damping
 /// must be below half the sample rate.
 BiquadConstants<double> discretised(const Filter& filter, double sample_rate);
 
-/// The biquad at `ratio` times the sample rate to which its coefficients belong: to s by the inverse bilinear
-/// transform, and back at the new rate. Both are prewarped at the geometric mean of the natural frequencies
-/// of its zeros and its poles, so that a filter of discretised() becomes that of the new rate. Empty without
-/// such a filter in s: a pole at half the sample rate.
+/// Converts a biquad to `ratio` times the sample rate to which its coefficients belong. The inverse bilinear
+/// transform gives the filter in s, and the bilinear transform at the new rate gives the result. Both are
+/// prewarped at the geometric mean of the natural frequencies of the zeros and the poles, so that a filter
+/// made by discretised() becomes the one that discretised() makes at the new rate. Empty if the biquad has no
+/// such filter in s, because of a pole at half the sample rate.
 std::optional<Filter> resampled(const Filter& biquad, double ratio);
 
 /// Whether both poles lie inside the unit circle (Jury's criterion).
 bool is_stable(const BiquadConstants<double>& filter);
 
-/// The filters, one after the other, on the torque of the control law. Past values are 0 at first.
+/// The filters in series, applied to the torque of the control law. Past values are 0 at first.
 class Filters {
  public:
   Filters(const ControllerParameters& parameters, const ControlStart& start);
@@ -43,8 +45,8 @@ class Filters {
   }
   static void observe(const Feedback& /*now*/) {}
   static void pause(const Feedback& /*now*/) {}
-  /// Each filter continues from the steady state whose output the next one needs; one without a steady state,
-  /// or without gain there, from past values of 0.
+  /// Each filter continues from the steady state whose output the next filter needs. A filter without a
+  /// steady state, or without static gain, continues from past values of 0.
   double take_over(double torque);
 
   LinearChain linear() const;

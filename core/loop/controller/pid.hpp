@@ -38,13 +38,14 @@ class Integrator {
   explicit Integrator(const IntegralConstants<double>& constants, double integral)
       : constants_(constants), state_{integral, 0.0} {}
 
-  /// @param increment N m. @returns I, N m.
+  /// Adds an increment to I, subject to deadband, zone, leak and range. @param increment N m. @returns I, N
+  /// m.
   double add(double error, double increment) {
     integrate(constants_, state_, error, increment);
     return state_.integral;
   }
 
-  /// A sample at which another law decides: I stays, the deadband goes on.
+  /// Updates the deadband at a sample at which another law decides. I stays.
   void observe(double error) {
     state_.inside = inside_deadband(constants_, state_.inside, error) ? 1.0 : 0.0;
   }
@@ -52,7 +53,7 @@ class Integrator {
   void set(double integral) { state_.integral = integral; }
   double value() const { return state_.integral; }  ///< I, N m
 
-  /// From (gain/2)·(the sum of this sample's and the last one's input) to I, outside the deadband.
+  /// Transfer function from x to I outside the deadband, if the increment is half_gain·(x_k + x_{k−1}).
   TransferFunction trapezoid(double half_gain) const {
     return {{half_gain, half_gain}, {1.0, -constants_.retention}};
   }
@@ -64,8 +65,8 @@ class Integrator {
 
 struct PidGains {
   double kp{0.0};  ///< N m/count
-  double ki{0.0};  ///< of the trapezoidal rule, N m/count
-  double kd{0.0};  ///< on the difference of successive counts, N m/count
+  double ki{0.0};  ///< Gain of the trapezoidal rule, N m/count
+  double kd{0.0};  ///< Gain on the difference of successive counts, N m/count
 };
 
 inline StandstillConstants<double> standstill_constants(const Standstill& standstill, double sample_rate) {
@@ -77,11 +78,11 @@ inline StandstillConstants<double> standstill_constants(const Standstill& stands
 ///
 ///   I ← I + ki·(e_k + e_{k−1}),   u = I + kp·e_k − kd·d_k;
 ///
-///   U(z) = [kp + ki·(1 + z⁻¹)/(1 − z⁻¹)]·E(z) − kd·D(z),
+///   U(z) = [kp + ki·(1 + z⁻¹)/(1 − z⁻¹)]·E(z) − kd·D(z).
 ///
-/// with e′ of the dead zone (acting_error) in place of e, the conditions on I and its leak by Integrator, and
-/// d the difference of counts by CountDifference. Before the first sample e was 0. Where the axis
-/// stands still (stands_still) the gains are those of Standstill, and I goes on.
+/// The error e′ after the dead zone (acting_error) replaces e. Integrator adds the conditions on I and the
+/// leak. CountDifference gives d, the difference of counts. Before the first sample e was 0. While the axis
+/// stands still (stands_still) the gains of Standstill act, and I continues.
 class Pid {
  public:
   Pid(const ControllerParameters& parameters, const ControlStart& start)
@@ -96,7 +97,7 @@ class Pid {
 
   /// The law without blocks.
   /// @param integral I before the first sample, N m.
-  /// @param range what I is clamped to whenever it is changed by an error.
+  /// @param range range to which I is clamped whenever an error changes it.
   Pid(const PidGains& gains, double integral, const TorqueRange& range)
       : Pid(gains, Integrator(integral_constants({}, 1.0, range), integral), CountDifference(0.0)) {}
 
@@ -128,7 +129,8 @@ class Pid {
     return 0.0;
   }
 
-  /// Without the parts that have no gain: an integral with ki = 0 would be a constant state.
+  /// The law away from its limits. Parts without gain are left out, because an integral with ki = 0 would be
+  /// a constant state.
   LinearChain linear() const {
     LinearBlock block{{LoopSignal::error, {{gains_.kp}}}};
     if (gains_.ki != 0.0) block.push_back({LoopSignal::error, integral_.trapezoid(gains_.ki)});
@@ -142,7 +144,7 @@ class Pid {
   Pid(const PidGains& gains, const Integrator& integral, const CountDifference& difference)
       : gains_(gains), integral_(integral), difference_(difference) {}
 
-  /// The gains at this sample.
+  /// The gains that act at this sample.
   PidGains gains_at(const Feedback& now) {
     const bool stands = stands_still(standstill_, run_, now.new_target ? 1.0 : 0.0, now.error);
     return stands ? PidGains{standstill_.kp, standstill_.ki, standstill_.kd} : gains_;

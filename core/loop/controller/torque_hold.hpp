@@ -17,24 +17,23 @@ inline HoldConstants<double> hold_constants(const Hold& hold, double sample_rate
   return {hold.enter, std::max(hold.enter, hold.leave), dwell_samples(hold.dwell, sample_rate)};
 }
 
-/// Holds the wanted torque of a chain at standstill: from the sample on at which |e| ≤ enter has lasted for
-/// the dwell, the wanted torque is that of the sample before, and the blocks pause (ControlBlock::pause). The
-/// first sample with |e| > leave, or with a new target, ends it. It never begins at the first sample of the
-/// chain.
+/// Holds the wanted torque of a chain at standstill. Once |e| ≤ enter has lasted for the dwell, the wanted
+/// torque keeps the value of the sample before, and the blocks pause (ControlBlock::pause). The hold ends at
+/// the first sample with |e| > leave or with a new target. It never begins at the first sample of the chain.
 class TorqueHold {
  public:
   TorqueHold(const ControllerParameters& parameters, const ControlStart& /*start*/)
       : constants_(hold_constants(parameters.blocks.hold, parameters.sample_rate)) {}
 
-  /// Whether this sample has the torque of the last one.
+  /// Takes a sample. @returns whether the torque of the last sample is held.
   bool holds(const Feedback& now) {
     const double fresh = now.new_target || !started_ ? 1.0 : 0.0;
     started_ = true;
     return holds_torque(constants_, state_, fresh, now.error);
   }
   void remember(double torque) { state_.torque = torque; }
-  double torque() const { return state_.torque; }  ///< wanted at the last sample, N m
-  /// The next sample is the chain's first.
+  double torque() const { return state_.torque; }  ///< Wanted torque at the last sample, N m
+  /// Declares that the next sample is the first of the chain.
   void restart() { started_ = false; }
 
  private:

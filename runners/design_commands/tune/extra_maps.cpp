@@ -21,23 +21,24 @@ using tuning::Values;
 constexpr int cells_of_side = 15;
 constexpr std::int64_t units_of_cell = 128;
 
-/// A cell of a map, examined at the values x and y: its centre, or the tuned values that it contains.
+/// A cell of a map. It is examined at the values x and y: its centre or, if it contains the tuned values,
+/// these.
 struct MapCell {
   double x{0.0};
   double y{0.0};
   double x_from{0.0}, x_to{0.0};
   double y_from{0.0}, y_to{0.0};
-  double rate{0.0};       ///< of the goal, by the first units of the search; of the worst of several
-  bool seems_met{false};  ///< all goals under all conditions
-  double criterion{0.0};  ///< infinite for never
+  double rate{0.0};       ///< Success rate of the worst goal on the first machines of the search.
+  bool seems_met{false};  ///< Whether all goals seem to be met under all conditions.
+  double criterion{0.0};  ///< Value of the criterion; infinity for "never".
   bool keeps_margins{false};
 };
 
-/// The rate of the goal over two free parameters, the others as tuned.
+/// Map of the success rate over two free parameters. The other parameters have their tuned values.
 struct TuningMap {
-  std::size_t x{0};  ///< number of the free parameter
-  std::size_t y{1};
-  std::vector<MapCell> cells{};  ///< of a square grid, x fastest
+  std::size_t x{0};              ///< Index of the free parameter on the x axis.
+  std::size_t y{1};              ///< Index of the free parameter on the y axis.
+  std::vector<MapCell> cells{};  ///< Cells of a square grid; x varies fastest.
 };
 
 /// Maps over all pairs of free parameters.
@@ -51,7 +52,7 @@ tuning::ExtraCost cost_of_maps(const TunedAxis& axis) {
   return {.maps = trials, .trials = trials};
 }
 
-/// The margins are those of the machines that the search examines.
+/// Simulates a cell. Its margins are examined on the machines that the search examines.
 void simulate_cell(const TunedAxis& axis, const Values& values, MapCell& cell) {
   const std::optional<study::Study> study = tuning::at_values(axis.tuned, axis.free(), values);
   if (!study) return;

@@ -15,59 +15,65 @@
 #include "runners/tuning/race/search.hpp"
 #include "runners/tuning/tuner.hpp"
 
-/// The parts of an answer of `tune`, each added to the items of the whole.
+/// Parts of the answer of `tune`. Each part is added to the items of the whole answer.
 namespace zerocount::design_commands {
 
 using tuning::Tuning;
 
-/// Adds the verdict, the proof and the behaviour of the moves, which are printed before the extras are made.
+/// Answer with the verdict, the proof and the behaviour of the moves. It is printed before the extras are
+/// made.
 document::AnswerDescription<Tuning> proven_answer();
 
-/// One extra, by simulation.
+/// Answer with one extra.
 document::AnswerDescription<Tuning> extra_answer(const tuning::Extra& extra);
 
-/// The effort, and what was left out.
+/// Answer with the spent effort and the parts that were left out.
 document::AnswerDescription<Tuning> closing_answer();
 
-/// All of it, with figures.
+/// Complete answer with figures.
 document::AnswerDescription<Tuning> tune_answer();
 
-/// The margins of the tuned loops as a table, for the first screen of a page.
+/// Answer with the margins of the tuned loops as a table, for the first screen of a page.
 document::AnswerDescription<Tuning> margins_answer();
 
-/// What a page with that first screen does not show yet of the proof.
+/// Answer with the facts of the proof that the first screen of a page does not show.
 document::AnswerDescription<Tuning> proof_answer();
 
-/// Before the proof: what a drive engineer would refuse of the values that are to be proven, in one line.
+/// Line printed before the proof: what a drive engineer would refuse of the values that are to be proven.
 std::string sanity_line(const Tuning& tuning);
 
-/// The extras of `tune`, in the order of what they tell. A new one is its file and its row here.
+/// All extras of `tune`, in the order of the answer. A new extra is a new file and a row in this list.
 const std::vector<tuning::Extra>& all_extras();
 
-/// How much more of controller.delay a goal bears; of a goal that is missed what a wider band would change.
+/// Additional controller.delay that the goals bear. If a goal is missed: its rate with a wider band.
 struct MoreDelay {
-  std::vector<double> delays{};  ///< [condition] controller.delay of the tuned study, samples; none if missed
-  std::optional<double> lost{};  ///< more of it, by which a goal seems lost, to 0.05; nothing up to max_more
-  std::size_t claim{0};          ///< of Aim::claims that is lost
-  std::optional<double> wider_band_rate{};  ///< of the worst goal, with a band one count wider
+  /// [condition] controller.delay of the tuned study, samples; empty if missed.
+  std::vector<double> delays{};
+  /// Additional delay at which a goal seems lost, samples, to 0.05. Nothing if no goal is lost up to
+  /// max_more.
+  std::optional<double> lost{};
+  std::size_t claim{0};                     ///< Index in Aim::claims of the lost claim.
+  std::optional<double> wider_band_rate{};  ///< Rate of the worst goal with a band that is one count wider.
 };
 
-/// Range of a free parameter, the others as tuned, in which all goals seem to be met under all conditions.
+/// Range of a free parameter in which all goals seem to be met under all conditions. The other parameters
+/// have their tuned values.
 struct Room {
   std::string name;
   double low{0.0};
   double high{0.0};
-  /// The claims (Aim::claims) that are lost first beyond the ends; nothing at the end of the range.
+  /// Indices in Aim::claims of the claims that are lost first beyond each end. Nothing if this is the end of
+  /// the parameter's range.
   std::optional<std::size_t> lost_below{}, lost_above{};
 };
 
-/// A simpler or another control at its own best values.
+/// A simpler or different control at its own best values.
 struct Alternative {
   std::string name;  ///< "controller.kd = 0", "observer added"
   std::vector<std::pair<std::string, double>> fixed;
-  std::vector<std::pair<std::string, double>> gains;  ///< empty if none keeps the margins
-  std::optional<goal::Verdict> verdict{};             ///< on machines that the search for it never saw
-  double criterion{0.0};                              ///< on these machines
+  std::vector<std::pair<std::string, double>> gains;  ///< Tuned values; empty if none keep the margins.
+  std::optional<goal::Verdict> verdict{};             ///< Verdict on machines that its search did not use.
+  double criterion{0.0};                              ///< Criterion on these machines.
   tuning::ClaimNames worst{};
 };
 
@@ -77,16 +83,16 @@ using Items = document::Description<Tuning>;
 /// Values by the names of their parameters.
 NamedValues named(const std::vector<study::FreeParameter>& free, const tuning::Values& values);
 
-/// The goal of which most of the answer is: the worst by the proof.
+/// The goal that most of the answer describes: the worst goal of the proof.
 const study::Goal& worst_goal(Of tuning);
 
-/// The criterion of tried points.
+/// Item for the criterion of tried points.
 document::Item criterion_item();
 
-/// "band_settling_time.p95 (s)": the quantity that is minimised.
+/// Title of the minimised quantity, such as "band_settling_time.p95 (s)".
 std::string criterion_title(const study::Study& study);
 
-/// The result of the extra of this type; an empty one if the extra did not run.
+/// Result of an extra, found by its type; an empty one if the extra did not run.
 template <class Found>
 const Found& found_by_extra(Of tuning) {
   static const Found none{};
@@ -94,46 +100,46 @@ const Found& found_by_extra(Of tuning) {
   return found == nullptr ? none : *found;
 }
 
-/// Whether figures are drawn: of a page, with a proof.
+/// Whether figures are drawn. They are drawn on a page after the proof.
 bool is_drawn(Of tuning);
 
-/// "met: the goal is met by controller.ki = 5000", or that nothing is proven.
+/// Headline such as "met: the goal is met by controller.ki = 5000", or a headline that nothing is proven.
 std::string tune_headline(Of tuning);
-/// The headline of a page, which leaves out the values: the page shows them below it.
+/// Headline of a page. It leaves out the values because the page shows them below.
 std::string page_headline(Of tuning);
 
 void add_refusals(Items& items);
 void add_proof(Items& items);
-/// Adds what stands beside the table of add_proof().
+/// Adds the facts of the proof that are not in the table of add_proof().
 void add_proof_facts(Items& items);
 void add_behaviour(Items& items);
 void add_margins(Items& items);
-/// The margins as a table for people, each with the loop that has the worst.
+/// Adds the margins as a table for people. Each margin is shown with its worst loop.
 void add_margin_table(Items& items);
 void add_nearest(Items& items);
 
-/// The page of a tuning without sections.
+/// Page of a tuning without its sections.
 report::ReportPage frame_of(const study::Study& study);
 
-/// A search that goes on.
+/// State of a running search, for its section on a page.
 struct SearchMoment {
   const study::Study& study;
   const tuning::SearchProgress& progress;
-  std::string spent;  ///< of the budget
+  std::string spent;  ///< Text of the spent budget.
 };
 
-/// The best values so far, and how sure their rate is.
+/// Section with the best values so far and the uncertainty of their rate.
 report::PageSection search_section(const SearchMoment& moment);
 
-/// The proven answer, and the extras that are there, each under its question.
+/// Sections of the proven answer and of the finished extras, each under its question.
 std::vector<report::PageSection> tuning_sections(const Tuning& tuning);
 
-/// HTML of the margins that tuning gives the loops of its one point, with the spreads that it adds; empty for
-/// a study that says nothing of tuning.
+/// HTML of the tuned margins of a file with one design point, including the spread that tuning adds. Empty
+/// for a study without a section `tune`.
 std::string tuned_margins(const reading::AllTrialsFile& file);
 
-/// These sections with their figures, and the search; then the report on the results file of the proof, where
-/// there is one.
+/// Page with the sections of a tuning, their figures and the search, followed by the report on the results
+/// file of the proof if there is one.
 report::ReportPage tuning_page(Tuning tuning);
 
 }  // namespace zerocount::design_commands

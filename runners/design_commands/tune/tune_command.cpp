@@ -139,8 +139,8 @@ tuning::TuneSettings tune_settings(const command_line::Arguments& arguments) {
   return settings;
 }
 
-/// Prints the proven answer as soon as it stands, then each extra as it is ready, in text; in the other
-/// formats the whole at the end.
+/// Prints the answer of `tune`. As text, it prints the proven answer as soon as the proof is complete, then
+/// each extra when it is ready. In other formats it prints the whole answer at the end.
 class TunePrinter {
  public:
   explicit TunePrinter(const command_line::Arguments& arguments)
@@ -177,18 +177,18 @@ class TunePrinter {
   bool printed_{false};
 };
 
-/// What a call of `tune` tunes: a manifest, or the results file of a proof.
+/// Task of a call of `tune`: to tune the study of a manifest, or to describe the results file of a proof.
 struct TuneTask {
   const study::Study& study;
   tuning::TuneSettings settings;
-  std::optional<std::filesystem::path> page{};      ///< for the answer
-  std::optional<std::filesystem::path> watched{};   ///< for the answer, and what is found before
-  std::optional<std::filesystem::path> manifest{};  ///< for the tuned values
-  std::optional<std::filesystem::path> timeline{};  ///< of what the threads do
+  std::optional<std::filesystem::path> page{};      ///< Page for the answer.
+  std::optional<std::filesystem::path> watched{};   ///< Page that also shows intermediate results.
+  std::optional<std::filesystem::path> manifest{};  ///< Manifest to write with the tuned values.
+  std::optional<std::filesystem::path> timeline{};  ///< File for the timeline of the threads.
   bool is_of_file{false};
 };
 
-/// "14688 of 60000 trials", "21 of 60 s", "14688 trials": what a search has spent.
+/// Text of the effort that a search has spent: "14688 of 60000 trials", "21 of 60 s", "14688 trials".
 std::string spent_of(const tuning::TuneBudget& budget, const tuning::SearchProgress& progress,
                      double seconds) {
   if (budget.seconds) return fmt::format("{:.3g} of {:g} s", seconds, *budget.seconds);

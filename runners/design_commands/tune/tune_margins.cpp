@@ -23,16 +23,16 @@ using tuning::CriticalLoop;
 using tuning::NearestPoint;
 using tuning::SmallestMargins;
 
-/// A margin that a user can want.
+/// A margin for which a user can set a limit.
 struct Margin {
   std::string_view name;
   std::string_view title;
   std::string_view unit;
-  std::string_view loop_key;  ///< in JSON
+  std::string_view loop_key;  ///< Key of the critical loop in JSON.
   std::string_view meaning;
   tuning::Smallest SmallestMargins::*found;
   std::optional<double> study::LoopMargins::*wanted;
-  bool is_upper{false};  ///< what is wanted is the largest value
+  bool is_upper{false};  ///< Whether the limit is an upper one.
 };
 
 constexpr Margin all_margins[] = {
@@ -46,7 +46,7 @@ constexpr Margin all_margins[] = {
     {"sensitivity", "sensitivity", "", "sensitivity_loop", "largest |S|, S = 1/(1 + L)",
      &SmallestMargins::sensitivity, &study::LoopMargins::sensitivity, true}};
 
-/// "7.2 dB (at least 6 wanted)", "10 samples or more (none wanted)", "∞ dB".
+/// Text of a margin: "7.2 dB (at least 6 wanted)", "10 samples or more (none wanted)", "∞ dB".
 std::string found_text(const Margin& margin, double found, const std::optional<double>& wanted) {
   return fmt::format(
       "{}{}{} ({})", std::isfinite(found) ? short_number(found) : "∞", margin.unit,
@@ -54,7 +54,7 @@ std::string found_text(const Margin& margin, double found, const std::optional<d
       wanted ? fmt::format("at {} {:g} wanted", margin.is_upper ? "most" : "least", *wanted) : "none wanted");
 }
 
-/// "before sliding at 1560 N m/rad of machine 31 under condition loaded".
+/// Text of a loop: "before sliding at 1560 N m/rad of machine 31 under condition loaded".
 std::string loop_text(const CriticalLoop& loop, const study::Study& study) {
   return loop.name +
          (loop.stiffness ? fmt::format(" at {} {}", short_number(*loop.stiffness),
@@ -93,9 +93,9 @@ Description<MarginRow> margin_columns() {
       });
 }
 
-/// "of 100 machines of the search while they slide, at ±10 % of inertia": a search examines its own machines,
-/// and what is told of a finished proof those of the proof, so that the numbers of the machines are those of
-/// the file.
+/// Sentence about the examined machines: "of 100 machines of the search while they slide, at ±10 % of
+/// inertia". A search examines its own machines. The answer for a finished proof examines the machines of the
+/// proof, so that their numbers are the numbers in the file.
 std::string examined_sentence(Of tuning) {
   if (tuning.answer.blind)
     return "margins: none, because the controller is a plugin, whose transfer function is not known";

@@ -103,7 +103,8 @@ const Proof& proof_in(Of tuning) {
   return tuning.answer.proof ? *tuning.answer.proof : none;
 }
 
-/// What the moves of one machine cannot show, and the study that would decide the goal.
+/// Sentences about the limits of the proof: what the moves of one machine cannot show, and the study that
+/// would decide the goal.
 std::string lacking_sentence(Of tuning) {
   if (!tuning.answer.proof) return "";
   const Proof& proof = *tuning.answer.proof;

@@ -21,12 +21,12 @@ constexpr double decade = 10.0;
 constexpr int max_decades = 6;  // beyond the last age of the study
 constexpr int max_steps = 6;    // between two ages
 
-/// An age between two; above age 0 a tenth of the older.
+/// An age between two ages; a tenth of the older age if the younger is 0.
 double age_between(double younger, double older) {
   return to_three_digits(younger == 0.0 ? older / decade : numerics::geometric_mean(younger, older));
 }
 
-/// Whether a claim still holds at an age, in one of the senses of LostClaim.
+/// Predicate whether a claim still holds at an age, by its rate or by one of its bounds (LostClaim).
 using Holds = std::function<bool(const AgeVerdict&)>;
 
 class LifeOfClaims {
@@ -111,7 +111,7 @@ class LifeOfClaims {
     }
   }
 
-  /// To three digits.
+  /// Oldest age at which the study can be simulated, within 2 % and to three significant digits.
   double oldest_allowed(double allowed, double refused) const {
     constexpr double narrow = 1.02;
     const auto is_allowed = [this](double age) { return refusal_at(age).empty(); };
@@ -131,7 +131,7 @@ class LifeOfClaims {
             [=](const AgeVerdict& at) { return at.claims[claim].status != goal::Status::missed; }};
   }
 
-  /// Simulates ages between the last at which it holds and the next one.
+  /// Simulates ages between the last age at which `holds` is true and the next one, to 10 %.
   void refine(const Holds& holds) {
     int steps = 0;
     for (int from_zero = 0; steps < max_steps && from_zero < max_decades;) {
@@ -162,7 +162,7 @@ class LifeOfClaims {
   trials::Replicates units_;
   std::uint64_t seed_;
   trials::Effort effort_;
-  std::vector<AgeVerdict> tried_;  ///< rising ages
+  std::vector<AgeVerdict> tried_;  ///< Verdicts so far, in ascending order of age.
   std::string refusal_;
 };
 

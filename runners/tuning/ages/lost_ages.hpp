@@ -15,37 +15,41 @@
 /// which the values lose each of their claims.
 namespace zerocount::tuning {
 
-/// What machines of one age do: the claims of a verdict on the age alone.
+/// Claims of a verdict on machines of one age.
 struct AgeVerdict {
   double age{0.0};
-  std::vector<goal::ClaimVerdict> claims;  ///< goal by goal, each under every condition of the manifest
+  std::vector<goal::ClaimVerdict> claims;  ///< All pairs of goal and manifest condition, goal by goal.
 };
 
-/// Trials of a unit at one age, of those that it has at all ages together.
+/// Number of trials of a machine at one age.
+/// @param trials_each trials of the machine at all ages together
 std::int64_t trials_at_one_age(const study::Study& study, std::int64_t trials_each);
 
-/// " of goal 'small' under condition cold", as far as the study has several goals, and conditions.
+/// Text such as " of goal 'small' under condition cold". It names the goal only if there are several, and the
+/// condition only if there are any.
 std::string text_of(const study::Study& study, const ClaimPlace& claim);
 
-/// A claim over age. The ages assume that a machine which misses a claim goes on missing it: they are the
-/// first of those that were tried, to 10 %, and which ones are tried depends on what the machines did.
+/// Ages at which a claim is lost. They assume that a machine which misses a claim goes on missing it at older
+/// ages. They are the first such ages among those that were tried, with a resolution of 10 %. The tried ages
+/// depend on the results.
 struct LostClaim {
-  ClaimPlace claim;  ///< whatever the age: the condition is one of Study::condition_names
-  /// The youngest age at which fewer machines, or moves, than asked for meet the goal; nothing up to the
-  /// oldest age that was tried.
+  ClaimPlace claim;  ///< Goal and condition at any age; the condition is an index of Study::condition_names.
+  /// Youngest age at which fewer machines, or moves, than asked for meet the goal. Nothing if the goal is met
+  /// up to the oldest tried age.
   std::optional<double> lost{};
-  /// The age up to and including which the goal is shown to be met, and that from which on it is shown to be
-  /// missed. Each is a bound of the age at which the claim is lost with the confidence of the goal: at that
-  /// age, be it what it may, a verdict is wrong with 1 − confidence at most, and the bound errs only if that
-  /// one is.
+  /// Bounds of the age at which the claim is lost: up to and including `met_until` the goal is shown to be
+  /// met, from `missed_from` on it is shown to be missed. Each bound holds with the confidence of the goal.
+  /// At the true age of loss, whatever it is, a verdict is wrong with probability at most 1 − confidence, and
+  /// the bound errs only if that verdict is wrong.
   std::optional<double> met_until{}, missed_from{};
 };
 
+/// Result of lost_ages().
 struct LostAges {
-  std::vector<LostClaim> claims;  ///< as AgeVerdict::claims
-  std::vector<AgeVerdict> tried;  ///< rising ages
-  std::string refusal{};          ///< why no older age than the oldest was tried; empty if none was needed
-  std::int64_t units{0};          ///< machines, the same at all ages
+  std::vector<LostClaim> claims;  ///< One entry for each claim, in the order of AgeVerdict::claims.
+  std::vector<AgeVerdict> tried;  ///< Verdicts on the tried ages, in ascending order of age.
+  std::string refusal{};          ///< Why no older age was tried; empty if none was needed.
+  std::int64_t units{0};          ///< Number of machines; all ages use the same machines.
 };
 
 /// Simulates the ages of the study, one between each two of them, then decades beyond the last one, on the
@@ -56,12 +60,12 @@ struct LostAges {
 ///     for each claim, where it is no longer met by its rate, by its lower, and by its upper bound:
 ///       between the last age before and the first age after it, by geometric means to 10 %
 ///
-/// @param study with ages, of which the values are those of its manifest @param units of one age, under all
-/// conditions together
+/// @param study study with ages, at the values of its manifest
+/// @param units machines, and their trials at one age under all conditions together
 /// @throws trial::Interrupted, trials::Spent
 LostAges lost_ages(const study::Study& study, const trials::Replicates& units, trials::Effort effort);
 
-/// Ages that lost_ages() simulates, about.
+/// Approximate number of ages that lost_ages() simulates.
 std::int64_t points_of_lost_ages(const study::Study& study);
 
 }  // namespace zerocount::tuning

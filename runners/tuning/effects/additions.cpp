@@ -67,7 +67,7 @@ std::string refusal_of_load(study::PointEdit at, double frequency) {
   return rules::refusal_of(at);
 }
 
-/// The search of the lowest mode that is borne.
+/// Search for the lowest load mode that is borne (additions_to()).
 class ModeSearch {
  public:
   explicit ModeSearch(const EffectRuns& runs)
@@ -129,7 +129,8 @@ class ModeSearch {
         .front();
   }
 
-  /// The point with a mode, run on so many units, or on fewer by which it is not borne.
+  /// Runs the point with a mode on up to `units` machines. Stops earlier if the mode cannot be borne any
+  /// more.
   ChangedPoint run(double frequency, std::int64_t units) const {
     ChangedPoint point = with_mode(frequency);
     for (std::int64_t count = 2; point.refusal.empty(); count *= 2) {
@@ -139,15 +140,15 @@ class ModeSearch {
     return point;
   }
 
-  /// The row where not even the highest mode that is tried is borne.
+  /// Result if not even the highest mode is borne.
   Limit beyond_rate(double highest) const {
     ChangedPoint point = with_mode(highest);
     runs_.run({&point, 1}, units_);
     return row(point, "costs more than 1 %; modes above half the sample rate are not tried");
   }
 
-  /// Whether no goal is missed under any condition by more of the first units than is allowed; units that
-  /// have not run are taken to meet all.
+  /// Whether no rate on the first `units` machines falls by more than is allowed, for any goal and condition.
+  /// Machines that have not run count as meeting all goals.
   bool is_borne(const ChangedPoint& point, std::int64_t units) const {
     std::vector<UnitResult> best = point.units;
     for (std::size_t unit = best.size(); unit < static_cast<std::size_t>(units); ++unit) {
@@ -177,8 +178,8 @@ class ModeSearch {
 
   const EffectRuns& runs_;
   trial::TrialParameters first_;
-  std::int64_t units_{0};      ///< of which the rate is given
-  std::int64_t few_units_{0};  ///< on which the frequency is sought
+  std::int64_t units_{0};      ///< Number of machines on which the rate is estimated.
+  std::int64_t few_units_{0};  ///< Number of machines on which the frequency is sought.
 };
 
 bool can_have_load(const EffectRuns& runs) {
@@ -187,7 +188,7 @@ bool can_have_load(const EffectRuns& runs) {
   });
 }
 
-/// Whether a goal is met so often that an effect could cost more than is allowed. Where it is not, every
+/// Whether some goal is met often enough that an effect could cost more than is allowed. Otherwise every
 /// effect would seem to cost nothing.
 bool can_lose(const EffectRuns& runs) {
   return std::ranges::any_of(runs.estimate(runs.base()).rates,
@@ -219,7 +220,9 @@ Effect wider_spread(const study::Study& study, std::int64_t point) {
   return effect;
 }
 
-/// @param factor of a delay. @param instead samples, where there is none
+/// Effect that changes the delay of the controller.
+/// @param factor multiplies a delay
+/// @param instead delay of a point without delay, samples
 Effect other_delay(const study::Study& study, std::int64_t point, double factor, double instead) {
   study::PointEdit at(study, point);
   const double delay = at.limits("controller.delay").high;

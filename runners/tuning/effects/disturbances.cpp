@@ -20,14 +20,15 @@ namespace {
 using study::ValueLimits;
 using trial::TrialParameters;
 
-/// Takes from the integral what holds torques from `low` to `high` (N m).
+/// Takes from the integral the torque that holds disturbances from `low` to `high`, N m.
 void release_integral(const ValueLimits& torque, TrialParameters& p) {
   double& integral = p.initial.integral;
   integral = integral > 0.0 ? std::max(0.0, integral - std::max(0.0, -torque.low))
                             : std::min(0.0, integral + std::max(0.0, torque.high));
 }
 
-/// A load goes up to the largest of the study, so that one integral for all of them goes too.
+/// Removes a constant load torque. The integral gives up as much as the largest load of the study, so that
+/// one integral for all loads is removed too.
 Change without_constant_disturbance(const ValueLimits& load) {
   return [load](TrialParameters& p) {
     release_integral(load, p);
@@ -52,7 +53,8 @@ auto& ripples_on(bool load, auto& p) {
   return load ? p.load_side.disturbance.ripple : p.disturbance.ripple;
 }
 
-/// Gravity may be a ripple of one period.
+/// Removes a ripple, and from the integral the torque that holds it at the start. Gravity, for example, may
+/// be a ripple of one period.
 void without_ripple(bool on_load, std::size_t number, TrialParameters& p) {
   trial::RippleParameters& ripple = ripples_on(on_load, p)[number];
   const double torque = motion::value(trial::ripples_of({ripple}, p.initial.position), 0.0);
@@ -74,7 +76,8 @@ void add_ripples(const IdealisedPoint& point, std::vector<Effect>& all) {
   }
 }
 
-/// A spectrum is no parameter. It stays in the list, so that the others keep their random numbers.
+/// Removes a spectrum, which is not a parameter. It stays in the list, so that the other spectra keep their
+/// random numbers.
 Effect without_spectrum(const std::shared_ptr<const trial::SpectrumParameters>& spectrum,
                         std::size_t number) {
   auto quiet = std::make_shared<trial::SpectrumParameters>(*spectrum);
@@ -94,7 +97,7 @@ void add_spectra(const IdealisedPoint& point, std::vector<Effect>& all) {
   for (std::size_t i = 0; i < spectra.size(); ++i) all.push_back(without_spectrum(spectra[i], i));
 }
 
-/// Removes all disturbances with what holds them: each by its own change.
+/// Removes all disturbances and the torques that hold them. Each is removed by its own change.
 Change without_disturbances(std::vector<Change> one_by_one) {
   return [changes = std::move(one_by_one)](TrialParameters& p) {
     for (const Change& change : changes) change(p);

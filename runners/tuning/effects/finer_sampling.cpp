@@ -86,7 +86,7 @@ void rest_in_finer_counts(trial::TrialParameters& p) {
   p.verdict.rest_band = finer * std::floor(p.verdict.rest_band) + half_a_count;
 }
 
-/// Why moves cannot be judged in counts of the study where those of the trial are finer; empty if they can.
+/// Why moves of a trial with finer counts cannot be judged in counts of the study; empty if they can.
 std::string refusal_of_finer_counts(const study::Study& study) {
   if (!finer_bands(study.features.bands, counts_per_count))
     return fmt::format("with zero counts and one count there would be more than {} error bands",
@@ -99,7 +99,7 @@ std::string refusal_of_finer_counts(const study::Study& study) {
   return "";
 }
 
-/// The counts of the verdict become finer, and its measures are told in those of the study.
+/// Makes the counts of the verdict finer, and converts the measures to counts of the study.
 void judge_in_study_counts(const study::Study& study, Effect& effect) {
   effect.finer.counts = counts_per_count;
   effect.change = rest_in_finer_counts;
@@ -122,7 +122,8 @@ Effect with_finer_encoder(const IdealisedPoint& point, const study::Study& study
   return effect;
 }
 
-/// With an encoder on each mass counts are those of the one that closes the position loop.
+/// Effect with a finer encoder on one mass, for an axis with an encoder on each mass. Counts are counts of
+/// the encoder that closes the position loop.
 Effect with_finer_encoder_of(motion::EncoderPlace mass, motion::EncoderPlace closing,
                              const IdealisedPoint& point, const study::Study& study) {
   Effect effect{.name = fmt::format("{} on the {}", parameters::finer_encoder, study::mass_text(mass)),
@@ -148,7 +149,8 @@ Effect with_finer_encoder_of(motion::EncoderPlace mass, motion::EncoderPlace clo
 constexpr std::int64_t samples_per_sample = 2;
 constexpr double rate_ratio = samples_per_sample;
 
-/// The factor of a gain of the sampled law that stays the same in SI units.
+/// Factor by which a gain of the sampled law changes at the new sample rate, so that it is the same in SI
+/// units.
 double factor_at_new_rate(std::string_view si_unit) {
   if (si_unit.ends_with("/(rad s)")) return 1.0 / rate_ratio;
   return si_unit.ends_with(" s/rad") ? rate_ratio : 1.0;
@@ -164,7 +166,7 @@ void with_twice_the_rate(PointEdit& at) {
   });
 }
 
-/// Coefficients belong to a sample rate.
+/// Converts the coefficients of biquad filters, which belong to a sample rate, to the new rate.
 void resample_biquads(trial::TrialParameters& p) {
   for (std::vector<loop::Filter>* filters :
        {&p.controller.blocks.filters, &p.controller.coarse.blocks.filters}) {

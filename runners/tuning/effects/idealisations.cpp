@@ -52,7 +52,7 @@ using study::ValueLimits;
 
 // Ideal values.
 
-/// Whether a torque may act from the start on, which an integral then holds.
+/// Whether a torque may act from the start on. An integral then holds it.
 bool can_have_load_torque(const PointEdit& at) {
   bool found = can_differ_from(0.0, at.limits("disturbance.torque")) ||
                can_differ_from(0.0, at.limits("disturbance.load.torque"));
@@ -66,7 +66,7 @@ bool can_have_load_torque(const PointEdit& at) {
   return found;
 }
 
-/// Whether the parameter can be a cause of failures at the point, for reasons that are no effect rules.
+/// Whether the parameter can be a cause of failures at the point, apart from the effect rules.
 bool can_be_a_cause(const PointEdit& at, std::string_view name) {
   // The error is measured with the fine encoder, whichever closes the loop.
   if (is_within(name, "encoder.coarse_errors")) return encoders_of(at).coarse;
@@ -88,12 +88,12 @@ bool can_be_a_cause(const PointEdit& at, std::string_view name) {
   return true;
 }
 
-/// Whether other gains may be better without it, because the loop is another one.
+/// Whether the loop is so different without the effect that other gains may be better.
 bool changes_the_loop(std::string_view name) {
   return is_within(name, "controller") || is_within(name, "amplifier");
 }
 
-/// "no ripple disturbance.ripple.0", "no dead band of the error in the coarse phase".
+/// Name of an effect: "no ripple disturbance.ripple.0", "no dead band of the error in the coarse phase".
 std::string name_of(const parameters::Parameter& row) {
   std::string name = name_in_phase(row.ideal->name, row.name);
   if (parameters::without_indices(row.name) != row.name)
@@ -101,7 +101,7 @@ std::string name_of(const parameters::Parameter& row) {
   return name;
 }
 
-/// An effect for each parameter that has another value than its ideal one.
+/// Adds an effect for each parameter whose value differs from its ideal value.
 void add_ideal_values(const IdealisedPoint& point, std::vector<Effect>& all) {
   visit_values(point.at, [&](std::size_t slot, const parameters::Parameter& row) {
     if (!row.ideal || !row.ideal->value || !parameters::exists_on(row, point.at.plan().units.axis)) return;

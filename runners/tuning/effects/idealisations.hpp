@@ -11,7 +11,7 @@
 #include "experiments/study/point_limits.hpp"
 #include "runners/tuning/effects/effects.hpp"
 
-/// Parts of idealisations_of(), by subject, and what they share. Each effect changes one thing.
+/// Parts of idealisations_of(), by subject, and their common functions. Each effect changes one thing.
 namespace zerocount::tuning {
 
 inline constexpr const char* not_tuned_again = "same gains, not tuned again";
@@ -20,11 +20,11 @@ inline constexpr const char* not_tuned_again = "same gains, not tuned again";
 struct IdealisedPoint {
   const study::PointEdit& at;
   std::vector<rules::EffectRule> rules;
-  /// Why no encoder and no sample rate can be changed; empty if they can.
+  /// Why neither encoder nor sample rate can be changed; empty if they can.
   std::string fixed_rate_and_counts{};
 };
 
-/// Whether the value is another one in some trial.
+/// Whether a quantity with these limits differs from `value` in some trial.
 inline bool can_differ_from(double value, const study::ValueLimits& limits) {
   return limits.low != value || limits.high != value;
 }
@@ -55,21 +55,21 @@ struct LoopEncoders {
 };
 LoopEncoders encoders_of(const study::PointEdit& at);
 
-/// Finer encoders: one, or one for each mass that has its own.
+/// Adds a finer encoder, or one for each mass that has an encoder of its own.
 void add_finer_encoders(const IdealisedPoint& point, const study::Study& study, std::vector<Effect>& all);
 
-/// Twice the sample rate.
+/// Adds twice the sample rate.
 void add_faster_sampling(const IdealisedPoint& point, std::vector<Effect>& all);
 
-/// What belongs to the control law and its reference: filters, the integral under friction, feed-forward, and
-/// the duration of the profile.
+/// Adds the effects of the control law and its reference: filters, the integral under friction, feed-forward,
+/// and the duration of the profile.
 void add_control_effects(const IdealisedPoint& point, std::vector<Effect>& all);
 
-/// A rigid axis, or a stiffer coupling where one mass cannot stand for both.
+/// Adds a rigid axis, or a stiffer coupling if one mass cannot represent both.
 void add_rigid_axis(const IdealisedPoint& point, std::vector<Effect>& all);
 
-/// A constant disturbance, ripples, spectra, and all disturbances together. @param all has those that are
-/// parameters with an ideal value
+/// Adds the removal of a constant disturbance, of each ripple and spectrum, and of all disturbances together.
+/// @param all already contains the disturbances that are parameters with an ideal value
 void add_disturbances(const IdealisedPoint& point, std::vector<Effect>& all);
 
 }  // namespace zerocount::tuning

@@ -13,7 +13,8 @@ namespace zerocount::tuning {
 
 namespace {
 
-/// Causes alone and pairs of causes are two families, each with half of the error probability.
+/// Error probability of a family of tests. Single causes and pairs of causes are two families, each with half
+/// of max_false_cause.
 constexpr double of_a_family = 0.5 * max_false_cause;
 
 double allowed_error(std::int64_t alternatives) {
@@ -55,8 +56,7 @@ void name_claims(const EffectRuns& runs, Limit& limit) {
   }
 }
 
-/// By how much the first units meet the worst claim (Estimate::margin); the lowest number where the point
-/// cannot be simulated.
+/// Estimate::margin of a point on its first `count` machines; −infinity if the point cannot be simulated.
 double margin_on(const EffectRuns& runs, const ChangedPoint& point, std::int64_t count) {
   if (!point.refusal.empty()) return -std::numeric_limits<double>::infinity();
   return estimate_of(runs.aim(), point.units, count).margin;
@@ -70,8 +70,8 @@ std::vector<ChangedPoint> pairs_of(const EffectRuns& runs, std::span<const Chang
   return pairs;
 }
 
-/// The better half of the pairs on their first units, and of it those that are at least as good there as each
-/// cause alone.
+/// Keeps the better half of the pairs on their first `count` machines, and of this half only the pairs that
+/// are at least as good on these machines as each single cause.
 void keep_promising(const EffectRuns& runs, std::span<const ChangedPoint> alone, std::int64_t count,
                     std::vector<ChangedPoint>& pairs) {
   std::vector<double> margins;
@@ -90,7 +90,7 @@ std::int64_t first_units_of_pairs(std::int64_t units) {
   return std::min(units, std::clamp(units / 8, fewest, most));
 }
 
-/// The best of the pairs that are still promising on all units; null: none is.
+/// The best pair on all machines, of those that stayed promising; null if none did.
 const ChangedPoint* best_pair(const EffectRuns& runs, std::span<const ChangedPoint> alone,
                               std::vector<ChangedPoint>& pairs) {
   for (std::int64_t count = first_units_of_pairs(runs.units()); count < runs.units() && !pairs.empty();
@@ -105,14 +105,14 @@ const ChangedPoint* best_pair(const EffectRuns& runs, std::span<const ChangedPoi
   return best == pairs.end() || !best->refusal.empty() ? nullptr : &*best;
 }
 
-/// Units that gain from one point to another, in the claim that is the worst as it is.
+/// Machines that gain and lose from one point to another, in the claim that is worst without changes.
 PairedGain gain_between(const EffectRuns& runs, const ChangedPoint& before, const ChangedPoint& after,
                         std::int64_t alternatives) {
   const std::size_t worst = runs.estimate(runs.base()).worst;
   return paired_gain(runs.aim().claims[worst], worst, before.units, after.units, alternatives);
 }
 
-/// The row of a cause, or of a pair of causes, that is switched off.
+/// Result with a cause, or a pair of causes, switched off.
 Limit cause_of(const EffectRuns& runs, const ChangedPoint& without, const Limit& base,
                std::int64_t alternatives) {
   Limit limit = limit_of(runs, without);
@@ -122,7 +122,7 @@ Limit cause_of(const EffectRuns& runs, const ChangedPoint& without, const Limit&
   return limit;
 }
 
-/// Runs each cause on all units, in a few parts so that who waits is told how far it is.
+/// Runs each single cause on all machines, in up to 100 parts so that the progress can be told.
 void run_alone(const EffectRuns& runs, std::vector<ChangedPoint>& alone, const TellStage& tell) {
   constexpr std::int64_t trials_of_part = 2000;
   constexpr std::int64_t most_parts = 100;
@@ -137,7 +137,7 @@ void run_alone(const EffectRuns& runs, std::vector<ChangedPoint>& alone, const T
   }
 }
 
-/// Adds the best pair of causes, if it is better than each alone.
+/// Adds the best pair of causes, if the pair is better than each single cause.
 void add_best_pair(const EffectRuns& runs, std::span<const ChangedPoint> alone, const TellStage& tell,
                    std::vector<Limit>& limits) {
   const auto best = std::ranges::max_element(limits, is_lower);

@@ -46,14 +46,14 @@ FrictionModel same_law(LoadFrictionModel model) {
   return FrictionModel::none;
 }
 
-/// What the contact does not carry at the start stays with the integral.
+/// Adds to the integral the torque at the start that the contact does not carry.
 void keep_start(trial::TrialParameters& p) {
   const trial::HeldStart held = trial::held_start(p);
   p.initial.integral += held.integral;
   p.initial.holding = held.contact != 0.0;
 }
 
-/// The law of the load's friction for the one mass. It starts virgin and unloaded, as on the load.
+/// Gives the one mass the friction law of the load. The friction starts virgin and unloaded, as on the load.
 void take_over_friction(trial::TrialParameters& p) {
   if (p.load_side.friction.model == LoadFrictionModel::none) return;
   p.friction = {
@@ -64,7 +64,8 @@ void take_over_friction(trial::TrialParameters& p) {
   p.initial.mode = trial::InitialMode::stick;
 }
 
-/// What acts on the load acts on the one mass. Its contact carries what is constant, the integral the rest.
+/// Moves the disturbances of the load to the one mass. The contact carries their constant torque, and the
+/// integral carries the rest.
 void take_over_disturbances(trial::TrialParameters& p) {
   const trial::HeldStart held = trial::held_start(p);
   const trial::DisturbanceParameters& of_load = p.load_side.disturbance;

@@ -18,12 +18,12 @@ bool machine_meets(const Claim& claim, const ClaimResult& result) {
   return result.met >= claim.moves * result.moves;
 }
 
-/// Sums over the units of a world.
+/// Counts of one world.
 struct WorldCounts {
   std::int64_t units{0};
   std::int64_t moves{0};
   std::int64_t met{0};
-  std::int64_t machines{0};  ///< units that meet the goal
+  std::int64_t machines{0};  ///< Machines that meet the goal.
 };
 
 std::size_t worlds_of(const Aim& aim) {
@@ -34,7 +34,7 @@ std::size_t common_units(const Candidate& a, const Candidate& b) {
   return std::min(a.units.size(), b.units.size());
 }
 
-/// What a candidate's first units show of one claim.
+/// Estimate of one claim from a candidate's first machines, in the worst world.
 struct ClaimEstimate {
   double rate{0.0};
   double moves{0.0};
@@ -67,14 +67,14 @@ ClaimEstimate estimate_of_claim(const Aim& aim, std::size_t claim, std::span<con
   return worst;
 }
 
-/// Difference of the logits, finite for any rate of so many units.
+/// Logit of the rate minus logit of the wanted rate. Finite for any rate that `units` machines can have.
 double margin_of(double rate, double wanted, std::int64_t units) {
   constexpr double almost_all = 1.0 - 1e-9;  // success is not claimed: of all moves
   const auto n = static_cast<double>(units);
   return goal::logit_difference((rate * n + 0.5) / (n + 1.0), std::min(wanted, almost_all));
 }
 
-/// The standing of a claim by its rates alone.
+/// Standing of a claim from its rates alone, without bounds.
 goal::Standing standing_of(const Claim& claim, const ClaimEstimate& estimate, std::int64_t units) {
   goal::Standing standing{.observed = margin_of(estimate.rate, wanted_rate(claim), units)};
   if (claim.machines) standing.observed_of_moves = margin_of(estimate.moves, claim.moves, units);
@@ -92,7 +92,7 @@ bool seems_to_hold(const Claim& claim, double rate, std::int64_t units) {
   return rate >= wanted_rate(claim) + std::min(error, 0.5 * (1.0 - wanted_rate(claim)));
 }
 
-/// The claim by which the candidate is the latest, and its criterion.
+/// Claim with the largest criterion of a candidate, and this criterion.
 struct Latest {
   std::size_t claim{0};
   double value{0.0};
@@ -107,12 +107,13 @@ Latest latest_of(const Aim& aim, std::span<const UnitResult> units) {
   return latest;
 }
 
-constexpr double hardly_any = 0.01;  // of the moves
-constexpr double confidence = 0.95;  // of the bounds of a point's rate
-constexpr std::int64_t fewest = 10;  // telling points: single ones are there by chance
-constexpr std::int64_t one_in = 20;  // of all points
+constexpr double hardly_any = 0.01;  // proportion of the moves
+constexpr double confidence = 0.95;  // of the bounds on a point's rate
+constexpr std::int64_t fewest = 10;  // telling points: single ones occur by chance
+constexpr std::int64_t one_in = 20;  // points must be telling
 
-/// Of the moves that meet the worst goal. The moves of a unit may depend on each other: a unit counts once.
+/// Bounds on the proportion of moves that meet the worst goal. The moves of a machine may depend on each
+/// other, so each machine counts as one observation.
 statistics::ConfidenceInterval bounds_of(const Estimate& estimate) {
   const auto met =
       static_cast<std::int64_t>(std::floor(estimate.moves * static_cast<double>(estimate.units)));

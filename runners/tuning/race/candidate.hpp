@@ -10,37 +10,40 @@
 
 namespace zerocount::tuning {
 
-/// What one unit shows of a claim: the moves that the goal is about, under the condition.
+/// Result of one machine for one claim. Only moves that the claim's goal judges, under the claim's condition,
+/// are counted.
 struct ClaimResult {
-  std::int32_t moves{0};
-  std::int32_t met{0};         ///< moves that meet the goal
-  std::vector<double> values;  ///< [move] of the criterion's measure, where it has one; infinite for never
+  std::int32_t moves{0};  ///< Number of judged moves.
+  std::int32_t met{0};    ///< Number of judged moves that meet the goal.
+  /// Values of the criterion's measure, one for each judged move that has a value; infinity for "never".
+  std::vector<double> values;
 };
 
-/// The result of a candidate on one unit of the search: a machine or, where no goal asks for machines, a
-/// trial on a machine of its own, under each condition.
+/// Result of a candidate on one unit of the search. A unit is a machine with its trials under each condition.
+/// If no goal asks for machines, each machine has one trial under each condition.
 struct UnitResult {
-  std::vector<ClaimResult> claims;  ///< as Aim::claims
-  bool slid{false};                 ///< whether the axis slid in a move
+  std::vector<ClaimResult> claims;  ///< One entry for each claim, in the order of Aim::claims.
+  bool slid{false};                 ///< Whether the axis slid in some move.
 };
 
-/// Proportion of the moves that meet the goal; 0 without moves.
+/// Proportion of the judged moves that meet the goal; 0 without judged moves.
 inline double met_proportion(const ClaimResult& claim) {
   return claim.moves == 0 ? 0.0 : static_cast<double>(claim.met) / claim.moves;
 }
 
-/// What must hold: a goal under a condition.
+/// A claim that must hold: one goal under one condition.
 struct Claim {
   double moves{0.99};                ///< study::Goal::moves
   std::optional<double> machines{};  ///< study::Goal::machines
 };
 
-/// The requirements on the candidates: all claims must hold.
+/// Requirements on the candidates. All claims must hold.
 struct Aim {
-  std::vector<Claim> claims{Claim{}};  ///< goal by goal, each under every condition
-  std::size_t conditions{1};           ///< claims of each goal
-  double quantile{0.95};               ///< the criterion is this quantile of the values; 0 to 1
-  /// Unit i is in world i mod worlds, and the claims must hold in each; 0: no worlds.
+  std::vector<Claim> claims{Claim{}};  ///< All pairs of goal and condition, goal by goal.
+  std::size_t conditions{1};           ///< Number of conditions, thus of claims per goal.
+  double quantile{0.95};               ///< Probability (0 to 1) of the quantile that is the criterion.
+  /// Number of worlds; 0: no worlds. Unit i belongs to world i mod worlds. The claims must hold in each
+  /// world.
   std::int64_t worlds{0};
 };
 
@@ -56,56 +59,62 @@ inline bool has_slid(std::span<const UnitResult> units) {
   return std::ranges::any_of(units, &UnitResult::slid);
 }
 
-/// Estimates from a candidate's first units; with worlds the rates are those of the worst, and the criterion
-/// is of all. Of several claims they are of the worst: the one whose rate is least above the wanted one, as
-/// the difference of the logits. The criterion is the largest of all claims.
+/// Estimates from the first machines of a candidate.
+///
+/// `rate`, `moves` and `margin` describe the worst claim. It is the claim with the smallest difference
+/// between the logits of its rate and of the wanted rate. With worlds, rates are those of the worst world,
+/// whereas the criterion is computed from the machines of all worlds.
 struct Estimate {
-  double rate{0.0};       ///< of moves that meet the goal; with Claim::machines of units that do
-  double moves{0.0};      ///< rate of moves that meet the goal
-  double criterion{0.0};  ///< infinite for never
-  std::int64_t units{0};  ///< that the rates are of; with worlds those of each
-  /// Mean over the worlds of their rate, of each at most the one wanted: how near all of them are to it.
+  /// Proportion of moves that meet the goal. If the claim is about machines: proportion of machines.
+  double rate{0.0};
+  double moves{0.0};      ///< Proportion of moves that meet the goal, also if the claim is about machines.
+  double criterion{0.0};  ///< Largest criterion of all claims; infinity for "never".
+  std::int64_t units{0};  ///< Number of machines behind the rates. With worlds: in each world.
+  /// Mean over claims and worlds of the rate, each capped at the wanted rate. It shows how close all worlds
+  /// are to the goals.
   double near_goal{0.0};
-  std::vector<double> rates{};  ///< [claim]
-  std::size_t worst{0};         ///< the claim that rate and moves are of
-  double margin{0.0};           ///< of it: the difference of the logits
-  std::int64_t missing{0};      ///< goals that the candidate does not seem to meet, under some condition
+  std::vector<double> rates{};  ///< [claim] Rate as in `rate`.
+  std::size_t worst{0};         ///< Index of the worst claim in Aim::claims.
+  double margin{0.0};           ///< Logit of the worst claim's rate minus the logit of its wanted rate.
+  std::int64_t missing{0};      ///< Number of goals that the candidate seems to miss under some condition.
 };
 
-/// @param count of these units; all if there are fewer
+/// Estimate from the first `count` units; from all if there are fewer.
 Estimate estimate_of(const Aim& aim, std::span<const UnitResult> units, std::int64_t count);
 
-/// Those of several candidates, [candidate].
+/// [candidate] Estimate of each candidate from its first `units` machines.
 std::vector<Estimate> estimates_of(const Aim& aim, std::span<const Candidate> candidates, std::int64_t units);
 
-/// The rate that is claimed.
+/// Rate that the claim asks for: of machines if the claim is about machines, of moves otherwise.
 inline double wanted_rate(const Claim& claim) {
   return claim.machines.value_or(claim.moves);
 }
 
-/// Whether the candidate meets all goals by its units, each with one standard error to spare: a candidate
-/// that meets them just so would not pass the proof.
+/// Whether the candidate's machines meet all goals, each with one standard error to spare. A candidate that
+/// barely meets the goals would not pass the proof.
 inline bool seems_to_meet(const Estimate& estimate) {
   return estimate.units > 0 && estimate.missing == 0;
 }
 
-/// Whether every rate is as high as wanted, with nothing to spare.
+/// Whether every rate is at least the wanted one; no standard error is added.
 bool reaches(const Aim& aim, const Estimate& estimate);
 
-/// Whether every rate is as high as wanted, or less than two standard errors lower.
+/// Whether every rate is at most two standard errors below the wanted one, or higher.
 bool may_meet(const Aim& aim, const Estimate& estimate);
 
-/// Whether `a` is the better candidate: one that seems to meet more of the goals is; of two that meet all of
-/// them the smaller criterion is better; else the one whose worst claim is nearer to what is wanted.
+/// Whether `a` is better than `b`. The candidate that seems to meet more goals is better. If both meet all
+/// goals, the smaller criterion is better. Otherwise the candidate whose worst claim is closer to the wanted
+/// rate is better; with worlds, the larger near_goal is.
 bool is_better(const Aim& aim, const Estimate& a, const Estimate& b);
 
-/// Loss of a unit, 0 to 1: the proportion of its moves that miss the goal, or 1 for a machine that does.
+/// Loss of a machine for a claim, 0 to 1. For a claim about machines, the loss is 1 if the machine misses the
+/// goal. For other claims, it is the proportion of the machine's moves that miss the goal.
 double goal_loss(const Claim& claim, const ClaimResult& result);
 
-/// Quantile of a claim's values on these units; infinite without values.
+/// Quantile of the criterion's values of one claim, pooled over these machines; infinity without values.
 double late_value(std::span<const UnitResult> units, std::size_t claim, double quantile);
 
-/// Proportion of the values above `limit`.
+/// Proportion of the criterion's values above `limit`; 0 without values.
 double late_part(const ClaimResult& result, double limit);
 
 /// Evidence against "the mean of the differences is at most 0", for differences within [−1, 1] of units that
@@ -114,39 +123,44 @@ double late_part(const ClaimResult& result, double limit);
 /// Waudby-Smith and Ramdas, "Estimating means of bounded random variables by betting", 2024).
 double evidence_of_increase(std::span<const double> differences);
 
-/// Whether all claims hold by the candidate's units (in every world), with this probability of an error at
-/// most, at all numbers of units together. That all must hold needs no correction for their number.
+/// Whether the candidate's machines show that all claims hold, in every world. The probability of ever being
+/// wrong is at most alpha, however many machines have run when this is asked. The number of claims needs no
+/// correction because all of them must hold.
 bool surely_meets(const Aim& aim, const Candidate& candidate, double alpha);
 
-/// Whether it misses some claim more often than allowed (in some world), and more often than `reliable` does;
-/// corrected for the number of claims and worlds (Bonferroni).
+/// Whether the candidate surely misses some claim, in some world, more often than allowed and more often than
+/// `reliable` does. alpha is divided by the number of claims and worlds (Bonferroni).
 bool surely_misses(const Aim& aim, const Candidate& candidate, const Candidate& reliable, double alpha);
 
-/// Whether its values of some claim are more often above the criterion of `best`, by the units of both, than
-/// those of `best` of the claim by which it is the latest; corrected for the number of claims.
+/// Whether the candidate is significantly later than `best`, on the machines that both have run. For some
+/// claim, its values must exceed the criterion of `best` more often than the values of `best` do in the claim
+/// that sets this criterion. alpha is divided by the number of claims (Bonferroni).
 bool is_significantly_later(const Aim& aim, const Candidate& candidate, const Candidate& best, double alpha);
 
 /// A point that the search has simulated.
 struct TriedPoint {
   Values values;
-  Estimate estimate;  ///< by the most units that it was given
+  Estimate estimate;  ///< Estimate from the largest number of machines that ran.
 };
 
-/// The frontier between success and speed: the points with at least `units` units that no other one of them
-/// beats in both the rate and the criterion, the fastest first.
+/// Frontier between success and speed. It holds the points with at least `units` machines that no other such
+/// point beats in both rate and criterion, the fastest first.
 std::vector<TriedPoint> frontier_of(std::span<const TriedPoint> tried, std::int64_t units);
 
-/// What the rates of the points of a search tell of the values between them.
+/// Summary of the success rates over the simulated points. It shows whether the search had a direction to
+/// follow, or may have overlooked good values between the points.
 struct Landscape {
-  std::int64_t points{0};  ///< that were simulated
-  /// Points at which some moves meet the worst goal for sure, more than 1 % of them, and fewer than it asks.
+  std::int64_t points{0};  ///< Number of simulated points.
+  /// Number of telling points. At a telling point the rate is below what the worst goal asks for, but surely
+  /// (95 % lower bound) more than 1 % of the moves meet the goal.
   std::int64_t telling{0};
-  /// Whether more moves meet it at one point than at another for sure: moves that are trivial meet it at all.
+  /// Whether surely more moves meet the worst goal at some point than at another (95 % bounds). Trivial moves
+  /// meet it at every point, so they do not make the rates vary.
   bool varies{false};
 
-  /// Whether the rates led somewhere: they vary, and at least ten points, and one in twenty, are telling.
-  /// Where the rate is the same nearly everywhere, 0 or another, no point tells where to go, and a narrow
-  /// range of good values may lie between them.
+  /// Whether the rates gave the search a direction: they vary, and at least ten points and one in twenty are
+  /// telling. If the rate is nearly the same everywhere, no point shows where to go. A narrow range of good
+  /// values may then lie between the points.
   bool leads() const;
 };
 

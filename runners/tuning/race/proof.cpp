@@ -5,7 +5,8 @@
 namespace zerocount::tuning {
 namespace {
 
-/// The finalist with the largest margin, of those that are not tried and may meet the goals.
+/// Finalist with the largest margin among those that may meet the goals and were not tried; nothing without
+/// one.
 std::optional<std::size_t> surest(const ProofProblem& problem, const std::vector<bool>& tried) {
   std::optional<std::size_t> found;
   for (std::size_t i = 0; i < problem.may_meet.size(); ++i) {
@@ -15,7 +16,7 @@ std::optional<std::size_t> surest(const ProofProblem& problem, const std::vector
   return found;
 }
 
-/// The attempt after one with this result; nothing if there is none worth making.
+/// The attempt that follows the last one; nothing if no further attempt is worth making.
 std::optional<Attempt> next_attempt(const ProofProblem& problem, const std::vector<bool>& tried,
                                     const ProvenFinalist& last) {
   const Attempt& before = last.attempt;

@@ -14,66 +14,75 @@ namespace zerocount::tuning {
 
 /// One run of a finalist on units that neither the search nor another attempt has seen.
 struct Attempt {
-  int number{1};            ///< from 1
-  std::size_t finalist{0};  ///< of ProofProblem::may_meet
-  std::int64_t units{0};
+  int number{1};            ///< Number of the attempt, counted from 1.
+  std::size_t finalist{0};  ///< Index in ProofProblem::may_meet.
+  std::int64_t units{0};    ///< Number of machines.
 };
 
-/// Attempts at most. The error probability α of the goal's confidence is divided among them, 1/2, 1/4, 1/4,
-/// so that the claim of whichever succeeds is false with probability α at most, however the finalists were
-/// found.
+/// Maximum number of attempts. The error probability α = 1 − confidence is divided among the attempts as 1/2,
+/// 1/4, 1/4. So the claim of a successful attempt is false with probability at most α, however the finalists
+/// were found.
 inline constexpr int max_attempts = 3;
 
-/// The reciprocal of the part of α that this attempt has.
+/// Reciprocal of the fraction of α that the attempt may use: 2 for the first attempt, 4 for the others.
 std::size_t correction_of(int attempt);
 
-/// What a goal is about, machines or moves: the proportion that meets it, and the one that it asks for.
+/// Proportion that the goal judges, with its bounds: of machines if the goal asks for machines, else of
+/// moves.
 inline const goal::BoundedProportion& judged_rate(const study::Goal& goal,
                                                   const goal::WorldVerdict& verdict) {
   return goal.machines ? verdict.machines : verdict.moves;
 }
+/// Proportion that the goal asks for: of machines if it names one, else of moves.
 inline double asked_rate(const study::Goal& goal) {
   return goal.machines.value_or(goal.moves);
 }
 
-/// The moves that meet each goal, [goal].
+/// [goal] Counts of the moves that meet the goal.
 using GoalCounts = std::vector<measures::CellCounts>;
 
-/// What an attempt shows.
+/// Result of an attempt.
 struct AttemptResult {
   GoalCounts counts;
-  goal::Verdict verdict;  ///< With the attempt's part of α.
+  goal::Verdict verdict;  ///< Verdict with the attempt's fraction of α.
 };
 
+/// Finalists of a search, and the functions with which prove() examines them.
 struct ProofProblem {
-  std::vector<bool> may_meet;   ///< [finalist] whether it may meet all goals, by the search; the best first
-  std::vector<double> margins;  ///< [finalist] Estimate::margin: the larger, the surer it meets them
-  /// Units that are expected to decide the goals with this correction, by the results of the search.
+  /// [finalist] Whether the finalist may meet all goals, judged by the search. The best finalist comes first.
+  std::vector<bool> may_meet;
+  std::vector<double> margins;  ///< [finalist] Estimate::margin. A larger margin makes success more certain.
+  /// Number of machines expected to decide the goals, from the finalist's results in the search. `correction`
+  /// is correction_of() of the attempt.
   std::function<std::int64_t(std::size_t finalist, std::size_t correction)> first_units;
-  /// Units that are expected to decide them, by the results of an attempt.
+  /// Number of machines expected to decide the goals, from the counts of an earlier attempt.
   std::function<std::int64_t(const GoalCounts&, std::size_t correction)> more_units;
-  /// Nothing if the effort ended before the attempt.
+  /// Runs an attempt. Returns nothing if the effort ended before.
   std::function<std::optional<AttemptResult>(const Attempt&)> run;
-  /// Whether the last run shows that the finalist does not keep a margin. It is not the answer then.
+  /// Whether the last run shows that the finalist violates a wanted margin. Such a finalist is not the
+  /// answer.
   std::function<bool(const Attempt&)> rejects;
-  std::function<bool()> goes_on;  ///< whether the effort is enough for another attempt
+  std::function<bool()> goes_on;  ///< Whether the effort is enough for another attempt.
 };
 
-/// The last attempt and its result.
+/// The last attempt of a proof, with its result.
 struct ProvenFinalist : AttemptResult {
   Attempt attempt;
-  bool keeps_margins{true};  ///< ProofProblem::rejects
-  bool all_tried{true};      ///< every finalist that may meet the goals was run
+  bool keeps_margins{true};  ///< False if ProofProblem::rejects the finalist.
+  bool all_tried{true};      ///< Whether every finalist that may meet the goals was run.
 };
 
-/// Proves the best finalist or, where it misses the goals, the surest of the others: the best ones were
-/// chosen because they look fast on the units of the search, and miss goals at the limit of what is possible.
+/// Proves the best finalist. If it misses the goals, proves the surest of the other finalists: the best ones
+/// were chosen because they look fast on the machines of the search, so they may miss goals at the limit of
+/// what is possible.
 ///
 ///     finalist = 0
 ///     for attempt = 1 … max_attempts, while the effort is enough:
-///       run the finalist on fresh units; its verdict has the attempt's part of α
-///       met: done; missed, or a margin is not kept: of the others that may meet the goals, the one with the
-///       largest margin; undecided: again on more units, if more are expected to decide
+///       run the finalist on fresh machines; its verdict has the attempt's fraction of α
+///       met: done
+///       missed, or a margin is not kept: finalist = the one with the largest margin among those that may
+///         meet the goals and were not tried
+///       undecided: again on more machines, if these are expected to decide
 ///
 /// @returns the last attempt; nothing if the effort ended before the first one
 std::optional<ProvenFinalist> prove(const ProofProblem& problem);

@@ -21,7 +21,8 @@ constexpr std::int64_t candidates_each = 48;
 constexpr std::int64_t units_of_world = 4;
 constexpr std::int64_t climbing_part = 8;  // of the units
 
-/// Size number `step`: each has 0.75 of the candidates of the one before, every second one half of the units.
+/// Size number `step`. Each size has 0.75 times the candidates of the size before. Every second size has half
+/// the machines.
 SearchSize size_at(const SearchScope& scope, int step) {
   const SearchSize largest;
   const double fewer = std::pow(0.75, step);
@@ -46,7 +47,7 @@ SearchSize size_at(const SearchScope& scope, int step) {
 
 constexpr double error_of_dropping = 0.01;
 
-/// [place] the index of the candidate with so many larger margins.
+/// Indices of the candidates, sorted by decreasing Estimate::margin.
 std::vector<std::size_t> by_margin(const Aim& aim, const std::vector<Candidate>& candidates,
                                    std::int64_t units) {
   std::vector<std::size_t> order(candidates.size());
@@ -72,7 +73,7 @@ constexpr double examining = 0.3;           // of the time left, at most, to fin
 
 constexpr int tries_before_walking = 8;  // of a later generation, if they find less than half of it
 
-/// The effort without that which the race of the finalists takes at most, with the best start and a leader.
+/// Effort without the part kept for the race of the finalists, the best start and an earlier leader.
 trials::Effort before_final_race(const SearchProblem& problem, const trials::Effort& whole) {
   const SearchSize& size = problem.size;
   const std::int64_t final_trials =
@@ -122,15 +123,15 @@ class Search {
   }
 
  private:
-  /// The best candidate after a generation.
+  /// Best candidate after a generation.
   struct Leader {
-    std::int64_t points;  ///< tried until then
+    std::int64_t points;  ///< Number of points tried up to this generation.
     Candidate candidate;
   };
 
   std::size_t index_below(std::size_t size) { return tuning::index_below(size, numbers_); }
 
-  /// Adds the places that are admissible and new, up to `wanted` of them.
+  /// Appends admissible places that were not tried before to `to`, until it has `wanted` entries.
   void add_admissible(const std::vector<UnitCubePoint>& places, std::size_t wanted,
                       std::vector<Candidate>& to) {
     std::vector<Candidate> drawn;
@@ -155,7 +156,8 @@ class Search {
     candidates = std::move(kept);
   }
 
-  /// Calls `add` until it has found a generation, or some candidates in a part of the time.
+  /// Calls `add` until it returns false. Stops earlier if some candidates are found and a fraction
+  /// `examining` of the remaining time has passed.
   void find(std::vector<Candidate>& candidates, const std::function<bool()>& add) {
     const double end = (1.0 - examining) * effort_.seconds_left();
     const bool ended = trials::within(effort_, [&] {
@@ -165,7 +167,7 @@ class Search {
     result_.cut = result_.cut || !ended;
   }
 
-  /// A generation that is evenly spread over the ranges and their faces.
+  /// Races a generation that is evenly spread over the ranges and their faces.
   void fill_ranges() {
     const auto wanted = static_cast<std::size_t>(problem_.size.first_candidates);
     std::vector<double> start;
@@ -181,7 +183,7 @@ class Search {
     race(std::move(candidates));
   }
 
-  /// Runs them on all units before any other candidate, so that they are not dropped by chance.
+  /// Races the starts before any other candidate, so that chance does not drop them.
   void race_starts() {
     std::vector<Candidate> candidates;
     std::vector<UnitCubePoint> places;
@@ -193,7 +195,7 @@ class Search {
     race(std::move(candidates));
   }
 
-  /// Adds candidates that are evenly spread over a face, up to `wanted` of all.
+  /// Appends candidates that are evenly spread over a face, until there are `wanted`.
   void spread(std::vector<Candidate>& candidates, const SpreadPlaces& sequence,
               const std::vector<std::size_t>& face, std::size_t wanted) {
     if (wanted <= candidates.size()) return;
@@ -219,7 +221,7 @@ class Search {
     return problem_.shortfall(values);
   }
 
-  /// Adds candidates that differential evolution finds where `shortfall` is 0, up to `wanted` of all.
+  /// Appends candidates that differential evolution finds where `shortfall` is 0, until there are `wanted`.
   /// @param face parameters that stay at their low ends. @param first places at which it may begin, 0, 1, …
   void approach(std::vector<Candidate>& candidates, std::size_t wanted, const std::vector<std::size_t>& face,
                 const std::function<UnitCubePoint(std::int64_t)>& first) {
@@ -232,8 +234,8 @@ class Search {
     });
   }
 
-  /// A place near an elite, moved along the difference of two others: their spread knows the direction of a
-  /// narrow valley.
+  /// Place near an elite, sometimes moved along the difference of two other elites. The spread of the elites
+  /// follows the direction of a narrow valley.
   UnitCubePoint place_near_elites(double step) {
     const std::size_t elites = population_.size();
     const double u = numbers_.uniform();
@@ -254,8 +256,9 @@ class Search {
     return place;
   }
 
-  /// Where few places are admissible, they are near those that are: each try takes shorter steps; and walkers
-  /// that start around the elites go farther along a thin region.
+  /// Draws a generation near the elites and races it. Each further try takes shorter steps, because few
+  /// places are admissible then, and these lie close to the elites. Walkers that start around the elites go
+  /// farther along a thin admissible region.
   void next_generation() {
     std::vector<Candidate> candidates;
     const auto wanted =
@@ -275,7 +278,7 @@ class Search {
     step_ *= step_ratio;
   }
 
-  /// Lets the candidates race with the population; the best of all become the population.
+  /// Races the candidates against the population. The best of both become the population.
   void race(std::vector<Candidate> candidates) {
     result_.points += std::ssize(candidates);
     for (Candidate& one : population_) candidates.push_back(std::move(one));
@@ -302,8 +305,8 @@ class Search {
     population_ = std::move(candidates);
   }
 
-  /// The best ones and, in the last place, the most reliable one: the best by a criterion meet a goal that is
-  /// hard to reach by luck, and all of them may miss it.
+  /// Keeps the best candidates and, in the last place, the most reliable one. If a goal is hard to reach, the
+  /// best by the criterion meet it by luck, and all of them may miss it.
   void keep_elites(std::vector<Candidate>& candidates) const {
     const auto elites = static_cast<std::size_t>(problem_.size.elites);
     if (candidates.size() <= elites) return;
@@ -317,8 +320,9 @@ class Search {
     candidates.resize(elites);
   }
 
-  /// While the best candidate seems to miss the goal, many candidates with few units find the way sooner than
-  /// few with many; what meets it needs more units to tell.
+  /// Doubles the machines per candidate if the best candidate seems to meet the goal; false if not. While it
+  /// seems to miss, many candidates on few machines find the way sooner than few candidates on many. Telling
+  /// apart candidates that meet the goal needs more machines.
   bool takes_more_units(const Candidate& best) {
     const std::int64_t max_units = problem_.size.max_units;
     if (most_units_ == max_units || !seems_to_meet(estimate_of(problem_.aim, best.units, most_units_)))
@@ -328,8 +332,9 @@ class Search {
     return true;
   }
 
-  /// Runs the candidates that are behind, in their order, and drops those for which no trials are left.
-  /// @throws trials::Spent if none are left for the first of them
+  /// Runs the candidates that have fewer than `units` machines, in order. Drops those for which no trials are
+  /// left.
+  /// @throws trials::Spent if no trials are left for the first of them
   void run_units(std::vector<Candidate>& candidates, std::int64_t units) {
     std::vector<Candidate*> behind;
     std::int64_t trials = 0;
@@ -349,7 +354,8 @@ class Search {
     std::erase_if(candidates, [units](const Candidate& one) { return std::ssize(one.units) < units; });
   }
 
-  /// Few units make candidates look better than they are: those with fewer than others are dropped.
+  /// Drops candidates that ran fewer machines than others: few machines make candidates look better than they
+  /// are.
   void keep_those_with_most_units(std::vector<Candidate>& candidates) {
     std::int64_t most = 1;
     for (const Candidate& one : candidates) most = std::max(most, std::ssize(one.units));
@@ -374,8 +380,8 @@ class Search {
     candidates = std::move(sorted);
   }
 
-  /// Removes candidates that do not keep all conditions, until as many as become the population lead that do:
-  /// others are dropped because of these.
+  /// Removes leading candidates that are not verified, until the leaders that may become the population all
+  /// are. The leaders must be verified because other candidates are dropped in their favour.
   void verify_leaders(std::vector<Candidate>& candidates) {
     const auto wanted = static_cast<std::size_t>(problem_.size.elites);
     for (std::size_t i = 0; i < std::min(wanted, candidates.size());) {
@@ -402,8 +408,9 @@ class Search {
     while (leaders_.size() > 1 && 3 * leaders_[1].points <= 2 * result_.points) leaders_.pop_front();
   }
 
-  /// Whether some times as many candidates as the last ones would reach the goal, if they came as much nearer
-  /// to it. The leader before them runs as many units as the finalists: it led by luck too.
+  /// Whether the goal is still missed, but the last third of the points reduced the distance to it by more
+  /// than min_approach times the remaining distance. At this pace, some times as many points would reach the
+  /// goal. The earlier leader runs as many machines as the finalists, because it may have led by luck.
   bool approaches_goal() {
     if (population_.empty() || reaches(problem_.aim, best_estimate())) return false;
     std::vector<Candidate> before{leaders_.front().candidate};
@@ -421,7 +428,7 @@ class Search {
         {result_.generations, result_.points, result_.trials, &population_.front(), best_estimate()});
   }
 
-  /// A generation of which no candidate can end its race is not begun.
+  /// Whether another generation is allowed, and the effort lets at least one candidate end its race.
   bool goes_on() const {
     return (result_.generations < settings_.generations || settings_.begins_anew) && !effort_.is_spent() &&
            effort_.trials_left() >= most_units_ * problem_.trials_of_unit;
@@ -455,13 +462,15 @@ class Search {
   const SearchSettings& settings_;
   random::NumberSource numbers_;
   double step_;
-  trials::Effort effort_;    ///< of the race that goes on
-  std::int64_t most_units_;  ///< likewise
+  trials::Effort effort_;    ///< Effort of the current race.
+  std::int64_t most_units_;  ///< Maximum number of machines per candidate in the current race.
   std::set<Values> tried_;
-  std::map<Values, Estimate> estimates_;  ///< of all that were simulated
-  std::vector<Candidate> population_;     ///< the best first
-  std::optional<Candidate> best_start_;   ///< so that few units do not drop it by chance
-  std::deque<Leader> leaders_;            ///< since two thirds of the candidates
+  std::map<Values, Estimate> estimates_;  ///< Latest estimate of each simulated point.
+  std::vector<Candidate> population_;     ///< The best first.
+  /// Best of the starts, kept so that few machines do not drop it by chance.
+  std::optional<Candidate> best_start_;
+  /// Leaders since two thirds of the points were tried, and the one at that time.
+  std::deque<Leader> leaders_;
   SearchResult result_;
 };
 

@@ -13,46 +13,52 @@
 
 /// Iterated racing (López-Ibáñez et al., "The irace package", Operations Research Perspectives 3, 2016): a
 /// generation of candidates is drawn around the best of those before it, and races over units that are the
-/// same for all of them. A candidate that cannot win is dropped after few units.
+/// same for all candidates. A candidate that cannot win is dropped after few machines.
 namespace zerocount::tuning {
 
-/// Numbers of candidates and units of a search. A race begins with all candidates on the first units. At each
-/// doubling of the units fewer stay, so that every round costs about the same.
+/// Numbers of candidates and machines (units) of a search. A race begins with all candidates on the first
+/// machines. At each doubling of the machines fewer candidates stay, so every round costs about the same.
 struct SearchSize {
-  std::int64_t first_candidates{96};  ///< of the first generation, which fills the ranges
-  std::int64_t face_candidates{0};    ///< of it, for each face (SearchProblem::faces)
-  std::int64_t candidates{32};  ///< of each later generation that runs max_units; the more the fewer it runs
-  std::int64_t elites{8};       ///< that a generation leaves to the next
-  std::int64_t first_units{64};
-  std::int64_t climbing_units{256};  ///< at most, while the best candidate seems to miss the goal
-  std::int64_t max_units{2048};      ///< of a candidate
+  std::int64_t first_candidates{96};  ///< Candidates of the first generation, which fills the ranges.
+  std::int64_t face_candidates{0};    ///< Additional first candidates on each face (SearchProblem::faces).
+  /// Candidates of a later generation that runs max_units. A generation that runs fewer machines has
+  /// proportionally more candidates.
+  std::int64_t candidates{32};
+  std::int64_t elites{8};        ///< Candidates that survive a generation.
+  std::int64_t first_units{64};  ///< Machines in the first round of a race.
+  /// Maximum number of machines per candidate while the best candidate seems to miss the goal.
+  std::int64_t climbing_units{256};
+  std::int64_t max_units{2048};  ///< Maximum number of machines per candidate.
 };
 
-/// Candidates at most that stay in a race after `units` units.
+/// Maximum number of candidates that stay in a race after `units` machines.
 std::int64_t max_after(const SearchSize& size, std::int64_t units);
 
-/// Units that a race of the first generation runs at most, over all candidates.
+/// Maximum number of machines that a race of the first generation simulates, summed over its candidates.
 std::int64_t first_race_units(const SearchSize& size, std::size_t faces);
 
-/// What the size of a search depends on, beside the effort.
+/// Properties of a problem that set the size of its search, besides the effort.
 struct SearchScope {
-  std::size_t free{1};           ///< parameters
-  std::size_t faces{0};          ///< SearchProblem::faces
-  std::int64_t max_units{2048};  ///< of the largest search
-  std::int64_t worlds{0};        ///< each is to have some units; 0: none
+  std::size_t free{1};           ///< Number of free parameters.
+  std::size_t faces{0};          ///< Number of SearchProblem::faces.
+  std::int64_t max_units{2048};  ///< SearchSize::max_units of the largest search.
+  std::int64_t worlds{0};        ///< Number of worlds, each of which needs some machines; 0: no worlds.
 };
 
-/// The largest search whose first generation takes at most half of so many units; the smallest one if there
-/// is none.
+/// Size of the largest search whose first generation simulates at most half of `units` machines, summed over
+/// its candidates. If none does, the smallest search.
 SearchSize search_size(const SearchScope& scope, std::int64_t units);
 
-/// The smallest search that finds something.
+/// Size of the smallest search that still finds something.
 SearchSize smallest_search(const SearchScope& scope);
 
-/// Those that stay in a race after so many units: without the ones that cannot win, which surely miss the
-/// goal, or are surely later than one that surely meets it. Of the others max_after(units) stay, as in
-/// successive halving, so that a race between equals ends: by turns the best and the most reliable, because
-/// few units make fast points look as if they met the goal. Those with more units stay.
+/// Candidates that stay in a race after `units` machines.
+///
+/// Candidates that cannot win are dropped: those that surely miss the goal, and those that are surely later
+/// than a candidate that surely meets it. At most max_after(units) of the others stay, as in successive
+/// halving, so that a race between equals ends. The best and the most reliable ones are taken alternately,
+/// because few machines make fast points look as if they met the goal. Candidates that have run more than
+/// `units` machines always stay.
 /// @param candidates the best first
 std::vector<Candidate> dropped(const Aim& aim, const SearchSize& size, std::vector<Candidate> candidates,
                                std::int64_t units);
@@ -61,24 +67,26 @@ std::vector<Candidate> dropped(const Aim& aim, const SearchSize& size, std::vect
 struct SearchProblem {
   std::vector<study::FreeParameter> free;
   Aim aim;
-  std::vector<Values> starts{};  ///< such as the manifest's values: the result is worse only by chance
-  /// Faces of the ranges on which the search seeks too, each the free parameters that are at their low ends:
-  /// a control with fewer blocks, which may be the better one, and the only admissible one.
+  /// Values that are raced first, such as those of the manifest. So the result is worse than they are only by
+  /// chance.
+  std::vector<Values> starts{};
+  /// Faces of the ranges that are searched too. A face is a set of free parameters that stay at their low
+  /// ends. It is a control with fewer blocks, which may be the better one or the only admissible one.
   std::vector<std::vector<std::size_t>> faces{};
   SearchSize size{};
   std::int64_t trials_of_unit{1};
 
-  /// Appends the results of the units up to `to` to every candidate; to none of them if it throws
-  /// trial::Interrupted, because the time is over.
+  /// Appends results to every candidate, so that each has those of `to` machines. Throws trial::Interrupted
+  /// if the time is over; then no candidate is changed.
   std::function<void(std::span<Candidate* const>, std::int64_t to)> evaluate;
-  /// [candidate] whether it may be tried at all, or go on after what its units did. Cheap: called for many
-  /// candidates.
+  /// [candidate] Whether the candidate may be tried or, if it has results, may go on. Must be cheap, because
+  /// it is called for many candidates.
   std::function<std::vector<bool>(std::span<const Candidate>)> admissible;
-  /// How far values are from being admissible before any unit is run: 0 where they are. Where it is given,
-  /// the first generation walks to what is admissible if the ranges have little of it.
+  /// Distance of values from being admissible before any machine is run; 0 if they are admissible. If this
+  /// function is given and few values are admissible, the first generation walks to the admissible ones.
   std::function<std::vector<double>(std::span<const Values>)> shortfall{};
-  /// Whether a candidate keeps all conditions, also those that are costly to examine. Called for candidates
-  /// that lead; what `admissible` says may become stricter by it.
+  /// Whether a candidate fulfils all requirements, including those that are costly to examine. Called for
+  /// leading candidates. A call may make `admissible` stricter.
   std::function<bool(const Candidate&)> verified;
 };
 
@@ -93,24 +101,25 @@ struct SearchProgress {
 
 struct SearchSettings {
   std::uint64_t seed{0};
-  int generations{30};      ///< at most, unless it begins anew
-  bool begins_anew{false};  ///< where generations improve nothing, until the effort is spent
-  trials::Effort effort{};  ///< the search spends its trials
-  std::function<void(const SearchProgress&)> tell{};  ///< called after each generation
+  int generations{30};  ///< Maximum number of generations, unless begins_anew is set.
+  /// Fill the ranges again if generations improve nothing, until the effort is spent.
+  bool begins_anew{false};
+  trials::Effort effort{};                            ///< Effort that the search may spend.
+  std::function<void(const SearchProgress&)> tell{};  ///< Called after each generation.
 };
 
 struct SearchResult {
-  std::vector<Candidate> finalists;  ///< the best first; none if no candidate is admissible
-  std::vector<Estimate> estimates;   ///< [finalist] by all units
-  std::vector<TriedPoint> tried;     ///< all that were simulated
-  std::int64_t points{0};            ///< candidates that were simulated
+  std::vector<Candidate> finalists;  ///< The best first; empty if no candidate is admissible.
+  std::vector<Estimate> estimates;   ///< [finalist] Estimate from all machines of the finalist.
+  std::vector<TriedPoint> tried;     ///< All simulated points.
+  std::int64_t points{0};            ///< Number of simulated candidates.
   std::int64_t trials{0};
   int generations{0};
-  bool converged{false};  ///< the last generations improved nothing
-  /// The effort ended while the last generations came nearer to a goal that the best candidate misses: more
-  /// of it may reach the goal.
+  bool converged{false};  ///< Whether the last generations improved nothing.
+  /// Whether the last generations came closer to a goal that the best candidate still misses. More effort may
+  /// then reach the goal.
   bool approaching{false};
-  bool cut{false};  ///< the effort ended within a generation
+  bool cut{false};  ///< Whether the effort ended within a generation.
 };
 
 /// Seeks the best values within the effort.
@@ -118,7 +127,7 @@ struct SearchResult {
 ///     most_units = climbing_units
 ///     population = the best of `starts`, by a race
 ///     candidates = points that fill the ranges and the faces                     // first generation
-///     if too few of them are admissible: those that differential evolution of `shortfall` finds
+///     if too few of them are admissible: add points that differential evolution of `shortfall` finds
 ///     repeat until generations improve nothing, or the effort is spent:
 ///       for units = first_units, 2·first_units, … most_units, while any move meets the goal:   // race
 ///         evaluate all candidates up to `units`
@@ -131,8 +140,8 @@ struct SearchResult {
 ///       the faces
 ///     race of the population up to max_units
 ///
-/// Where the effort ends within a race, the candidates with the most units stay. Differential evolution is
-/// that of Walk.
+/// If the effort ends within a race, the candidates with the most machines stay. Walk implements the
+/// differential evolution.
 /// @throws trial::Interrupted
 SearchResult search(const SearchProblem& problem, const SearchSettings& settings);
 

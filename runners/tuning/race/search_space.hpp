@@ -11,19 +11,20 @@
 
 namespace zerocount::tuning {
 
-/// A point of the unit cube: [free parameter] the place in its range, 0 to 1, by its scale.
+/// Point of the unit cube: [free parameter] place in its range, 0 to 1, on its linear or logarithmic scale.
 using UnitCubePoint = std::vector<double>;
-/// [free parameter] the value in the manifest's unit.
+/// [free parameter] Value in the unit of the manifest.
 using Values = std::vector<double>;
 
-/// The values at a place, each rounded to four significant digits, or to a whole number, inside its range:
-/// what is simulated is what a user types in.
+/// Values at a place, each rounded to four significant digits, or to a whole number, inside its range. So a
+/// user can type in exactly the values that were simulated.
 Values values_at(std::span<const study::FreeParameter> free, const UnitCubePoint& place);
 
-/// A positive number to three digits, as answers show it: what is simulated is what they say.
+/// Rounds a positive number to three significant digits, as answers show it, so that the shown number is the
+/// simulated one.
 double to_three_digits(double value);
 
-/// The place of the values, clamped to the ranges.
+/// Place of the values in the unit cube, clamped to the ranges.
 UnitCubePoint place_of(std::span<const study::FreeParameter> free, const Values& values);
 
 /// A sequence that fills the unit cube evenly: the fractional parts of start_d + i·g⁻ᵈ, d = 1, 2, …, g the
@@ -39,9 +40,9 @@ class SpreadPlaces {
   std::vector<double> ratios_;  ///< [d] g⁻ᵈ
 };
 
-/// Differential evolution of Storn and Price (Journal of Global Optimization 11, 1997), rand/1/bin, to the
-/// places whose shortfall is 0. Once walkers are there they fill the region, because any move within it is
-/// taken.
+/// Differential evolution rand/1/bin (Storn and Price, Journal of Global Optimization 11, 1997) towards
+/// places with a shortfall of 0. Walkers that have reached this region spread over it, because every move
+/// within it is accepted.
 class Walk {
  public:
   using Shortfalls = std::function<std::vector<double>(const std::vector<UnitCubePoint>&)>;
@@ -50,10 +51,11 @@ class Walk {
   Walk(Shortfalls shortfalls, std::vector<std::size_t> face, random::NumberSource& numbers)
       : shortfalls_(std::move(shortfalls)), face_(std::move(face)), numbers_(numbers) {}
 
-  /// The places with a shortfall of 0 that one round finds. @param first places at which it may begin, 0, 1,
-  /// …
+  /// Runs one round. Returns the places with a shortfall of 0 that it finds.
+  /// @param first place number 0, 1, … at which the walk may begin
   std::vector<UnitCubePoint> next(const std::function<UnitCubePoint(std::int64_t)>& first);
 
+  /// Whether rounds are left.
   bool goes_on() const;
 
  private:
@@ -72,7 +74,7 @@ class Walk {
   int rounds_{0};
 };
 
-/// A number below `size`, evenly distributed.
+/// Random index below `size`, uniformly distributed.
 std::size_t index_below(std::size_t size, random::NumberSource& numbers);
 
 }  // namespace zerocount::tuning

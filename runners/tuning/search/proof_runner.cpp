@@ -27,7 +27,8 @@ namespace {
 
 constexpr std::int64_t usual_units = 500;  // at least, where the effort is enough for them
 
-/// The fewest units that can meet one goal. @param each trials of a unit under each condition
+/// Smallest number of machines that can meet one goal.
+/// @param each trials of a machine under each condition
 std::int64_t min_units_of(const study::Study& study, std::size_t goal, std::int64_t each,
                           std::size_t points) {
   const measures::CountedGoal counted = measures::asked_of_moves(study)[goal];
@@ -43,7 +44,8 @@ std::int64_t min_units_of(const study::Study& study, std::size_t goal, std::int6
   return fewest;
 }
 
-/// The fewest units that can meet all goals. @param each trials of a unit
+/// Smallest number of machines that can meet all goals.
+/// @param each trials of a machine
 std::int64_t min_units_of(const study::Study& study, std::int64_t each, std::size_t points) {
   std::int64_t least = std::max<std::int64_t>(study.worlds, 1);
   for (std::size_t goal = 0; goal < study.goals.size(); ++goal)
@@ -67,8 +69,9 @@ measures::CellCounts at_trials_each(const measures::CellCounts& counts, std::int
   return scaled;
 }
 
-/// The fewest units, with as many trials each, that decide all goals with a probability of 1/2.
-/// @param most where no study decides them, a part of them
+/// Smallest number of machines, with equally many trials each, that decides all goals with a probability of
+/// 1/2.
+/// @param most maximum; a fraction of it is returned if no study decides the goals
 std::int64_t deciding_units(const study::Study& study, const GoalCounts& counts, std::size_t points,
                             std::int64_t most) {
   const std::vector<goal::Needs> studies = goal::deciding_studies(study.goals, counts, points, 0.5);
@@ -80,7 +83,7 @@ std::string_view key_of(std::string_view entry) {
   return entry.substr(0, entry.find('='));
 }
 
-/// The entries, the last of each key.
+/// Entries "key=value" without those that a later entry with the same key replaces.
 std::vector<std::string> last_of_each(const std::vector<std::string>& entries) {
   std::vector<std::string> kept;
   for (auto one = entries.begin(); one != entries.end(); ++one) {

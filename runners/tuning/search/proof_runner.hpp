@@ -11,53 +11,56 @@
 
 namespace zerocount::tuning {
 
-/// The counts of the goals in these units, as those of a point of the study.
+/// [goal] Counts of the goals over these machines.
 GoalCounts counts_of(const study::Study& study, const trials::Replicates& units,
                      std::span<const UnitResult> results);
 
-/// A point on some units: what they count, the verdict on the goals, and the criterion.
+/// Results of a point on some machines: counts and verdict of the goals, and the criterion.
 struct Judged {
   GoalCounts counts;
   goal::Verdict verdict;
-  double criterion{0.0};  ///< infinite for never
+  double criterion{0.0};  ///< Estimate::criterion; infinity for "never".
 };
 
-/// The verdict on a point that has no results file. @param results of all units of the study
+/// Judges a point that has no results file.
+/// @param results results of all machines of the study
 Judged judged(const study::Study& study, const trials::Replicates& units,
               std::span<const UnitResult> results);
 
-/// "key=value" of the confidence that each goal has in the manifest of a proof, of which the error
-/// probability is the part of this attempt. So the verdict on the results file is that of the attempt.
+/// Overrides ("key=value") of the confidence of each goal in the manifest of a proof. The error probability
+/// 1 − confidence becomes the fraction that this attempt may use. So the verdict on the results file is the
+/// verdict of the attempt.
 std::vector<std::string> confidences_of_attempt(const study::Study& study, int attempt);
 
-/// The counts as they would be with `each` trials of every machine, at the same rates.
+/// Counts scaled to `each` trials of every machine, at the same rates.
 GoalCounts with_trials_each(GoalCounts counts, std::int64_t each);
 
-/// Units with which the proof of a candidate with such counts is expected to be decided, and half as many
-/// more.
-/// @param each trials of a unit @param points from which the bounds have to allow for a choice
-/// @param max_trials limit of the proof, at least min_proof_trials()
+/// Number of machines with which the proof of a candidate with these counts is expected to be decided, plus
+/// half as many more.
+/// @param each trials of a machine
+/// @param points number of points among which a choice is made, for which the bounds allow
+/// @param max_trials maximum number of trials of the proof, at least min_proof_trials()
 std::int64_t proof_units(const study::Study& study, const GoalCounts& counts, std::int64_t each,
                          std::size_t points, std::int64_t max_trials);
 
-/// Trials of the smallest proof in this attempt that can meet the goals, if no move misses one.
+/// Number of trials of the smallest proof that can meet the goals in this attempt, if no move misses any.
 std::int64_t min_proof_trials(const study::Study& study, int attempt);
 
-/// A finished run of some units.
+/// A finished run of a proof: its study, and the results of its machines.
 struct ProofRun {
   study::Study study;
   std::vector<UnitResult> results;
 };
 
-/// The study with these values ("key=value") written into the text of its manifest, where its comments stay.
-/// Overrides of the study become part of the text too. A value that the text cannot take, such as one in a
-/// list, stays an override.
+/// Study with these values ("key=value") written into the text of its manifest; comments of the text are
+/// kept. Earlier overrides of the study become part of the text too. A value that the text cannot take, such
+/// as one in a list, remains an override.
 study::Study with_values_in_text(const study::Study& study, const std::vector<std::string>& values);
 
-/// Runs the study with these values ("key=value") in its text on fresh units, into a results file that keeps
-/// its trials. A file with the same run is not made again.
-/// @throws Failure: interrupted; the finished trials are kept in shards. trials::Spent: the effort ended
-/// before, and nothing is kept.
+/// Runs the study with these values ("key=value") in its text on fresh machines, and writes a results file
+/// that keeps all trials. If the file already holds the same run, it is not made again.
+/// @throws Failure (interrupted); the finished trials are kept in shards
+/// @throws trials::Spent if the effort ended before; nothing is kept
 ProofRun run_proof(const study::Study& study, std::vector<std::string> values,
                    const trials::Replicates& units, const std::filesystem::path& output, int threads,
                    const trials::Effort& effort);

@@ -48,10 +48,10 @@ OtherControl with_zeros(const study::Study& study, const std::vector<std::size_t
   return control;
 }
 
-/// The bandwidth is sought up to 1/4 of the sample rate, from one at which the observer has nearly no effect:
-/// at 1/1000 of a cycle in a trial it has removed 0.6 % of a constant disturbance by the end. The
-/// model of the observer has the inertia of the plant. Nothing for a study with an observer, a cascade, two
-/// phases or a plugin.
+/// Control with an added disturbance observer. Nothing for a study with an observer, a cascade, two phases or
+/// a plugin. The bandwidth is sought up to 1/4 of the sample rate, from a value at which the observer has
+/// nearly no effect: at 1/1000 of a cycle per trial, it has removed 0.6 % of a constant disturbance at the
+/// end of the trial. The observer's model has the inertia of the plant.
 std::optional<OtherControl> with_observer(const study::Study& study) {
   const trial::TrialParameters p = study::study_trial(study, 0, 0).parameters;
   const bool is_plain = p.controller.blocks.structure == loop::ControlStructure::pid &&

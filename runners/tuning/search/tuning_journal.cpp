@@ -17,7 +17,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A unit as [slid, claim, …], a claim as [moves, met, value, …], of which a value that is infinite is null.
+/// JSON of a machine's result: [slid, claim, …]. Each claim is [moves, met, value, …]; null stands for an
+/// infinite value.
 Json json_of(const UnitResult& unit) {
   Json json = Json::array({unit.slid});
   for (const ClaimResult& claim : unit.claims) {
@@ -82,7 +83,8 @@ TuningJournal::TuningJournal(std::filesystem::path path, const std::string& tuni
   if (!resumed_) remove();
 }
 
-/// The last line of a run that was killed may be a part of one: its evaluation is made again.
+/// Reads a line of the journal. Incomplete lines are skipped: a killed run may leave one, whose evaluation is
+/// then made again.
 void TuningJournal::read_line(const std::string& line) {
   const Json json = Json::parse(line, nullptr, false);
   if (json.is_discarded()) return;

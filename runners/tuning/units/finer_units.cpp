@@ -20,7 +20,8 @@ using trial::BandOutcome;
 using trial::MoveOutcome;
 using MeasureMember = decltype(layout::Measure{}.field.member);
 
-/// The fields of a move that are lengths in counts, each once: two measures may share one.
+/// Fields of a move that are lengths in counts. Each field is listed once, although two measures may share
+/// it.
 const std::vector<MeasureMember>& lengths_in_counts() {
   static const std::vector<MeasureMember> all = [] {
     std::vector<MeasureMember> members;
@@ -46,7 +47,7 @@ std::int64_t finer_band(std::int64_t band, std::int64_t counts) {
   return counts * band + counts / 2;
 }
 
-/// The measures of a band of the study.
+/// Measures of the finer move within a band of the study.
 BandOutcome of_band(const MoveOutcome& finer, const trial::MoveTiming& timing, std::int64_t band,
                     std::int64_t counts) {
   const auto bands = timing.bands.values();
@@ -54,12 +55,13 @@ BandOutcome of_band(const MoveOutcome& finer, const trial::MoveTiming& timing, s
   return slot == bands.end() ? BandOutcome{} : finer.bands[static_cast<std::size_t>(slot - bands.begin())];
 }
 
-/// Time from which the error may be outside a band without an effect on the outcome, s.
+/// Start of the final window of a move, s. The outcome depends on when the error settles relative to this
+/// time.
 double start_of_window(const trial::MoveTiming& timing) {
   return static_cast<double>(timing.samples - timing.window) * timing.sample_time;
 }
 
-/// Sets what is measured by the error being zero, or one count at most.
+/// Sets the measures that depend on the error being zero, or at most one count.
 void measure_by_counts(MoveOutcome& move, const trial::MoveTiming& timing, const BandOutcome& zero,
                        const BandOutcome& one) {
   const bool ended = move.stopped || move.outcome == trial::Outcome::nonfinite;

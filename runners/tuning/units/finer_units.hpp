@@ -8,15 +8,17 @@
 #include "core/trial/move_measures.hpp"
 #include "core/trial/outcome.hpp"
 
-/// A changed trial may measure in other units than its study: with a finer encoder in finer counts, with a
-/// faster controller in shorter samples. The goal of the study still speaks of the study's counts.
+/// Conversion of a changed trial's results to the units of its study. A finer encoder measures in finer
+/// counts, and a faster controller in shorter samples. The goal of the study still refers to the study's
+/// counts.
 ///
-/// An error of e' finer counts, n of which are a count of the study, is an error of e counts of the study:
+/// If n finer counts are one count of the study, an error of e' finer counts is an error of e counts of the
+/// study:
 ///
 ///   |e| = 0 where |e'| ≤ n/2,   |e| ≤ b where |e'| ≤ n·b + n/2,   sgn e = sgn e',
 ///
-/// so that zero counts have the length of ± half a count of the study, and a band keeps its length. The
-/// measures that zero counts define are those of the band 0 (core/trial/measures.md).
+/// So zero counts extend over ± half a count of the study, and a band keeps its length. Measures that zero
+/// counts define are the measures of the band 0 (core/trial/measures.md).
 namespace zerocount::tuning {
 
 /// Units of a changed trial.
@@ -27,20 +29,21 @@ struct FinerUnits {
   bool operator==(const FinerUnits&) const = default;
 };
 
-/// The error in counts of the study.
+/// Converts an error from finer counts to counts of the study.
+/// @param counts FinerUnits::counts
 std::int64_t error_in_study_counts(std::int64_t finer_error, std::int64_t counts);
 
-/// The bands of a changed trial that stand for the bands 0 and 1 and those of the study. Nothing where there
-/// are more of them than a trial can measure.
+/// Error bands of a changed trial that represent the study's bands and the bands 0 and 1. Nothing if these
+/// are more bands than a trial can measure.
 std::optional<trial::ErrorBands> finer_bands(const trial::ErrorBands& of_study, std::int64_t counts);
 
-/// Whether the measure can be told in counts of the study: not where it depends on the zero counts of single
-/// samples.
+/// Whether the measure can be converted to counts of the study. It cannot if it depends on zero counts of
+/// single samples.
 bool is_known_in_study_units(std::string_view measure);
 
-/// The measures of a move in the units of the study. Measures that cannot be told are NaN.
-/// @param finer the move, with finer_bands() of the study
-/// @param timing the changed move's
+/// Converts the measures of a move to the units of the study. Measures that cannot be converted are NaN.
+/// @param finer measures of the changed move, with finer_bands() of the study
+/// @param timing timing of the changed move
 trial::MoveOutcome in_study_units(const trial::MoveOutcome& finer, const FinerUnits& units,
                                   const trial::ErrorBands& of_study, const trial::MoveTiming& timing);
 

@@ -23,7 +23,7 @@
 namespace zerocount::tuning {
 namespace {
 
-/// Whether some input whose name fits is drawn under a condition.
+/// Whether the study draws, under a condition, some input whose name satisfies `fits`.
 template <class Fits>
 bool draws(const study::Study& study, std::int64_t condition, const Fits& fits) {
   const study::StudyPlan& plan = *study.plan;
@@ -52,7 +52,8 @@ void spread_by(const std::optional<double>& part, std::vector<trial::TrialParame
   machines = std::move(spread);
 }
 
-/// The spread of the study's margins without what it draws itself under a condition; none without margins.
+/// Spread of the study's margins, without the quantities that the study itself draws under a condition. Empty
+/// without margins.
 /// @param condition 0 without conditions
 study::LoopSpread spread_of_undrawn(const study::Study& study, std::int64_t condition) {
   if (!study.tuning) return {std::nullopt, std::nullopt, std::nullopt};
@@ -67,8 +68,8 @@ study::LoopSpread spread_of_undrawn(const study::Study& study, std::int64_t cond
   return spread;
 }
 
-/// The machine with each combination of the lowest and the highest value of what is spread: 2ⁿ of them, or
-/// the machine itself without a spread.
+/// The machine at the corners of its spread: each combination of the lowest and highest values of the n
+/// spread quantities. These are 2ⁿ machines; without a spread, the machine itself.
 ///
 ///     inertia: J and JL times 1 ± s;  damping: c and cs times 1 ± s;  torque constant: times 1 ± s
 std::vector<trial::TrialParameters> corners_of(const trial::TrialParameters& machine,
@@ -88,8 +89,8 @@ std::vector<trial::TrialParameters> corners_of(const trial::TrialParameters& mac
   return machines;
 }
 
-/// The places in corners_of() at which margins usually are smallest: the lowest damping with the highest
-/// torque constant, both inertias.
+/// Indices in corners_of() of the corners with usually the smallest margins: lowest damping with highest
+/// torque constant, at both inertias.
 std::vector<std::size_t> likely_worst_corners(const study::LoopSpread& spread) {
   const auto is_spread = [](const std::optional<double>& part) { return part.value_or(0.0) != 0.0; };
   const std::size_t torques = is_spread(spread.torque_constant) ? 2 : 1;
@@ -106,13 +107,13 @@ constexpr double frequency_ratio = 1.05;   // of one mode that is tried and the 
 
 struct Loops {
   std::vector<theory::TrialLoop> loops;
-  double hold{0.0};  ///< s
+  double hold{0.0};  ///< Hold of a move, s.
   bool before_sliding{false};
   bool sliding{false};
 };
 
-/// The contacts of the machine: those of the trial, of a spring in place of its ends some from the softest to
-/// the stiffest.
+/// Contacts of the machine. They are the contacts of the trial; for a spring, the contacts at its ends are
+/// replaced by several from the softest to the stiffest.
 friction::LinearContacts contacts_of(const trial::TrialParameters& p, const ExaminedMachine& machine) {
   friction::LinearContacts contacts = theory::linear_contacts_of(p);
   if (!friction::has_spring(p.friction.model)) return contacts;
@@ -127,7 +128,8 @@ friction::LinearContacts contacts_of(const trial::TrialParameters& p, const Exam
   return contacts;
 }
 
-/// The loops in which a machine moves, with this much more delay.
+/// Loops in which a machine moves.
+/// @param more_delay added to the delay of the controller, samples
 Loops loops_of(const Examination& of, double more_delay = 0.0) {
   trial::TrialParameters p = of.p;
   p.controller.delay += more_delay;
@@ -163,12 +165,12 @@ bool is_wanted(const study::LoopMargins& margins) {
   return margins.gain || margins.phase || margins.delay || margins.sensitivity;
 }
 
-/// The part of a margin that is missing; 0 where nothing is.
+/// Missing fraction of a wanted margin; 0 if the margin is kept.
 double missing_part(double found, double wanted) {
   return wanted > 0.0 ? std::max(1.0 - found / wanted, 0.0) : 0.0;
 }
 
-/// The largest part of a margin that a loop lacks; 0 where it keeps them.
+/// Largest missing fraction of a gain, phase or sensitivity margin of a loop; 0 if the loop keeps all.
 double missing_of(const theory::FrozenLoop& loop, const study::LoopMargins& margins) {
   double missing = 0.0;
   if (margins.gain || margins.phase) {
@@ -192,7 +194,7 @@ bool keeps_margins(const Examination& machine, const study::LoopMargins& margins
       "margins of a loop");
 }
 
-/// How fast loops grow that shall be stable, above 0; 0 where they all are.
+/// Measure of the growth of the fastest unstable loop, above 0; 0 if no loop is unstable.
 double instability(const Loops& of) {
   double fastest = 0.0;
   for (const theory::TrialLoop& one : of.loops) {
@@ -215,8 +217,8 @@ double shortfall_of(const Examination& machine, const study::LoopMargins& margin
   return missing;
 }
 
-/// The delay (samples) by which the loop may grow until it is unstable, to 0.01, and the first loop that is;
-/// SmallestMargins::max_delay where none is.
+/// Additional delay at which a loop becomes unstable, samples, to 0.01, and this loop. If no loop becomes
+/// unstable: SmallestMargins::max_delay, and no loop.
 std::pair<double, std::optional<theory::TrialLoop>> delay_margin(const Examination& machine) {
   std::optional<theory::TrialLoop> first_lost;
   const auto bears = [&](double more) {
@@ -238,8 +240,8 @@ std::pair<double, std::optional<theory::TrialLoop>> delay_margin(const Examinati
   return {margin, first_lost};
 }
 
-/// Whether what differs between machines under a condition changes nothing of the loops but the stiffness of
-/// a spring.
+/// Whether the machines differ, under a condition, in quantities that change only the spring stiffness of
+/// their loops.
 bool differ_in_stiffness_alone(const study::Study& study, std::int64_t condition,
                                friction::FrictionModel model) {
   if (!friction::has_spring(model) && friction::traits_of(model).has_presliding_motion) return false;
@@ -279,7 +281,7 @@ SmallestMargins margins_of_machine(const Examination& machine) {
   return smallest;
 }
 
-/// Lets margins be the smallest of other machines too.
+/// Merges the margins of further machines into the smallest of all.
 void include(SmallestMargins& all, const SmallestMargins& one) {
   all.stable = all.stable && one.stable;
   include(all.gain, one.gain);

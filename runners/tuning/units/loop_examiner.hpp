@@ -12,120 +12,130 @@
 #include "experiments/study/goal.hpp"
 #include "experiments/study/study.hpp"
 
-/// What the machines of the margins differ in beyond what the study draws (study::LoopSpread).
+/// Stability margins of the linear loops of many machines. Besides the draws of the study, machines differ by
+/// the spread of the margins (study::LoopSpread).
 namespace zerocount::tuning {
 
-/// The loop that has the smallest of a margin.
+/// The loop with the smallest value of a margin.
 struct CriticalLoop {
-  std::string name;  ///< that of theory::TrialLoop: "before sliding", "while sliding, the load stands", …
-  /// Of the contact before it slides, N m/rad; nothing where it has no spring.
+  std::string name;  ///< TrialLoop::name: "before sliding", "while sliding, the load stands", …
+  /// Stiffness of the contact before it slides, N m/rad; nothing if it has no spring.
   std::optional<double> stiffness{};
-  /// Number of the draw that made the machine; nothing where the stiffness says all of it.
+  /// Number of the draw that made the machine; nothing if the stiffness describes the machine completely.
   std::optional<std::int64_t> machine{};
   std::int64_t condition{0};
 };
 
-/// The worst value of a margin, and the loop that has it, where there is a limit.
+/// Worst value of a margin, and its loop. Without a loop that limits the margin, there is no loop.
 struct Smallest {
   double value{std::numeric_limits<double>::infinity()};
   std::optional<CriticalLoop> loop{};
 };
 
-/// The smallest margins of the loops of all examined machines; infinite where no loop has a limit.
+/// Smallest margins over the loops of all examined machines. A margin that no loop limits is infinite.
 struct SmallestMargins {
-  bool stable{true};  ///< no loop is unstable over the hold
-  Smallest gain{};    ///< dB
-  Smallest phase{};   ///< degrees
-  Smallest delay{
-      max_delay};  ///< samples by which the delay may grow until a loop is unstable, at most max_delay
-  Smallest sensitivity{0.0};                  ///< the largest |S|, S = 1/(1 + L)
-  double crossover{0.0};                      ///< the highest frequency at which |L| = 1, Hz; 0 without one
-  std::int64_t machines{0};                   ///< that were examined
-  bool before_sliding{false};                 ///< loops before the machines slide are among them
-  bool sliding{false};                        ///< loops of sliding machines are among them
-  study::LoopSpread spread{};                 ///< by which the machines differ beyond what the study draws
-  std::vector<SmallestMargins> conditions{};  ///< [condition] those under each; empty without conditions
+  bool stable{true};  ///< Whether no loop is unstable over the hold of a move.
+  Smallest gain{};    ///< Gain margin, dB.
+  Smallest phase{};   ///< Phase margin, degrees.
+  /// Delay margin, samples: growth of the delay until a loop is unstable, at most max_delay.
+  Smallest delay{max_delay};
+  Smallest sensitivity{0.0};                  ///< Largest |S|, with S = 1/(1 + L).
+  double crossover{0.0};                      ///< Highest frequency at which |L| = 1, Hz; 0 without one.
+  std::int64_t machines{0};                   ///< Number of examined machines under each condition.
+  bool before_sliding{false};                 ///< Whether loops before sliding were examined.
+  bool sliding{false};                        ///< Whether loops of sliding machines were examined.
+  study::LoopSpread spread{};                 ///< Spread of the machines in addition to the study's draws.
+  std::vector<SmallestMargins> conditions{};  ///< [condition] Smallest margins; empty without conditions.
 
   static constexpr double max_delay = 10.0;
 };
 
-/// Whether these are at least as large as wanted.
+/// Whether all loops are stable and all wanted margins are kept.
 bool keeps(const SmallestMargins& margins, const study::LoopMargins& wanted);
 
-/// A trial of a machine under a condition, and the range of stiffness there.
+/// A machine under a condition, and the range of its contact stiffness. It may represent all machines that
+/// differ only in stiffness.
 struct ExaminedMachine {
   std::int64_t trial;
   std::int64_t condition;
-  /// Of its trial; nothing for one that stands for all that differ in stiffness.
+  /// Number of the draw of the trial; nothing if the machine represents all that differ only in stiffness.
   std::optional<std::int64_t> draw;
   study::LoopSpread spread;
-  double softest;   ///< contact before it slides, N m/rad; only of a spring of k1 and k2
-  double stiffest;  ///< N m/rad
+  /// Smallest stiffness of the contact before it slides, N m/rad. Only for friction with a spring of k1 and
+  /// k2.
+  double softest;
+  double stiffest;  ///< Largest stiffness of the contact before it slides, N m/rad.
 };
 
-/// What is examined of a machine: a trial of it, with the gains of a candidate.
+/// Subject of an examination: parameters of a machine's trial, with the gains of a candidate.
 struct Examination {
   trial::TrialParameters p;
   const ExaminedMachine& machine;
   bool slides;
 };
 
-/// Examines whether the linear loops of the machines keep margins under every condition: at every stiffness
-/// of the contact before it slides, from k1 to k1 + k2 over the friction profile of the machine, or that of
-/// its bristles; and while the machines slide, if they do or friction has no stiffness; each in every state
-/// of a load (theory::load_states). Each machine stands for those that differ from it by the spread of the
+/// Examines whether the linear loops of the machines keep margins under every condition.
+///
+/// The contact before sliding is examined over its range of stiffness: from k1 to k1 + k2 over the friction
+/// profile of the machine, or at the stiffness of its bristles. The sliding contact is examined if machines
+/// slide or if friction has no stiffness. Each contact is examined in every state of a load
+/// (theory::load_states). Each machine also represents the machines that differ from it by the spread of the
 /// margins.
 class LoopExaminer {
  public:
-  /// Machines that differ in the stiffness of their spring alone are examined as one with the stiffness of
-  /// all; of others the first 100.
-  /// @param study whose first draws are the machines; the friction must not depend on free parameters
+  /// Draws the machines. Machines that differ only in the stiffness of their spring are examined as one
+  /// machine with the range of all. Of machines that differ otherwise, the first 100 are examined.
+  /// @param study its first draws are the machines; its friction must not depend on free parameters
   /// @param machines number of these draws
   LoopExaminer(const study::Study& study, std::int64_t machines);
 
-  /// Whether the loops have no transfer function: a plugin. Then nothing is examined and all is kept.
+  /// Whether the loops have no transfer function, because a plugin controls. Then nothing is examined, and
+  /// all margins count as kept.
   bool is_blind() const { return machines_.empty(); }
 
   /// Whether the machines that were critical so far keep the margins.
   /// @param slides whether machines of the candidate slide
   bool may_keep(const study::Study& candidate, const study::LoopMargins& margins, bool slides) const;
-  /// How far the critical machines are from keeping the margins: 0 where they keep them; below 1 the largest
-  /// part of a margin that is missing; from 1 on a loop is unstable, and the faster it grows the larger.
+  /// Distance of the critical machines from keeping the margins. 0: they keep the margins. Below 1: largest
+  /// missing fraction of a margin. From 1 on: a loop is unstable, and the value rises with its growth rate.
   double shortfall(const study::Study& candidate, const study::LoopMargins& margins, bool slides) const;
-  /// Whether all machines keep them; one that does not counts as critical from now on.
+  /// Whether all machines keep the margins. A machine that does not counts as critical from then on.
   /// @throws trial::Interrupted
   bool keeps(const study::Study& candidate, const study::LoopMargins& margins, bool slides,
              const std::stop_token& stop = {});
 
+  /// Smallest margins of all examined machines.
   /// @throws trial::Interrupted
   SmallestMargins margins_of(const study::Study& candidate, bool slides,
                              const std::stop_token& stop = {}) const;
 
-  /// The lowest frequency (Hz) from which on a mode of the load (theory::with_load_mode) leaves no loop of
-  /// the critical machines unstable, to 5 %, and not below 1 Hz. Nothing where the study has a load behind a
-  /// coupling, or where a mode at half the sample rate already makes a loop unstable.
+  /// Lowest frequency of a load mode (theory::with_load_mode) that the critical machines bear, Hz. A mode at
+  /// this or, in steps of 5 %, any higher frequency up to half the sample rate makes no loop unstable.
+  /// Frequencies below 1 Hz are not tried. Nothing if the study has a load behind a coupling, or if a mode at
+  /// half the sample rate makes a loop unstable.
   /// @throws trial::Interrupted
   std::optional<double> lowest_mode(const study::Study& candidate, bool slides,
                                     const std::stop_token& stop = {}) const;
 
  private:
-  /// A machine at one of the corners of its spread (corners_of).
+  /// A machine at one of the corners of its spread. `corner` is an index in corners_of().
   struct Corner {
     std::size_t machine;
     std::size_t corner;
     bool operator==(const Corner&) const = default;
   };
 
-  /// All corners of a machine that stands for all; of others, which differ in more, the likely worst.
+  /// Corners to examine: all corners of a machine that represents all machines, but only the likely worst
+  /// corners of machines that differ in more than stiffness.
   std::vector<Corner> examined_corners() const;
   Examination at(const Corner& corner, const study::Study& candidate, bool slides) const;
 
-  /// Adds the likely worst corners of the machine, if they are not there.
+  /// Adds the likely worst corners of the machine to the critical ones, unless they are there already.
   void add_critical(std::size_t machine);
 
   std::vector<ExaminedMachine> machines_;
-  std::int64_t examined_{0};    ///< machines for which they stand, under each condition
-  std::int64_t conditions_{0};  ///< 0: none
+  std::int64_t examined_{0};    ///< Number of machines that machines_ represent, under each condition.
+  std::int64_t conditions_{0};  ///< Number of conditions; 0: the study has none.
   std::vector<Corner> critical_;
 };
 

@@ -25,16 +25,16 @@ namespace {
 
 constexpr std::int64_t trials_of_reference = 8;  // of a block that lanes do not run
 
-/// A unit of an entry.
+/// A machine (unit) of an entry.
 struct UnitOfEntry {
   const UnitsToRun* entry;
   std::int64_t unit;
 };
 
-/// Units that one thread runs at once, of one entry or of several.
+/// Machines that one thread runs at once. They belong to one or several entries.
 using Block = std::vector<UnitOfEntry>;
 
-/// Adds the criterion's value of a move, infinite for never, where the move has something to measure.
+/// Adds the criterion's value of a move; infinity for "never". Adds nothing if the move has no such value.
 void add_value(std::vector<double>& values, const Criterion& criterion, const trial::MoveOutcome& move) {
   const double scale = criterion.scale ? criterion.scale->from_start(move.travel_time) : 1.0;
   if (!trial::was_run(move)) {
@@ -44,7 +44,7 @@ void add_value(std::vector<double>& values, const Criterion& criterion, const tr
   }
 }
 
-/// Adds the moves of a trial to the result of its unit.
+/// Adds the moves of a trial to the result of its machine.
 class TrialCounter {
  public:
   explicit TrialCounter(const study::Study& study)
@@ -72,7 +72,7 @@ class TrialCounter {
   std::size_t conditions_;
 };
 
-/// Trial i of a unit, changed.
+/// Parameters of trial i of a machine, with the change of the entry applied.
 trial::TrialParameters trial_of(const UnitsToRun& entry, const trials::Replicates& units, std::int64_t unit,
                                 std::int64_t i) {
   const std::int64_t trial = trials::trial_of_replicate(*entry.study, units, unit, i);
@@ -90,16 +90,17 @@ std::vector<trial::TrialParameters> trials_of(const Block& block, const trials::
   return trials;
 }
 
-/// Units of a block. @param all trials that are run together
+/// Number of machines in a block.
+/// @param all number of trials that are run together
 std::size_t units_of_block(const UnitsToRun& entry, const trials::Replicates& units, std::int64_t all) {
   const bool in_lanes = batch::runs_in_lanes(trial_of(entry, units, entry.from, 0));
   const std::int64_t trials = in_lanes ? trials::block_for_lanes(all) : trials_of_reference;
   return static_cast<std::size_t>(std::max<std::int64_t>(1, trials / units.trials_each));
 }
 
-/// Divides the units into the smallest number of blocks of at most `size` units. Block b of n takes the units
-/// b, b + n, b + 2n, …, and so has units of every entry that has at least n. The time of a trial depends on
-/// its entry: blocks of single entries would take different times.
+/// Divides the machines into the smallest number n of blocks of at most `size` machines. Block b gets the
+/// machines b, b + n, b + 2n, …, so it has machines of every entry with at least n machines. The time of a
+/// trial depends on its entry, so blocks with machines of a single entry would take different times.
 void add_blocks(std::span<const UnitOfEntry> units, std::size_t size, std::vector<Block>& blocks) {
   const std::size_t count = (units.size() + size - 1) / size;
   for (std::size_t block = 0; block < count; ++block) {
@@ -108,8 +109,8 @@ void add_blocks(std::span<const UnitOfEntry> units, std::size_t size, std::vecto
   }
 }
 
-/// The units of all entries in blocks of about the same work, however few units each entry has.
-/// @param all trials of the entries
+/// Divides the machines of all entries into blocks of about equal work, however few machines each entry has.
+/// @param all number of trials of all entries
 std::vector<Block> blocks_of(std::span<const UnitsToRun> entries, const trials::Replicates& units,
                              std::int64_t all) {
   std::map<std::size_t, std::vector<UnitOfEntry>> by_size;
@@ -123,7 +124,7 @@ std::vector<Block> blocks_of(std::span<const UnitsToRun> entries, const trials::
   return blocks;
 }
 
-/// The moves of trial i of a unit in the units of its study.
+/// Moves of trial i of a machine, converted to the units of its study.
 std::vector<trial::MoveOutcome> moves_in_study_units(const UnitOfEntry& one, const trials::Replicates& units,
                                                      std::int64_t i,
                                                      std::span<const trial::MoveOutcome> finer) {
@@ -178,7 +179,8 @@ std::vector<std::string> overrides_of(std::span<const study::FreeParameter> free
 
 namespace {
 
-/// A quantile of a measure of the true motion or the position error, such as rest_torque_noise.p95.
+/// Criterion that is a quantile of a measure of the true motion or the position error, such as
+/// rest_torque_noise.p95; nothing if the text names no such measure of the study.
 std::optional<Criterion> motion_criterion(const study::Study& study, std::string_view text) {
   const auto dot = text.rfind('.');
   if (dot == std::string_view::npos) return std::nullopt;
@@ -196,7 +198,7 @@ std::optional<Criterion> motion_criterion(const study::Study& study, std::string
   return std::nullopt;
 }
 
-/// Whether the text is of the settling times in the bands of the goals: "band_settling_time.p95".
+/// Whether the text names the settling time in the bands of the goals, such as "band_settling_time.p95".
 bool is_of_settling(std::string_view text) {
   return text.starts_with("band_settling_time.");
 }

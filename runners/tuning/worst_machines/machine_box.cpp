@@ -29,7 +29,7 @@ bool are_correlated(const std::vector<study::MachineInput>& inputs, const study:
   });
 }
 
-/// The study with independent draws, as many as are wanted. Its profiles stay.
+/// Study with independent draws of any number. Its profiles are kept.
 study::Study searched_study(const study::Study& study, const std::vector<study::MachineInput>& inputs) {
   study::Study searched = study;
   if (are_correlated(inputs, *study.plan)) {
@@ -49,7 +49,8 @@ std::string not_one_number(std::string_view name) {
       name);
 }
 
-/// By which the machine with these values multiplies a value at its age.
+/// Factor by which the age of the machine multiplies a value; 1 for a value without aging.
+/// @param values drawn values of the machine, of which the aging rate is used
 double age_factor(const MachineBox& box, const study::Value& value, const NamedValues& values) {
   if (!value.aging) return 1.0;
   const study::StudyPlan& plan = *box.study().plan;
@@ -62,7 +63,7 @@ double age_factor(const MachineBox& box, const study::Value& value, const NamedV
       study::age_at(plan, point));
 }
 
-/// Puts the values as they act at the age of the machine in place of those at age 0: its manifest has no
+/// Replaces the values at age 0 by the values at the machine's age, because the manifest of a machine has no
 /// ages.
 void let_act_at_age(manifest_text::PointChanges& changes, const MachineBox& box) {
   const study::StudyPlan& plan = *box.study().plan;
@@ -90,7 +91,7 @@ void let_act_at_age(manifest_text::PointChanges& changes, const MachineBox& box)
   }
 }
 
-/// Puts the drawn means of the profiles in place of their distributions.
+/// Replaces the distributions of the profiles' means by the drawn means.
 void hold_means_of_profiles(manifest_text::PointChanges& changes, const MachineBox& box,
                             const BoxPoint& point, const NamedValues& values) {
   const study::StudyPlan& plan = *box.study().plan;
@@ -136,7 +137,8 @@ BoxPoint MachineBox::machine_of(std::int64_t unit) const {
   return {given_.machines > 0 ? unit : 0, study::drawn_quantiles(given_, point_, unit, inputs_)};
 }
 
-/// Of the likely machines Σ z² as a part of its limit; of the others 0.
+/// Σ z² of the normal scores, divided by its limit for likely machines; above 1 the machine is outside the
+/// region. 0 for MachineRegion::box.
 double MachineBox::excess_of(const BoxPoint& point, MachineRegion region) const {
   double square = 0.0;
   int scores = 0;

@@ -22,15 +22,17 @@
 namespace zerocount::tuning {
 namespace {
 
-/// Trials of a machine at each stage of a race, from its first one on: the last stage decides.
+/// [stage] Number of trials that a machine has run at the end of each stage of a race. The last stage
+/// decides.
 constexpr std::array<std::int64_t, 3> stage_trials{4, 16, 64};
 constexpr std::size_t survivors = 8;  // machines that a race keeps
 constexpr std::size_t stages = stage_trials.size();
 constexpr std::size_t race_part = 4;  // one of so many goes on to the next stage
 constexpr std::int64_t raced_at_once = 64;
 
-/// A time beyond any that matters, s: ten times that of the goal, or the hold of a move, also where the goal
-/// counts from the end of a profile. Of several goals as a proportion of what each allows.
+/// Time later than any that matters, s: ten times the time of the goal. Without a goal, or if the goal counts
+/// from the end of a profile: the hold of a move. With several goals: multiple of the time that each goal
+/// allows.
 double late_time(const study::Study& study, std::int64_t point) {
   if (study.goals.size() > 1) return 10.0;
   const auto* const goal = study::first_goal(study);
@@ -38,22 +40,22 @@ double late_time(const study::Study& study, std::int64_t point) {
   return study::study_trial(study, point, 0).parameters.command.hold;
 }
 
-/// Sum of the criterion's values, where one that is never reached counts as `late`.
+/// Sum of the values of a result, each capped at `late`.
 double lateness(const ClaimResult& unit, double late) {
   double sum = 0.0;
   for (const double value : unit.values) sum += std::min(value, late);
   return sum;
 }
 
-/// How a machine fails: the moves that miss a goal which asks them, and the score of each move
+/// Failures of a machine: its moves that miss a goal that judges them, and the score of each move
 /// (measures::MoveScore::event).
 class MachineFailures {
  public:
   MachineFailures(const study::Study& study, std::int64_t point)
       : event_(measures::missed_question(study)), late_(late_time(study, point)) {}
 
-  /// Adds the moves that the goals ask, those that meet them, and the score of each; the largest double where
-  /// it was never reached.
+  /// Adds the judged moves, the moves that meet the goals, and the score of each judged move. A score that
+  /// does not exist counts as the largest double.
   void add_to(ClaimResult& result, std::span<const trial::TrialOutcome> outcomes) const {
     for (const trial::TrialOutcome& outcome : outcomes) {
       for (const trial::MoveOutcome& move : outcome.moves) {
@@ -66,7 +68,7 @@ class MachineFailures {
     }
   }
 
-  /// Whether a meets less than b; of equal ones, whether it is later.
+  /// Whether `a` meets a smaller proportion than `b`. Ties: whether `a` is later.
   bool is_worse(const ClaimResult& a, const ClaimResult& b) const {
     if (met_proportion(a) != met_proportion(b)) return met_proportion(a) < met_proportion(b);
     return lateness(a, late_) > lateness(b, late_);
@@ -74,15 +76,17 @@ class MachineFailures {
 
  private:
   measures::MoveEvent event_;
-  double late_;  ///< counts for a time that is never reached, s; of several goals part of what each allows
+  double late_;  ///< Value of late_time(), used for times that are never reached.
 };
 
-/// The smaller, the worse: proportion of the moves that meet the goal, and minus the latest time.
+/// Merit for ordering results; a smaller one is worse. It is the proportion of moves that meet the goal, then
+/// minus the latest value.
 std::pair<double, double> merit_of(const ClaimResult& result) {
   return {met_proportion(result), result.values.empty() ? 0.0 : -std::ranges::max(result.values)};
 }
 
-/// The claim that the unit meets in the fewest moves, the latest of equal ones.
+/// Index of the claim that the machine meets in the smallest proportion of moves. Ties go to the latest
+/// claim.
 std::size_t worst_claim(const UnitResult& unit) {
   return static_cast<std::size_t>(std::ranges::min_element(unit.claims, {}, merit_of) - unit.claims.begin());
 }
@@ -91,7 +95,7 @@ const ClaimResult& worst_result(const UnitResult& unit) {
   return unit.claims[worst_claim(unit)];
 }
 
-/// Runs the trials of a stage.
+/// Runs the trials of a stage for all points, and appends their results.
 void simulate(std::vector<BoxPoint>& points, std::size_t stage, const MachineBox& box,
               const MachineFailures& failures, const trials::Effort& effort) {
   const std::int64_t from = stage == 0 ? 0 : stage_trials[stage - 1];
@@ -119,16 +123,16 @@ void simulate(std::vector<BoxPoint>& points, std::size_t stage, const MachineBox
               });
 }
 
-/// The worst first.
+/// Sorts by the results of a stage, the worst first.
 void sort_by(std::vector<BoxPoint>& points, std::size_t stage, const MachineFailures& failures) {
   std::ranges::stable_sort(points, [&](const BoxPoint& a, const BoxPoint& b) {
     return failures.is_worse(a.results[stage], b.results[stage]);
   });
 }
 
-/// Keeps the worst of the points, the worst first. After each stage a part of those that have not run all
-/// trials goes on, by the trials that all of them have run: of it those that do worse there than the mildest
-/// point that is kept so far, which they would replace.
+/// Races the points and keeps the worst, the worst first. After each stage, the worst quarter of the points
+/// that have not run all trials goes on. Of this quarter, only points go on that are worse at this stage than
+/// the mildest point kept so far, which they would replace.
 /// @throws trial::Interrupted, trials::Spent
 void race(std::vector<BoxPoint>& points, const MachineBox& box, const MachineFailures& failures,
           const trials::Effort& effort) {
@@ -160,7 +164,7 @@ constexpr std::size_t filling_points = 128;
 constexpr int generations = 8;
 constexpr std::size_t children = 32;
 
-/// Values of what differs between the machines of the study, by their names.
+/// Names and values of the quantities that differ between the machines of the study.
 NamedValues inputs_of_machine(const study::Study& study, std::int64_t point, const WorstMachine& machine) {
   NamedValues named;
   const auto add = [&named](const std::vector<study::InputColumn>& columns, const std::vector<double>& inputs,
@@ -185,8 +189,8 @@ NamedValues inputs_of_machine(const study::Study& study, std::int64_t point, con
   return named;
 }
 
-/// The trials of the machine's manifest.
-/// @throws Failure where no manifest describes it
+/// Parameters of trials of the machine's manifest: `count` trials from `first` on, each `step` apart.
+/// @throws Failure if no manifest describes the machine
 std::vector<trial::TrialParameters> trials_of_manifest(const JudgedMachine& machine, const MachineBox& box,
                                                        std::int64_t first, std::int64_t step,
                                                        std::int64_t count) {
@@ -198,7 +202,7 @@ std::vector<trial::TrialParameters> trials_of_manifest(const JudgedMachine& mach
   return trials;
 }
 
-/// Of several goals the one that the moves meet the least often.
+/// Name of the goal that the smallest proportion of moves meets; nothing if there is only one goal.
 std::optional<std::string> worst_goal(const study::Study& study,
                                       std::span<const trial::TrialOutcome> outcomes) {
   if (study.goals.size() < 2) return std::nullopt;
@@ -207,7 +211,7 @@ std::optional<std::string> worst_goal(const study::Study& study,
   return names_of(study, {static_cast<std::size_t>(worst - all.claims.begin()), 0}).goal;
 }
 
-/// Judges a machine by the trials of its manifest.
+/// Judges a machine by the trials of its manifest. If there is no manifest, by fresh trials of the box.
 /// @throws trial::Interrupted, trials::Spent
 JudgedMachine judged(const BoxPoint& point, const MachineBox& box, const MachineFailures& failures,
                      const MachineManifest& manifest, const trials::Effort& effort) {
@@ -247,7 +251,9 @@ JudgedMachine judged(const BoxPoint& point, const MachineBox& box, const Machine
 /// The search under one condition.
 class MachineSearch {
  public:
-  /// @param study under the condition alone, and its units @param condition its name; empty: there is none
+  /// @param study study under the condition alone
+  /// @param units machines of the study
+  /// @param condition name of the condition; empty: there is none
   MachineSearch(const study::Study& study, const trials::Replicates& units, std::string condition,
                 const std::optional<std::filesystem::path>& folder, const trials::Effort& effort)
       : box_(study, units.point),
@@ -257,8 +263,10 @@ class MachineSearch {
         failures_(study, units.point),
         effort_(effort) {}
 
-  /// @param likely_met proportion of the moves that the worst likely machine of other conditions meets, or 1:
-  /// one of this condition is sought only if a machine of the box meets less, since no likely one is worse
+  /// Finds the worst machines under the condition.
+  /// @param likely_met proportion of moves that meet the goals for the worst likely machine of other
+  /// conditions; 1 without one. A likely machine is sought only if some machine of the box meets less,
+  /// because no likely machine can be worse than the box.
   WorstMachines run(double likely_met) {
     const std::vector<UnitResult> results = results_of(box_.study(), units_, units_.count, nullptr, effort_);
     const std::vector<std::int64_t> order = worst_units(results);
@@ -284,7 +292,7 @@ class MachineSearch {
   }
 
  private:
-  /// The units of the study, the worst first.
+  /// Indices of the study's machines (units), the worst first.
   std::vector<std::int64_t> worst_units(std::span<const UnitResult> results) const {
     std::vector<std::int64_t> order(results.size());
     std::iota(order.begin(), order.end(), std::int64_t{0});

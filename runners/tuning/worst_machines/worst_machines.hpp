@@ -19,47 +19,53 @@
 
 namespace zerocount::tuning {
 
-/// A machine: a machine, and [machine input] the quantile that it has.
+/// A machine as a point of the box.
 struct BoxPoint {
+  /// Machine of the study from which it has its profiles; 0 without machines.
   std::int64_t machine{0};
-  std::vector<double> quantiles;
-  std::vector<ClaimResult> results{};  ///< [stage of a race] of its first trials, all goals together
+  std::vector<double> quantiles;       ///< [machine input] Quantile of the input's distribution.
+  std::vector<ClaimResult> results{};  ///< [stage of a race] Result of its first trials, all goals together.
 };
 
-/// The machines among which the worst is sought. likely: those of the box with Σ z² ≤ the 99.9 % quantile of
-/// χ², of the normal scores z of their inputs, without correlations.
+/// Regions in which the worst machine is sought. `box`: each input is within its central 99.9 %. `likely`:
+/// machines of the box whose normal scores z satisfy Σ z² ≤ the 99.9 % quantile of χ²; correlations are
+/// ignored.
 enum class MachineRegion { box, likely };
 
-/// The quantile of an input at a place 0 to 1 of the box, which holds the central 99.9 % of each input.
+/// Quantile of an input at a place 0 to 1 of the box. The box holds the central 99.9 % of each input.
 double quantile_at(double place);
-/// Its inverse; 0 or 1 for a quantile outside the box.
+/// Place 0 to 1 in the box of an input's quantile, the inverse of quantile_at(); 0 or 1 for a quantile
+/// outside the box.
 double place_at(double quantile);
 
-/// The machines of a point of a study: those within the central 99.9 % of each input.
+/// Box of machines at a design point of a study: machines whose inputs are each within their central 99.9 %.
 class MachineBox {
  public:
-  /// @param study under one condition
-  /// @throws Failure (bad_input) if it draws nothing that differs between machines
+  /// @param study study under one condition
+  /// @throws Failure (bad_input) if the study draws nothing that differs between machines
   MachineBox(study::Study study, std::int64_t point);
 
   const study::Study& study() const { return given_; }
   std::int64_t point() const { return point_; }
   const std::vector<study::MachineInput>& inputs() const { return inputs_; }
 
-  /// The values of the point that are profiles, by their slots.
+  /// Slots and values of the point that are profiles.
   const std::vector<std::pair<std::size_t, const study::Value*>>& profiles() const { return profiles_; }
   bool has_profile_per_machine() const { return has_profile_per_machine_; }
 
-  /// The machine of a machine of the study or, without machines, of a trial.
+  /// Box point of a machine of the study. If the study has no machines: of the machine of a trial.
   BoxPoint machine_of(std::int64_t unit) const;
-  /// The nearest machine of the region on the way to the median.
+  /// Moves a point into the region and to values that a machine can have, by steps towards the median. Each
+  /// quantile is first clamped to the box.
   BoxPoint inside(BoxPoint point, MachineRegion region) const;
+  /// Whether the machine is in MachineRegion::likely.
   bool is_likely(const BoxPoint& point) const;
-  /// A trial of the machine with the random numbers `number`.
+  /// Parameters of a trial of the machine, drawn with the random numbers of trial `number`.
   trial::TrialParameters trial_of(const BoxPoint& point, std::int64_t number) const;
 
  private:
-  bool is_row(std::size_t input) const { return inputs_[input].slots.size() > 1; }  // of joint samples
+  /// Whether the input is a row of joint samples.
+  bool is_row(std::size_t input) const { return inputs_[input].slots.size() > 1; }
   double excess_of(const BoxPoint& point, MachineRegion region) const;
   void approach_median(BoxPoint& point, double divisor) const;
   study::GivenDraws draws_of(const BoxPoint& point, std::int64_t number) const;
@@ -67,27 +73,27 @@ class MachineBox {
   study::Study given_;
   std::int64_t point_;
   std::vector<study::MachineInput> inputs_;
-  study::Study searched_;  ///< with independent draws, as many as are wanted
+  study::Study searched_;  ///< Study with independent draws of any number.
   std::vector<std::pair<std::size_t, const study::Value*>> profiles_;
   bool has_profile_per_machine_{false};
 };
 
-/// How the manifest of a machine is written.
+/// Settings for the manifest of a machine.
 struct MachineManifest {
-  std::string condition{};                        ///< its name; empty: there is none
-  std::optional<std::filesystem::path> folder{};  ///< from which the study's manifest names its files
-  std::int64_t trials{0};                         ///< of the machine
+  std::string condition{};  ///< Name of the condition; empty: there is none.
+  /// Folder to which paths in the study's manifest are relative.
+  std::optional<std::filesystem::path> folder{};
+  std::int64_t trials{0};  ///< Number of trials of the machine.
 };
 
-/// The machines of the machine's manifest: more than one only where a profile belongs to a machine. The
-/// machine is the last machine, and its trials are every machines_of_manifest()-th from there on.
+/// Number of machines in the manifest of a machine. It is more than one only if each machine has a profile of
+/// its own. The described machine is the last one, and its trials are every machines_of_manifest()-th trial.
 std::int64_t machines_of_manifest(const MachineBox& box, const BoxPoint& point);
 
-/// The manifest of a machine: values in place of their distributions, as they act at its age, and all else
+/// Manifest of a machine. Values, as they act at the machine's age, replace their distributions. All else is
 /// as in the study.
-/// @param values of the inputs of the machine, by their names
-/// @throws Failure (bad_input) for a value with aging that is drawn anew for each contact, or once for all
-/// machines
+/// @param values values of the machine's inputs, by their names
+/// @throws Failure (bad_input) if a value with aging is drawn anew for each contact, or once for all machines
 std::string manifest_of(const MachineBox& box, const BoxPoint& point,
                         const std::vector<std::pair<std::string, double>>& values,
                         const MachineManifest& manifest);
@@ -95,90 +101,96 @@ std::string manifest_of(const MachineBox& box, const BoxPoint& point,
 /// Values by the names of their parameters.
 using NamedValues = std::vector<std::pair<std::string, double>>;
 
-/// The machine of a study that does worst.
+/// The worst machine among those of a study.
 struct WorstMachine {
-  std::int64_t machine{0};  ///< or the trial, where no trials share a machine
-  std::int64_t trial{0};    ///< its worst trial
-  double met{0.0};          ///< proportion of its moves that meet the goal
-  NamedValues inputs;
-  /// The goal that it meets in the fewest of its moves, and the condition: of these trial and met are.
+  std::int64_t machine{0};  ///< Number of the machine, or of its trial if no trials share a machine.
+  std::int64_t trial{0};    ///< Worst trial of the machine in `claim`.
+  double met{0.0};          ///< Proportion of the machine's moves that meet the goal of `claim`.
+  NamedValues inputs;       ///< Values of the machine's inputs.
+  /// Goal and condition that the machine meets in the smallest proportion of moves.
   ClaimPlace claim{};
-  ClaimNames names{};
+  ClaimNames names{};  ///< Names of the goal and condition of `claim`.
 };
 
-/// The machine with the fewest moves that meet a goal under a condition; of equal ones the one with the
-/// largest criterion.
-/// @param results of all units of the study
+/// The machine of a study with the smallest proportion of moves that meet a goal under a condition. Ties go
+/// to the machine with the largest criterion.
+/// @param results results of all machines of the study
 WorstMachine worst_machine(const study::Study& study, std::int64_t point,
                            std::span<const UnitResult> results);
 
-/// A machine under a condition, and its manifest: values in place of their distributions, nothing drawn that
-/// differs between machines, the overrides of the condition in the sections. It is judged by the trials of
-/// that manifest, which neither the study nor a search has used.
+/// A machine under a condition, judged by fresh trials.
+///
+/// The machine has a manifest in which values replace the distributions, so that nothing drawn differs
+/// between machines, and the overrides of the condition are written into the sections. The machine is judged
+/// by the trials of this manifest. Neither the study nor a search has used these trials.
 struct JudgedMachine {
   std::int64_t condition{0};
-  std::optional<std::string> condition_name{};  ///< without conditions none
-  std::int64_t machine{0};            ///< of the study, from which it has its profiles; 0 without machines
-  std::int64_t trial{0};              ///< its worst trial, of the manifest
-  std::int64_t moves{0};              ///< by which it is judged
-  double met{0.0};                    ///< proportion of these moves that meet all goals which ask them
-  std::optional<std::string> goal{};  ///< of several goals the one that its moves meet the least often
-  NamedValues inputs;
-  std::vector<double> quantiles;  ///< [machine input] (study::machine_inputs)
-  std::string manifest;           ///< empty if no manifest describes it
-  std::string no_manifest;        ///< then: why
-  /// Whether it is the same machine as the one before it of the answer: in the box as that of the study, of
-  /// the likely ones as that in the box.
+  std::optional<std::string> condition_name{};  ///< Name of the condition; nothing without conditions.
+  /// Machine of the study from which it has its profiles; 0 without machines.
+  std::int64_t machine{0};
+  std::int64_t trial{0};              ///< Worst trial of the machine, as a trial number of the manifest.
+  std::int64_t moves{0};              ///< Number of moves by which the machine is judged.
+  double met{0.0};                    ///< Proportion of these moves that meet all goals that judge them.
+  std::optional<std::string> goal{};  ///< Name of the goal met least often, if there are several goals.
+  NamedValues inputs;                 ///< Values of the machine's inputs.
+  std::vector<double> quantiles;      ///< [machine input] Quantile of the input (study::machine_inputs).
+  /// Text of the manifest; empty if no manifest can describe the machine.
+  std::string manifest;
+  std::string no_manifest;  ///< Why no manifest can describe the machine; empty if one can.
+  /// Whether the machine equals the one listed before it in the answer: WorstMachines::in_box equals `again`,
+  /// or WorstMachines::likely equals `in_box`.
   bool is_previous{false};
 };
 
-/// The inputs of the machines of a point at the ends of the box, and their medians.
+/// Values of the machine inputs of a point at the lower ends, the medians and the upper ends of the box.
 struct BoxEdges {
   NamedValues low, median, high;
 };
 
-/// The inputs that machines have at these quantiles, [machine input] (study::machine_inputs).
-/// @param study under one condition
+/// Values of the machine inputs at these quantiles.
+/// @param study study under one condition
+/// @param quantiles [machine input] (study::machine_inputs)
 NamedValues values_at(const study::Study& study, std::int64_t point, std::span<const double> quantiles);
 
 /// The worst machines of a point.
 struct WorstMachines {
-  WorstMachine of_study;  ///< by its trials in the study
-  JudgedMachine again;    ///< the same machine, judged as the others are
-  /// Of all whose drawn quantities are each within their central 99.9 %, or else of the study: its corners
-  /// may be machines that nobody builds.
+  WorstMachine of_study;  ///< Worst machine of the study, by its trials in the study.
+  JudgedMachine again;    ///< The machine of_study, judged by fresh trials like the other two.
+  /// Worst machine of the study and of MachineRegion::box, whose inputs are each within their central 99.9 %.
+  /// Corners of the box may be machines that nobody builds.
   JudgedMachine in_box;
-  /// Of those of the box whose normal scores have Σ z² ≤ the 99.9 % quantile of χ², without correlations.
-  JudgedMachine likely;
-  bool with_profiles{false};  ///< the machines have profiles of their machines
-  BoxEdges edges{};           ///< under the condition of in_box
+  JudgedMachine likely;       ///< Worst machine of MachineRegion::likely.
+  bool with_profiles{false};  ///< Whether each machine has profiles of its own.
+  BoxEdges edges{};           ///< Edges of the box under the condition of in_box.
 };
 
-/// Finds the machines with the fewest moves that meet the goals; of equal ones the one whose moves have the
-/// larger score (measures::MoveScore::event, that of `rare` too). The search in the box begins at the worst
-/// machines of the study, at the corners, and at points that fill the box. With conditions it is made under
-/// each, and the answer is of the worst.
+/// Finds the machines with the smallest proportion of moves that meet the goals. Ties go to the machine whose
+/// moves have the larger score (measures::MoveScore::event, which `rare` uses too). The search in the box
+/// starts from the worst machines of the study, the corners, and points that fill the box. With conditions,
+/// the search is made under each condition, and the answer is the worst of all.
 ///
-///     race of some machines, on the same random numbers: 4 trials each; a quarter goes on to 16, of it a
-///       quarter to 64 trials; the 8 worst are kept
+///     race of some machines, on the same random numbers: 4 trials each; the worst quarter goes on to 16
+///       trials, the worst quarter of these to 64 trials; the 8 worst are kept
 ///     population = race of the first machines
-///     8 times: population = race of it and of 32 children, each near a machine of the population; a child
-///       goes on only while it does worse than one of the population on the same trials
-///     likely machines: only where a machine of the box misses a move
-///     the worst is judged by 256 trials of its own
+///     8 times: population = race of the population and of 32 children, each near a machine of the
+///       population; a child goes on only while it is worse than some machine of the population on the
+///       same trials
+///     likely machines: sought only if a machine of the box misses a move
+///     the worst machine is judged by 256 trials of its own
 ///
-/// @param folder from which the study's manifest names its files; none if it is not a file
+/// @param folder folder to which paths in the study's manifest are relative; nothing if the manifest is not a
+/// file
 /// @throws trial::Interrupted, trials::Spent; Failure (bad_input) if the study draws nothing that differs
 /// between machines
 WorstMachines worst_machines(const study::Study& study, const trials::Replicates& units,
                              const std::optional<std::filesystem::path>& folder,
                              const trials::Effort& effort);
 
-/// Trials that worst_machines() runs, about.
+/// Approximate number of trials that worst_machines() runs.
 std::int64_t trials_of_worst_machines(const study::Study& study, const trials::Replicates& units);
 
-/// Why no manifest can describe a machine of the point at its age: a value with `aging` is drawn per contact
-/// or per study. Empty if it can.
+/// Why no manifest can describe a machine of the point at its age; empty if one can. The reason is a value
+/// with `aging` that is drawn per contact or per study.
 std::string refusal_of_manifests(const study::Study& study, std::int64_t point);
 
 }  // namespace zerocount::tuning

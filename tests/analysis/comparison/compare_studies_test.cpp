@@ -66,8 +66,8 @@ TEST_F(ComparedStudies, EqualDataPass) {
   EXPECT_EQ(result.points[0].judgements[0].test, "equal to the bit");
 }
 
-/// good_trials, of which every `step`-th move ended off target; in every second of those the error was still
-/// falling.
+/// Trials as good_trials(), except that every `step`-th move ends off target. In every second of these moves
+/// the error is still falling.
 std::vector<TrialRecord> trials_with_undecided_moves(std::size_t step) {
   std::vector<TrialRecord> all = good_trials();
   for (std::size_t row = 0; row < all.size(); row += step) {

@@ -11,7 +11,8 @@ constexpr std::int64_t pair_trials = 150;
 constexpr std::array<SyntheticPoint, 5> points{
     {{0.95, 0.02, 0.1}, {0.7, 0.03, 0.5}, {0.5, 0.05, 1.0}, {0.15, 0.01, 0.2}, {1.0, 0.03, 0.0}}};
 
-/// Compares studies of all points; `change` makes the points of the second study of those of the first.
+/// Compares two studies of all points. `change` converts the points of the first study to those of the
+/// second.
 std::vector<comparison::PointComparison> compare_once(
     std::mt19937_64& random, bool paired, const comparison::GateRules& rules,
     const std::function<SyntheticPoint(SyntheticPoint)>& change, std::int64_t count = pair_trials) {
@@ -44,8 +45,7 @@ SyntheticPoint unchanged(SyntheticPoint point) {
   return point;
 }
 
-/// Rules whose margins are all 0: what is left to protect from false alarms is the control of false
-/// discoveries alone.
+/// Rules whose margins are all 0, so that only the control of false discoveries protects from false alarms.
 comparison::GateRules without_margins(double rate) {
   comparison::GateRules rules;
   rules.false_discovery_rate = rate;
@@ -116,7 +116,8 @@ TEST_P(NullComparisons, PassAChangeOfTheMarginNoMoreOftenThanStated) {
   expect_a_change_of_the_margin_to_fail(GetParam(), 100);
 }
 
-/// How often a measure of a single point fails at a true change of so many margins; the others do not change.
+/// Proportion of comparisons in which the measure of a single point fails, if it truly changes by `margins`
+/// margins. The other points do not change.
 /// @param measure success_rate with a margin of 0.05, or arrival_time with a
 /// tenth of the baseline
 double failure_rate(bool paired, const std::string& measure, double margins, std::int64_t count,

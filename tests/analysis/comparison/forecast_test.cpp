@@ -32,7 +32,7 @@ PairTrials trials_of(const StudyPair& pair, std::int64_t count) {
   return {before, pair.paired ? redraw_some(other, before, 0.2) : draw_chances(other, count)};
 }
 
-/// What a forecast needs of a point.
+/// Data of a point from which a forecast is made.
 struct SampledPoint {
   std::int64_t trials{0};
   std::vector<two_samples::Sample> samples{};
@@ -49,7 +49,7 @@ comparison::ForecastSamples samples_of(const std::vector<SampledPoint>& points, 
   return samples;
 }
 
-/// A comparison, and what a forecast needs of it.
+/// The verdict of a comparison, and the data from which a forecast is made.
 struct Compared {
   GateVerdict verdict{GateVerdict::inconclusive};
   std::vector<SampledPoint> points;
@@ -83,7 +83,7 @@ Compared compare(const StudyPair& pair, const PairTrials& trials, const GateRule
 
 enum class Change { none, some, all };
 
-/// A pair of studies of 1 to 5 points at random, of which none, some or all have changed.
+/// A random pair of studies with 1 to 5 points. None, some or all of the points have changed.
 StudyPair random_pair(std::mt19937_64& random, Change change, bool paired) {
   std::uniform_real_distribution<double> uniform;
   std::normal_distribution<double> normal;
@@ -106,12 +106,13 @@ StudyPair random_pair(std::mt19937_64& random, Change change, bool paired) {
   return pair;
 }
 
-/// Of the pairs for which a number of trials was stated: how many were decided by that many trials.
+/// Counts of study pairs: for how many undecided pairs a number of trials was stated, and how often it
+/// decided.
 struct Kept {
-  int stated{0};
+  int stated{0};   ///< pairs with a stated number of trials
   int open{0};     ///< undecided pairs
-  int decided{0};  ///< with the same trials, and further ones
-  int afresh{0};   ///< with other trials throughout
+  int decided{0};  ///< pairs that the stated number decides, the first trials included
+  int afresh{0};   ///< pairs that the stated number decides with new trials only
 };
 
 Kept try_pairs(Change change, bool paired, bool changed_fails, int wanted, std::uint64_t seed) {
@@ -135,7 +136,8 @@ Kept try_pairs(Change change, bool paired, bool changed_fails, int wanted, std::
   return kept;
 }
 
-/// @param wanted pairs of each kind.
+/// Checks that the stated number of trials decides often enough.
+/// @param wanted number of pairs of each kind
 void expect_stated_number_to_decide(int wanted) {
   Kept all;
   std::uint64_t seed = 1;

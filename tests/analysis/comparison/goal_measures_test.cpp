@@ -10,15 +10,15 @@ using comparison::ChangeVerdict;
 using comparison::Judgement;
 using comparison::PointTrials;
 
-/// How the machines of a study settle, and how many moves are seen of each.
+/// Settling of the machines of a study, and the number of machines, trials and moves.
 struct Machines {
-  std::int64_t machines{0};  ///< 0: every trial on one of its own
+  std::int64_t machines{0};  ///< number of machines; 0: every trial has its own
   std::int64_t trials{200};
   std::int64_t moves{1};
-  double median{0.02};      ///< of the settling times, s
-  double of_machines{0.2};  ///< sd of the logarithms of the medians of the machines
+  double median{0.02};      ///< median of the settling times, s
+  double of_machines{0.2};  ///< standard deviation of the logarithms of the machines' medians
   double never{0.0};        ///< probability that a move does not settle
-  double shift{0.0};        ///< s, that every move is later
+  double shift{0.0};        ///< time by which every move is later, s
 };
 
 /// The trials of a study with the seed `draws`; `again` redraws some of them.

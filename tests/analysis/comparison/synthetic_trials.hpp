@@ -8,20 +8,20 @@
 
 namespace zerocount::testing {
 
-/// How the made-up trials of a design point turn out.
+/// Parameters of the made-up trials of a design point.
 struct SyntheticPoint {
-  double success{0.9};    ///< probability
-  double settling{0.03};  ///< mean of the settling times, s: they come in samples of 0.5 ms
+  double success{0.9};    ///< probability of success
+  double settling{0.03};  ///< mean settling time, s; settling times are multiples of 0.5 ms
   double jerks{0.5};      ///< mean number of jerks of a trial, most of which have none
 };
 
-/// What chance gives a trial, shared by all points as a study's draws are.
-using TrialChances = std::vector<std::vector<double>>;  ///< [trial][quantity], uniform
+/// Uniform random numbers of the trials. All points share them, as they share the draws of a study.
+using TrialChances = std::vector<std::vector<double>>;  ///< [trial][quantity] uniform number
 
 TrialChances draw_chances(std::mt19937_64& random, std::int64_t trials);
 
-/// Chances of which each trial keeps those of `chances`, or, with probability `change`, has new ones: the
-/// same trials by another build whose outcomes differ here and there.
+/// Random numbers of which each trial keeps those of `chances`, or, with probability `change`, gets new ones.
+/// They model the same trials run by another build, with a few different outcomes.
 TrialChances redraw_some(std::mt19937_64& random, const TrialChances& chances, double change);
 
 comparison::PointTrials synthetic_trials(const SyntheticPoint& point, const TrialChances& chances);

@@ -162,7 +162,8 @@ TEST(Answer, GivesEveryRowOfAMarkdownTableTheSameCells) {
                    "| x | 0.3 | 50.0 % [40.0, 60.0] | composed |\n"));
 }
 
-/// The required keys of an object's schema are those of its JSON, and objects within likewise.
+/// Expects that the required keys of the schema of an object, and of all objects in it, are the keys of the
+/// JSON.
 void expect_described(const Json& schema, const Json& json) {
   if (json.is_object() && schema.contains("properties")) {
     std::set<std::string> keys;

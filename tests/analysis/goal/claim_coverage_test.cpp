@@ -15,12 +15,12 @@
 namespace zerocount::goal {
 namespace {
 
-/// How the proportions of moves in which machines meet goals are distributed. One goal, the first, is just
-/// not met; a goal on machines asks for 0.9 of the moves of 0.8 of machines, one on moves for 0.9 of all
+/// A distribution of the proportion of moves in which a machine meets a goal. The first goal is just not met.
+/// A goal on machines asks for 90 % of the moves of 80 % of the machines, a goal on moves for 90 % of all
 /// moves.
 struct Population {
   std::string name;
-  std::function<double(testing::Draws&, bool on_machines)> proportion;  ///< of the first goal
+  std::function<double(testing::Draws&, bool on_machines)> proportion;  ///< for the first goal
 };
 
 std::vector<Population> populations() {
@@ -70,7 +70,7 @@ std::vector<measures::CellCounts> study_of(testing::Draws& draws, const Populati
   return counts;
 }
 
-/// How often, in %, "met" is said of goals of which the first is not met.
+/// Percentage of studies in which all goals are claimed to be met, although the first goal is not met.
 double wrongly_met(const Population& population, const Case& one, int studies) {
   testing::Draws draws(23);
   std::vector<study::Goal> goals(one.goals, {.within = 0.05, .moves = 0.9, .machines = {}});

@@ -15,8 +15,8 @@
 namespace zerocount::goal {
 namespace {
 
-/// Machines: the proportion of good moves of each is beta-distributed with this mean and standard deviation;
-/// 0: all are alike.
+/// Machines whose proportions of good moves are beta-distributed with this mean and standard deviation. With
+/// a standard deviation of 0, all are alike.
 struct Machines {
   double mean;
   double sd;
@@ -75,10 +75,10 @@ measures::CellCounts counts_of_study(testing::Draws& draws, const Machines& mach
 struct Planned {
   std::string name;
   study::Goal goal;
-  std::int64_t machines;  ///< of the pilot
-  std::int64_t trials;    ///< of the pilot
-  double sd;              ///< between machines
-  double least_mean;      ///< of the machines, which is drawn for each pilot
+  std::int64_t machines;  ///< number of machines of the pilot study
+  std::int64_t trials;    ///< number of trials of the pilot study
+  double sd;              ///< standard deviation between machines
+  double least_mean;      ///< lower end of the machines' mean, which is drawn for each pilot
 };
 
 class GoalNeedsOf : public ::testing::TestWithParam<Planned> {};

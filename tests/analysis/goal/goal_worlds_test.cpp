@@ -15,7 +15,8 @@
 namespace zerocount::goal {
 namespace {
 
-/// Trials of one move in each world, of which met[world] meet the goal.
+/// Counts of trials with one move each. met[world] of the trials in a world meet the goal.
+/// @param trials number of trials in each world
 measures::CellCounts counts_in_worlds(const std::vector<std::int64_t>& met, std::int64_t trials) {
   const std::int64_t worlds = std::ssize(met);
   measures::CellCounts counts({.worlds = worlds});
@@ -74,9 +75,9 @@ struct RatesInWorlds {
 
   testing::Draws draws;
   std::int64_t worlds{draws.integer(2, 6)};
-  std::int64_t machines{draws.chance(0.5) ? 0 : draws.integer(5, 30)};  ///< of each world
+  std::int64_t machines{draws.chance(0.5) ? 0 : draws.integer(5, 30)};  ///< number in each world
   std::int64_t trials{machines > 0 ? machines* draws.integer(2, 20) : draws.integer(50, 400)};
-  std::int64_t moves{draws.integer(1, 2)};  ///< of a trial
+  std::int64_t moves{draws.integer(1, 2)};  ///< number of moves per trial
   std::size_t points{static_cast<std::size_t>(draws.integer(1, 4))};
   study::Goal goal{.within = 0.05,
                    .moves = draws.uniform(0.7, 0.95),
@@ -136,7 +137,8 @@ TEST_EACH_SEED(RatesInWorlds, HaveAnOrderFromTheWorst) {
   for (std::size_t world = 0; world < sorted.size(); ++world) EXPECT_EQ(sorted[world], world);
 }
 
-/// Verdicts on 2000 studies of 200 trials in each world, which succeed with these probabilities.
+/// Counts of verdicts on 2000 studies with 200 trials in each world. The trials of a world succeed with its
+/// rate.
 struct JudgedStudies {
   static constexpr int studies = 2000;
 
@@ -159,14 +161,15 @@ struct JudgedStudies {
     }
   }
 
-  /// The largest number of wrong claims that a probability of 1 − γ leaves likely: three standard deviations.
+  /// Upper limit of the number of wrong claims if each has this probability: mean plus three standard
+  /// deviations.
   static double largest_number(double probability) {
     return studies * probability + 3.0 * std::sqrt(studies * probability * (1.0 - probability));
   }
 
   int claimed_met{0};
   int claimed_missed{0};
-  int missed_by_one_bound{0};  ///< by the bound of some world with the confidence γ itself
+  int missed_by_one_bound{0};  ///< studies with a world that alone misses the goal at confidence γ
 };
 
 TEST(GoalInWorlds, IsRarelyClaimedToBeMetIfOneWorldIsAtTheGoal) {
@@ -186,9 +189,9 @@ TEST(GoalInWorlds, IsRarelyClaimedToBeMissedIfAllWorldsAreAtTheGoal) {
 /// A study of 50 or 100 trials in each world that decides nothing.
 struct UndecidedStudy {
   std::vector<std::int64_t> met;  ///< [world]
-  std::int64_t trials;            ///< in each world
+  std::int64_t trials;            ///< number of trials in each world
   double goal;
-  Status expected;  ///< of a larger study with the same rates
+  Status expected;  ///< status of a larger study with the same rates
 };
 
 // The world that is easiest to be found below the goal decides; where none is below, every world has to be
@@ -226,7 +229,8 @@ measures::CellCounts counts_on_machines(const std::vector<std::vector<statistics
   return counts;
 }
 
-/// So many machines with so many trials each, with the rates of the machines observed.
+/// A larger study: `machines` machines with `trials` trials each, whose rates are those of the observed
+/// machines.
 std::vector<statistics::MachineMoves> machines_with_rates_of(
     const std::vector<statistics::MachineMoves>& observed, std::int64_t machines, std::int64_t trials) {
   std::vector<statistics::MachineMoves> larger;

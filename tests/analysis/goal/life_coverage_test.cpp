@@ -19,8 +19,7 @@ namespace {
 constexpr std::array ages{0.0, 1.0, 2.0, 4.0};
 constexpr double asked_moves = 0.9;
 
-/// How the proportions of moves in which machines meet two claims, the same goal under two conditions, change
-/// over age.
+/// A machine whose proportion of moves that meet a goal depends on age and condition.
 struct Machine {
   std::function<double(double age, std::size_t condition)> proportion;
 };
@@ -62,7 +61,7 @@ bool meets(const Machine& machine, double age, std::size_t conditions) {
 struct LifeCase {
   std::size_t conditions;
   std::int64_t machines;
-  std::int64_t moves;  ///< of a machine under each condition at each age
+  std::int64_t moves;  ///< moves per machine, condition and age
 };
 
 Question question_over(const LifeCase& one) {
@@ -88,7 +87,8 @@ measures::CellCounts counts_over(testing::Draws& draws, const Aging& aging, cons
   return counts;
 }
 
-/// The probability that a machine meets the goal in its proportion of so many moves.
+/// The probability that enough of `moves` moves meet the goal, if each meets it with the probability
+/// `proportion`.
 double chance_to_meet(double proportion, std::int64_t moves) {
   const auto allowed = static_cast<std::int64_t>((1.0 - asked_moves) * static_cast<double>(moves) + 1e-9);
   double of_count = std::pow(proportion, static_cast<double>(moves));
@@ -101,8 +101,9 @@ double chance_to_meet(double proportion, std::int64_t moves) {
   return sum;
 }
 
-/// [age] what is true of the population: the proportion of machines by their true proportions, and of those
-/// that will meet the goal, as observed in these moves, at every age so far.
+/// True values of the population, [age]: `machines` is the proportion of machines that meet the goal by their
+/// true proportions. `living` is the proportion of machines whose observed moves meet the goal at every age
+/// so far.
 struct Truth {
   std::vector<double> machines, living;
 };

@@ -18,7 +18,7 @@ double log_odds(double p) {
   return std::log(p / (1.0 - p));
 }
 
-/// What ranks a claim, by its definition: [0] first.
+/// The keys by which claims are ranked, computed from the definition; [0] is compared first.
 std::vector<double> places_of(const ClaimVerdict& claim, const study::Goal& goal) {
   const double status = claim.status == Status::missed ? 0.0 : claim.status == Status::undecided ? 1.0 : 2.0;
   const BoundedProportion& claimed = goal.machines ? claim.machines : claim.moves;
@@ -28,7 +28,7 @@ std::vector<double> places_of(const ClaimVerdict& claim, const study::Goal& goal
           log_odds(claim.moves.value) - log_odds(goal.moves)};
 }
 
-/// One or two goals on a few machines under several conditions, of which some are much alike.
+/// One or two goals on a few machines under several conditions, some of which are nearly alike.
 struct FewMachines {
   static constexpr unsigned seeds = 300;
 
@@ -102,8 +102,8 @@ std::vector<measures::SettlingTimes> settling_after(const std::vector<double>& p
   return all;
 }
 
-/// A design point of which `met` of 100 moves of each of five machines meet a goal, 95 % of them after a part
-/// of the time that is allowed.
+/// A design point with five machines. `met` of 100 moves of each machine meet a goal, 95 % of them within the
+/// fraction `part_of_time` of the allowed time.
 measures::PointSummary point_with(std::int64_t met, double part_of_time) {
   measures::PointSummary point;
   measures::CellCounts counts({.machines = 5});

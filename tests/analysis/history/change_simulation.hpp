@@ -7,15 +7,15 @@
 
 #include "analysis/statistics/change_point.hpp"
 
-/// Simulated histories, to see how often their changes are found, and changes that are none.
+/// Simulated histories, to measure how often changes are found, and how often there are false alarms.
 namespace zerocount::testing {
 
 using Generator = std::mt19937_64;
 
-/// A series of measurements of what the generator draws.
+/// Function that makes a series of measurements from the numbers of a generator.
 using SeriesMaker = std::function<std::vector<statistics::Measurement>(Generator&)>;
 
-/// A kind of series, of `nights` measurements.
+/// A kind of simulated series with `nights` measurements.
 struct SimulatedSeries {
   std::string name;
   statistics::MeasurementKind kind{statistics::MeasurementKind::mean};
@@ -32,13 +32,14 @@ SimulatedSeries binomial_series(int nights, int trials, const std::function<doub
 /// Means of `values` exponential numbers, with bounds from their standard deviation.
 SimulatedSeries exponential_series(int nights, int values);
 
-/// How many of `histories` histories, each of `count` independent series, have an alarm.
+/// Number of histories with an alarm, out of `histories` histories with `count` independent series each.
 int alarms(const SimulatedSeries& series, int count, int histories, std::uint64_t seed);
 
-/// Of `histories` histories of one series that changes at `change`, watched as one of `count`.
+/// Detection of a change in simulated histories of one series that changes at night `change`. The series is
+/// watched as one of `count` series.
 struct FoundChanges {
   double found{0.0};         ///< proportion with an alarm at or after the change, and none before
-  double median_delay{0.0};  ///< nights from the change to that alarm, of all; infinite where most have none
+  double median_delay{0.0};  ///< median over all histories, nights from change to alarm; can be infinite
 };
 FoundChanges found_changes(const SimulatedSeries& series, int change, int count, int histories,
                            std::uint64_t seed);

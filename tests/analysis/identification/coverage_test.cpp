@@ -10,15 +10,16 @@
 namespace zerocount::testing {
 namespace {
 
-/// The chance that fewer hold of so many machines' intervals, each with the chance of 95 %, is 1 to 7 in
-/// 1000. With intervals 0.6 of the width that they should have (76 %) it would be 7 in 10 of 24 machines
-/// and 1.5 in 10 of 3, and there are nine parameters.
+/// Smallest acceptable number of machines whose interval holds the true value. If each interval holds it with
+/// 95 % probability, fewer hold it with a probability of 0.001 to 0.007. With intervals of 0.6 times the
+/// correct width (coverage 76 %), the probability would be 0.7 for 24 machines and 0.15 for 3, and there are
+/// nine parameters.
 int least_held(int machines) {
   if (machines == 24) return 19;
   return machines == 12 ? 8 : 2;  // of 3
 }
 
-/// Root mean square of so many errors that are distributed as their standard error says: its quantile.
+/// Quantile of the root mean square of `machines` normalised errors, if the standard errors are right.
 double error_ratio(int machines, double probability) {
   return std::sqrt(boost::math::quantile(boost::math::chi_squared(machines), probability) / machines);
 }

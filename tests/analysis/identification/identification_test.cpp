@@ -25,7 +25,8 @@ const fit::ParameterEstimate& estimate_of(const fit::Identification& found, cons
   return *at;
 }
 
-/// The interval holds the truth, is no wider than `widest` (relative), and the value is in it.
+/// Whether the interval of the parameter holds the true value and the estimate, and is at most `widest` wide
+/// (relative).
 ::testing::AssertionResult finds(const fit::Identification& found, const std::string& name, double truth,
                                  double widest) {
   const fit::ParameterEstimate& parameter = estimate_of(found, name);
@@ -219,7 +220,7 @@ TorqueProgramme steps_and_ramps() {
   return programme;
 }
 
-/// That of the paper's machine, which does not break away.
+/// The contact of the paper's machine, with a breakaway torque that the tests do not reach.
 fit::ContactParameters strong_contact() {
   fit::ContactParameters contact;
   contact.friction.breakaway = 10.0;

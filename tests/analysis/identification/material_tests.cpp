@@ -44,7 +44,8 @@ fit::ContactParameters random_contact(std::mt19937_64& random) {
 
 namespace {
 
-/// From sample k to the next, with a torque that is late by `skew` samples (or early, if it is negative).
+/// Advances the plant from sample k to the next, with a torque that is late by `skew` samples (early if
+/// negative).
 void advance_skewed(const fit::TestRecord& record, std::size_t k, double skew, plant::Plant& plant) {
   const auto torque_of = [&](double sample) {
     if (sample < 0.0) return motion::constant_torque(0.0);

@@ -11,14 +11,14 @@
 
 namespace zerocount::testing {
 
-/// A torque at every sample, from 0 N m at the start.
+/// A torque for every sample. The torque starts at 0 N m.
 class TorqueProgramme {
  public:
   explicit TorqueProgramme(double sample_time = 5e-4) : sample_time_(sample_time) {}
 
-  TorqueProgramme& ramp(double to, double rate);  ///< N m, N m/s
+  TorqueProgramme& ramp(double to, double rate);  ///< appends a ramp to `to`, N m, with `rate`, N m/s
   TorqueProgramme& step(double to) { return ramp(to, 1e9); }
-  TorqueProgramme& hold(double duration);  ///< s
+  TorqueProgramme& hold(double duration);  ///< appends a constant torque for `duration`, s
 
   double sample_time() const { return sample_time_; }
   const std::vector<double>& torque() const { return torque_; }  ///< [sample], N m
@@ -28,13 +28,13 @@ class TorqueProgramme {
   std::vector<double> torque_;
 };
 
-/// What a machine's DAC and encoder do.
+/// Properties of the DAC, the encoder and the fixture of a test.
 struct TestInstrument {
   double counts_per_revolution{1.62e6};
   double torque_step{2.4e-4};  ///< Δu, N m; 0: the torque is exact
-  double noise{0.0};           ///< of the readings before rounding, counts
-  double skew{0.0};            ///< the torque acts so much later than its sample, samples
-  double compliance{0.0};      ///< of a fixture that gives way under the torque, rad/(N m)
+  double noise{0.0};           ///< noise of the readings before rounding, counts
+  double skew{0.0};            ///< delay of the torque after its sample, samples
+  double compliance{0.0};      ///< compliance of the fixture, rad/(N m)
 };
 
 /// A machine of the paper's kind: its numbers, each times a random factor of 0.5 to 2, and n between 1.5
@@ -46,44 +46,46 @@ fit::TestRecord simulated_test(const motion::PlantParameters& plant,
                                const friction::FrictionAlongRotor& friction, const TorqueProgramme& programme,
                                const TestInstrument& instrument, std::mt19937_64& random);
 
-/// The same of a contact of the pre-sliding model.
+/// A test of a rotor on a contact of the pre-sliding model, simulated and read as above.
 fit::TestRecord simulated_test(const fit::ContactParameters& contact, const TorqueProgramme& programme,
                                const TestInstrument& instrument, std::mt19937_64& random);
 
 /// Slow loading and unloading with inner loops; four steps with their ring-downs; two holds. One record each.
 std::vector<TorqueProgramme> three_tests();
 
-/// All of that in one record.
+/// Loading with inner loops, steps with ring-downs and holds, in one record.
 std::vector<TorqueProgramme> one_test();
 
-/// All that is to be seen in 3 s.
+/// Loading, steps and holds in one record of 3 s.
 std::vector<TorqueProgramme> short_test();
 
-/// The contact's parameter of the name that its estimate has; `skew` for the time offset.
+/// The true value of the parameter that an estimate has as its name.
+/// @param skew true value of the time offset
 double true_value(const fit::ContactParameters& contact, const std::string& name, double skew = 0.0);
 
-/// How often the intervals of a parameter held the truth.
+/// Coverage of the confidence intervals of one parameter.
 struct IntervalCoverage {
   std::string name;
   int held{0};
   int estimated{0};
-  int open{0};                 ///< times that it was not identifiable
+  int open{0};                 ///< number of machines for which it was not identifiable
   double squared_errors{0.0};  ///< Σ (error/standard error)²
   double half_widths{0.0};     ///< Σ half-width/value
   double farthest{0.0};        ///< largest |error/standard error|
-  int farthest_set{0};         ///< of which machine
+  int farthest_set{0};         ///< number of the machine with the largest error
 };
 
-/// What came of identifying many machines.
+/// Results of identifying many machines.
 struct CoverageStudy {
-  std::vector<IntervalCoverage> parameters;  ///< in the order of Identification::parameters
+  std::vector<IntervalCoverage> parameters;  ///< coverage, in the order of Identification::parameters
   int sets{0};
-  int refused{0};                 ///< the identification threw
-  int lacking{0};                 ///< the residual checks failed
-  std::vector<int> lacking_sets;  ///< their numbers
+  int refused{0};                 ///< number of machines for which the identification threw
+  int lacking{0};                 ///< number of machines for which the residual checks failed
+  std::vector<int> lacking_sets;  ///< numbers of the machines with failed residual checks
 };
 
-/// Identifies `sets` random contacts, number `first` on, by simulated tests; the set number seeds each.
+/// Identifies `sets` random contacts, with numbers from `first` on, from simulated tests. The number of a
+/// contact seeds its random numbers.
 CoverageStudy study_coverage(int first, int sets, const std::vector<TorqueProgramme>& programmes,
                              const TestInstrument& instrument,
                              const fit::IdentificationOptions& options = {});

@@ -11,7 +11,7 @@
 namespace zerocount::testing {
 namespace {
 
-/// The elongation at which the spring carries `torque`: between x and where it would be with k1 alone.
+/// The elongation at which the spring carries `torque`. It lies between x and the elongation with k1 alone.
 double elongation_at(const StopElements& spring, double x, double torque, double k1) {
   const auto surplus = [&](double at) {
     StopElements moved = spring;

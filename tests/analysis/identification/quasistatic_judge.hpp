@@ -6,11 +6,12 @@
 
 namespace zerocount::testing {
 
-/// The rotor without inertia, by another formulation than core's: the spring as a sum of stop elements, creep
-/// by small explicit steps, and a damper so weak that its torque may be that of the sample before.
+/// A test of a rotor without inertia, simulated with another formulation than in core: the spring is a sum of
+/// stop elements, creep is integrated by small explicit steps, and the damper is so weak that its torque may
+/// lag by a sample.
 ///
-/// @param damping c, N m s/rad.
-/// @returns the readings of an encoder of that phase.
+/// @param damping c, N m s/rad
+/// @returns the readings of an encoder with the given phase
 fit::TestRecord quasistatic_test(const friction::FrictionParameters& friction, double damping,
                                  const TorqueProgramme& programme, double counts_per_revolution,
                                  double phase);

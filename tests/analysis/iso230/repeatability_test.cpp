@@ -216,7 +216,7 @@ TEST(Repeatability, ScalesWithTheUnitOfTheDeviations) {
   });
 }
 
-/// Of the axis with its direction reversed or its deviations mirrored.
+/// The results of the axis after its direction is reversed or its deviations are mirrored.
 AxisRepeatability with_sides_exchanged(AxisRepeatability axis) {
   std::swap(axis.repeatability_positive, axis.repeatability_negative);
   std::swap(axis.systematic_positive, axis.systematic_negative);

@@ -102,7 +102,7 @@ std::vector<std::vector<std::string>> rows_of(const std::string& text, const std
   return rows;
 }
 
-/// The summary of trials that end so many counts from the middle of their target's count.
+/// The summary of trials that end `offset` counts from the middle of their target's count.
 template <typename Offset>
 summary::StudySummary summary_of(const study::Study& study, const Offset& offset) {
   std::vector<shards::TrialResult> results = testing::sequence_results(study);
@@ -187,7 +187,7 @@ TEST(RepeatabilitySummary, IsASectionOfTheJson) {
   EXPECT_EQ(point["encoder"]["targets"][2]["reversal"]["p95"], -1.0);
 }
 
-/// The summary of trials whose moves end so many counts from the middle of their target's count, by mass.
+/// The summary of trials whose masses end `motor` and `load` counts from the middle of their target's count.
 summary::StudySummary summary_of_masses(const std::string& closing, double motor, double load) {
   const study::Study study = testing::sequence_study(
       "cycles: 3", 20, "plant: {load: {inertia: 1.0e-4, encoder: " + closing + "}}\n");
@@ -241,7 +241,7 @@ TEST(RepeatabilitySummary, NamesTheMassOfEachValueAndHasThoseOfBoth) {
   }
 }
 
-/// What the judge is told of the study: all but the results.
+/// The facts about the study that the independent check gets: everything except the results.
 nlohmann::json facts_of(const study::Study& study) {
   nlohmann::json facts{{"points", study::point_count(study)}, {"trials", study.trials}};
   for (const study::SequenceMove& move : study.sequence)
@@ -256,7 +256,8 @@ nlohmann::json facts_of(const study::Study& study) {
   return facts;
 }
 
-/// Has the group /repeatability, the summary and the documentation of a file judged by Python.
+/// Lets an independent Python check judge the group /repeatability, the summary and the documentation of a
+/// file.
 void expect_judged_right(const study::Study& study, const std::vector<shards::TrialResult>& results) {
   const testing::TemporaryFolder folder;
   testing::write_sequence_file(folder / "study.h5", study, results);

@@ -15,11 +15,12 @@ namespace zerocount::testing {
 study::Study sequence_study(const std::string& sequence = "cycles: 3", std::int64_t trials = 80,
                             const std::string& more = "");
 
-/// Made-up results of its trials, [row]: moves end a count or two from their targets, in every seventh trial
-/// in the middle of the target's count, and their final error is what the encoder reads there.
+/// Made-up results of the trials of a sequence study, [row]. Moves end a count or two from their targets; in
+/// every seventh trial they end in the middle of the target's count. The final error is the encoder's reading
+/// at this place.
 std::vector<shards::TrialResult> sequence_results(const study::Study& study);
 
-/// Writes the results file with everything that a complete one has.
+/// Writes a complete results file of the study.
 void write_sequence_file(const std::filesystem::path& path, const study::Study& study,
                          const std::vector<shards::TrialResult>& results);
 

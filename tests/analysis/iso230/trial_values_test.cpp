@@ -29,7 +29,7 @@ trial::TrialParameters with_targets(double phase) {
   return parameters;
 }
 
-/// Moves that end so many counts from the middle of the target's count.
+/// Moves that end `offsets` counts from the middle of their target's count.
 std::vector<trial::MoveOutcome> ending_at(const trial::TrialParameters& parameters,
                                           const std::vector<double>& offsets) {
   std::vector<trial::MoveOutcome> moves(offsets.size());

@@ -165,8 +165,7 @@ TEST(JerkRates, CountEveryJerkAndEverySampleAtRiskInItsRange) {
   for (std::size_t i = 1; i < found.size(); ++i) EXPECT_EQ(found[i].from, found[i - 1].to);
 }
 
-/// How often the bounds of the range from 0.25 s to 0.4 s enclose the true rate: those after Garwood and
-/// those to report.
+/// Coverage of the true jerk rate from 0.25 s to 0.4 s, by Garwood's bounds and by the reported bounds.
 struct RateCoverage {
   double poisson{0.0}, reported{0.0};
 };

@@ -50,7 +50,7 @@ TEST(LaplaceTrend, OfNothingIsNothing) {
   EXPECT_THROW(TrendSum(1.0), Failure);
 }
 
-/// A distribution of intervals, in samples of which a move has 1000.
+/// A distribution of the intervals between events, in samples. A move has 1000 samples.
 struct Renewal {
   const char* name;
   std::function<double(Random&)> interval;
@@ -122,7 +122,8 @@ TEST(LaplaceTrend, DISABLED_ManyRenewalProcessesWithoutATrendHaveUniformProbabil
   expect_uniform_probabilities(200);
 }
 
-/// Events of which the expected number until the sample t is Λ(t), from the first one on at `first`.
+/// Poisson events whose expected number until the sample t is Λ(t), starting at Λ = `first`.
+/// @param inverse inverse function of Λ
 Intervals poisson_events(const std::function<double(double)>& inverse, double first, Random& random) {
   Intervals intervals;
   double expected = first;

@@ -78,7 +78,7 @@ PointAccumulator random_point(testing::Draws& draws, const MoveKind& kind, std::
   return point;
 }
 
-/// The bits of every statistic of the point: those of its row, bounds of means, and of its levels.
+/// The bits of all statistics of the point: its row, the bounds of means, and its levels.
 std::vector<std::uint64_t> all_statistics(const PointAccumulator& point) {
   StatisticsOptions options;
   options.bootstrap = {7, 3};
@@ -101,7 +101,7 @@ std::vector<std::uint64_t> bits_of(const std::vector<double>& numbers) {
   return bits;
 }
 
-/// What `sum` is after a stay in a file.
+/// `sum` after its state was saved and restored.
 PointAccumulator restored(const PointAccumulator& sum, const MoveKind& kind, std::size_t moves_of_trial) {
   const auto moves = static_cast<std::int64_t>(moves_of_trial);
   const statistics::State state = sum.state();
@@ -165,11 +165,11 @@ TEST(DividedPoint, HasTheStatisticsOfTrialsThatWereAddedOneByOne) {
   }
 }
 
-/// A measure of trials, moves in the order of the trials, by the words of its definition.
+/// Statistics of a measure, computed directly from its definition. Moves are in the order of the trials.
 struct PlainStatistics {
-  std::int64_t trials{0};  ///< that have the quality, or a value above 0
+  std::int64_t trials{0};  ///< number of trials that have the quality, or a value above 0
   std::vector<std::int64_t> by_move;
-  std::vector<double> values;  ///< of the moves, or of a sum those of the trials
+  std::vector<double> values;  ///< values of the moves; for a sum: values of the trials
 };
 
 PlainStatistics plain_statistics(const layout::Measure& measure, const std::vector<JerkingTrial>& trials) {

@@ -76,7 +76,7 @@ struct GoalSettlingTimes {
   std::vector<std::vector<trial::MoveOutcome>> of_trials;
 };
 
-/// The quantile of sorted times; NaN where it is infinite.
+/// The quantile of sorted times; NaN if the quantile is infinite.
 double quantile_of(const std::vector<double>& times, double probability) {
   const auto rank =
       static_cast<std::size_t>(std::ceil(probability * static_cast<double>(times.size()) - 1e-9));

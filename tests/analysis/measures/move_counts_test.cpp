@@ -83,7 +83,7 @@ struct CountsInCells {
   Shape shape{machines, worlds, conditions};
   std::int64_t trials{std::max<std::int64_t>(machines, 1) * std::max<std::int64_t>(conditions, 1) *
                       draws.integer(std::max<std::int64_t>(worlds, 1), 30)};
-  std::int64_t moves{draws.integer(1, 3)};  ///< of a trial
+  std::int64_t moves{draws.integer(1, 3)};  ///< number of moves per trial
   std::vector<std::int64_t> met;            ///< [trial]
 };
 

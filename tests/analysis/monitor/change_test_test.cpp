@@ -13,7 +13,7 @@ using monitor::ChangeMartingale;
 using monitor::Dependence;
 using monitor::Direction;
 
-/// The largest capital within each of so many sequences.
+/// The largest capital within each of `sequences` sequences.
 std::vector<double> largest_capitals(const Sequence& sequence, std::uint32_t sequences) {
   std::vector<double> largest(sequences);
   parallel::for_each_index(sequences, [&](std::size_t i) {
@@ -27,7 +27,8 @@ std::int64_t alarms(const std::vector<double>& largest, double alarm) {
   return std::ranges::count_if(largest, [&](double capital) { return capital >= 1.0 / alarm; });
 }
 
-/// What a number of alarms exceeds with the probability 0.001 if each sequence has one with `alarm`.
+/// Upper limit of the number of alarms, exceeded with the probability 0.001 if each sequence has an alarm
+/// with the probability `alarm`.
 double limit_of(std::uint32_t sequences, double alarm) {
   const double mean = sequences * alarm;
   return mean + 3.1 * std::sqrt(mean) + 1.0;
@@ -145,7 +146,7 @@ Dependence dependence_of(const std::vector<double>& values, std::uint32_t number
   return monitor::dependence_of(values, std::vector<std::size_t>(values.size(), 0), {7, number});
 }
 
-/// Sequences of days before any change, of so many, whose p is at most 0.05.
+/// Number of sequences of days without a change whose p-value of dependence is at most 0.05.
 int flagged(double correlation, std::int64_t days, int sequences) {
   int found = 0;
   for (int i = 0; i < sequences; ++i) {

@@ -21,7 +21,7 @@ using monitor::MoveLog;
 using Directions = std::vector<Direction>;
 using Values = std::vector<double>;
 
-/// What an answer says of a log.
+/// Contents of the monitor's answer about a log.
 struct Said {
   MachineStatus status;
   std::string measure, direction;
@@ -321,8 +321,8 @@ MachineMonitor watched(const std::string& before, const std::string& after,
   return machine;
 }
 
-/// Moves between targets in turns: settling times of each about its own median, and torques that hold the
-/// rotor against friction, in the direction of the move.
+/// Moves that visit the targets in turn. The settling times of each target are distributed about its own
+/// median. The holding torques act against friction, in the direction of the move.
 struct Program {
   std::vector<double> targets{10.0, -10.0};
   std::vector<double> medians{0.02, 0.06};
@@ -645,13 +645,13 @@ double value_from(Population population, random::NumberSource& numbers) {
 struct Trap {
   Population population;
   ChangeForm form;
-  double change;  ///< by this proportion of the median: --change
-  int baseline;   ///< moves
+  double change;  ///< change as a fraction of the median, as in --change
+  int baseline;   ///< number of moves of the baseline
   int machines;
   std::uint64_t seed;
 };
 
-/// Number of moves after which a machine without an alarm is called unchanged; nothing if it takes too many.
+/// Number of moves after which a machine without an alarm is called unchanged; empty if it takes too many.
 std::optional<std::int64_t> promised_after(const Values& baseline, double change, std::uint64_t seed) {
   const monitor::MonitoredMeasure of = measure("arrival_time");
   const std::vector<Values> classes{baseline};
@@ -699,7 +699,8 @@ int called_unchanged(const Trap& trap) {
   return wrong;
 }
 
-/// The most machines of so many that are called unchanged by chance where it has the probability 10 %.
+/// Upper limit of the number of changed machines that are called unchanged by chance, if each has the
+/// probability 10 %.
 int most_by_chance(int machines, double level) {
   int most = 0;
   while (statistics::binomial_upper_tail(machines, 0.1, most) > level) ++most;

@@ -35,7 +35,8 @@ void print_false_alarms(std::uint32_t sequences) {
     }
 }
 
-/// The power of the two-sided Mann–Whitney test of so many changed moves with the baseline, in 400 pairs.
+/// The power of the two-sided Mann–Whitney test of `moves` changed moves against the baseline, from 400
+/// pairs.
 double power_of_ranks(const Sequence& sequence, std::int64_t moves, double level) {
   constexpr std::uint32_t pairs = 400;
   const double critical = statistics::normal_quantile(1.0 - 0.5 * level);
@@ -67,7 +68,7 @@ double power_of_ranks(const Sequence& sequence, std::int64_t moves, double level
   return static_cast<double>(std::ranges::count(found, 1)) / pairs;
 }
 
-/// Moves of which the test of fixed length needs so many for this power.
+/// Number of moves that the test of fixed length needs for this power.
 std::int64_t moves_for_power(const Sequence& sequence, double power, double level) {
   std::int64_t low = 1;
   std::int64_t high = 2;
@@ -119,7 +120,8 @@ void print_delays(Moves kind) {
     }
 }
 
-/// Of sequences of days: false alarms by move and by day, what is said of the baseline, and days to an alarm.
+/// Prints a table about sequences of days: false alarms by move and by day, named baselines, and days until
+/// an alarm.
 void print_days() {
   constexpr std::uint32_t sequences = 200;
   fmt::print(

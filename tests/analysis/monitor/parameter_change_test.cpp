@@ -8,7 +8,7 @@ namespace zerocount::monitor {
 namespace {
 
 constexpr std::size_t measures = 3;
-using Slopes = std::array<double, measures>;  ///< of the measures' means, by the logarithm of the factor
+using Slopes = std::array<double, measures>;  ///< d(mean)/d(ln factor)
 
 constexpr Slopes stiffness{3.0, -1.0, 0.0};
 constexpr Slopes damping{0.0, 1.5, 2.0};

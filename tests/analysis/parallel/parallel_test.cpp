@@ -7,7 +7,7 @@
 namespace zerocount::testing {
 namespace {
 
-/// How many spans have this name and kind of work.
+/// Number of spans with this name and kind of work.
 int spans(const timeline::Timeline& timeline, const std::string& name, const std::string& work) {
   const std::string wanted = R"({"name": ")" + name + R"(", "cat": ")" + work + '"';
   const std::string text = timeline.trace_events();

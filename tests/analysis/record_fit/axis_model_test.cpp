@@ -70,8 +70,8 @@ TEST(RecordMotion, OfUnevenSamplesIsThatAtTheirInstants) {
   }
 }
 
-/// θ (in the record's unit) at every sample with a torque that is late by `delay` samples, 0 to 1 of which
-/// are split off every interval.
+/// θ (in the record's unit) at every sample, for a torque that is late by `delay` samples, 0 to 1. Each
+/// interval is split at the delayed change of the torque.
 Eigen::VectorXd with_late_torque(const fit::TestRecord& record, const fit::ContactParameters& contact,
                                  double delay) {
   Eigen::VectorXd path(static_cast<Eigen::Index>(fit::sample_count(record)));

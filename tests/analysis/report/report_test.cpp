@@ -170,7 +170,7 @@ TEST_F(Report, TheSampleTrialsAreWhatTheySay) {
   }
 }
 
-/// The figure's errors are those of the samples, in rad and counts.
+/// The errors in the figure equal the errors of the samples, in rad and counts.
 TEST_F(Report, TheResponseHasTheErrorsOfItsTrials) {
   const ReportedStudy reported = reported_study(file);
   const FigureData data = find_figure(report().page, "response").data.front();
@@ -370,7 +370,7 @@ TEST(ReportPage, TheBestPointAllowsForItsChoice) {
   EXPECT_TRUE(says(verdict, "Best of 4 points: ", "at most 13.6&nbsp;% fail"));
 }
 
-/// A study whose trials share their draws by rows of five, three factors and two more.
+/// A saltelli study with three factors. Its trials share draws in rows of five (number of factors + 2).
 std::string saltelli_manifest(const std::string& more) {
   return "zerocount: 1\nname: rows\nseed: 3\ntrials: 60\ndesign: saltelli\n"
          "friction: {k1: {uniform: [90, 130]}, lambda: 0.5}\n"

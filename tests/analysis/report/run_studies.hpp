@@ -15,7 +15,7 @@ std::string rich_manifest(int trials, const std::string& description = "a test")
 /// Runs a study by the plain engine and writes its results file.
 study::Study run_study_file(const std::filesystem::path& path, const std::string& manifest);
 
-/// How often the text has `what`.
+/// Number of occurrences of `what` in the text.
 std::size_t times_in(const std::string& text, const std::string& what);
 
 }  // namespace zerocount::testing

@@ -145,7 +145,8 @@ KnownOutput skewed_sum(double cv) {
           {0.5, 0.5}};
 }
 
-/// Of the samples that have bounds at all, 92 % or more hold the index, less two standard errors.
+/// Expects that at least 92 %, less two standard errors, of the samples with bounds have bounds that hold the
+/// index.
 void expect_coverage_of_skewed(const KnownOutput& output, std::size_t rows, std::uint64_t samples,
                                std::uint64_t first) {
   const std::size_t factors = output.totals.size();

@@ -18,7 +18,7 @@ class Draws {
   double normal() { return std::normal_distribution()(random_); }
   double exponential() { return std::exponential_distribution()(random_); }
   double student(double degrees) { return std::student_t_distribution(degrees)(random_); }
-  /// With the median 1.
+  /// A lognormal number with the median 1.
   double lognormal(double cv) { return std::exp(std::sqrt(std::log1p(cv * cv)) * normal()); }
 
  private:
@@ -44,7 +44,8 @@ struct KnownIndex {
   bool skewed{false};  ///< so that few trials may leave the index open
 };
 
-/// x plus a uniform number, of which x has this index. @param variance of x
+/// The output x·slope plus a uniform number, where x has the Sobol' index `index`.
+/// @param variance variance of x
 KnownIndex linear(std::string name, double index, double variance, const std::function<double(Draws&)>& x) {
   const double slope = std::sqrt(index / (1.0 - index) / 12.0 / variance);
   return {std::move(name), index, [=](Draws& draws) {
@@ -159,9 +160,9 @@ std::vector<KnownIndex> known_indices() {
 }
 
 struct BoundsOfSamples {
-  double covered{0.0};
-  double found{0.0};  ///< above 1 % of the variance
-  double width{0.0};  ///< mean
+  double covered{0.0};  ///< proportion of samples whose bounds hold the index
+  double found{0.0};    ///< proportion of samples whose lower bound is above 1 % of the variance
+  double width{0.0};    ///< mean width of the bounds
 };
 
 BoundsOfSamples bounds_of_samples(const KnownIndex& known, std::size_t trials, std::uint64_t samples) {
@@ -184,7 +185,8 @@ BoundsOfSamples bounds_of_samples(const KnownIndex& known, std::size_t trials, s
   return coverage;
 }
 
-/// Of so many samples, three standard deviations below 94 %: bounds of skewed values cover so often.
+/// Lower limit of the observed coverage: three standard deviations below 94 %, the coverage for skewed
+/// values.
 double least_coverage(std::uint64_t samples) {
   return 0.94 - 3.0 * std::sqrt(0.94 * 0.06 / static_cast<double>(samples));
 }

@@ -24,14 +24,14 @@ inline sliding_identification::SlidingIdentification identified(const JointMotio
       joint_record(motion.joint, motion.targets, motion.speed, random))});
 }
 
-/// Nothing if there is no such parameter.
+/// The estimate of the parameter with this name; null if there is none.
 inline const fit::ParameterEstimate* estimate(const sliding_identification::SlidingIdentification& found,
                                               const std::string& name) {
   const auto place = std::ranges::find(found.parameters, name, &fit::ParameterEstimate::name);
   return place == found.parameters.end() ? nullptr : &*place;
 }
 
-/// A binomial proportion of 0.95 lies above this in 99.9 % of the cases.
+/// Number of successes out of `count` with probability 0.95 that is exceeded in 99.9 % of the cases.
 inline double least_expected(int count) {
   return 0.95 * count - 3.1 * std::sqrt(0.95 * 0.05 * count) - 0.5;
 }

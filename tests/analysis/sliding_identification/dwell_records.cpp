@@ -59,13 +59,13 @@ class BristleMachine {
   records::RawSeries series_;
 };
 
-/// Where the n-th move ends: to and fro, in different lengths.
+/// End position of a move. The moves go to and fro, with different lengths.
 double target_of(int move, double amplitude) {
   constexpr std::array<double, 4> ends{1.0, -0.4, 0.7, -1.0};
   return move < 0 ? 0.0 : amplitude * ends[static_cast<std::size_t>(move) % ends.size()];
 }
 
-/// The reference of a move of least jerk, at a part of its time.
+/// The reference of a minimum-jerk move at a fraction of its duration.
 double least_jerk(double from, double to, double part) {
   if (part >= 1.0) return to;
   return from + (to - from) * part * part * part * (10.0 - 15.0 * part + 6.0 * part * part);

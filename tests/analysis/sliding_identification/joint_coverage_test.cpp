@@ -20,11 +20,11 @@ using sliding_identification::SlidingIdentification;
 /// Counts over records.
 struct Counts {
   int records{0};
-  int right{0};       ///< the torques that depend on the position are those of the joint
-  int distrusted{0};  ///< of those, or of others
-  int estimated{0};   ///< parameters
-  int held{0};        ///< by their intervals
-  int wrong{0};       ///< far outside, though the answer has exit code 0
+  int right{0};       ///< records whose position-dependent torques were identified correctly
+  int distrusted{0};  ///< records whose result carries a reason of distrust
+  int estimated{0};   ///< number of estimated parameters
+  int held{0};        ///< parameters whose intervals hold the true value
+  int wrong{0};       ///< parameters far outside their intervals, in a trusted result
 
   void add(const JointMotion& motion, const SlidingIdentification& found) {
     const Joint& joint = motion.joint;

@@ -37,7 +37,7 @@ JointMotion moved_joint(std::uint64_t seed) {
 
 using Change = std::function<void(JointMotion&)>;
 
-/// Nothing if the record is refused.
+/// The identification from a changed record; empty if the record is refused.
 std::optional<SlidingIdentification> identified_with(const Change& change, std::uint64_t seed) {
   JointMotion motion = moved_joint(seed);
   change(motion);

@@ -8,44 +8,44 @@
 
 namespace zerocount::testing {
 
-/// A linear axis whose friction is that of bristles, which yield before they slide (Dahl's law with a viscous
-/// damper); m, N, kg.
+/// A linear axis with bristle friction, which yields before it slides (Dahl's law with a viscous damper);
+/// units m, N, kg.
 struct BristleAxis {
   double mass{95.0};
-  double damping{200.0};        ///< N s/m
-  double coulomb{20.0};         ///< N
-  double offset{3.0};           ///< N, against the drive
-  double bristle_travel{5e-6};  ///< over which the friction approaches its level, m
+  double damping{200.0};        ///< viscous damping, N s/m
+  double coulomb{20.0};         ///< Coulomb level, N
+  double offset{3.0};           ///< constant force against the drive, N
+  double bristle_travel{5e-6};  ///< travel over which the friction approaches its level, m
 };
 
 /// A positioning loop, its encoder and its moves.
 struct DwellLoop {
-  double sample_time{1e-3};  ///< s
-  double resolution{5e-8};   ///< m
-  double noise{0.0};         ///< of the readings, standard deviation, m
-  double bandwidth{12.0};    ///< Hz
-  double amplitude{0.05};    ///< of the moves, m
-  double move{0.5};          ///< s
-  double dwell{1.0};         ///< s
-  int moves{6};              ///< to and fro, of different lengths
+  double sample_time{1e-3};  ///< sample time, s
+  double resolution{5e-8};   ///< encoder resolution, m
+  double noise{0.0};         ///< standard deviation of the readings, m
+  double bandwidth{12.0};    ///< bandwidth of the loop, Hz
+  double amplitude{0.05};    ///< largest distance of a target from the origin, m
+  double move{0.5};          ///< duration of a move, s
+  double dwell{1.0};         ///< duration of a dwell, s
+  int moves{6};              ///< number of moves, to and fro, with different lengths
 };
 
-/// Moves with dwells under a PID loop. The simulation is its own: nothing of core is in it.
+/// The record of moves with dwells under a PID loop. The simulation is independent: it uses nothing of core.
 records::RawSeries dwell_record(const BristleAxis& axis, const DwellLoop& loop, std::mt19937_64& random);
 
-/// The force given beforehand, without a loop: pulses that move the axis, with rests and slow ramps below the
-/// Coulomb level between them.
+/// The record of a force given in advance, without a loop: pulses that move the axis, with rests and slow
+/// ramps below the Coulomb level between them.
 records::RawSeries pulsed_record(const BristleAxis& axis, const DwellLoop& loop, std::mt19937_64& random);
 
-/// A sliding axis; units of a linear one, m, N, kg.
+/// A sliding axis, in the units of a linear axis: m, N, kg.
 struct SlidingAxis {
   double mass{95.1089};
-  double damping{203.5034};              ///< N s/m
-  double coulomb{20.3935};               ///< N
-  double offset{-3.1648};                ///< N, against the drive
-  double breakaway{20.3935};             ///< N
-  double stribeck_velocity{0.01};        ///< m/s
-  double bristle_stiffness{0.0};         ///< σ0 of Dahl's law in place of that of Coulomb, N/m; 0: Coulomb
+  double damping{203.5034};              ///< viscous damping, N s/m
+  double coulomb{20.3935};               ///< Coulomb level, N
+  double offset{-3.1648};                ///< constant force against the drive, N
+  double breakaway{20.3935};             ///< breakaway force, N
+  double stribeck_velocity{0.01};        ///< Stribeck velocity, m/s
+  double bristle_stiffness{0.0};         ///< σ0 of Dahl's law, N/m; 0: Coulomb's law
   double friction_noise{0.0};            ///< standard deviation of a force that the record does not show, N
   bool rotary{false};                    ///< a rotary axis: N m for N and rad for m
   std::vector<motion::Ripple> ripple{};  ///< torques that depend on the position and act on the axis
@@ -53,16 +53,16 @@ struct SlidingAxis {
 
 /// Drive, sensor and loop.
 struct AxisLoop {
-  double gain{35.15065};         ///< N/V
-  double position_gain{160.18};  ///< 1/s
-  double velocity_gain{243.45};  ///< V s/m
-  double voltage_limit{10.0};    ///< V
-  double resolution{5e-8};       ///< m
-  double sample_time{1e-3};      ///< s
-  double noise{0.0};             ///< of the readings, standard deviation, m
+  double gain{35.15065};         ///< drive gain, N/V
+  double position_gain{160.18};  ///< gain of the position loop, 1/s
+  double velocity_gain{243.45};  ///< gain of the velocity loop, V s/m
+  double voltage_limit{10.0};    ///< largest voltage, V
+  double resolution{5e-8};       ///< encoder resolution, m
+  double sample_time{1e-3};      ///< sample time, s
+  double noise{0.0};             ///< standard deviation of the readings, m
 };
 
-/// A move: speed (m/s) with its sign, and how long it lasts, s.
+/// A move with constant velocity: signed velocity, m/s, and duration, s.
 struct Cruise {
   double velocity;
   double duration;
@@ -80,7 +80,7 @@ std::vector<Cruise> emps_lap();
 records::RawSeries closed_loop_record(const SlidingAxis& axis, const AxisLoop& loop,
                                       const std::vector<Cruise>& lap, int laps, std::mt19937_64& random);
 
-/// The force given beforehand: as sum of two sines. No loop.
+/// The record of a force given in advance, the sum of two sines, without a loop.
 records::RawSeries open_loop_record(const SlidingAxis& axis, const AxisLoop& loop, double duration,
                                     std::mt19937_64& random);
 

@@ -65,7 +65,7 @@ TEST(SecondMass, IsNotNamedWhereThereIsNone) {
   }
 }
 
-/// A fast move of a joint with strong cogging, of which a period is passed in some 40 samples.
+/// A fast move of a joint with strong cogging. The joint passes a period of the cogging in about 40 samples.
 JointMotion cogging_joint(std::mt19937_64& random) {
   JointMotion motion = fine_joint(random);
   motion.targets = {0.9, -0.7, 0.8, -0.9};

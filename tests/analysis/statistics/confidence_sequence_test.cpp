@@ -58,9 +58,9 @@ TEST(AnytimeBounds, AreWiderThanThoseOfOneLook) {
 }
 
 struct Looks {
-  int covered_always{0};        ///< the anytime bounds, at each look
-  int covered_at_end{0};        ///< the anytime bounds, where they are narrow enough to stop
-  int fixed_covered_always{0};  ///< those of one look, at each look
+  int covered_always{0};        ///< studies whose confidence sequence covers at every look
+  int covered_at_end{0};        ///< studies whose confidence sequence covers at the look that stops
+  int fixed_covered_always{0};  ///< studies whose bounds for a single look cover at every look
 };
 
 Looks look_after_every_block(double p, int studies) {

@@ -98,7 +98,7 @@ class TimeLaw {
   double spread_;
 };
 
-/// What the bounds are bounds of.
+/// True values of the quantities for which bounds are given.
 struct Truth {
   double success, without_failure, mean_time, median, p95, jerks;
 };

@@ -6,42 +6,43 @@
 
 namespace zerocount::testing {
 
-/// Trials whose machines and trials differ by known laws.
+/// A population of machines and trials with known distributions.
 ///
-/// Machine i holds zero in a move with the probability qᵢ, beta distributed between machines with the mean
-/// `success_mean` and the standard deviation `success_sd`, or, where there are weak machines, `weak_success`
-/// for these and 1 for all others; half of the trials decide once for all of their moves, the others for
-/// each. The logarithm of a settling time is the sum of normal effects of machine, trial and move; times are
+/// Machine i holds zero in a move with the probability qᵢ. The qᵢ are beta-distributed with the mean
+/// `success_mean` and the standard deviation `success_sd`; if there are weak machines, qᵢ is `weak_success`
+/// for these and 1 for all others. Half of the trials decide once for all of their moves, the others for each
+/// move. The logarithm of a settling time is the sum of normal effects of machine, trial and move; times are
 /// rounded up to samples of 0.5 ms, and a time beyond the hold of 1 s never arrives. The jerks of a trial are
 /// Poisson numbers with gamma distributed effects of machine and trial.
 struct Population {
   double success_mean{0.9};
   double success_sd{0.0};
-  double weak_machines{0.0};  ///< proportion of all machines; 0: the beta distribution holds
+  double weak_machines{0.0};  ///< proportion of weak machines; 0: the beta distribution holds
   double weak_success{0.7};
   double machine_effect{0.0};  ///< standard deviation of ln(settling time) between machines
-  double trial_effect{0.0};    ///< likewise between trials of a machine
-  double move_effect{0.5};     ///< likewise between moves of a trial
-  double jerks{0.3};           ///< mean number per trial
-  double jerk_sd{0.0};         ///< of the machines' factor of the mean, 0: all alike
+  double trial_effect{0.0};    ///< standard deviation of ln(settling time) between trials of a machine
+  double move_effect{0.5};     ///< standard deviation of ln(settling time) between moves of a trial
+  double jerks{0.3};           ///< mean number of jerks per trial
+  double jerk_sd{0.0};         ///< standard deviation of the machines' jerk factor; 0: all are alike
 };
 
 /// A study of the population.
 struct Sample {
-  std::int64_t machines{0};  ///< 0: every trial is a machine of its own
-  std::int64_t trials{0};    ///< of all machines
-  std::int64_t moves{1};     ///< per trial
+  std::int64_t machines{0};  ///< number of machines; 0: every trial has its own machine
+  std::int64_t trials{0};    ///< number of trials on all machines
+  std::int64_t moves{1};     ///< number of moves per trial
 };
 
-/// How often bounds at 95 % covered what they are bounds of.
+/// Observed coverage of a bound with the confidence 95 %.
 struct Coverage {
   std::string bound;
   std::int64_t repetitions{0};
   std::int64_t covered{0};
-  std::int64_t plainly{-1};  ///< those that take all trials and moves for independent; −1: there are none
+  std::int64_t plainly{-1};  ///< count for bounds that assume independent moves; −1: none
 };
 
-/// Repeats the study with the random numbers of `seed` and counts, for every bound that a summary gives.
+/// Repeats the study with random numbers from `seed`, and counts the coverage of every bound that a summary
+/// gives.
 std::vector<Coverage> coverage_of(const Population& population, const Sample& sample,
                                   std::int64_t repetitions, std::uint64_t seed);
 

@@ -4,8 +4,8 @@
 namespace zerocount::testing {
 namespace {
 
-/// 94 % less three standard errors of a proportion of so many repetitions: bounds that cover 94 % fall below
-/// it once in 700 times.
+/// Smallest acceptable number of repetitions in which bounds cover: 94 % less three standard errors. Bounds
+/// that cover 94 % fall below it once in 700 times.
 double lowest_count(std::int64_t repetitions) {
   const auto n = static_cast<double>(repetitions);
   return 0.94 * n - 3.0 * std::sqrt(n * 0.94 * 0.06);

@@ -28,7 +28,8 @@ trial::MoveOutcome move_that(bool succeeds) {
   return move;
 }
 
-/// Machines of which each succeeds with a probability of its own, less `worse`; the same draws at every call.
+/// A point with machines that each succeed with their own probability, reduced by `worse`. The draws depend
+/// on `seed` only.
 measures::PointSummary on_machines(std::uint64_t seed, double worse, std::int64_t machines) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> uniform;

@@ -59,7 +59,7 @@ struct ObservedTrials {
 
   testing::Draws draws;
   study::Study study;
-  std::size_t slot{2};  ///< of the band 3, after 0 and 1
+  std::size_t slot{2};  ///< index of the band of 3 counts, after 0 and 1
   std::vector<std::vector<trial::MoveOutcome>> trials;
 };
 

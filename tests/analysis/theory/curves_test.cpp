@@ -78,7 +78,7 @@ double degrees(std::complex<double> value) {
   return std::arg(value) * 180.0 / pi;
 }
 
-/// Not only at the points, but also on the straight lines that the figure draws between them.
+/// The curve equals the open loop at its points and on the straight lines that the figure draws between them.
 TEST(BodeCurve, IsTheOpenLoopAtEveryFrequency) {
   RandomParts random;
   for (int i = 0; i < 60; ++i) {
@@ -191,7 +191,7 @@ const std::string head =
     "zerocount: 1\nname: curves\nseed: 3\ntrials: 40\n"
     "command: {targets: [5], hold: 0.1}\n";
 
-/// (6) and (7) written out for the paper's machine: k_ID = c·(k + kp/Δx)/J·Δx·T/2.
+/// Criteria (6) and (7) written out for the paper's machine: k_ID = c·(k + kp/Δx)/J·Δx·T/2.
 double bound(double stiffness, double kp, double inertia = 5.54e-4) {
   const double dx = 2.0 * std::numbers::pi / 1620000.0;
   return 0.2 * (stiffness + kp / dx) / inertia * dx / 2000.0 / 2.0;

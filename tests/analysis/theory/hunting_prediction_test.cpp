@@ -195,7 +195,7 @@ class LongMotion {
   std::int64_t first_{-1}, last_{-1}, rises_{0};
 };
 
-/// What a trial comes to that is held for many samples after the end of its reference.
+/// Simulated final behaviour of a trial that is held for many samples after the end of its reference.
 struct LongTrial {
   LongTrial(trial::TrialParameters p, std::int64_t samples)
       : closes(samples, loop::fine_resolution(p.encoder)), other(closes) {
@@ -345,7 +345,7 @@ TEST(HuntingPrediction, OfThePublishedLoopIsThatOfItsFigure) {
   }
 }
 
-/// Its bristle is as soft as the control: it comes to rest within 6 counts from any start.
+/// A machine whose bristle is as soft as the control. It comes to rest within 6 counts from any start.
 trial::TrialParameters soft_bristle() {
   trial::TrialParameters p = unit_mass(FrictionModel::lugre);
   p.plant.sliding_damping = 2.0;

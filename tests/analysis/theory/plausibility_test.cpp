@@ -420,9 +420,10 @@ TEST(MovePlausibility, TheTorqueLimitHasItsOwnName) {
 struct CauseOfMisses {
   const char* told;
   std::string load;     ///< keys of plant.load, with the size of the cause
-  std::string cascade;  ///< of controller.cascade
-  double
-      size_at_limit;  ///< at which the load is a tolerance of 1e-4 rad away, or the move as long as allowed
+  std::string cascade;  ///< keys of controller.cascade
+  /// Size of the cause at which the load is the tolerance of 1e-4 rad away, or the move is as long as
+  /// allowed.
+  double size_at_limit;
 };
 
 study::Study cascade_with_load(const CauseOfMisses& cause, double size, const std::string& target,

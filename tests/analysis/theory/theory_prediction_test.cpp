@@ -264,7 +264,7 @@ TEST(TrialLoops, AreThoseOfEachStateOfTheLoad) {
             (Names{slides[0], stands, alone}));
 }
 
-/// How much of the motor's velocity is left at the end of a move to where it stands, by the simulated trial.
+/// Largest motor velocity in the last tenth of a simulated trial over the largest in its first tenth.
 double velocity_left(const trial::TrialParameters& p) {
   double first = 0.0;
   double last = 0.0;

@@ -68,7 +68,7 @@ TEST(DerivedQuantities, HaveTheValuesOfTheirDefinitions) {
   }
 }
 
-/// The unknowns of so many worlds, and the quantities derived from them at this torque.
+/// The unknowns of `count` random worlds, and the quantities derived from them at this torque.
 std::vector<WorldInput> random_worlds(testing::Draws& draws, int count, double torque) {
   std::vector<WorldInput> inputs{{"friction.k1", "N m/rad", {}},   {"friction.k2", "N m/rad", {}},
                                  {"friction.beta", "1/rad", {}},   {"friction.alpha", "1/s", {}},

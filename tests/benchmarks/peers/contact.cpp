@@ -11,10 +11,10 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-/// Below this proportion of the breakaway torque σ has no sign but by rounding (as in core/plant).
+/// Fraction of the breakaway torque below which the sign of σ is due to rounding (as in core/plant).
 constexpr double torque_without_sign = 1e-14;
 
-/// Of the difference of two velocities that are the same.
+/// Relative rounding error of the difference of two equal velocities.
 constexpr double rounding = 8.0 * std::numeric_limits<double>::epsilon();
 
 }  // namespace

@@ -22,8 +22,9 @@ enum class PeerEvent {
   stop        ///< the slide ends
 };
 
-inline constexpr double rest_limit = 4e-13;                ///< ε of the rest rule, rad
-inline constexpr double tolerance_after_breakaway = 30.0;  ///< over that before the first breakaway
+inline constexpr double rest_limit = 4e-13;  ///< ε of the rest rule, rad
+inline constexpr double tolerance_after_breakaway =
+    30.0;  ///< ratio of the tolerance to that before the first breakaway
 
 /// The contact of a trial, for an integrator of the ordinary kind: on which branch it is, what can happen
 /// next, and what happens then. The integrator asks `law` for slopes, and says which event it came to.
@@ -50,11 +51,11 @@ class PeerContact {
   }
   /// xh, rad; of the last contact while the hook slides.
   double hardening(const PeerState& y) const { return sliding() ? hardening_at_anchor_ : y[2]; }
-  double direction() const { return direction_; }  ///< of the elongation
+  double direction() const { return direction_; }  ///< direction of the elongation
   std::int64_t depth() const { return static_cast<std::int64_t>(spring_.depth()); }
-  std::int64_t deepest() const { return deepest_; }  ///< depth since forget_deepest()
+  std::int64_t deepest() const { return deepest_; }  ///< largest depth since forget_deepest()
   void forget_deepest() { deepest_ = depth(); }
-  std::int64_t breakaways() const { return breakaways_; }  ///< since the start
+  std::int64_t breakaways() const { return breakaways_; }  ///< number of breakaways since the start
 
   /// Applies the torque (N m) from now on; begin() must follow.
   void set_torque(double torque) { law_.torque = torque; }
@@ -117,11 +118,11 @@ class PeerContact {
   double creep_onset_torque_{0.0};       ///< N m
   double extension_at_anchor_{0.0};      ///< xp where creep last started or ended, rad
   double hardening_at_anchor_{0.0};      ///< xh there, rad
-  double hook_{0.0};                     ///< rad
+  double hook_{0.0};                     ///< position of the hook, rad
   double breakaway_spring_torque_{0.0};  ///< σb, N m
   bool resting_{false};
   double rest_torque_{0.0};      ///< σ, N m
-  double rest_duration_{0.0};    ///< of the last rest, s
+  double rest_duration_{0.0};    ///< duration of the last rest, s
   double rest_relaxation_{0.0};  ///< 1 − exp(−α·rest_duration)
   std::int64_t deepest_{0};
   std::int64_t breakaways_{0};

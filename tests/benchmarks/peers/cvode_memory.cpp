@@ -36,7 +36,7 @@ int weights(N_Vector /*y*/, N_Vector weight, void* user) {
   return 0;
 }
 
-/// What CVODE has to say comes as the flags that it returns.
+/// Error handler that prints nothing: the flags that CVODE returns report all errors.
 void silent(int /*code*/, const char* /*module*/, const char* /*function*/, char* /*message*/,
             void* /*user*/) {}
 

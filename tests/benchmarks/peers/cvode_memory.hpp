@@ -8,7 +8,7 @@
 
 namespace zerocount::testing {
 
-/// What CVODE integrates: the system behind its callbacks.
+/// The system that CVODE integrates, used by its callbacks.
 class CvodeSystem {
  public:
   explicit CvodeSystem(const trial::TrialParameters& parameters) : contact_(parameters) {}
@@ -17,7 +17,7 @@ class CvodeSystem {
   PeerContact& contact() { return contact_; }
   /// Local error of a step, root mean square over the state, rad.
   double tolerance() const { return contact_.breakaways() > 0 ? tolerance_after_breakaway * 3e-14 : 3e-14; }
-  /// Where a slide slows down and its Stribeck peak is not yet in sight, that is watched for.
+  /// A slide slows down, and its Stribeck peak is not in sight yet: CVODE watches for its coming into sight.
   bool nears_peak{false};
 
  private:

@@ -30,7 +30,8 @@ void CvodePlant::set_torque(double torque) {
   restart();
 }
 
-/// From the present state on, under what acts on it now: what CVODE knows of the past is of no use.
+/// Restarts the integration from the present state with the present torque and contact. CVODE's history is
+/// discarded.
 void CvodePlant::restart() {
   contact().begin(now_);
   clock_ = 0.0;

@@ -5,9 +5,9 @@
 
 namespace zerocount::testing {
 
-/// What the peers integrate. While the hook sticks: elongation xs (rad), ω·τ (rad), hardening xh (rad); while
-/// it slides: θ (rad), ω·τ (rad), 0. The time τ = 1/ω₀, ω₀² = (k1 + k2)/J, makes all of them lengths of one
-/// size, so that one tolerance fits them all.
+/// The state that the peers integrate. While the hook sticks: elongation xs (rad), ω·τ (rad), hardening xh
+/// (rad). While it slides: θ (rad), ω·τ (rad), 0. The time τ = 1/ω₀, ω₀² = (k1 + k2)/J, gives all components
+/// the same unit and order of magnitude, so that one tolerance fits them all.
 using PeerState = std::array<double, 3>;
 
 /// The equations of motion on one branch of the spring, or of one slide, under a constant torque (paper, eqs.

@@ -11,8 +11,8 @@ namespace {
 
 constexpr int bits_of_event_time = 30;
 
-/// Where between 0 and h the cubic with these values and slopes at both ends is lowest, or 0 where it does
-/// not come near to zero.
+/// Location in (0, h) of the minimum of the cubic with these values and slopes at both ends; 0 if the cubic
+/// does not come near zero.
 double dip_of(double h, double g0, double slope0, double g1, double slope1) {
   // g = g0 + m0·s + b·s² + a·s³, s = t/h.
   const double m0 = h * slope0;
@@ -65,7 +65,7 @@ void OdeintPlant::look_for_reversal() {
   }
 }
 
-/// d²xs/dt², rad/s², from what the slopes know.
+/// Acceleration d²xs/dt² of the elongation, rad/s², from the slopes of the state.
 double OdeintPlant::elongation_acceleration(const PeerState& y, const PeerState& slope,
                                             double softness) const {
   const PeerMotionLaw& law = contact_.law();
@@ -102,7 +102,8 @@ void OdeintPlant::look_for_breakaway() {
   }
 }
 
-/// Takes the event where its guard, which is not positive any more at `end` (s), falls below zero.
+/// Locates the event at the time where its guard falls below zero. The guard must not be positive at `end`
+/// (s).
 template <class Guard>
 void OdeintPlant::offer(PeerEvent event, Guard guard, double end) {
   const auto value = [&](double time) { return guard(state_at(time)); };

@@ -38,8 +38,8 @@ void OdeintPlant::set_torque(double torque) {
   restart();
 }
 
-/// From the present state on, under what acts on it now. The slope at the end of the last step is not that of
-/// the next one.
+/// Restarts the integration from the present state with the present torque and contact. The slope at the end
+/// of the last step cannot be reused, because the next step has another slope.
 void OdeintPlant::restart() {
   contact_.begin(now_);
   clock_ = old_time_ = new_time_ = valid_until_ = 0.0;

@@ -18,7 +18,7 @@ namespace zerocount::testing {
 /// converter, no amplifier, one control phase, stepwise targets, and a rotor that stands at the start.
 void require_plain(const trial::TrialParameters& parameters);
 
-/// What the sampled loop shows at a sample, for whoever records it.
+/// Data of the sampled loop at a sample, for recorders.
 struct PeerSample {
   std::int64_t k{0};
   std::int64_t target{0};
@@ -67,7 +67,7 @@ trial::TrialOutcome peer_trial(const trial::TrialParameters& p, PeerPlant& plant
   return outcome;
 }
 
-/// The outcome of a peer's trial alone: what is timed.
+/// The outcome of a peer's trial without recording. This function is timed.
 template <class PeerPlant>
 trial::TrialOutcome peer_outcome(const trial::TrialParameters& p, PeerPlant& plant) {
   return peer_trial(p, plant, [](const PeerSample&) {});

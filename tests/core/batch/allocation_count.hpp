@@ -4,11 +4,11 @@
 
 namespace zerocount::testing {
 
-/// Calls of malloc, calloc, realloc and aligned_alloc, by this program and all its libraries, so far. Built
-/// into a program, it takes the place of those functions (of the GNU C library).
+/// Number of calls of malloc, calloc, realloc and aligned_alloc so far, by this program and all its
+/// libraries. The implementation replaces these functions of the GNU C library in the program that links it.
 std::int64_t allocations_so_far();
 
-/// Whether they are counted: not where a sanitizer has taken their place.
+/// Whether allocations are counted. They are not if a sanitizer has replaced the functions.
 bool allocations_are_counted();
 
 }  // namespace zerocount::testing

@@ -25,7 +25,7 @@ struct Batch {
   std::vector<const trial::TrialParameters*> pointers;
 };
 
-/// How often a run of the batch allocates.
+/// Number of memory allocations in a run of the batch.
 std::int64_t allocations_in(batch::BatchEngine& engine, Batch& batch,
                             const batch::BatchObservers& observers = {}) {
   const std::int64_t before = allocations_so_far();

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double accuracy = 1e-6;  // counts, before a slide
 
-/// What the comparison of one trial has found so far.
+/// Comparison of one trial, with its findings so far.
 class Comparison {
  public:
   Comparison(const trial::TrialParameters& parameters, const BatchedTrial& batched, const std::string& name)

@@ -10,63 +10,69 @@
 
 namespace zerocount::testing {
 
-/// How a trial of the batch engine follows the reference, where no hook divides it into parts before and
-/// after a slide.
+/// Agreement of a trial of the batch engine with the reference, for trials without a hook, which are not
+/// divided into parts before and after a slide.
 struct PathAgreement {
-  bool parts{false};      ///< a count or a code differs from some sample on; what follows is not compared
-  bool amplifies{false};  ///< the reference parts from itself first, if it is changed; likewise
-  std::string
-      astray{};  ///< where θ differs by more than rounding explains, and by how much; empty if nowhere
+  bool parts{false};  ///< a count or a code differs from some sample on; later samples are not compared
+  /// θ differs, but by then a reference with a slightly changed inertia already differs from the reference in
+  /// a count or a code. Later samples are not compared.
+  bool amplifies{false};
+  /// Place and size of a difference of θ that rounding does not explain; empty if there is none.
+  std::string astray{};
 };
 
-/// θ agrees to 1e-6 count and 1e-9 of the travel, or to what a change of the inertia by 1e-12 makes of the
-/// reference: a limit cycle may amplify rounding to any size. Where that change has changed a count or a code
-/// before, no agreement can be asked for.
+/// Compares θ of a trial with the reference. θ must agree to 1e-6 count plus 1e-9 of the travel, or to the
+/// difference that a relative change of the inertia by 1e-12 makes in the reference, because a limit cycle
+/// may amplify rounding to any size. If that change has already changed a count or a code, no agreement is
+/// required.
 PathAgreement path_agreement(const trial::TrialParameters& parameters, const BatchedTrial& batched,
                              const BatchedTrial& reference);
 
-/// How the trials of the batch engine agree with run_trial.
+/// Agreement of the trials of the batch engine with run_trial().
 ///
-/// A trial slides where the hook does in the reference. From there on rounding may grow until it decides a
-/// count, and the two part: then what is compared are its samples before the first slide, and the moves that
-/// end before it.
+/// A trial slides if its hook slides in the reference. From then on rounding may grow until it decides a
+/// count, and the two results differ. Therefore only the samples before the first slide, and the moves that
+/// end before it, are compared.
 struct BatchAgreement {
   std::int64_t trials{0};
-  std::int64_t in_lanes{0};  ///< of them, those that runs_in_lanes() accepts
-  std::int64_t slides{0};    ///< of them, those that slide
-  std::int64_t samples{0};   ///< compared
+  std::int64_t in_lanes{0};  ///< trials that runs_in_lanes() accepts
+  std::int64_t slides{0};    ///< trials that slide
+  std::int64_t samples{0};   ///< number of compared samples
 
   // Trials, each in one of these at most: by what is found first.
   std::int64_t on_edge{0};       ///< θ on an encoder edge within 1e-6 count is read differently
   std::int64_t other_counts{0};  ///< another count or code
   std::int64_t other_depth{0};   ///< another reversal_depth, and nothing else
-  /// The same, of a trial whose reversal_depth changes with the steps of the reference, too (see
+  /// Trials that differ only in reversal_depth, which also changes with the steps of the reference (see
   /// reversal_depths.hpp).
   std::int64_t depth_by_steps{0};
   std::int64_t other_measures{0};  ///< another discrete measure, or another jerk
 
   double theta{0.0};     ///< largest difference of θ before a slide, counts
-  double floating{0.0};  ///< the same of the floating measures, counts
+  double floating{0.0};  ///< largest difference of the floating-point measures, counts
 
-  std::int64_t depth_apart{
-      0};  ///< largest difference of the reversal_depth of other_depth, in a trial's first move
+  /// Largest difference of reversal_depth in the first move of the trials counted in other_depth.
+  std::int64_t depth_apart{0};
 
   // Of the trials that slide.
-  std::int64_t part{0};     ///< a count or a code of the two differs, some time after the slide
-  std::int64_t stray{0};    ///< θ differs by more than promised after the slide, before or when a count does
-  double theta_after{0.0};  ///< largest difference of θ after the slide in those that do not part, counts
-  double share_after{0.0};  ///< the same over the accuracy promised there, 1e-3 count + 1e-7 of the travel
-  std::vector<std::string> failures{};  ///< a line on each trial of other_counts to other_measures, or stray
+  std::int64_t part{0};  ///< trials whose counts or codes differ at some time after the slide
+  /// Trials whose θ differs by more than promised after the slide, before or when a count differs.
+  std::int64_t stray{0};
+  double theta_after{0.0};  ///< largest difference of θ after the slide, in trials that do not part, counts
+  /// Largest ratio of that difference to the promised accuracy, 1e-3 count + 1e-7 of the travel.
+  double share_after{0.0};
+  std::vector<std::string>
+      failures{};  ///< one line for each trial of other_counts to other_measures, or stray
 
   void add(const BatchAgreement& other);
-  std::string figures() const;  ///< one line
+  std::string figures() const;  ///< all figures in one line
 };
 
-/// One trial.
+/// The agreement of one trial.
 BatchAgreement compare_with_reference(const trial::TrialParameters& parameters, const BatchedTrial& batched,
                                       const std::string& name);
 
-/// All of them, run as one batch.
+/// The agreement of the trials, run as one batch.
 BatchAgreement agreement_of(const std::vector<trial::TrialParameters>& trials, const std::string& name,
                             const batch::BatchSettings& settings = {});
 
@@ -85,7 +91,7 @@ inline BatchAgreement expect_agreement(const std::vector<trial::TrialParameters>
   return agreement;
 }
 
-/// The same of trials that lanes run.
+/// Expects that lanes run all of these trials, and that the batch engine agrees with the reference on them.
 inline BatchAgreement expect_agreement_in_lanes(const std::vector<trial::TrialParameters>& trials,
                                                 const std::string& name) {
   BatchAgreement agreement = expect_agreement(trials, name);
@@ -93,7 +99,8 @@ inline BatchAgreement expect_agreement_in_lanes(const std::vector<trial::TrialPa
   return agreement;
 }
 
-/// Expects that trials come out as alone, to the last bit, in few lanes and many, by every instruction set.
+/// Expects that every trial gives the same bits as when it runs alone, with few and many lanes and with every
+/// instruction set.
 inline void expect_independent(const std::vector<trial::TrialParameters>& trials) {
   std::vector<BatchedTrial> alone;
   for (const trial::TrialParameters& p : trials) alone.push_back(run_batch({p}, {.lanes = 1}).front());

@@ -90,7 +90,7 @@ void compare(Differences& d, const batch::BatchSample& a, const batch::BatchSamp
   d.expect_same("xp", a.xp, b.xp);
 }
 
-/// Of two lists, up to the first pair that differs.
+/// Compares two lists up to the first pair that differs.
 template <class T>
 void compare_all(Differences& d, const char* what, const std::vector<T>& a, const std::vector<T>& b) {
   d.expect_same_size(what, a.size(), b.size());

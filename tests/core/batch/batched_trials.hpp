@@ -9,40 +9,41 @@
 
 namespace zerocount::testing {
 
-/// All that a batch tells of one of its trials.
+/// All results of a batch for one of its trials.
 struct BatchedTrial {
   trial::TrialOutcome outcome;
   std::vector<trial::Jerk> jerks;
-  std::vector<batch::BatchSample> samples;  ///< empty where they were not observed
+  std::vector<batch::BatchSample> samples;  ///< empty if samples were not observed
 };
 
 enum class Observed { samples_and_jerks, jerks };
 
-/// Runs the trials with an engine of these settings. @returns [trial].
+/// Runs the trials with a new engine with these settings.
+/// @returns [trial] result
 std::vector<BatchedTrial> run_batch(const std::vector<trial::TrialParameters>& trials,
                                     const batch::BatchSettings& settings = {},
                                     Observed observed = Observed::samples_and_jerks);
 
-/// The same with an engine that may have run other trials before.
+/// Runs the trials with an engine that may have run other trials before.
 std::vector<BatchedTrial> run_batch(batch::BatchEngine& engine,
                                     const std::vector<trial::TrialParameters>& trials,
                                     Observed observed = Observed::samples_and_jerks);
 
-/// What differs between two results of one trial, be it in the last bit; empty where nothing does. Samples
-/// are compared where both have some.
+/// Text of the differences between two results of one trial, compared bit by bit; empty if there are none.
+/// Samples are compared if both results have samples.
 std::string difference_in_bits(const BatchedTrial& one, const BatchedTrial& other);
 
-/// What run_trial tells of a trial, in the same form.
+/// The result of run_trial() for a trial, in the form of a batched trial.
 BatchedTrial run_by_reference(const trial::TrialParameters& parameters);
 
-/// Every instruction set that this processor has.
+/// All instruction sets that this processor supports.
 std::vector<batch::InstructionSet> available_instruction_sets();
 
-/// random_trial(kind, index), changed where lanes would not run it: no amplifier, and the presliding model in
-/// place of Coulomb's.
+/// random_trial(kind, index), changed so that lanes run it: without amplifier, and with the presliding model
+/// in place of Coulomb's.
 trial::TrialParameters trial_with_any_exponent(TrialKind kind, std::uint64_t index);
 
-/// The same with the usual creep exponent 2, and the creep limit at 0.02 N m as before.
+/// A random trial that lanes run, with the usual creep exponent 2 and the creep limit at 0.02 N m.
 trial::TrialParameters trial_for_lanes(TrialKind kind, std::uint64_t index);
 
 }  // namespace zerocount::testing

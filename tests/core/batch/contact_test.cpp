@@ -123,8 +123,8 @@ TEST(BatchContact, MayBeWithoutCreep) {
   }
 }
 
-/// From hardly damped, where an error lasts for thousands of samples, to overdamped, where it dies out as
-/// slowly as the elongation relaxes.
+/// Damping ranges from very weak, where an error lasts for thousands of samples, to overdamped, where an
+/// error decays as slowly as the elongation relaxes.
 TEST(BatchContact, MayBeDampedAtAnyRate) {
   std::vector<trial::TrialParameters> trials;
   for (std::uint64_t i = 0; i < 180; ++i) {
@@ -147,7 +147,7 @@ trial::TrialParameters creeping_trial(std::uint64_t index, double alpha) {
   return p;
 }
 
-/// Creep from none to what is over within some tens of samples.
+/// Creep ranges from none to creep that is finished within some tens of samples.
 TEST(BatchContact, CreepsAtAnyRate) {
   std::vector<trial::TrialParameters> trials;
   for (std::uint64_t i = 0; i < 200; ++i) {
@@ -294,7 +294,8 @@ TEST(BatchLoop, HasProportionalAndDifferentialParts) {
   EXPECT_GT(agreement.trials - agreement.slides, 60);
 }
 
-/// Words so short that torques are clipped, and so fine that no code is the same for long.
+/// Converter words range from so short that torques are clipped to so fine that no code stays the same for
+/// long.
 TEST(BatchLoop, ConvertsByAnyWord) {
   std::vector<trial::TrialParameters> trials;
   int clipped = 0;
@@ -360,7 +361,7 @@ TEST(BatchMoves, MayBeOfOneSample) {
   expect_agreement_in_lanes(trials, "short moves");
 }
 
-/// Dwell and window from one sample to the whole move, and moves that arrive where they begin.
+/// Dwell and window range from one sample to the whole move. Some moves arrive at their first sample.
 TEST(BatchMoves, AreJudgedByAnyDwellAndWindow) {
   Choices choices(3);
   std::vector<trial::TrialParameters> trials;

@@ -116,8 +116,8 @@ TEST_P(WorkloadEquality, SampleBySample) {
   expect_agreement_in_lanes(trials(), GetParam().name);
 }
 
-/// Two among 100 000 whose ringing turns less than a nanosecond before a sampling instant: the step that is
-/// left must not make those after it as short.
+/// Two of 100 000 trials whose ringing reverses less than a nanosecond before a sampling instant. The tiny
+/// remaining step must not make the following steps as short.
 TEST(AReversalRightBeforeASample, IsFollowedAsByTheReference) {
   for (const std::int64_t index : {26759, 41027})
     expect_agreement_in_lanes(bench_trials("bench-creep", index, 1, {"trials=100000"}), "bench-creep");
@@ -137,8 +137,8 @@ TEST(ASecondMass, ComesToRestWithTheRotorAsInTheReference) {
   EXPECT_LT(agreement.slides, 20);
 }
 
-/// The counts before the first sample are those of the initial velocity, in the difference of counts, behind
-/// its filter and in the observer.
+/// The counts before the first sample are extrapolated with the initial velocity, for the difference of
+/// counts, its filter and the observer.
 TEST(ATrialThatStartsInMotion, IsFollowedAsByTheReference) {
   std::vector<trial::TrialParameters> trials;
   for (std::uint64_t i = 0; i < 200; ++i) {
@@ -156,7 +156,8 @@ TEST(ATrialThatStartsInMotion, IsFollowedAsByTheReference) {
   expect_agreement(trials, "starts in motion");
 }
 
-/// What the contact cannot carry the integral holds, through delay, amplifier, late samples and blocks.
+/// The integral holds the part of the load that the contact cannot carry, through delay, amplifier, late
+/// samples and blocks.
 TEST(AHeldStart, RunsInLanesAsInTheReference) {
   std::vector<trial::TrialParameters> trials;
   for (std::uint64_t i = 0; i < 120; ++i) {
@@ -217,7 +218,7 @@ constexpr TrialKind kinds_under_laws[] = {TrialKind::calm,          TrialKind::r
                                           TrialKind::breaking_away, TrialKind::unlike_the_paper,
                                           TrialKind::arriving,      TrialKind::loaded};
 
-/// Up to sixteen elements that together are about as stiff as the spring.
+/// Random Maxwell-slip elements, up to sixteen, which together are about as stiff as the spring.
 std::vector<friction::GmsElement> random_elements(const friction::FrictionParameters& f,
                                                   std::uint64_t index) {
   RandomBlocks draw(index);

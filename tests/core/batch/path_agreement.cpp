@@ -16,8 +16,8 @@ class Sensitivity {
   Sensitivity(const trial::TrialParameters& parameters, const BatchedTrial& reference)
       : parameters_(parameters), reference_(reference) {}
 
-  /// By how much θ differs at most up to sample k, in counts, as long as no count and no code does. Call with
-  /// ascending k.
+  /// Largest difference of θ between the twins up to sample k, in counts, as long as no count and no code
+  /// differs. Must be called with ascending k.
   double up_to(std::size_t k) {
     if (!twin_) {
       trial::TrialParameters changed = parameters_;

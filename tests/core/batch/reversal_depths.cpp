@@ -12,13 +12,13 @@
 namespace zerocount::testing {
 namespace {
 
-/// A torque, and for how long it is held.
+/// A torque and the duration for which it is held.
 struct HeldTorque {
-  double torque;    ///< N m
-  double duration;  ///< s
+  double torque;    ///< torque, N m
+  double duration;  ///< duration, s
 };
 
-/// The torques of a trial by run_trial: [move][hold], one hold a sample.
+/// The torques of a trial by run_trial(), [move][hold], with one hold per sample.
 std::vector<std::vector<HeldTorque>> torques_of(const trial::TrialParameters& parameters) {
   std::vector<std::vector<HeldTorque>> moves;
   std::int64_t left = 0;

@@ -4,11 +4,11 @@
 
 namespace zerocount::testing {
 
-/// Whether the reversal depths that run_trial finds change with the steps by which the plant goes through its
-/// torques: with samples in pieces, or those of the same torque together, and with more or less left out in
-/// each. So it is with loops that close, or do not, by less than the motion is followed to, as in a limit
-/// cycle that comes to retrace itself; and with a loop that closes while the last oscillation falls below the
-/// amplitude of rest.
+/// Whether the reversal depths that run_trial() finds depend on the steps of the plant. The steps are varied
+/// in two ways: samples are divided, or samples with the same torque are joined; and the truncation error
+/// allowed per step is changed. The depths depend on the steps if a hysteresis loop closes, or fails to
+/// close, by less than the accuracy of the motion, as in a limit cycle that retraces itself. They also do if
+/// a loop closes while the last oscillation falls below the amplitude of rest.
 bool reversal_depth_changes_with_steps(const trial::TrialParameters& parameters);
 
 }  // namespace zerocount::testing

@@ -33,7 +33,7 @@ void replace_targets(trial::TrialParameters& p, RandomBlocks& draw) {
   command.hold = 0.3;
 }
 
-/// What stands between the torque and the rotor, or between it and what is read.
+/// Adds random effects between the commanded torque and the rotor, and between the rotor and its reading.
 void add_features(trial::TrialParameters& p, RandomBlocks& draw) {
   if (draw.chance(0.3)) p.controller.delay = draw.uniform(0.0, 3.0);
   if (draw.chance(0.3)) p.amplifier.bandwidth = draw.log_uniform(50.0, 3000.0);

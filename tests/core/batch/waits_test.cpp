@@ -99,7 +99,7 @@ TEST(AWait, IsPassedUnderLinesOfAVibration) {
   expect_same_unobserved(trials);
 }
 
-/// Rounds of a trial in a lane of its own, by its samples: about 1 where none is passed.
+/// Rounds of the engine per sample, for a single trial in one lane; about 1 if no sample is skipped.
 double rounds_by_samples(const trial::TrialParameters& p) {
   batch::BatchEngine engine({.lanes = 1});
   run_batch(engine, {p}, Observed::jerks);

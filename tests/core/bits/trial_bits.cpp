@@ -51,7 +51,7 @@ class BitHash {
   void add(const trial::TrialOutcome& outcome) {
     for (const trial::MoveOutcome& move : outcome.moves) add(move);
   }
-  /// Of a sample, in either engine.
+  /// Adds a sample of either engine.
   void add_sample(std::int64_t count, std::int64_t code, double theta, double xp, double xh) {
     add(count);
     add(code);

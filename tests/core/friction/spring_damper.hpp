@@ -7,7 +7,7 @@
 namespace zerocount {
 
 /// A friction law that only the tests know: a linear spring with viscous damping, F = k·θ + d·ω. It counts
-/// where ω changes sign, located in time.
+/// the sign changes of ω, which are located in time.
 class SpringDamper : public friction::WithoutCreepAndReversals {
  public:
   static constexpr std::string_view word = "spring_damper";

@@ -8,7 +8,7 @@
 
 namespace zerocount::testing {
 
-/// A limit that may be off: null then.
+/// JSON of a limit; null if the limit is off.
 inline nlohmann::ordered_json limit_json(double value) {
   if (value < 0.0 || value == std::numeric_limits<double>::infinity()) return nullptr;
   return value;
@@ -61,7 +61,7 @@ inline void add_blocks(nlohmann::ordered_json& to, const loop::ControlBlocks& b)
                       {"kd", b.standstill.kd}};
 }
 
-/// The controller in the form of a manifest.
+/// JSON of the controller, in the form of a manifest.
 inline nlohmann::ordered_json controller_json(const loop::ControllerParameters& c) {
   const auto encoder = [](loop::EncoderChoice choice) {
     return choice == loop::EncoderChoice::fine ? "fine" : "coarse";

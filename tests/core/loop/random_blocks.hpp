@@ -8,7 +8,7 @@
 
 namespace zerocount::testing {
 
-/// Which blocks of a controller are random: one kind of them, or all of them now and then.
+/// Kind of controller blocks that are random: a single kind, or each of them with some probability.
 enum class BlockKind {
   none,
   deadband,
@@ -29,7 +29,7 @@ inline constexpr const char* block_kind_names[block_kinds] = {
     "none",     "deadband", "zone",           "leak", "derivative", "filters", "feedforward",
     "observer", "cascade",  "error deadband", "hold", "standstill", "all"};
 
-/// Blocks with which a loop about the paper's machine often stays within the converter's range.
+/// Random blocks with which a loop around the paper's machine often stays within the converter's range.
 class RandomBlocks {
  public:
   explicit RandomBlocks(std::uint64_t seed) : random_(seed) {}
@@ -90,7 +90,8 @@ class RandomBlocks {
     return b;
   }
 
-  /// What a fine phase may have besides: a window of counts, and a command on its way between two loops.
+  /// Adds random parameters that only a fine phase may have, such as a window of the derivative and a
+  /// feedforward between two loops.
   void add_drive(loop::ControlBlocks& b) {
     if (chance(0.5)) b.derivative_window = 1 + static_cast<int>(random_() % 6);
     if (b.structure != loop::ControlStructure::cascade) return;
@@ -102,7 +103,7 @@ class RandomBlocks {
     if (chance(0.5)) c.limit = log_uniform(1e-3, 1.0);
   }
 
-  /// A few samples, or one.
+  /// A random dwell, s: up to 19 samples, or 0.
   double dwell(double sample_rate) {
     return chance(0.3) ? 0.0 : static_cast<double>(random_() % 20) / sample_rate;
   }

@@ -31,7 +31,8 @@ struct WithRandomEncoders {
     return std::uniform_real_distribution<double>(low, high)(random_);
   }
 
-  /// Coarser, finer or equal, their counts commensurate or not.
+  /// Random encoders. The fine one may be finer than, equal to or coarser than the coarse one, and their
+  /// counts may be commensurate or not.
   loop::EncoderParameters random_encoders() {
     loop::EncoderParameters encoders;
     encoders.coarse = std::floor(std::pow(10.0, uniform(1.0, 5.0)));

@@ -48,7 +48,7 @@ Segments fastest_segments(const Move& move) {
   return segments_with(low);
 }
 
-/// Where the move is at the time t: segment after segment, each of constant jerk.
+/// Position of the move at the time t, integrated over segments of constant jerk.
 long double integrated_position(const Segments& s, long double acceleration_limit, long double t) {
   const bool trapezoidal = s.jerk_time == 0;
   long double position = 0;

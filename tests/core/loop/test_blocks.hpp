@@ -5,10 +5,10 @@
 /// Blocks of a controller that only the tests know.
 namespace zerocount {
 
-/// y_k = a·y_{k−1} + (1 − a)·u_k.
+/// A low-pass block: y_k = a·y_{k−1} + (1 − a)·u_k.
 class LowPass {
  public:
-  static constexpr double decay = 0.6;  ///< a
+  static constexpr double decay = 0.6;  ///< coefficient a
 
   LowPass(const loop::ControllerParameters&, const loop::ControlStart&) {}
 
@@ -25,7 +25,7 @@ class LowPass {
   double output_{0.0};
 };
 
-/// y_k = u_k − ¼·(torque decided at k − 1).
+/// A feedback block: y_k = u_k − ¼·(torque decided at k − 1).
 class TorqueFeedback {
  public:
   TorqueFeedback(const loop::ControllerParameters&, const loop::ControlStart&) {}

@@ -9,7 +9,7 @@ namespace {
 struct Function {
   const char* name;
   double (*of)(double) noexcept;
-  long double (*judge)(long double);  ///< of the C library, with 11 bits more
+  long double (*judge)(long double);  ///< the C library's function, with 11 more bits
   double low, high;
 };
 

@@ -11,7 +11,7 @@
 namespace zerocount::testing {
 namespace {
 
-/// How the torque goes on from one interval to the next.
+/// Course of the torque from one interval to the next.
 enum class Drive { held, amplified, amplified_with_jumps };
 
 struct Family {

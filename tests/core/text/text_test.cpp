@@ -77,7 +77,7 @@ std::string random_word(std::mt19937& random) {
   return word;
 }
 
-/// What the command prints, which `sh` reads.
+/// Output of a command that is run by `sh`.
 std::string printed_by(const std::string& command) {
   std::string text;
   FILE* const pipe = popen(command.c_str(), "r");

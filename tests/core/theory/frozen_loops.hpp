@@ -3,7 +3,7 @@
 #include "core/theory/frozen_loop.hpp"
 #include "core/theory/margins.hpp"
 
-/// Frozen loops by their parameters, for the tests.
+/// Frozen (linearised) loops from parameters, for the tests.
 namespace zerocount::theory {
 
 /// The margins of the loop about a spring of `stiffness` (N m/rad) with this damping (N m s/rad).

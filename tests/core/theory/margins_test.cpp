@@ -101,7 +101,8 @@ TEST(Margins, AreThoseOfAFineScanWithAndWithoutDamping) {
   EXPECT_GT(with_phase, 25);
 }
 
-/// Growth of the loop per sample where its plant has this factor of its gain.
+/// Growth rate of the loop per sample, ln of the spectral radius, if the gain of its plant is multiplied by
+/// `factor`.
 double growth_with(FrozenLoop loop, double factor) {
   loop.plant.b *= factor;
   loop.plant.b_before *= factor;

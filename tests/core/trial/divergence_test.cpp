@@ -53,12 +53,12 @@ auto fields(const trial::Jerk& jerk) {
   return std::tie(jerk.move, jerk.onset, jerk.duration, jerk.magnitude, jerk.direction);
 }
 
-/// Not a number is like itself.
+/// The value, with NaN replaced by a number so that NaN compares equal to NaN.
 double shown(double value) {
   return std::isnan(value) ? -1e300 : value;
 }
 
-/// But what goes on after the last sample: broke_away and reversal_depth.
+/// All measures of a move except broke_away and reversal_depth, which can change after the last sample.
 auto measures(const trial::MoveOutcome& m) {
   return std::tuple(m.outcome, m.arrived, m.stable, m.saturated, m.arrival, shown(m.arrival_time),
                     shown(m.final_settling_time), shown(m.zero_fraction), shown(m.travel_time), m.overshoot,
@@ -67,14 +67,14 @@ auto measures(const trial::MoveOutcome& m) {
                     m.jerk_count, shown(m.jerk_agreement));
 }
 
-/// Where the trial is to be ended.
+/// The move and the sample at which the trial should end.
 struct End {
   std::size_t move{0};
-  std::size_t sample{0};  ///< of the trial
+  std::size_t sample{0};  ///< index of the sample in the trial
 };
 
-/// By all samples of the trial that is not ended: the first that is further from its target than the first of
-/// its move by more than the limit.
+/// The expected end of a trial, found from all samples of the same trial run to its end: the first sample
+/// whose distance from the target exceeds that of the first sample of its move by more than the limit.
 std::optional<End> end_of(const RecordedTrial& whole, double limit) {
   const std::vector<MoveSpan> spans = literal_spans(whole.parameters);
   for (std::size_t move = 0; move < spans.size(); ++move) {

@@ -43,7 +43,7 @@ struct HeldAxis {
     put_a_drive_between();
   }
 
-  /// What a torque passes on its way from the integral to the motor.
+  /// Adds random effects between the integral and the motor, such as a delay.
   void put_a_drive_between() {
     if (draws.chance(0.7)) p.controller.delay = draws.uniform(0.0, 3.5);
     if (draws.chance(0.5)) p.amplifier.bandwidth = draws.log_uniform(20.0, 5000.0);

@@ -14,7 +14,7 @@ struct LiteralFeedback {
   std::vector<Real> error;
   std::vector<Real> count;
   Real error_before(std::size_t k) const { return k == 0 ? 0 : error[k - 1]; }
-  Real first_change{0};  ///< of the first count, from that of a motion at the initial velocity
+  Real first_change{0};  ///< change of count at sample 0, for a motion at the initial velocity
   Real count_change(std::size_t k) const { return k == 0 ? first_change : count[k] - count[k - 1]; }
 };
 

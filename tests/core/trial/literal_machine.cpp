@@ -61,7 +61,7 @@ std::vector<std::int64_t> counts_of(Real counts, const loop::EncoderErrors& erro
   return shown;
 }
 
-/// What the converter gives for the code of sample k, N m.
+/// Output of the converter for the code of sample k, N m.
 Real converted(const trial::TrialParameters& p, const Samples& samples, std::size_t k) {
   const loop::DacParameters& dac = p.dac;
   const Real half_range = (std::ldexp(Real{1}, dac.bits) - 1) / 2;

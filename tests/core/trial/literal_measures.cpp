@@ -96,7 +96,7 @@ void measure_oscillation(const Errors& last_half, double sample_time, trial::Mov
   outcome.oscillation_period = sum / static_cast<double>(crossings.size() - 1);
 }
 
-/// What is known of a move at its end.
+/// Sets the measures that depend on the end of a move.
 void judge_end(const Errors& errors, std::int64_t largest_in_window, double sample_time,
                trial::MoveOutcome& outcome) {
   const std::size_t half = (errors.size() + 1) / 2;
@@ -112,7 +112,8 @@ void judge_end(const Errors& errors, std::int64_t largest_in_window, double samp
   if (outcome.outcome == trial::Outcome::oscillating) measure_oscillation(last_half, sample_time, outcome);
 }
 
-/// The measures of the band |e| ≤ limit. With 1 for samples outside it, they are those of jerks.
+/// The measures of the band |e| ≤ limit, by the definitions of the jerk measures applied to a signal that is
+/// 1 outside the band and 0 inside.
 trial::BandOutcome band_of(const Errors& errors, std::int64_t limit, std::size_t dwell, double rate) {
   Errors outside;
   for (const std::int64_t e : errors) outside.push_back(std::abs(e) > limit ? 1 : 0);

@@ -15,7 +15,7 @@ namespace {
 using Real = long double;
 constexpr Real nothing = std::numeric_limits<Real>::quiet_NaN();
 
-/// The samples of a move: what the measures are of.
+/// The samples of a move, from which its measures are computed.
 struct MoveSamples {
   std::vector<Real> error, position, reference, torque;  // counts, counts, counts, N m
   Real target{0}, from{0};                               // counts
@@ -223,8 +223,8 @@ std::int64_t ideal_count(const trial::TrialParameters& p, double theta) {
   return loop::read_count(loop::fine_encoder(p.encoder, p.initial.encoder_phase), theta);
 }
 
-/// Expects that by the true errors the rotor ended within the counts that an ideal encoder shows, and at the
-/// place in them where it was.
+/// Expects that the true errors put the rotor within the counts that an ideal encoder shows, and at its
+/// actual place within these counts.
 void expect_places_of_rotor(const trial::TrialParameters& p, const EndedTrial& trial) {
   ASSERT_EQ(trial.ends.size(), trial.outcome.moves.size());
   const double resolution = 2.0 * std::numbers::pi / p.encoder.fine;

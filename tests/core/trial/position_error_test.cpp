@@ -38,7 +38,8 @@ struct TrialsWithTolerances {
     p.verdict.other_mass = draws.chance(0.5) ? motor : load;
   }
 
-  /// Whether ε is that of the load: of the mass that closes the loop, or of the other one that is measured.
+  /// Whether the position error ε is measured on the load.
+  /// @param other false: ε of the mass that closes the loop; true: ε of the other measured mass
   bool is_of_load(bool other) const {
     return motion::has_load(p.plant) &&
            (other ? *p.verdict.other_mass : p.plant.load.encoder) == motion::EncoderPlace::load;

@@ -7,7 +7,7 @@
 
 namespace zerocount::testing {
 
-/// A trial with all that is told of it.
+/// A trial with everything that was recorded of it.
 struct RecordedTrial {
   std::string name;
   trial::TrialParameters parameters;
@@ -31,7 +31,7 @@ inline RecordedTrial record(WidenedKind kind, std::uint64_t index) {
   return trial;
 }
 
-/// The random trials that the tests judge: 32 with two phases, 16 with one, 16 open loop.
+/// The random trials that the tests check: 32 with two phases, 16 with one, 16 open loop.
 inline const std::vector<RecordedTrial>& recorded_trials() {
   static const std::vector<RecordedTrial> trials = [] {
     std::vector<RecordedTrial> all;
@@ -45,7 +45,7 @@ inline const std::vector<RecordedTrial>& recorded_trials() {
   return trials;
 }
 
-/// Calls `check` with each trial. Fails where one has not the samples of its moves.
+/// Calls `check` with each trial. Fails if a trial does not have all samples of its moves.
 template <class Check>
 void for_each_trial(Check check) {
   for (const RecordedTrial& trial : recorded_trials()) {

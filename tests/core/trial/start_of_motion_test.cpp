@@ -58,7 +58,7 @@ struct StartedAxis {
     return all;
   }
 
-  /// What the rounding of the counts makes of the torque: one count in the window, and one of the error.
+  /// Effect of count rounding on the torque: one count in the window, and one count of the error.
   double torque_of_a_count() const {
     const loop::CascadeParameters& c = p.controller.blocks.cascade;
     const double count = loop::fine_resolution(p.encoder);

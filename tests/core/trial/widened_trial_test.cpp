@@ -138,7 +138,7 @@ TEST(WidenedMeasures, TellOfTheJerksOfEachMove) {
   });
 }
 
-/// How often the trials show what the tests are about.
+/// Number of trials that show each of the cases that the tests are about.
 std::map<std::string, std::int64_t> sights() {
   std::map<std::string, std::int64_t> seen;
   for_each_trial([&](const RecordedTrial& trial) {

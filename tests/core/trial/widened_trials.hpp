@@ -6,10 +6,10 @@
 
 namespace zerocount::testing {
 
-/// Kinds of random trials with all that a loop can have beside its plant.
+/// Kinds of random trials that use all features a loop can have besides its plant.
 enum class WidenedKind {
-  two_phases,  ///< moves of tens to thousands of counts, by a coarse and a fine law
-  one_phase,   ///< moves of tens of counts, by one law: they arrive, creep and jerk
+  two_phases,  ///< moves of tens to thousands of counts, with a coarse and a fine phase
+  one_phase,   ///< moves of tens of counts with a single phase, which arrive, creep and jerk
   open_loop    ///< torque levels
 };
 

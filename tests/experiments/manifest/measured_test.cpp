@@ -170,7 +170,8 @@ double virgin_torque(const friction::FrictionParameters& contact, double travel)
   return 0.5 * friction::branch_law(contact, 2.0 * travel);
 }
 
-/// The contact has what was measured of the trial, and the file has what the contact has.
+/// Expects that the contact of the trial has the measured values, and that the stored inputs equal those of
+/// the contact.
 void expect_as_measured(const study::Study& study, std::int64_t index, bool secant) {
   const friction::FrictionParameters contact = spring_of(study, 0, index);
   const auto measured = [&](const std::string& key) { return drawn(study, index, "measured." + key); };

@@ -8,7 +8,7 @@ namespace {
 
 const std::vector<std::string> designs_with_worlds{"monte_carlo", "latin_hypercube", "sobol"};
 
-/// With these values of k1, k2 and beta. Of the others inertia and alpha are drawn for each machine, if there
+/// A manifest with these values of k1, k2 and beta. Inertia and alpha are drawn for each machine, if there
 /// are machines, and the position for each trial.
 std::string machines_with(const std::string& k1, const std::string& k2, const std::string& beta) {
   return minimal_manifest(
@@ -28,7 +28,8 @@ std::string machines_in_worlds() {
 const std::vector<std::string> values_of_worlds{"friction.k1", "friction.k2", "friction.beta"};
 const std::vector<std::string> other_values{"plant.inertia", "friction.alpha", "initial.position"};
 
-/// @param worlds 0: none @param machines likewise
+/// A study with this design.
+/// @param worlds number of worlds; 0: none @param machines number of machines; 0: none
 study::Study study_with_worlds(const std::string& text, const std::string& design, int worlds, int machines,
                                int trials, const std::vector<std::string>& more = {}) {
   std::vector<std::string> overrides{"design=" + design, fmt::format("trials={}", trials)};

@@ -7,15 +7,15 @@
 namespace zerocount {
 namespace {
 
-/// The scales of a machine: the numbers of its manifest are about these.
+/// The scales of a machine. The numbers of its manifest are of this order.
 struct Machine {
   std::string_view name;
   std::string_view axis;
   std::string_view encoder;
-  double inertia;      ///< kg m², or kg
-  double move;         ///< rad, or m
-  double bandwidth;    ///< of the loop, rad/s
-  double sample_rate;  ///< Hz
+  double inertia;      ///< inertia, kg m², or mass, kg
+  double move;         ///< length of a move, rad or m
+  double bandwidth;    ///< bandwidth of the loop, rad/s
+  double sample_rate;  ///< sample rate, Hz
 
   double torque() const { return inertia * move * bandwidth * bandwidth; }
 };

@@ -22,7 +22,7 @@ class Plausibility : public testing::Test {
   std::mt19937_64 random_{5};
 };
 
-/// Of the virgin curve, with the default k2, by bisection.
+/// The travel at which the virgin curve with the default k2 reaches `torque`, by bisection.
 double travel_to(double torque, double k1, double beta) {
   double low = 0.0;
   double high = torque / k1;

@@ -18,7 +18,7 @@ struct AgedValue {
   std::string law;
   std::string rate;
   double scale;
-  std::optional<double> number;  ///< of a value that is not drawn
+  std::optional<double> number;  ///< number of a value that is not drawn
 };
 
 const std::vector<AgedValue>& aged_pool() {

@@ -189,7 +189,7 @@ class LowEndOfRandomDistributions : public ::testing::Test {
   double uniform(double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random_);
   }
-  /// Of friction.k1 with this value.
+  /// The low end of friction.k1 in a study that gives it this value.
   static LowEnd low_end_of(const std::string& k1) {
     return low_end(study_of(minimal_manifest("friction: {k1: " + k1 + "}\n")), 0, "friction.k1");
   }

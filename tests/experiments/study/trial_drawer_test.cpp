@@ -93,7 +93,8 @@ void expect_equal(const Study& study, const StudyTrial& drawn, const StudyTrial&
   EXPECT_EQ(bits_of(drawn.parameters.command), bits_of(single.parameters.command));
 }
 
-/// Values of every distribution but that of samples, with random spreads: seven, and that of the target.
+/// A manifest with a value of every distribution except samples, with random spreads: seven values and the
+/// target.
 std::string random_spreads(testing::Draws& draws) {
   const double low = draws.log_uniform(0.01, 1.0), high = low * draws.log_uniform(1.1, 50.0);
   const double mean = draws.uniform(300.0, 900.0), sd = draws.log_uniform(1.0, 200.0);
@@ -134,7 +135,7 @@ const std::string aging_machines =
     "command: {units: si, targets: [{uniform: [-1.0e-4, 1.0e-4]}, 1.0e-4], hold: 0.004}\n"
     "verdict: {dwell: 0.001, window: 0.001}\n";
 
-/// Friction that follows from measured values, of which some differ from contact to contact.
+/// Friction that follows from measured values. Some of these are drawn per contact.
 const std::string measured_friction =
     "friction: {measured: {initial_stiffness: {uniform: [600, 900], per: contact}, final_stiffness: "
     "{uniform: [90, 120]}, breakaway: {uniform: [0.29, 0.31], per: contact}, breakaway_travel: 2.0e-3}}\n";

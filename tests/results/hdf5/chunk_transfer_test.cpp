@@ -79,7 +79,7 @@ void write_whole(const fs::path& path, const Sample& sample, std::size_t threads
   file.close().require_in(path);
 }
 
-/// The same, in pieces that divide chunks: the library encodes them.
+/// Writes the sample in pieces that divide chunks, so that the HDF5 library encodes the chunks.
 void write_pieces(const fs::path& path, const Sample& sample, Draws& draws) {
   hdf5::File file = hdf5::File::create(path);
   {

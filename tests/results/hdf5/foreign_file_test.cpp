@@ -19,7 +19,8 @@ namespace {
 
 class ForeignFile : public ::testing::Test {
  protected:
-  /// A sanitized program reads without a child where it has threads, as it has after writing a file.
+  /// Skips the test in a sanitized program. Such a program reads without a child process if it has threads,
+  /// as it has after writing a file.
   static void require_readers() {
 #ifdef ZEROCOUNT_SANITIZED
     GTEST_SKIP() << "no reader in a sanitized program with threads";

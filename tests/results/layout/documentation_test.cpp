@@ -147,8 +147,8 @@ study::Study study_of(const std::string& text, const std::vector<std::string>& o
   return manifest::parse_study(text, "m.yaml", overrides);
 }
 
-/// Overrides that write each map of `maps` that the manifest has in another order of its keys; empty where it
-/// has none with two keys.
+/// Overrides that write each map of `maps` in the manifest with its keys in another order. Empty if no such
+/// map has two keys.
 std::vector<std::string> shuffled(const std::string& text, const std::vector<std::string_view>& maps,
                                   std::mt19937& random) {
   yaml::Problems problems;

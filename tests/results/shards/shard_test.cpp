@@ -92,7 +92,7 @@ TEST(Shard, WhoseHeadNestsDeeplyIsRefused) {
   EXPECT_THROW(shards::unchecked_header(path), Failure);
 }
 
-/// Its columns may mean something else.
+/// The columns of a shard by another build may have another meaning.
 TEST(Shard, OfAnotherBuildGivesNoTrials) {
   const TemporaryFolder directory;
   const study::Study study = sample_study();
@@ -230,14 +230,14 @@ TEST(MissingRanges, AreTheRowsInNoShard) {
   }
 }
 
-/// What a run does: looks at what is there, and writes the rest as shards.
+/// Completes a study as a run does: finds the existing shards, and writes the missing rows as shards.
 void run_what_is_missing(const std::filesystem::path& directory, const study::Study& study) {
   const shards::ShardSurvey survey = shards::list_shards(directory, study);
   for (const layout::RowRange& range : shards::missing_ranges(survey.shards, layout::all_rows(study)))
     write_sample_shards(directory, study, range, 12);
 }
 
-/// Runs `action` in a process that is killed after `delay`; true where it finished before.
+/// Runs `action` in a process that is killed after `delay`; true if the process finished before.
 template <class Action>
 bool finishes_before(std::chrono::microseconds delay, Action action) {
   const pid_t child = ::fork();

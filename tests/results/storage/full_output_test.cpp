@@ -13,8 +13,8 @@
 #include "tests/support/merged_file.hpp"
 #include "tests/support/test.hpp"
 
-/// Read by the leak sanitizer, where there is one: the HDF5 library does not free everything of a file that
-/// it could not close.
+/// Suppressions that the leak sanitizer reads, if it is linked. The HDF5 library does not free everything of
+/// a file that it could not close.
 extern "C" const char* __lsan_default_suppressions() {
   return "leak:libhdf5";
 }
@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 
 struct Ending {
   int status{0};
-  std::string message;  ///< of the failure, then everything written to stderr until the process has ended
+  std::string message;  ///< message of the failure, followed by everything written to stderr
 };
 
 /// Runs `action` in a process whose files cannot grow beyond `bytes`, as on a full disk.

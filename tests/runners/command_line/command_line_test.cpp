@@ -256,7 +256,7 @@ std::string name_of(const command_line::OptionSpec& option) {
   return option.name.substr(0, option.name.find(','));
 }
 
-/// "--name", with a value where it has one.
+/// The words of an option: "--name", followed by its values, if it takes any.
 std::vector<std::string> given(const command_line::OptionSpec& option) {
   std::vector<std::string> words{"--" + name_of(option)};
   for (std::size_t i = 0; i < option.count && !option.value.empty(); ++i)

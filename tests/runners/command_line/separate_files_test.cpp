@@ -68,7 +68,7 @@ class Words {
   std::string operand_;
 };
 
-/// What the program says of a command line that it refuses with exit code 2; nothing of another one.
+/// The message about a command line that the program refuses with exit code 2; empty for other command lines.
 std::string refusal(const std::vector<std::string>& line) {
   try {
     program::run_command_line(line);
@@ -85,7 +85,7 @@ class SeparateFiles : public ::testing::Test {
     fs::create_directory_symlink(folder_.path(), folder_.path() / "link");
   }
 
-  /// The same place in the folder in different words.
+  /// Different paths of the same file in the folder.
   std::vector<std::string> spellings(const std::string& name) const {
     const fs::path folder = folder_.path();
     return {folder / name, folder / "sub" / ".." / name, folder / "link" / name,

@@ -6,9 +6,10 @@
 namespace zerocount::testing {
 namespace {
 
-/// A spring without creep. The converter ends at 2047 steps, and the middle of the first count that is the
-/// target lies at 29.5 counts: the move ends at its target exactly if k1 is at most
+/// Manifest of a move by 30 counts against a spring without creep. The highest code of the converter is 2047,
+/// and the target count begins at 29.5 counts. So the move reaches its target if and only if k1 is at most
 /// 2047·resolution/(29.5·2π/1620000).
+/// @param probability probability that k1 is larger, with which a trial fails
 std::string spring(double probability) {
   const double spread = std::sqrt(std::log(1.01));
   const double k1 = 110.0 * std::exp(-spread * numerics::normal_quantile(probability));

@@ -96,7 +96,7 @@ struct EncoderNoise {
   double next() const { return deviation > 0.0 ? deviation * draw->normal() : 0.0; }
 };
 
-/// A PI control of one sample of delay moves the machine by so many counts. Whether it ends at zero error.
+/// Whether a move by `target` counts ends at zero error, under a PI control with a delay of one sample.
 bool succeeds(ElementMachine machine, const EncoderNoise& noise, const Gains& gains, std::int64_t target) {
   const double torque_per_code = loop::DacParameters{}.resolution;
   const auto samples = static_cast<int>(std::lround(hold / sample_time));
@@ -126,18 +126,18 @@ const std::string guesses =
     "  lambda: {lognormal: {median: 10, cv: 0.3}}, breakaway: {uniform: [0.25, 0.4]}}\n"
     "encoder: {fine: 1620000}\ncommand: {targets: [0]}\ninitial: {encoder_phase: {uniform: [0, 1]}}\n";
 
-/// The moves of a machine beside the prediction.
+/// Comparison of a machine's moves with their prediction.
 struct Comparison {
-  bool consistent;    ///< by the rank test, at 5 %
+  bool consistent;    ///< result of the rank test at the level 5 %
   bool misfit;        ///< `identify` reports a lack of fit
   double difference;  ///< predicted − measured success rate
 };
 
-/// Comparisons of several machines.
+/// Summary of the comparisons of several machines.
 struct Agreement {
   int consistent{0};
   int misfits{0};
-  double difference{0.0};  ///< root mean square
+  double difference{0.0};  ///< root mean square of the differences
 };
 
 class RoundTrip : public ProgramTest {
@@ -165,7 +165,7 @@ class RoundTrip : public ProgramTest {
     return table;
   }
 
-  /// The comparison of the machine's moves with what is predicted from its record.
+  /// Compares the machine's moves with the prediction from its record.
   Comparison comparison(const trial::TrialParameters& machine, const Gains& gains, double deviation,
                         Draws& draw) {
     const EncoderNoise noise{deviation, &draw};

@@ -19,7 +19,7 @@ namespace {
 
 /// A fenced block of a page.
 struct Block {
-  std::string language;  ///< yaml, sh, or none for what the commands before it print
+  std::string language;  ///< yaml or sh; empty for the output of the commands before it
   std::string text;
 };
 

@@ -67,10 +67,10 @@ EstimatorSettings settings_of(const ClosedForm& one, std::uint64_t seed) {
   return {.space = trial_space(one.coordinates, {}), .seed = seed};
 }
 
-/// Estimates with the seeds from 1 on, all of which end with bounds as narrow as asked.
+/// Summary of repeated estimates with the seeds 1, 2, …, all of which end with bounds as narrow as asked.
 struct Repetitions {
-  int held{0};       ///< bounds that hold the probability
-  double mean{0.0};  ///< of the estimates
+  int held{0};       ///< number of estimates whose bounds hold the probability
+  double mean{0.0};  ///< mean of the estimates
   std::int64_t most_trials{0};
 };
 
@@ -127,12 +127,12 @@ TEST(RareEstimator, TakesTheScoreThatLeads) {
   EXPECT_TRUE(state.searches.back().reached);
 }
 
-/// Rows of a table: coordinate `coordinate` chooses one of so many.
+/// Rows of a table: coordinate `coordinate` chooses one of `count` rows.
 randomness::DiscreteDraw rows(std::size_t coordinate, std::int64_t count) {
   return {.name = "rows", .direction = {{coordinate, 1.0}}, .rows = count};
 }
 
-/// A choice of so many entries in no order, each of its own value.
+/// A choice of `count` entries in no order, all with different values.
 randomness::DiscreteDraw scattered(std::size_t coordinate, std::int64_t count) {
   randomness::DiscreteDraw draw = rows(coordinate, count);
   for (std::int64_t row = 0; row < count; ++row) {
@@ -142,7 +142,7 @@ randomness::DiscreteDraw scattered(std::size_t coordinate, std::int64_t count) {
   return draw;
 }
 
-/// A choice of so many entries that are 0, but one.
+/// A choice of `count` entries, of which one is 1 and the others are 0.
 randomness::DiscreteDraw one_of(std::size_t coordinate, std::int64_t count) {
   randomness::DiscreteDraw draw = rows(coordinate, count);
   draw.values_of_rows.assign(static_cast<std::size_t>(count), 0);

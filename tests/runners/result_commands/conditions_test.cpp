@@ -14,9 +14,9 @@ const std::vector<std::string> names_of_conditions{"empty", "loaded"};
 /// A study with two conditions ("both"), and the studies of each condition alone.
 struct Kind {
   std::string name;
-  std::string head;   ///< of the manifest, without trials, plant and friction
-  int trials;         ///< under each condition
-  std::string goals;  ///< empty: it is judged by success
+  std::string head;   ///< the manifest without trials, plant and friction
+  int trials;         ///< number of trials under each condition
+  std::string goals;  ///< goals of the manifest; empty: the study is judged by success
 };
 
 const std::vector<Kind> kinds_with_conditions{
@@ -66,7 +66,7 @@ class ConditionsOfResults : public ::testing::Test {
     run({"run", name + ".yaml", "-o", name + ".h5", "--quiet"});
     run({"run", name + ".yaml", "-o", name + "-new.h5", "--quiet", "--set", "controller.kp=1.0e-4"});
   }
-  /// What the program says, whatever its verdict.
+  /// The program's output, whatever its verdict.
   static std::string run(const std::vector<std::string>& words) {
     const ProgramResult result = zerocount_program(words, folder->path());
     const std::set<int> expected{0, 1, 3};  // said, missed or worse, undecided

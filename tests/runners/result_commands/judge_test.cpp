@@ -323,7 +323,7 @@ class QuestionOfAStudy : public ::testing::Test {
   static ProgramResult run(const std::vector<std::string>& words) {
     return zerocount_program(words, folder->path());
   }
-  /// What a command says of the study NAME, which stands for @ in its words.
+  /// Result of a command about the study `name`, which replaces @ in its words.
   static ProgramResult say(std::vector<std::string> words, const std::string& name) {
     for (std::string& word : words) {
       if (const std::size_t at = word.find('@'); at != std::string::npos) word.replace(at, 1, name);

@@ -17,7 +17,7 @@ class Nightly : public ::testing::Test {
                   "# name manifest settings\nsmall small.yaml trials=20\n\nother small.yaml seed=7\n");
   }
 
-  /// Exit code of a script of the job; what it said is in `said_`.
+  /// Runs a script of the job, stores its output in `said_`, and returns its exit code.
   int script(const std::string& name, const std::string& more = "") {
     const std::string command = fmt::format(
         "{}/{} --root {} --program {} --studies {} --baselines {} {} > {} 2>&1", ZEROCOUNT_NIGHTLY, name,

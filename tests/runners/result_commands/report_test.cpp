@@ -30,7 +30,7 @@ TEST_F(ReportCommand, IsTheSamePageEveryTime) {
   EXPECT_EQ(folder->read("one.html"), folder->read("two.html"));
 }
 
-/// The page says what the gate says with the same margins.
+/// The page gives the same verdict as the gate with the same margins.
 TEST_F(ReportCommand, ComparesByTheMarginsOfTheGate) {
   folder->write("gate.yaml", "require: success_rate ≥ 0.9999\n");
   EXPECT_EQ(run({"report", "a.h5", "-o", "m.html", "--margins", "gate.yaml"}).code, 2);
@@ -63,7 +63,7 @@ TEST_F(ReportCommand, PlotDrawsAFigure) {
   EXPECT_EQ(folder->read("a.png").substr(1, 3), "PNG");
 }
 
-/// With the same friction in all trials, check has no ranges but the margins of the trial that is drawn.
+/// If all trials have the same friction, `check` prints no ranges, but the margins of the drawn trial.
 TEST_F(ReportCommand, TheBodePlotHasTheMarginsOfCheck) {
   folder->write("margins.yaml",
                 "zerocount: 1\nname: margins\nseed: 1\ntrials: 2\ncommand: {targets: [3], hold: 0.15}\n"

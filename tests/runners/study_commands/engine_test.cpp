@@ -118,7 +118,7 @@ TEST_F(EngineOption, OfAFinishedFileIsNotOverruled) {
   EXPECT_EQ(program({"run", "study.yaml", "-o", "out.h5", "--engine", "batch"}).code, 0);
 }
 
-/// As with the shards of another study.
+/// The engine of an unfinished run cannot be changed: its shards are refused like those of another study.
 TEST_F(EngineOption, OfAnUnfinishedRunIsNotOverruled) {
   folder_.write("study.yaml", small_manifest(20));
   for (const char* engine : {"batch", "reference"}) {

@@ -14,21 +14,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// How a call fails.
+/// A failure of a system call.
 struct Fault {
-  std::string error;  ///< see failing_calls.cpp
+  std::string error;  ///< error number as text; see failing_calls.cpp
   bool lasting{false};
 };
 
 const std::array<Fault, 4> faults{Fault{std::to_string(ENOSPC), false}, Fault{std::to_string(EIO), true},
                                   Fault{std::to_string(EIO), false}, Fault{std::to_string(ENOSPC), true}};
 
-/// A command that writes, and what it writes, in the test's folder.
+/// A command that writes files in the test's folder.
 struct Writer {
   std::vector<std::string> arguments;
   std::vector<std::string> outputs;
-  std::string before;   ///< what stands in each output before; nothing if it is empty
-  bool resumes{false};  ///< what it left behind is used by the next attempt
+  std::string before;   ///< contents of each output before the command; empty: no file
+  bool resumes{false};  ///< the next attempt uses the files that a failed one left behind
 };
 
 /// The content of an output that must be right: the datasets of a results file, whose attributes tell the
@@ -121,7 +121,8 @@ class FailingCalls : public ::testing::Test {
     for (const std::string& output : writer.outputs) EXPECT_TRUE(is_right(output)) << output;
   }
 
-  /// Fails the calls one by one, every `step`-th of them, each in `ways` of the ways, which take turns.
+  /// Fails every `step`-th of the calls, one at a time, each with `ways` of the faults, which are used in
+  /// turn.
   void fail_calls(const Writer& writer, const std::string& calls, std::span<const Fault> faults,
                   std::size_t ways, long step = 1) {
     const long count = count_calls(writer, calls);

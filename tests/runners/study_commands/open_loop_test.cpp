@@ -146,7 +146,7 @@ constexpr const char* slow_stage =
     "verdict: {dwell: 0.02, window: 0.05}\n";
 constexpr std::int64_t moves_of_stage = 240;
 
-/// What the recorded moves say, counted here.
+/// Counts of recorded moves, made independently by the test.
 struct Recorded {
   std::int64_t off_target{0};
   std::int64_t still_falling{0};

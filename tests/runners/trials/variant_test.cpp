@@ -38,7 +38,7 @@ const char* const manifests[] = {
      "goal: {band: 1, within: 0.15, moves: 0.9}\n"),
 };
 
-/// The study whose manifest has these values; nothing where they are refused.
+/// The study whose manifest has these values; empty if they are refused.
 std::optional<study::Study> parsed(const study::Study& study, const std::vector<std::string>& names,
                                    const std::vector<double>& values, std::string& refusal) {
   std::vector<std::string> overrides;

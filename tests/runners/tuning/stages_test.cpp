@@ -131,7 +131,7 @@ TEST(TuningStages, AMissedGoalIsUnreachableOnlyTogetherWithTheSearch) {
   }
 }
 
-/// An extra that takes so many trials; beyond 4000 it may take fewer.
+/// A made-up extra that needs `trials` trials; above 4000 it may take fewer.
 template <std::int64_t trials, bool applies = true>
 Extra made_up(std::string_view name) {
   return {.name = name,

@@ -65,7 +65,8 @@ std::string text_of(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// What the program of a figure writes. @param form of drawing_program
+/// Output of the program of a figure.
+/// @param form argument `form` of drawing_program()
 std::string drawn_by_node(const Figure& figure, const char* form) {
   const testing::TemporaryFolder folder;
   std::ofstream(folder / "draw.js") << drawing_program(figure, form);

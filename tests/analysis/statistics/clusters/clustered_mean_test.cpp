@@ -358,8 +358,8 @@ TEST(ClusteredProportion, MissesNeverRaiseTheLowerBoundAndHitsNeverLowerTheUpper
   }
 }
 
-/// Clusters of so many events, of which the proportion `weak` hits with `weak_rate`, the others with
-/// `others_rate`.
+/// Clusters of `size` events each. A proportion `weak` of the clusters hits with the probability `weak_rate`,
+/// the others with `others_rate`.
 struct Mixture {
   std::int64_t clusters;
   std::int64_t size;
@@ -368,7 +368,7 @@ struct Mixture {
   double others_rate{1.0};
 };
 
-/// How often the lower bound of the hits of all clusters is not above the truth.
+/// Coverage of the lower bound of the hit rate: proportion of studies in which it is not above the true rate.
 double coverage_of(const Mixture& mixture, int studies, std::uint64_t seed = 11) {
   std::mt19937_64 random(seed);
   std::binomial_distribution<std::int64_t> number_of_weak(mixture.clusters, mixture.weak);
@@ -415,7 +415,7 @@ double wrong_in_mixtures(std::int64_t clusters, std::int64_t size, int studies, 
   return wrong;
 }
 
-/// One proportion in ten, and three standard errors of what is counted in so many studies.
+/// Upper limit of the proportion of wrong bounds: 0.1 plus three standard errors in `studies` studies.
 double most_wrong(int studies) {
   return 0.1 + 3.0 * std::sqrt(0.1 * 0.9 / studies);
 }

@@ -23,7 +23,7 @@ ExactSum squares_of(const std::vector<double>& values) {
   return sum;
 }
 
-/// Of both signs, with exponents up to ±`range`.
+/// Random values of both signs with binary exponents up to ±`range`.
 std::vector<double> random_values(testing::Draws& draws, int range) {
   std::vector<double> values(60);
   for (double& value : values)

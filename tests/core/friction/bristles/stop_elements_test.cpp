@@ -65,7 +65,8 @@ TEST(StopElements, SumConvergesToTheSpringQuadratically) {
   }
 }
 
-/// The elongation at which the stop elements carry `torque`, coming from where they are.
+/// The elongation at which the stop elements carry `torque`, reached monotonically from their present
+/// elongation.
 double elongation_at(const StopElements& stops, double from, double torque) {
   const double side = torque > stops.torque() ? 1.0 : -1.0;
   const auto reached = [&](double x) {

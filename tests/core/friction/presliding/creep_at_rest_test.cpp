@@ -34,13 +34,13 @@ class Draws {
 struct CreepingRotor {
   motion::PlantParameters plant;
   FrictionParameters contact;
-  SpringBranch branch;  ///< from xr = 0
+  SpringBranch branch;  ///< branch that starts at xr = 0
   double torque;        ///< u, N m
   double sign;
   double start;      ///< xs at t = 0, rad
   double hardening;  ///< xh at t = 0, rad
   CreepAtRest creep;
-  double bound;  ///< of the error of θ, rad
+  double bound;  ///< computed bound of the error of θ, rad
 };
 
 Real branch_torque(const SpringBranch& b, Real x) {
@@ -48,7 +48,7 @@ Real branch_torque(const SpringBranch& b, Real x) {
   return b.torque + b.sign * (b.k1 * travel - b.softening_torque * std::expm1(-b.softening_rate * travel));
 }
 
-/// Where the branch has the torque.
+/// The elongation at which the branch has the torque, by Newton's method from `near`.
 Real branch_elongation(const SpringBranch& b, Real torque, Real near) {
   Real x = near;
   for (int i = 0; i < 60; ++i) {

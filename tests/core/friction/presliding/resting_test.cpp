@@ -25,7 +25,7 @@ PreslidingPlant plant_of(const trial::TrialParameters& machine) {
 
 struct Hold {
   double torque;    ///< N m
-  double duration;  ///< s
+  double duration;  ///< duration of the hold, s
 };
 
 /// Torques that the hook withstands, each held until the oscillation has ended.
@@ -73,7 +73,8 @@ TEST(PlantAtRest, IsWhereTheFullEquationsHaveIt) {
   EXPECT_LT(worst, 3e-8);
 }
 
-/// For as long as the creep lasts: the closed form goes on from one rest, and the judge integrates.
+/// The agreement lasts as long as the creep: the closed form continues from one rest, and the judge
+/// integrates.
 TEST(PlantAtRest, StaysWithTheFullEquationsForSeconds) {
   double worst = 0.0;
   for (std::uint64_t index = 0; index < 6; ++index) {
@@ -97,7 +98,7 @@ TEST(PlantAtRest, StaysWithTheFullEquationsForSeconds) {
   EXPECT_LT(worst, 3e-8);
 }
 
-/// Which reversal is the last one to be remembered does not depend on when it is asked.
+/// The set of remembered reversals does not depend on how a hold is divided into pieces.
 TEST(PlantAtRest, RemembersTheSameReversalsInPiecesOfAnyLength) {
   int holds = 0;
   std::int64_t deepest = 0;

@@ -167,7 +167,7 @@ class MeasuredSpring : public testing::Test {
     return std::uniform_real_distribution<double>(low, high)(random_);
   }
   double log_uniform(double low, double high) { return low * std::pow(high / low, uniform(0, 1)); }
-  /// In (0, 1), near 0 or near 1 as often as between.
+  /// A random number in (0, 1), as often near 0 or near 1 as in between.
   double fraction() {
     const double distance = log_uniform(1e-9, 0.5);
     return uniform(0, 1) < 0.5 ? distance : 1.0 - distance;

@@ -222,7 +222,7 @@ std::vector<double> output_of(const LinearChain& stages, const std::vector<Input
   return torque;
 }
 
-/// From rest: the first sample is zero throughout.
+/// Random inputs that start from rest: all values of the first sample are zero.
 std::vector<Input> random_inputs(std::mt19937_64& random, std::size_t samples) {
   std::normal_distribution<double> normal;
   std::vector<Input> inputs(1);

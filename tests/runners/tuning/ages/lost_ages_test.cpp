@@ -49,7 +49,7 @@ double largest_k1() {
   return numerics::bisect({100.0, 1000.0}, meets, numerics::within(0.01)).holds;
 }
 
-/// The age at which k1 exceeds this limit in so many machines that 80 % remain.
+/// The age at which k1 exceeds `limit` in 20 % of the machines, so that 80 % remain.
 double true_age(double limit) {
   return 1.0e6 / rate_of_k1 * std::log(limit / (50.0 + 0.8 * 200.0));
 }

@@ -13,18 +13,20 @@
 
 namespace zerocount::tuning {
 
-/// A problem of parameters in [0, 1], two unless `reliable` and `fast` have more, with a known truth: the
-/// rate of the goal falls with the distance from `reliable`, the settling time with that from `fast`.
+/// A tuning problem with a known solution. The parameters are in [0, 1]; their number is the size of
+/// `reliable` and `fast`. The success rate falls with the distance from `reliable`; the settling time rises
+/// with the distance from `fast`.
 struct MadeUpProblem {
   std::uint64_t seed{1};
   double highest_rate{0.99};
-  double fall{0.4};  ///< of the rate per squared distance
+  double fall{0.4};  ///< decrease of the rate per squared distance
   Values reliable{0.3, 0.6};
   Values fast{0.7, 0.4};
-  Values widths{};  ///< of the peak of the rate, which has long slopes, where `fall` is not to be used
+  /// Widths of a peak of the rate with heavy tails, used in place of `fall`; empty: `fall` is used.
+  Values widths{};
   study::Goal goal{.within = 1.0, .moves = 0.95};
-  mutable std::unordered_map<std::uint64_t, std::pair<double, double>>
-      machines{};  ///< luck and slowness, by unit
+  /// Machine → its luck and slowness.
+  mutable std::unordered_map<std::uint64_t, std::pair<double, double>> machines{};
 
   static double squared_distance(const Values& a, const Values& b) {
     double sum = 0.0;
@@ -53,7 +55,8 @@ struct MadeUpProblem {
            std::cos(2.0 * std::numbers::pi * uniform(stream + 1, unit, at));
   }
 
-  /// The result of a unit: half of its luck is the machine's, the same at all points, half that of the point.
+  /// The result of a machine at a point. Half of its luck belongs to the machine and is the same at all
+  /// points; the other half belongs to the point.
   UnitResult result(const Values& at, std::uint64_t unit) const {
     auto [machine, is_new] = machines.try_emplace(unit);
     if (is_new) {

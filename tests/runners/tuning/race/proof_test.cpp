@@ -204,7 +204,7 @@ TEST(Candidate, CriterionCountsMovesThatNeverSettleAsLate) {
 
 TEST(Candidate, OneThatMeetsTheGoalIsBetterThanAFasterOne) {
   const Aim aim = aim_with({.moves = 0.9});
-  /// Of 1000 moves, all of which settle at this time.
+  /// The estimate from 1000 moves, which all settle at the time `time`; `met` of them meet the goal.
   const auto estimate = [&](int met, double time) {
     std::vector<ClaimResult> units;
     for (int i = 0; i < 1000; ++i) units.push_back({1, i < met ? 1 : 0, {time}});

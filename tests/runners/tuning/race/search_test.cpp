@@ -168,7 +168,7 @@ TEST(Search, EndsWhereAllValuesAreTried) {
   EXPECT_LE(result.trials, 4 * 512);
 }
 
-/// A control of which some blocks are 0, and its tuned values.
+/// A control some of whose blocks are 0, with its tuned values.
 struct TunedControl {
   std::vector<std::size_t> zeros;
   TunedValues values;

@@ -140,7 +140,7 @@ Likes::Likes(LikeBy by, const MoveLabels& baseline, std::size_t moves, const Mov
     const MoveLabel label = baseline.of(move);
     const auto [at, is_new] = classes_.try_emplace(key_of(label, 1.0, false), names_.size());
     if (is_new) {
-      names_.push_back(name_of(label));
+      names_.push_back(name_with_target(label, 1.0));
       directions_.push_back(label.direction);
     }
     if (directions_[at->second] != label.direction) directions_[at->second] = 0;
@@ -170,11 +170,15 @@ std::optional<std::size_t> Likes::of_own(const MoveLabel& label) const {
 }
 
 std::string Likes::name_of(const MoveLabel& label) const {
+  return name_with_target(label, later_scale_);
+}
+
+std::string Likes::name_with_target(const MoveLabel& label, double target_scale) const {
   std::string name;
   if (uses_number()) name = label.number ? fmt::format("move {}", *label.number) : "move without a number";
   if (uses_target()) {
     if (!name.empty()) name += ", ";
-    name += label.target ? fmt::format("target {:.9g}", *label.target) : "no target";
+    name += label.target ? fmt::format("target {:.9g}", *label.target * target_scale) : "no target";
     if (label.target && !unit_.empty()) name += " " + unit_;
   }
   if (by_ == LikeBy::direction) name = label.direction == 0 ? "no direction" : "moves";

@@ -67,6 +67,7 @@ class Likes {
   std::optional<std::size_t> of_own(const MoveLabel& label) const;
   /// "move 3", "target 20 count upwards"
   const std::string& name(std::size_t like) const { return names_[like]; }
+  /// The name of a later move, with its target in the unit of the baseline.
   std::string name_of(const MoveLabel& label) const;
 
   /// The value in a form in which moves of all classes can be compared. A measure that is mirrored with the
@@ -78,6 +79,7 @@ class Likes {
  private:
   using Key = std::tuple<std::int64_t, double, int>;
   Key key_of(const MoveLabel& label, double target_scale, bool whole) const;
+  std::string name_with_target(const MoveLabel& label, double target_scale) const;
 
   LikeBy by_;
   std::string unit_{};       ///< Unit of the baseline's targets.

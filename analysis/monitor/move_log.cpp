@@ -152,6 +152,33 @@ std::string expected_of(const MonitoredMeasure& measure) {
   return expected.empty() ? "a number, or nothing" : std::string(expected);
 }
 
+/// Name of the SI unit in which a log keeps values of this unit: "m" for "mm". Units without one stay.
+std::string_view si_name(std::string_view unit) {
+  using enum text::Dimension;
+  const std::optional<text::Unit> known = text::unit_named(unit);
+  if (!known) return unit;
+  switch (known->dimension) {
+    case time:
+      return "s";
+    case torque:
+      return "N m";
+    case angle:
+      return "rad";
+    case force:
+      return "N";
+    case length:
+      return "m";
+    case current:
+      return "A";
+    case voltage:
+      return "V";
+    case count:
+    case proportion:
+      break;
+  }
+  return unit;
+}
+
 }  // namespace
 
 std::optional<MonitoredMeasure> measure_named(std::string_view name) {
@@ -419,7 +446,7 @@ void MoveLog::note_label(std::size_t cell, const ColumnHead& head) {
   labels.numbered = label_cells_.move.has_value();
   labels.targeted = label_cells_.target.has_value();
   if (label_cells_.target != cell) return;
-  labels.target_unit = head.unit;
+  labels.target_unit = si_name(head.unit);
   target_factor_ = si_factor(head.unit);
 }
 

@@ -22,11 +22,11 @@ struct MoveLabel {
 
 /// The labels of the moves of a log, or of a simulated study.
 struct MoveLabels {
-  bool numbered{false};       ///< Whether moves have numbers.
-  bool targeted{false};       ///< Whether moves have targets.
-  std::string target_unit{};  ///< Unit of the targets as the log or the study states it; empty: not stated.
-  double count{0.0};          ///< Size of a count in `si_unit`; 0: not known, as for every log.
-  std::string si_unit{};      ///< SI unit of positions on the axis; empty unless `count` is known.
+  bool numbered{false};            ///< Whether moves have numbers.
+  bool targeted{false};            ///< Whether moves have targets.
+  std::string target_unit{};       ///< Unit of the targets, an SI unit or "count"; empty: not stated.
+  double count{0.0};               ///< Size of a count in `si_unit`; 0: not known, as for every log.
+  std::string si_unit{};           ///< SI unit of positions on the axis; empty unless `count` is known.
   std::vector<MoveLabel> moves{};  ///< [move] Labels; empty if moves have neither numbers nor targets.
 
   MoveLabel of(std::size_t move) const { return moves.empty() ? MoveLabel{} : moves[move]; }

@@ -483,6 +483,8 @@ TEST(Likes, KnowTargetsInOtherUnits) {
   MachineMonitor machine = watched(in_mm, in_m);
   EXPECT_EQ(machine.likes().by(), monitor::LikeBy::target);
   EXPECT_EQ(machine.unlike(), 0);
+  // A target is named in the unit in which it is kept.
+  EXPECT_EQ(machine.likes().name_of({.target = 0.0003, .direction = 1}), "target 0.0003 m upwards");
   std::string in_counts = in_m;
   in_counts.replace(0, 10, "target [count]");
   EXPECT_THROW(watched(in_mm, in_counts), Failure);

@@ -47,14 +47,14 @@ double value_of(Aspect aspect, double rank) {
 /// Features of moves, by their ranks among the values of the unchanged machines.
 class Features {
  public:
-  Features(const std::vector<MachineMoves>& machines, std::size_t measures) : sorted_(measures) {
-    for (const MachineMoves& moves : machines)
+  Features(const std::vector<MoveValues>& machines, std::size_t measures) : sorted_(measures) {
+    for (const MoveValues& moves : machines)
       for (std::size_t i = 0; i < moves.size(); ++i) sorted_[i % measures].push_back(moves[i]);
     for (std::vector<double>& values : sorted_) std::ranges::sort(values);
   }
 
   /// [feature, move] Features of the moves.
-  Matrix of(const MachineMoves& moves, const std::vector<Feature>& features) const {
+  Matrix of(const MoveValues& moves, const std::vector<Feature>& features) const {
     const std::size_t measures = sorted_.size();
     const std::size_t count = moves.size() / measures;
     Matrix values(features.size(), count);
@@ -212,9 +212,9 @@ struct Statistic {
 };
 
 std::vector<Matrix> features_of(const Features& features, const std::vector<Feature>& wanted,
-                                const std::vector<MachineMoves>& machines) {
+                                const std::vector<MoveValues>& machines) {
   std::vector<Matrix> all;
-  for (const MachineMoves& moves : machines) all.push_back(features.of(moves, wanted));
+  for (const MoveValues& moves : machines) all.push_back(features.of(moves, wanted));
   return all;
 }
 
@@ -332,12 +332,12 @@ double part_tied(const Eigen::MatrixXd::ConstRowXpr& row) {
 }
 
 /// Number of machines whose differences the unchanged moves show; 0 if all moves belong to one machine.
-std::size_t differing_machines(const std::vector<MachineMoves>& unchanged) {
+std::size_t differing_machines(const std::vector<MoveValues>& unchanged) {
   return unchanged.size() < 2 ? 0 : unchanged.size();
 }
 
 /// The features that are used; those of the most informative measures come first.
-std::vector<Feature> telling_features(const std::vector<MachineMoves>& unchanged, std::size_t measures) {
+std::vector<Feature> telling_features(const std::vector<MoveValues>& unchanged, std::size_t measures) {
   constexpr std::size_t most = 16;
   constexpr std::size_t most_measures = 8;
   constexpr std::size_t machines_of_feature = 4;
@@ -346,8 +346,8 @@ std::vector<Feature> telling_features(const std::vector<MachineMoves>& unchanged
   const std::size_t differing = differing_machines(unchanged);
   const std::size_t limit =
       differing == 0 ? most : std::clamp<std::size_t>(differing / machines_of_feature, 2, most);
-  MachineMoves all;
-  for (const MachineMoves& moves : unchanged) all.insert(all.end(), moves.begin(), moves.end());
+  MoveValues all;
+  for (const MoveValues& moves : unchanged) all.insert(all.end(), moves.begin(), moves.end());
   const Features features(unchanged, measures);
   std::vector<Feature> found;
   std::vector<Vector> basis;  // orthonormal
@@ -396,10 +396,10 @@ void set_probabilities(std::vector<Fit>& fits) {
 }
 
 /// Whether the moves `these` are the first moves of `those`.
-bool is_beginning_of(const std::vector<MachineMoves>& these, const std::vector<MachineMoves>& those) {
+bool is_beginning_of(const std::vector<MoveValues>& these, const std::vector<MoveValues>& those) {
   if (these.size() > those.size()) return false;
   return std::ranges::equal(
-      these, std::span(those).first(these.size()), [](const MachineMoves& some, const MachineMoves& all) {
+      these, std::span(those).first(these.size()), [](const MoveValues& some, const MoveValues& all) {
         return some.size() <= all.size() && std::ranges::equal(some, std::span(all).first(some.size()));
       });
 }
@@ -410,12 +410,12 @@ ChangeExplanation unknown_because(std::string reason) {
 
 }  // namespace
 
-ChangeExplanation explain_change(std::span<const ChangeCandidate> candidates, const MachineMoves& observed,
+ChangeExplanation explain_change(std::span<const ChangeCandidate> candidates, const MoveValues& observed,
                                  std::size_t measures) {
   if (candidates.empty()) return unknown_because("no parameter of the study can be changed");
   if (observed.size() < min_moves_after * measures)
     return unknown_because(fmt::format("there are fewer than {} moves", min_moves_after));
-  const std::vector<MachineMoves>& same = unchanged_of(candidates.front()).machines;
+  const std::vector<MoveValues>& same = unchanged_of(candidates.front()).machines;
   const std::vector<Feature> wanted = telling_features(same, measures);
   if (wanted.empty()) return unknown_because("no measure differs between most simulated moves");
   const Features features(same, measures);

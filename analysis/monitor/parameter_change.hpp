@@ -9,7 +9,7 @@
 namespace zerocount::monitor {
 
 /// Moves of one machine: the values of `measures` measures, move after move.
-using MachineMoves = std::vector<double>;
+using MoveValues = std::vector<double>;
 
 /// Kind of a parameter's change.
 enum class ChangeKind {
@@ -21,7 +21,7 @@ enum class ChangeKind {
 /// change may contain only the first moves of each.
 struct SimulatedChange {
   double change{1.0};  ///< Factor, or amount in the unit of the parameter.
-  std::vector<MachineMoves> machines;
+  std::vector<MoveValues> machines;
 };
 
 /// A parameter that may have changed.
@@ -120,7 +120,7 @@ inline constexpr std::size_t min_moves_after = 20;
 /// one value in 80 % of the moves. There are at most 16 features, and one for each four machines that differ.
 /// @param observed the moves of the machine @param measures number of measures of a move, the most telling
 /// first
-ChangeExplanation explain_change(std::span<const ChangeCandidate> candidates, const MachineMoves& observed,
+ChangeExplanation explain_change(std::span<const ChangeCandidate> candidates, const MoveValues& observed,
                                  std::size_t measures);
 
 }  // namespace zerocount::monitor

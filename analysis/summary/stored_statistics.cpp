@@ -62,8 +62,8 @@ void add_machines(layout::GroupCounts& stored, const measures::PointSummary& poi
 
 /// Adds the proportion of machines of a point that meet the goal at each age, and the life of each machine.
 /// @param study study with a claim
-void add_machines(layout::GroupCounts& ages, layout::GroupCounts& machines,
-                  const measures::PointSummary& point, const study::Study& study) {
+void add_lives(layout::GroupCounts& ages, layout::GroupCounts& machines, const measures::PointSummary& point,
+               const study::Study& study) {
   if (ages.statistics.empty()) {
     ages.statistics = {
         {"machines", "1", "proportion of machines that meet the goal at the age under every condition", {}},
@@ -105,7 +105,7 @@ void add_counts(layout::StoredStatistics& stored, const measures::PointSummary& 
   const auto of_age = static_cast<std::size_t>(study::conditions_of_age(study));
   add_groups(stored.groups["age"], point, std::ssize(study.ages.at), &CellCounts::by_condition,
              [of_age](std::size_t turn) { return turn / of_age; });
-  if (!study.goals.empty()) add_machines(stored.groups["age"], stored.groups["machine"], point, study);
+  if (!study.goals.empty()) add_lives(stored.groups["age"], stored.groups["machine"], point, study);
 }
 
 /// Adds the statistics of the next points. @param first number of the first of these points

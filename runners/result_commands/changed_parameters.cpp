@@ -19,7 +19,7 @@ namespace zerocount::result_commands {
 namespace {
 
 using monitor::ChangeKind;
-using Machines = std::vector<monitor::MachineMoves>;
+using Machines = std::vector<monitor::MoveValues>;
 
 constexpr std::int64_t max_simulated_machines = 64;
 constexpr std::int64_t pilot_trials = 16;  ///< Trials per change; enough to see whether it acts.
@@ -131,7 +131,7 @@ class Simulations {
     const std::int64_t count = machines_.trials();
     const auto values = trials::results_of(
         count, trials::block_for_lanes(count), draw, of_.effort, [&](const trial::TrialOutcome& outcome) {
-          monitor::MachineMoves moves;
+          monitor::MoveValues moves;
           for (const trial::MoveOutcome& move : outcome.moves)
             for (const WatchedField& one : of_.watched)
               moves.push_back(monitor::ranked_value(one.measure, layout::value_of(*one.field, move)));
@@ -139,7 +139,7 @@ class Simulations {
         });
     Machines machines(static_cast<std::size_t>(machines_.machines));
     for (std::size_t i = 0; i < values.size(); ++i) {
-      monitor::MachineMoves& machine = machines[i / static_cast<std::size_t>(machines_.trials_of_machine)];
+      monitor::MoveValues& machine = machines[i / static_cast<std::size_t>(machines_.trials_of_machine)];
       machine.insert(machine.end(), values[i].begin(), values[i].end());
     }
     return machines;
@@ -168,7 +168,7 @@ class RanksAmongLikes {
 
   bool knows(std::size_t like) const { return !sorted_[place_of(like, 0)].empty(); }
 
-  void replace(monitor::MachineMoves& moves, const std::vector<std::size_t>& likes) const {
+  void replace(monitor::MoveValues& moves, const std::vector<std::size_t>& likes) const {
     if (likes_.count() < 2) return;
     for (std::size_t i = 0; i < moves.size(); ++i) {
       const std::size_t like = likes[i / watched_.size()];
@@ -206,7 +206,7 @@ monitor::ChangeExplanation Simulations::explained(std::vector<monitor::ChangeCan
 
   std::vector<std::int64_t> numbers;  // in the log, from 1, of the moves that have a like
   std::vector<std::size_t> likes_of_log;
-  monitor::MachineMoves observed;
+  monitor::MoveValues observed;
   for (std::size_t move = 0; move < static_cast<std::size_t>(of_.log.moves); ++move) {
     const std::optional<std::size_t> like = of_.likes.of(of_.log.labels.of(move));
     if (!like || !ranks.knows(*like)) continue;

@@ -18,15 +18,15 @@ class Machines {
  public:
   explicit Machines(std::uint64_t seed, double spread) : seed_(seed), spread_(spread) {}
 
-  std::vector<MachineMoves> at(const Slopes& slopes, double factor, int machines, int moves) const {
-    std::vector<MachineMoves> all;
+  std::vector<MoveValues> at(const Slopes& slopes, double factor, int machines, int moves) const {
+    std::vector<MoveValues> all;
     for (int machine = 0; machine < machines; ++machine)
       all.push_back(moves_of(slopes, factor, machine, moves, 0));
     return all;
   }
   /// @param width standard deviation of a move of one machine
-  MachineMoves moves_of(const Slopes& slopes, double factor, int machine, int moves, int part,
-                        double width = 1.0) const {
+  MoveValues moves_of(const Slopes& slopes, double factor, int machine, int moves, int part,
+                      double width = 1.0) const {
     std::mt19937_64 own(seed_ + 1000003ULL * static_cast<std::uint64_t>(machine));
     std::array<double, measures> place{};
     std::normal_distribution<double> normal;
@@ -34,7 +34,7 @@ class Machines {
     normal.reset();
     std::mt19937_64 random(seed_ + 7919ULL * static_cast<std::uint64_t>(machine) +
                            104729ULL * static_cast<std::uint64_t>(part + 1));
-    MachineMoves values;
+    MoveValues values;
     for (int move = 0; move < moves; ++move)
       for (std::size_t i = 0; i < measures; ++i)
         values.push_back(place[i] + slopes[i] * std::log(factor) + width * normal(random));
@@ -54,10 +54,10 @@ ChangeCandidate candidate(const char* name, const Machines& simulated, const Slo
 }
 
 /// The moves of machine 1000 before and after a change of a parameter by the factor.
-MachineMoves changed_machine(const Machines& machines, const Slopes& slopes, double factor, int before,
-                             int after) {
-  MachineMoves moves = machines.moves_of(slopes, 1.0, 1000, before, 1);
-  const MachineMoves later = machines.moves_of(slopes, factor, 1000, after, 2);
+MoveValues changed_machine(const Machines& machines, const Slopes& slopes, double factor, int before,
+                           int after) {
+  MoveValues moves = machines.moves_of(slopes, 1.0, 1000, before, 1);
+  const MoveValues later = machines.moves_of(slopes, factor, 1000, after, 2);
   moves.insert(moves.end(), later.begin(), later.end());
   return moves;
 }
@@ -132,8 +132,8 @@ TEST(ParameterChange, ThatScattersMoreThanAnyExplainsIsToldAsNone) {
                                                 candidate("damping", simulated, damping)};
   const Machines own(11, 0.5);
   for (const double width : {1.0, 1.6}) {
-    MachineMoves moves = own.moves_of(stiffness, 1.0, 1000, 200, 1);
-    const MachineMoves later = own.moves_of(stiffness, 0.7, 1000, 300, 2, width);
+    MoveValues moves = own.moves_of(stiffness, 1.0, 1000, 200, 1);
+    const MoveValues later = own.moves_of(stiffness, 0.7, 1000, 300, 2, width);
     moves.insert(moves.end(), later.begin(), later.end());
     EXPECT_EQ(explain_change(candidates, moves, measures).told,
               width > 1.0 ? ChangeTold::none : ChangeTold::one)
@@ -193,11 +193,11 @@ TEST(ParameterChange, WithoutAChangeIsThePlaceAmongTheMachines) {
 TEST(ParameterChange, WithoutMovesOrEffectsIsUnknown) {
   const Machines simulated(8, 0.5);
   const std::vector<ChangeCandidate> candidates{candidate("nothing", simulated, {0.0, 0.0, 0.0})};
-  const MachineMoves some = changed_machine(Machines(9, 0.5), stiffness, 0.8, 100, 100);
+  const MoveValues some = changed_machine(Machines(9, 0.5), stiffness, 0.8, 100, 100);
   EXPECT_EQ(explain_change(candidates, some, measures).told, ChangeTold::unknown);
   EXPECT_EQ(explain_change({}, some, measures).told, ChangeTold::unknown);
   const std::vector<ChangeCandidate> acts{candidate("stiffness", simulated, stiffness)};
-  const MachineMoves few(some.begin(), some.begin() + 30);
+  const MoveValues few(some.begin(), some.begin() + 30);
   EXPECT_EQ(explain_change(acts, few, measures).told, ChangeTold::unknown);
 }
 

@@ -286,6 +286,13 @@ std::string settling_measure(const Question& question) {
   return question.claim() ? name_of_settling(*question.claim(), "") : "arrival_time";
 }
 
+std::vector<std::string> settling_measures(const Question& question) {
+  if (!question.claim()) return {settling_measure(question)};
+  std::vector<std::string> names;
+  for (const JudgedPart& part : question.parts) names.push_back(name_of_settling(*part.claim));
+  return names;
+}
+
 statistics::Quantile measures::MeasureStatistics::*settling_quantile(const Question& question) {
   return question.claim() ? &measures::MeasureStatistics::p95 : &measures::MeasureStatistics::median;
 }

@@ -152,6 +152,9 @@ std::string name_of_settling(const study::Goal& goal, std::string_view statistic
 /// Name of the settling time of the first goal, "band_settling_time[2]"; without a goal "arrival_time".
 std::string settling_measure(const Question& question);
 
+/// Names of the settling times of all goals; without a goal "arrival_time".
+std::vector<std::string> settling_measures(const Question& question);
+
 /// The quantile of settling_measure() by which points are compared: the 95 % quantile of a goal's settling
 /// time, or the median of the arrival time.
 statistics::Quantile measures::MeasureStatistics::*settling_quantile(const Question& question);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <numeric>
 #include <optional>
@@ -55,17 +55,22 @@ std::vector<Part> at_points(const reading::AllTrialsFile& file, std::vector<std:
                   fmt::format("{}: there is no design point {}; expected 0 to {}", file.path().string(),
                               point, study::point_count(study) - 1));
   }
-  std::vector<Part> parts;
+  std::vector<std::vector<Part>> by_condition;
   reading::for_each_condition(file, [&](const reading::AllTrialsFile& one, const std::string& condition) {
+    std::vector<Part>& parts = by_condition.emplace_back();
+    parts.reserve(points.size());
     for (const std::int64_t point : points)
       parts.push_back(make(
           one, PointUnderCondition{
                    point, study::label_under(study.points.labels[static_cast<std::size_t>(point)], condition),
                    condition.empty() ? std::nullopt : std::optional(condition)}));
   });
-  std::ranges::stable_sort(
-      parts, {}, [&](const Part& part) { return std::ranges::find(points, part.point) - points.begin(); });
-  return parts;
+  if (by_condition.size() == 1) return std::move(by_condition.front());
+  std::vector<Part> ordered;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::vector<Part>& parts : by_condition) ordered.push_back(std::move(parts[i]));
+  }
+  return ordered;
 }
 
 }  // namespace zerocount::measures

@@ -141,7 +141,7 @@ layout::StoredStatistics stored_statistics(std::span<const measures::PointSummar
 void take_stored_statistics(const reading::AllTrialsFile& file, const study::Study& study,
                             std::span<const theory::PointPrediction> known,
                             const std::function<void(const layout::StoredStatistics&)>& take,
-                            timeline::Timeline* timeline) {
+                            const StatisticsWork& work) {
   const std::vector<theory::PointPrediction> predictions = theory::study_predictions(study, known);
   std::vector<measures::PointSummary> points;
   layout::StoredStatistics block;
@@ -154,15 +154,16 @@ void take_stored_statistics(const reading::AllTrialsFile& file, const study::Stu
     stored += std::ssize(points);
     points.clear();
   };
-  StudyAccumulator accumulator(study, {.timeline = timeline}, [&](PointResults&& point) {
-    points.push_back(std::move(point.statistics));
-    if (points.size() == points_at_once) add_to_block();
-  });
+  StudyAccumulator accumulator(study, {.timeline = work.timeline, .stop = work.stop},
+                               [&](PointResults&& point) {
+                                 points.push_back(std::move(point.statistics));
+                                 if (points.size() == points_at_once) add_to_block();
+                               });
   require_all_trials(file);
   for (std::int64_t first = 0; first < study::point_count(study); first += layout::chunk_elements) {
     const std::int64_t count = std::min(layout::chunk_elements, study::point_count(study) - first);
     accumulator.add(file, {first * study.trials, count * study.trials});
-    const timeline::TimeSpan span(timeline, "write statistics", timeline::Work::serial);
+    const timeline::TimeSpan span(work.timeline, "write statistics", timeline::Work::serial);
     accumulator.finish();
     add_to_block();
     take(std::exchange(block, {}));

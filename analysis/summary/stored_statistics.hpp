@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <stop_token>
 
 #include "analysis/measures/point_statistics.hpp"
 #include "analysis/theory/theory_prediction.hpp"
@@ -22,13 +23,19 @@ layout::StoredStatistics stored_statistics(std::span<const measures::PointSummar
                                            std::span<const theory::PointPrediction> predictions,
                                            const layout::MeasureTable& table);
 
+/// How statistics are computed: who watches the work, and who may interrupt it.
+struct StatisticsWork {
+  timeline::Timeline* timeline{nullptr};  ///< Receives spans of the stages; may be null.
+  std::stop_token stop{};                 ///< Interrupts the work.
+};
+
 /// Passes the stored statistics of all points of a file to `take`, in blocks that fill a chunk of the file.
 /// The memory does not grow with the number of points.
 /// @param file holds all trials of `study`. @param predictions see theory::study_predictions
-/// @param timeline receives spans of the stages; may be null
+/// @throws Failure (interrupted) if `work.stop` requests it
 void take_stored_statistics(const reading::AllTrialsFile& file, const study::Study& study,
                             std::span<const theory::PointPrediction> predictions,
                             const std::function<void(const layout::StoredStatistics&)>& take,
-                            timeline::Timeline* timeline = nullptr);
+                            const StatisticsWork& work = {});
 
 }  // namespace zerocount::summary

@@ -165,6 +165,11 @@ class JerkStream {
   std::vector<trial::Jerk> taken_;
 };
 
+/// The measures of the file that are summed.
+const layout::MeasureTable& measures_in(const reading::AllTrialsFile& file, const Wanted& wanted) {
+  return wanted.measures != nullptr ? *wanted.measures : file.table();
+}
+
 std::int64_t jerks_of(std::span<const trial::MoveOutcome> moves) {
   std::int64_t count = 0;
   for (const trial::MoveOutcome& move : moves) count += move.jerk_count;
@@ -209,7 +214,7 @@ class BlockStages {
 
   /// The next block; null after the last block, or after a failure.
   std::shared_ptr<Block> fetch() {
-    if (rows_.count == 0 || has_failed_) return nullptr;
+    if (rows_.count == 0 || has_failed_ || wanted_.stop.stop_requested()) return nullptr;
     if (chunk_rows_.count == 0) {
       const timeline::TimeSpan span(wanted_.timeline, "fetch", timeline::Work::serial);
       const std::lock_guard lock(library_);
@@ -299,7 +304,7 @@ class BlockStages {
       const std::int64_t point = piece.first / study_.trials;
       piece.count = std::min({of_point, trials_of_piece, rows.end() - piece.first});
       if (block.sums.empty() || block.sums.back().point() != point)
-        block.sums.emplace_back(study_, point, piece.first % study_.trials, file_.table());
+        block.sums.emplace_back(study_, point, piece.first % study_.trials, measures_in(file_, wanted_));
       add_piece(block.sums.back(), piece, file_.outcomes(block.chunk->columns, piece), jerks);
     }
   }
@@ -417,7 +422,7 @@ void StudyAccumulator::add(const reading::AllTrialsFile& file, layout::RowRange 
 void StudyAccumulator::add(std::vector<SummedPoint>&& sums, const reading::AllTrialsFile& file) {
   const timeline::TimeSpan span(wanted_.timeline, "add sums", timeline::Work::serial);
   for (SummedPoint& next : sums) {
-    SummedPoint& all = point(next.point(), file.table());
+    SummedPoint& all = point(next.point(), measures_in(file, wanted_));
     if (all.trials().trials() == 0) {
       all = std::move(next);
     } else {
@@ -444,6 +449,9 @@ SummedPoint& StudyAccumulator::point(std::int64_t number, const layout::MeasureT
 
 void StudyAccumulator::finish() {
   if (!point_) return;
+  if (wanted_.stop.stop_requested())
+    throw Failure(ExitCode::interrupted,
+                  "interrupted while the statistics were computed; the trials are kept");
   const timeline::TimeSpan span(wanted_.timeline, "statistics", timeline::Work::serial);
   PointResults results;
   results.prediction = point_->prediction();

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include "analysis/measures/point_accumulator.hpp"
@@ -73,8 +74,12 @@ struct Wanted {
   double confidence{statistics::summary_confidence};  ///< Confidence of all bounds.
   /// Bounds of means by resampling, which is slow. The random numbers follow from the seed of the study.
   bool bootstrap{false};
-  std::int64_t first_point{0};            ///< Number of the first point that may have trials.
+  std::int64_t first_point{0};  ///< Number of the first point that may have trials.
+  /// Measures that are summed from rows of outcomes; they outlive the results. Null: all measures of the
+  /// file.
+  const layout::MeasureTable* measures{nullptr};
   timeline::Timeline* timeline{nullptr};  ///< Receives spans of the stages; may be null.
+  std::stop_token stop{};                 ///< Interrupts the work.
 };
 
 /// The results of a point after all its trials were added.
@@ -101,7 +106,8 @@ class StudyAccumulator {
   StudyAccumulator(const study::Study& study, const Wanted& wanted, std::function<void(PointResults&&)> take);
 
   /// Adds trials of a file. @param rows global rows, which follow those added before
-  /// @throws Failure (bad_data) if the file contradicts itself; the message names the trial.
+  /// @throws Failure (bad_data) if the file contradicts itself; the message names the trial. Failure
+  /// (interrupted) if Wanted::stop requests it; so do the functions below.
   void add(const reading::AllTrialsFile& file, layout::RowRange rows);
   /// Adds the trials of a point by their sums. The trials follow those added before.
   /// @throws Failure (bad_data) if the sums are impossible for the trials

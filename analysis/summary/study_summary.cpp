@@ -59,6 +59,20 @@ std::vector<worlds::WorldInput> inputs_of_worlds(const study::Study& study, std:
   return inputs;
 }
 
+/// Sets the hold of a point and, with worlds, StudySummary::world_inputs.
+void describe_point(StudySummary& summary, const study::Study& study, std::int64_t number) {
+  const auto point = static_cast<std::size_t>(number);
+  summary.points[point].hold = hold_of(study, number);
+  if (study.worlds == 0) return;
+  summary.world_inputs.resize(summary.points.size());
+  summary.world_inputs[point] = inputs_of_worlds(study, number, summary.points[point]);
+}
+
+void describe_points(StudySummary& summary, const study::Study& study) {
+  for (std::int64_t point = 0; point < std::ssize(summary.points); ++point)
+    describe_point(summary, study, point);
+}
+
 /// Removes all but the first `points` points.
 void shorten(StudySummary& summary, std::size_t points) {
   summary.labels.resize(points);
@@ -111,7 +125,7 @@ class TrialsSoFar {
     if (count_ == 0) return std::nullopt;
     accumulator_.finish();
     shorten(summary_, summary_.points.size());
-    describe_points(summary_, study_, complete_points(summary_));
+    describe_points(summary_, study_);
     summary_.unfinished = UnfinishedStudy{count_, study::trial_count(study_), study::point_count(study_)};
     return std::move(summary_);
   }
@@ -164,16 +178,30 @@ StudySummary summary_of_pieces(const std::filesystem::path& output, double confi
   throw Failure(ExitCode::bad_data, fmt::format("{}: no trial of this run is finished yet", output.string()));
 }
 
-/// The summary without its points and their sections.
-StudySummary summary_of(const reading::ResultsFile& file, const study::Study& study, double confidence) {
-  StudySummary summary = summary_without_points(study, confidence);
-  summary.name = file.header().name;
-  summary.labels = file.point_labels();
-  summary.axes = file.axes();
+measures::PointSummary all_statistics(const reading::AllTrialsFile& file, std::int64_t point,
+                                      double confidence, bool bootstrap) {
+  return point_statistics(file, file.study(), point,
+                          {.undecided = true, .confidence = confidence, .bootstrap = bootstrap});
+}
+measures::PointSummary all_statistics(const reading::ResultsFile& file, std::int64_t point, double confidence,
+                                      bool bootstrap) {
+  return restored_point(file, file.study(), point).statistics(confidence, bootstrap);
+}
+
+void add_predictions(StudySummary& summary, const reading::ResultsFile& file) {
   const std::vector<layout::PointColumn> columns = file.statistics();
   if (!columns.empty())
     summary.predictions = measures::predictions_of(columns, file.header().trials, file.path());
-  return summary;
+}
+
+template <class File>
+void complete(StudySummary& summary, const File& file, std::vector<std::int64_t> points, bool bootstrap) {
+  for (const std::int64_t point : points) {
+    summary.points[static_cast<std::size_t>(point)] =
+        all_statistics(file, point, summary.confidence, bootstrap);
+    describe_point(summary, file.study(), point);
+  }
+  summary.complete = std::move(points);
 }
 
 }  // namespace
@@ -195,38 +223,55 @@ StudySummary summary_without_points(const study::Study& study, double confidence
   return summary;
 }
 
-void describe_points(StudySummary& summary, const study::Study& study,
-                     std::span<const std::int64_t> numbers) {
-  for (std::size_t point = 0; point < summary.points.size(); ++point) {
-    summary.points[point].hold = hold_of(study, numbers[point]);
-    if (study.worlds > 0)
-      summary.world_inputs.push_back(inputs_of_worlds(study, numbers[point], summary.points[point]));
+StudySummary summary_without_points(const reading::ResultsFile& file, double confidence) {
+  StudySummary summary = summary_without_points(file.study(), confidence);
+  summary.name = file.header().name;
+  summary.labels = file.point_labels();
+  summary.axes = file.axes();
+  return summary;
+}
+
+StudySummary summary_without_points(const reading::AllTrialsFile& file, double confidence) {
+  require_all_trials(file);
+  if (file.moves() != file.study().moves) {
+    throw Failure(ExitCode::bad_data,
+                  fmt::format("{}: damaged: its trials have {} moves, and its manifest {}",
+                              file.path().string(), file.moves(), file.study().moves));
   }
+  StudySummary summary = summary_without_points(static_cast<const reading::ResultsFile&>(file), confidence);
+  summary.stop = file.study().stop;
+  return summary;
+}
+
+void complete_points(StudySummary& summary, const reading::AllTrialsFile& file,
+                     std::vector<std::int64_t> points, bool bootstrap) {
+  complete(summary, file, std::move(points), bootstrap);
+}
+
+void complete_points(StudySummary& summary, const reading::ResultsFile& file,
+                     std::vector<std::int64_t> points, bool bootstrap) {
+  complete(summary, file, std::move(points), bootstrap);
 }
 
 StudySummary summarise(const reading::AllTrialsFile& file, double confidence, bool bootstrap) {
   const study::Study& study = file.study();
-  if (file.moves() != study.moves) {
-    throw Failure(ExitCode::bad_data,
-                  fmt::format("{}: damaged: its trials have {} moves, and its manifest {}",
-                              file.path().string(), file.moves(), study.moves));
-  }
-  StudySummary summary = summary_of(file, study, confidence);
+  StudySummary summary = summary_without_points(file, confidence);
+  add_predictions(summary, file);
   summary.points =
       study_statistics(file, study, {.undecided = true, .confidence = confidence, .bootstrap = bootstrap});
-  describe_points(summary, study, complete_points(summary));
+  describe_points(summary, study);
   if (!study.sequence.empty()) summary.repeatability = iso230::study_repeatability(file, study, confidence);
-  summary.stop = study.stop;
   return summary;
 }
 
 StudySummary summarise(const reading::ResultsFile& file, double confidence, bool bootstrap) {
   const study::Study& study = file.study();
-  StudySummary summary = summary_of(file, study, confidence);
+  StudySummary summary = summary_without_points(file, confidence);
+  add_predictions(summary, file);
   StudyAccumulator sums = accumulator_of(study, summary, {.confidence = confidence, .bootstrap = bootstrap});
   sums.add(file);
   sums.finish();
-  describe_points(summary, study, complete_points(summary));
+  describe_points(summary, study);
   return summary;
 }
 
@@ -237,21 +282,18 @@ StudySummary summarise_file(const std::filesystem::path& path, double confidence
 
 void add_mean_bounds(StudySummary& summary, const std::filesystem::path& path,
                      std::span<const std::int64_t> points) {
-  const auto take = [&](std::int64_t number, measures::PointSummary&& found) {
-    measures::PointSummary& point = summary.points[static_cast<std::size_t>(number)];
-    found.hold = point.hold;
-    point = std::move(found);
+  const auto add = [&](const auto& file) {
+    for (const std::int64_t number : points) {
+      measures::PointSummary& point = summary.points[static_cast<std::size_t>(number)];
+      const double hold = point.hold;
+      point = all_statistics(file, number, summary.confidence, true);
+      point.hold = hold;
+    }
   };
-  if (!shards::keeps_every_trial(path)) {
-    const reading::ResultsFile file(path);
-    for (const std::int64_t point : points)
-      take(point, restored_point(file, file.study(), point).statistics(summary.confidence, true));
-    return;
-  }
-  const reading::AllTrialsFile file(path);
-  for (const std::int64_t point : points) {
-    take(point, point_statistics(file, file.study(), point,
-                                 {.undecided = true, .confidence = summary.confidence, .bootstrap = true}));
+  if (shards::keeps_every_trial(path)) {
+    add(reading::AllTrialsFile(path));
+  } else {
+    add(reading::ResultsFile(path));
   }
 }
 
@@ -287,7 +329,7 @@ std::string observed_at(const StudySummary& summary, std::int64_t point) {
   return entry != summary.observed.end() ? entry->second : std::string{};
 }
 
-std::vector<std::int64_t> complete_points(const StudySummary& summary) {
+std::vector<std::int64_t> points_with_all_statistics(const StudySummary& summary) {
   if (!summary.complete.empty()) return summary.complete;
   std::vector<std::int64_t> all(summary.points.size());
   std::iota(all.begin(), all.end(), std::int64_t{0});

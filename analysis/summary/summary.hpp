@@ -40,14 +40,16 @@ struct StudySummary {
   study::StudyFeatures features{};                     ///< Features for which tables have columns.
   goal::Question question{};                           ///< Criteria by which the study is judged.
   std::vector<std::string> conditions{};               ///< names; empty without conditions
-  std::vector<std::vector<worlds::WorldInput>> world_inputs{};     ///< [point] unknown and derived quantities
+  /// [point] unknown and derived quantities of worlds; empty for a point that is not complete.
+  std::vector<std::vector<worlds::WorldInput>> world_inputs{};
   std::uint64_t seed{0};                                           ///< Seed of the study.
   std::optional<UnfinishedStudy> unfinished{};                     ///< Set if the run has not ended.
   std::map<std::string, study::ObservedCounts> observed_counts{};  ///< {point label: counts to be tested}
   std::optional<study::StoppingRule> stop{};  ///< Set for a complete study that used the rule.
   std::optional<iso230::RepeatabilitySummary> repeatability{};  ///< Set for a study with a sequence.
   /// Points with all statistics, in their order; empty: every point. For the other points only the statistics
-  /// by which points are chosen are known (summary_answer::summarise_selected); tables do not show them.
+  /// by which points are chosen are known (summarise_chosen(), summary_answer::summarise_selected()); tables
+  /// do not show them.
   std::vector<std::int64_t> complete{};
 
   /// The measures for which the points have statistics.
@@ -58,7 +60,7 @@ struct StudySummary {
 };
 
 /// The numbers of the points with all statistics (StudySummary::complete, or every point).
-std::vector<std::int64_t> complete_points(const StudySummary& summary);
+std::vector<std::int64_t> points_with_all_statistics(const StudySummary& summary);
 
 /// @throws Failure (bad_data) unless labels, axes, statistics and predictions have the same number of points
 void require_consistent(const StudySummary& summary);
@@ -68,10 +70,6 @@ std::string observed_at(const StudySummary& summary, std::int64_t point);
 
 /// The properties of a study as a whole.
 StudySummary summary_without_points(const study::Study& study, double confidence);
-
-/// Completes the points of the summary: sets their hold and, with worlds, StudySummary::world_inputs.
-/// @param numbers [point] number of the point in the study
-void describe_points(StudySummary& summary, const study::Study& study, std::span<const std::int64_t> numbers);
 
 /// The summary of a complete results file. Observations come from the manifest of the file, predictions of
 /// the criteria from the columns of /point, so the trials are not drawn again. All bounds are computed anew.
@@ -83,6 +81,18 @@ StudySummary summarise(const reading::AllTrialsFile& file, double confidence = s
 /// @throws Failure (bad_input) for a confidence outside (0, 1), (bad_data) if the file is damaged.
 StudySummary summarise(const reading::ResultsFile& file, double confidence = statistics::summary_confidence,
                        bool bootstrap = false);
+/// The summary of a file without its points and predictions.
+/// @throws Failure (bad_data) if trials are missing or have another number of moves than the manifest gives
+StudySummary summary_without_points(const reading::AllTrialsFile& file, double confidence);
+StudySummary summary_without_points(const reading::ResultsFile& file, double confidence);
+
+/// Computes all statistics of these points of a summary that has points. They become StudySummary::complete.
+/// @param points numbers of points, rising @param bootstrap whether means get bounds by resampling
+void complete_points(StudySummary& summary, const reading::AllTrialsFile& file,
+                     std::vector<std::int64_t> points, bool bootstrap);
+void complete_points(StudySummary& summary, const reading::ResultsFile& file,
+                     std::vector<std::int64_t> points, bool bootstrap);
+
 /// The summary of the file `path`, which may keep trials or only statistics.
 StudySummary summarise_file(const std::filesystem::path& path,
                             double confidence = statistics::summary_confidence, bool bootstrap = false);

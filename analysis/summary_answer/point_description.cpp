@@ -256,7 +256,7 @@ using summary::StudySummary;
 /// Whether `is` returns true for any point of the table.
 template <typename Is>
 bool any_point(const StudySummary& summary, Is is) {
-  return std::ranges::any_of(summary::complete_points(summary), [&](std::int64_t point) {
+  return std::ranges::any_of(summary::points_with_all_statistics(summary), [&](std::int64_t point) {
     return is(summary.points[static_cast<std::size_t>(point)]);
   });
 }

@@ -368,28 +368,13 @@ bool read_predictions(StudySummary& summary, const reading::AllTrialsFile& file)
   return true;
 }
 
-/// The summary of these points alone. Its axes are still those of all points.
-StudySummary summary_of_points(const StudySummary& summary, const reading::AllTrialsFile& file,
-                               const study::Study& study, std::span<const std::int64_t> numbers,
-                               bool bootstrap) {
-  StudySummary some = summary::summary_without_points(study, summary.confidence);
-  some.labels.clear();
-  some.axes = summary.axes;
-  for (const std::int64_t point : numbers) {
-    some.labels.push_back(summary.labels[static_cast<std::size_t>(point)]);
-    some.points.push_back(summary::point_statistics(
-        file, study, point, {.undecided = true, .confidence = summary.confidence, .bootstrap = bootstrap}));
-  }
-  summary::describe_points(some, study, numbers);
-  return some;
-}
-
-/// Computes the statistics of the points `summary.complete`.
-void complete(StudySummary& summary, const reading::AllTrialsFile& file, const study::Study& study,
-              bool bootstrap) {
-  StudySummary some = summary_of_points(summary, file, study, summary.complete, bootstrap);
-  for (std::size_t i = 0; i < some.points.size(); ++i)
-    summary.points[static_cast<std::size_t>(summary.complete[i])] = std::move(some.points[i]);
+/// The summary of the first point alone. Its axes are still those of all points.
+StudySummary summary_of_first_point(const StudySummary& summary, const reading::AllTrialsFile& file) {
+  StudySummary first = summary;
+  first.labels.resize(1);
+  first.points.resize(1);
+  summary::complete_points(first, file, {0}, false);
+  return first;
 }
 
 bool is_summarised_by_point(const study::Study& study) {
@@ -407,20 +392,16 @@ std::optional<SelectedSummary> summarise_selected(const std::filesystem::path& p
   const reading::AllTrialsFile file(path);
   const study::Study& study = file.study();
   if (!is_summarised_by_point(study) || file.moves() != study.moves) return std::nullopt;
-  SelectedSummary selected{summary::summary_without_points(study, statistics::summary_confidence),
+  SelectedSummary selected{summary::summary_without_points(file, statistics::summary_confidence),
                            {},
                            0,
                            measures_of_merit(file, goal::question_of(study))};
   StudySummary& summary = selected.summary;
-  summary.name = file.header().name;
-  summary.labels = file.point_labels();
-  summary.axes = file.axes();
   std::map<std::string, std::vector<double>> known;
   for (const std::string& column : columns_needed(summary, selection)) {
     std::optional<std::vector<double>> values = stored_statistic(file, column);
     if (!values) {
-      const std::int64_t first = 0;
-      require_columns(summary_of_points(summary, file, study, {&first, 1}, false), selection);
+      require_columns(summary_of_first_point(summary, file), selection);
       return std::nullopt;
     }
     known[column] = *std::move(values);
@@ -431,12 +412,12 @@ std::optional<SelectedSummary> summarise_selected(const std::filesystem::path& p
   selected.matching = std::ssize(matching);
   selected.points = first_points(std::move(matching), selection);
   if (selected.points.size() > max_selected) return std::nullopt;
-  summary.complete = selected.points;
-  summary.complete.push_back(summary::choose_point(summary, point).point);
-  std::ranges::sort(summary.complete);
-  summary.complete.erase(std::unique(summary.complete.begin(), summary.complete.end()),
-                         summary.complete.end());
-  complete(summary, file, study, bootstrap || study.features.motion || study.features.following);
+  std::vector<std::int64_t> complete = selected.points;
+  complete.push_back(summary::choose_point(summary, point).point);
+  std::ranges::sort(complete);
+  complete.erase(std::unique(complete.begin(), complete.end()), complete.end());
+  summary::complete_points(summary, file, std::move(complete),
+                           bootstrap || study.features.motion || study.features.following);
   return selected;
 }
 

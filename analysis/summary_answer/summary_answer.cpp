@@ -403,7 +403,7 @@ SummaryReading read_summary(const summary::StudySummary& summary, const SummaryF
   summary::require_consistent(summary);
   SummaryReading reading{summary, summary::choose_point(summary, form.chosen), {}, form.legend};
   const std::vector<std::int64_t> points =
-      form.points.empty() ? summary::complete_points(summary) : form.points;
+      form.points.empty() ? summary::points_with_all_statistics(summary) : form.points;
   for (const std::int64_t point : points) {
     reading.points.push_back(read_point(summary, point));
     reading.points.back().marked = summary.points.size() > 1 && point == reading.chosen.point;

@@ -152,7 +152,13 @@ std::vector<double> TrialTables::input(std::size_t column, layout::RowRange posi
 }
 
 std::vector<trial::MoveOutcome> TrialTables::outcomes(layout::RowRange positions) const {
-  return outcomes(decoded(stored_outcomes(positions)), positions);
+  const std::int64_t chunk_rows = layout::chunk_rows(moves());
+  const std::int64_t first = positions.first / chunk_rows * chunk_rows;
+  const layout::RowRange chunk{first, std::min(chunk_rows, count() - first)};
+  const bool is_small = positions.count <= chunk_rows / 2 && positions.end() <= chunk.end();
+  if (!is_small) return outcomes(decoded(stored_outcomes(positions)), positions);
+  if (!last_chunk_ || last_chunk_->positions != chunk) last_chunk_ = decoded(stored_outcomes(chunk));
+  return outcomes(*last_chunk_, positions);
 }
 
 StoredOutcomes TrialTables::stored_outcomes(layout::RowRange positions) const {

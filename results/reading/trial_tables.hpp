@@ -130,6 +130,9 @@ class TrialTables {
   std::optional<layout::TableReader> tolerances_;
   layout::TableReader jerks_;
   std::optional<layout::TableReader> trace_;
+  /// The chunk of which some outcomes were read last. Small ranges of trials are usually read one after the
+  /// other, and a read by the library costs much more than the few rows of a small range.
+  mutable std::optional<OutcomeColumns> last_chunk_;
 };
 
 /// The error bands of the file.

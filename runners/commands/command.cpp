@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "analysis/report/report.hpp"
-#include "analysis/summary/chosen_point.hpp"
+#include "analysis/summary/chosen_summary.hpp"
 #include "analysis/theory/plausibility.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/load_study.hpp"
@@ -153,7 +153,7 @@ std::optional<std::int64_t> study_point(const command_line::Arguments& arguments
   if (arguments.value("point") != "best" || std::ranges::find(labels, "best") != labels.end())
     return command_line::point_option(arguments, labels);
   const std::string& operand = arguments.operands()[0];
-  if (is_results_file(operand)) return summary::best_point(summary::summarise_file(operand));
+  if (is_results_file(operand)) return summary::summarise_chosen(operand).chosen.point;
   if (labels.size() > 1)
     arguments.refuse(
         "option '--point': a manifest has no results to tell which of its points is best; "

@@ -79,9 +79,9 @@ study::Study described_study(const std::filesystem::path& path);
 study::Study load_study(const std::filesystem::path& operand, const command_line::Arguments& arguments);
 
 /// Design point of the option `--point` for `MANIFEST|FILE`; nothing without the option. The point is given
-/// by label, by number, or as `best`. For a results file, `best` is summary::best_point(); for a manifest,
-/// its only point.
-/// @throws Failure: bad_input for `best` of a manifest with several points; as summary::summarise_file
+/// by label, by number, or as `best`. For a results file, `best` is the best point
+/// (summary::summarise_chosen()); for a manifest, its only point.
+/// @throws Failure: bad_input for `best` of a manifest with several points; as summary::summarise_chosen()
 std::optional<std::int64_t> study_point(const command_line::Arguments& arguments, const study::Study& study);
 
 /// User's controller from the option --plugin, for the trials of a results file; null without the option.

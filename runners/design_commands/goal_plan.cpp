@@ -12,6 +12,7 @@
 #include "analysis/goal/goal_verdict.hpp"
 #include "analysis/goal/question.hpp"
 #include "analysis/summary/chosen_point.hpp"
+#include "analysis/summary/chosen_summary.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/design_commands/design_commands.hpp"
 #include "runners/forecast/forecast.hpp"
@@ -167,11 +168,10 @@ document::Answer plan_of_manifest(const command_line::Arguments& arguments) {
 
 document::Answer plan_of_pilot(const std::string& path) {
   const study::Study study = commands::described_study(path);
-  const summary::StudySummary summary = summary::summarise_file(path);
+  const auto [summary, chosen, measures] = summary::summarise_chosen(path);
   if (!summary.question.claim()) goal::require_claim({}, path, other_plans);
-  Pilot pilot{summary, summary::judge_point(summary, summary::choose_point(summary)), {}};
+  Pilot pilot{summary, summary::judge_point(summary, chosen), {}};
   if (pilot.judged.needs && study.machines > 0 && is_on_machines(study)) {
-    const summary::ChosenPoint& chosen = pilot.judged.chosen;
     pilot.studies = with_times(
         goal::deciding_studies(summary.question, summary.points[static_cast<std::size_t>(chosen.point)],
                                static_cast<std::size_t>(chosen.chosen_from)),

@@ -7,6 +7,7 @@
 #include "analysis/goal/goal_text.hpp"
 #include "analysis/summary/cells_of_point.hpp"
 #include "analysis/summary/chosen_point.hpp"
+#include "analysis/summary/chosen_summary.hpp"
 #include "results/shards/pieces.hpp"
 #include "runners/answers/answer_format.hpp"
 #include "runners/command_line/command_line.hpp"
@@ -156,7 +157,7 @@ study::Study judgeable_study(const command_line::Arguments& arguments) {
                               "'zerocount summary' is of the finished trials",
                               path.string()));
   }
-  const study::Study study = commands::described_study(path);
+  study::Study study = commands::described_study(path);
   command_line::point_option(arguments, study.points.labels);
   goal::require_claim(study, path.string());
   return study;
@@ -172,11 +173,11 @@ std::optional<summary::SaturatedMoves> saturated_in(const command_line::Argument
 
 ExitCode judge(const command_line::Arguments& arguments) {
   const study::Study study = judgeable_study(arguments);
-  const summary::StudySummary summary =
+  const auto point = command_line::point_option(arguments, study.points.labels);
+  const summary::ChosenSummary found =
       commands::with_progress("zerocount judge", "computing statistics",
-                              [&] { return summary::summarise_file(arguments.operands()[0]); });
-  const auto point = command_line::point_option(arguments, summary.labels);
-  const summary::ChosenPoint chosen = summary::choose_point(summary, point);
+                              [&] { return summary::summarise_chosen(arguments.operands()[0], point); });
+  const auto& [summary, chosen, measures] = found;
   const summary::JudgedPoint judged = summary::judge_point(summary, chosen);
   const Judgement judgement{
       summary,

@@ -9,6 +9,7 @@
 #include "analysis/document/blocks.hpp"
 #include "analysis/goal/goal_text.hpp"
 #include "analysis/summary/chosen_point.hpp"
+#include "analysis/summary/chosen_summary.hpp"
 #include "analysis/summary/summary.hpp"
 #include "core/failure/failure.hpp"
 #include "results/layout/header.hpp"
@@ -55,9 +56,8 @@ void describe(IndexedFile& row) {
   const layout::FileHeader header = shards::inspect_header(row.file, layout::Checksum::not_yet);
   row.created = header.provenance.created;
   row.has_report = header.retention == study::Retention::trials;
-  const summary::StudySummary summary = summary::summarise_file(row.file);
+  const auto [summary, chosen, measures] = summary::summarise_chosen(row.file);
   row.study = summary.name;
-  const summary::ChosenPoint chosen = summary::choose_point(summary);
   if (!summary.question.claim()) {
     row.verdict = summary::claim_of_chosen_point(summary, chosen);
     return;

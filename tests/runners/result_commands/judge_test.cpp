@@ -2,6 +2,7 @@
 
 #include "analysis/goal/question.hpp"
 #include "analysis/report/figures/report_figures.hpp"
+#include "analysis/summary/chosen_summary.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "tests/runners/program.hpp"
 #include "tests/support/draws.hpp"
@@ -110,6 +111,33 @@ TEST_F(Judge, StatisticsDoNotDependOnWhatTheFileKeeps) {
   EXPECT_EQ(point["bands"][0]["settling_time"]["median"], point["final_settling_time"]["median"]);
   EXPECT_EQ(point["bands"][0]["entry_time"]["p95"], point["arrival_time"]["p95"]);
   EXPECT_EQ(point["bands"][0]["exits"]["total"], point["jerk_count"]["total"]);
+}
+
+// `judge` computes all statistics of the chosen point only.
+TEST_F(Judge, ChoosesAndJudgesAsIfAllStatisticsOfAllPointsWereKnown) {
+  const std::vector<std::string> studies{
+      "goal: {band: 1, within: 0.1, moves: 0.6}\n",
+      "goal: {band: 1, within: 0.1, moves: 0.6}\nkeep: statistics\n",
+      "machines: 8\ngoal: {band: 3, within: 0.1, moves: 0.6, machines: 0.5}\n",
+      "machines: 8\nkeep: statistics\ngoal:\n  near: {band: 1, within: 0.1, moves: 0.6, machines: 0.5}\n"
+      "  calm: {band: 2, within: 0.12, moves: 0.5, machines: 0.5, limits: {jerk_count: 3}}\n",
+      "conditions: {cold: {}, warm: {plant.presliding_damping: 0.4}}\n"
+      "goal: {band: 1, within: 0.1, moves: 0.6}\n"};
+  for (const std::string& more : studies) {
+    run_study(more);
+    const std::filesystem::path path = folder_ / "out.h5";
+    const summary::StudySummary whole = summary::summarise_file(path);
+    for (const std::optional<std::int64_t> point : {std::optional<std::int64_t>(), {0}, {1}}) {
+      const summary::ChosenSummary found = summary::summarise_chosen(path, point);
+      const summary::ChosenPoint chosen = summary::choose_point(whole, point);
+      EXPECT_EQ(found.chosen.point, chosen.point) << more;
+      EXPECT_EQ(found.chosen.runner_up, chosen.runner_up) << more;
+      EXPECT_EQ(found.chosen.as_good, chosen.as_good) << more;
+      EXPECT_EQ(summary::judgement_text(found.summary, summary::judge_point(found.summary, found.chosen)),
+                summary::judgement_text(whole, summary::judge_point(whole, chosen)))
+          << more;
+    }
+  }
 }
 
 /// Random moves along trapezoids, and how long those take, by their closed form.

@@ -180,4 +180,15 @@ TemporaryFolder::~TemporaryFolder() {
   std::filesystem::remove_all(path_, ignored);
 }
 
+std::filesystem::path ScratchFolder::make() {
+  const std::lock_guard lock(mutex_);
+  folder_.reset();
+  return folder_.emplace().path();
+}
+
+void ScratchFolder::remove() {
+  const std::lock_guard lock(mutex_);
+  folder_.reset();
+}
+
 }  // namespace zerocount::storage

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <mutex>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -121,6 +123,19 @@ class TemporaryFolder {
 
  private:
   std::filesystem::path path_;
+};
+
+/// A place for one temporary folder at a time. Another thread may remove the folder at any time, for example
+/// before it ends the process.
+class ScratchFolder {
+ public:
+  /// Makes an empty folder in place of the previous one, and returns its path. @throws as TemporaryFolder()
+  std::filesystem::path make();
+  void remove();
+
+ private:
+  std::mutex mutex_;
+  std::optional<TemporaryFolder> folder_;
 };
 
 }  // namespace zerocount::storage

@@ -49,25 +49,30 @@ bool is_of_user(int signal) {
 
 }  // namespace
 
-InterruptionWatch::InterruptionWatch(Unstopped unstopped) {
+InterruptionWatch::InterruptionWatch(Unstopped unstopped, std::function<void()> before_end) {
   const sigset_t signals = watched_signals();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-  watcher_ = std::jthread([this, signals, unstopped](const std::stop_token& done) {
-    const timespec patience{0, 50'000'000};  // ns
-    std::optional<Clock::time_point> first_of_user;
-    std::optional<Clock::time_point> first;
-    while (!done.stop_requested()) {
-      const int signal = sigtimedwait(&signals, nullptr, &patience);
-      const Clock::time_point now = Clock::now();
-      if (unstopped == Unstopped::end && first && now - *first > time_to_stop) end_interrupted();
-      if (signal < 0) continue;
-      if (!first) first = now;
-      interrupted_.request_stop();
-      if (!is_of_user(signal)) continue;
-      if (!first_of_user) first_of_user = now;
-      if (now - *first_of_user > one_request) end_interrupted();
-    }
-  });
+  watcher_ = std::jthread(
+      [this, signals, unstopped, before_end = std::move(before_end)](const std::stop_token& done) {
+        const timespec patience{0, 50'000'000};  // ns
+        const auto end = [&] {
+          if (before_end) before_end();
+          end_interrupted();
+        };
+        std::optional<Clock::time_point> first_of_user;
+        std::optional<Clock::time_point> first;
+        while (!done.stop_requested()) {
+          const int signal = sigtimedwait(&signals, nullptr, &patience);
+          const Clock::time_point now = Clock::now();
+          if (unstopped == Unstopped::end && first && now - *first > time_to_stop) end();
+          if (signal < 0) continue;
+          if (!first) first = now;
+          interrupted_.request_stop();
+          if (!is_of_user(signal)) continue;
+          if (!first_of_user) first_of_user = now;
+          if (now - *first_of_user > one_request) end();
+        }
+      });
 }
 
 InterruptionWatch::~InterruptionWatch() {

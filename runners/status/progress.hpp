@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <stop_token>
 #include <string>
 #include <thread>
@@ -25,7 +26,9 @@ class InterruptionWatch {
     end    ///< The process ends, with the exit code of an interruption; nothing is lost.
   };
 
-  explicit InterruptionWatch(Unstopped unstopped = Unstopped::wait);
+  /// @param before_end is called in the thread of the watch before Unstopped::end ends the process, to remove
+  /// temporary files; may be empty
+  explicit InterruptionWatch(Unstopped unstopped = Unstopped::wait, std::function<void()> before_end = {});
   InterruptionWatch(const InterruptionWatch&) = delete;
   InterruptionWatch& operator=(const InterruptionWatch&) = delete;
   ~InterruptionWatch();

@@ -118,7 +118,8 @@ ExitCode verify(const command_line::Arguments& arguments) {
   if (settings.trials == 0 && arguments.has("seed"))
     arguments.refuse("option '--seed' needs trials to run again, but '--trials' is 0");
   settings.plugin = commands::plugin_option(arguments);
-  const status::InterruptionWatch interruption;  // so that no temporary folder is left behind
+  const status::InterruptionWatch interruption(status::InterruptionWatch::Unstopped::end,
+                                               [scratch = settings.scratch] { scratch->remove(); });
   settings.stop = interruption.token();
   const std::vector<std::filesystem::path> operands(arguments.operands().begin(), arguments.operands().end());
   const Reports reports = verification::verify(operands, settings);

@@ -14,12 +14,14 @@ namespace zerocount::study_run {
 namespace {
 
 /// Writes the sums of all shards, and of the whole study the statistics that follow from them.
-void write_summed(shards::MergedFile& file, const study::Study& study, layout::RowRange rows) {
+void write_summed(shards::MergedFile& file, const study::Study& study, layout::RowRange rows,
+                  const std::stop_token& stop) {
   std::vector<layout::PointSums> sums;
   std::vector<measures::PointSummary> points;
   std::vector<theory::PointPrediction> predictions;
   summary::StudyAccumulator accumulator(
-      study, {.statistics = file.is_whole(), .sums = true, .first_point = rows.first / study.trials},
+      study,
+      {.statistics = file.is_whole(), .sums = true, .first_point = rows.first / study.trials, .stop = stop},
       [&](summary::PointResults&& point) {
         sums.push_back(std::move(point.sums));
         predictions.push_back(point.prediction);
@@ -39,7 +41,8 @@ void write_statistics(shards::MergedFile& file, const study::Study& study, const
   try {
     summary::take_stored_statistics(
         file.trials(), study, settings.predictions,
-        [&](const layout::StoredStatistics& block) { file.write_statistics(block); }, settings.timeline);
+        [&](const layout::StoredStatistics& block) { file.write_statistics(block); },
+        {settings.timeline, settings.stop});
     if (!study.sequence.empty()) iso230::write_repeatability(file.file(), study);
   } catch (const Failure&) {
     file.require_trials();
@@ -62,7 +65,7 @@ void assemble(std::span<const shards::ShardInfo> shards, const study::Study& stu
                      .renumber = settings.renumber, .stop = settings.stop, .timeline = settings.timeline});
   });
   if (layout::has_sums(study.retention)) {
-    timed("statistics", [&] { write_summed(*file, study, rows); });
+    timed("statistics", [&] { write_summed(*file, study, rows, settings.stop); });
   } else if (file->is_whole()) {
     write_statistics(*file, study, settings);
   }

@@ -154,11 +154,10 @@ void rebuild(const reading::ResultsFile& file, const study::Study& study,
   }
 }
 
-void compare_rebuilt(const reading::ResultsFile& file, const study::Study& study, const std::stop_token& stop,
+void compare_rebuilt(const reading::ResultsFile& file, const study::Study& study, const CheckReport& report,
                      ProblemList& problems) {
-  const storage::TemporaryFolder folder;
-  const std::filesystem::path rebuilt = folder / "rebuilt.h5";
-  rebuild(file, study, rebuilt, stop);
+  const std::filesystem::path rebuilt = report.scratch->make() / "rebuilt.h5";
+  rebuild(file, study, rebuilt, report.stop);
   const reading::ResultsFile other(rebuilt, reading::Require::unfinished);
   const bool exact = equality_of(file.header()) == Equality::bits;
   const double tolerance = exact ? 0.0 : tolerance_of_rounding;
@@ -239,7 +238,7 @@ std::optional<Described> check_statistics(CheckReport& report,
     work_on([&] { check_records(file, described->study, problems); });
     work_on([&] { check_failures(file, described->study, problems); });
     if (described->header.kind != layout::FileKind::shard)  // it has nothing that follows from its trials
-      work_on([&] { compare_rebuilt(file, described->study, report.stop, problems); });
+      work_on([&] { compare_rebuilt(file, described->study, report, problems); });
   });
   return described;
 }

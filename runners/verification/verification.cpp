@@ -142,7 +142,7 @@ void require_plugin(const fs::path& path, const study::Study& study, const Verif
 
 /// All checks of one file except running its trials again.
 OpenedFile check_stored(const fs::path& path, const VerifySettings& settings) {
-  OpenedFile opened{{.path = path, .stop = settings.stop}, {}};
+  OpenedFile opened{{.path = path, .stop = settings.stop, .scratch = settings.scratch}, {}};
   CheckReport& report = opened.report;
   if (!check_checksum(report)) return opened;
   opened.described = check_statistics(report, settings.plugin);

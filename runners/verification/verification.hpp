@@ -11,6 +11,7 @@
 
 #include "core/failure/failure.hpp"
 #include "core/plugin/controller_plugin.hpp"
+#include "results/storage/durable_file.hpp"
 
 /// Checks whether results files are undamaged, and contain what their manifests describe.
 namespace zerocount::verification {
@@ -29,6 +30,7 @@ struct CheckReport {
   std::vector<Check> checks{};
   bool unreadable{false};  ///< The computer failed to read the file, or to write what a check needs.
   std::stop_token stop{};  ///< Interrupts the checks.
+  std::shared_ptr<storage::ScratchFolder> scratch = std::make_shared<storage::ScratchFolder>();
 };
 
 /// Whether all checks hold.
@@ -86,6 +88,8 @@ struct VerifySettings {
   std::uint64_t seed{1};    ///< Seed for the choice of these trials.
   std::shared_ptr<const plugin::ControllerPlugin> plugin{};  ///< User's controller; null: none is given.
   std::stop_token stop{};
+  /// Folder for the files that the checks write.
+  std::shared_ptr<storage::ScratchFolder> scratch = std::make_shared<storage::ScratchFolder>();
 };
 
 /// Verifies results files, parts, shards, and folders of these. It goes on after a failed check. But a read

@@ -27,6 +27,17 @@ command: {targets: [7], hold: 0.3}
 sweep: {grid: {controller.kp: [0, 3.0e-4], controller.ki: [1.0e-5, 4.0e-5]}}
 """
 
+# Its statistics take some seconds.
+MANY_POINTS = """zerocount: 1
+name: points
+seed: 1
+trials: 1
+plant: {inertia: 8.0e-4, presliding_damping: 0.2}
+controller: {units: si, sample_rate: 4000}
+command: {targets: [5], hold: 0.06}
+sweep: {grid: {controller.ki: {logspace: [5.0e+3, 1.0e+5, 400]}, controller.kp: {linspace: [0, 100, 100]}}}
+"""
+
 
 class Runs(unittest.TestCase):
     def setUp(self):
@@ -146,6 +157,37 @@ class Signals(Runs):
                 process.wait()
                 self.assertEqual(process.returncode, 130)
                 self.assertLess(time.monotonic() - start, 3.0)  # on a busy machine
+
+    def test_a_run_that_is_interrupted_while_it_computes_statistics_ends_soon_and_keeps_its_trials(self):
+        (self.folder / "points.yaml").write_text(MANY_POINTS)
+        process = subprocess.Popen([PROGRAM, "run", "points.yaml", "-o", "points.h5"], cwd=self.folder, stderr=subprocess.PIPE, text=True)
+        while not (self.folder / "points.h5.part").exists():
+            time.sleep(0.01)
+        start = time.monotonic()
+        process.send_signal(signal.SIGTERM)
+        process.communicate()
+        self.assertEqual(process.returncode, 130)
+        self.assertLess(time.monotonic() - start, 3.0)  # on a busy machine
+        self.assertIn("40000 of them from before", self.complete("run", "points.yaml", "-o", "points.h5").stderr)
+
+    def test_verify_ends_within_a_second_and_removes_its_temporary_files(self):
+        (self.folder / "points.yaml").write_text(MANY_POINTS)
+        self.complete("run", "points.yaml", "-o", "points.h5")
+        temporary = self.folder / "temporary"
+        temporary.mkdir()
+        process = subprocess.Popen(
+            [PROGRAM, "verify", "points.h5"], cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+            env={**os.environ, "TMPDIR": str(temporary)},
+        )
+        while not list(temporary.glob("*/*")):
+            self.assertIsNone(process.poll())
+            time.sleep(0.01)
+        start = time.monotonic()
+        process.send_signal(signal.SIGINT)
+        process.wait()
+        self.assertEqual(process.returncode, 130)
+        self.assertLess(time.monotonic() - start, 3.0)  # on a busy machine
+        self.assertEqual(list(temporary.iterdir()), [])
 
 
 class Files(Runs):

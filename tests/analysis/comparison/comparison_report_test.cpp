@@ -45,7 +45,7 @@ comparison::StudyComparison sample() {
   comparison.baseline.path = "old.h5";
   comparison.current.header.name = "gains & <more>";
   comparison.layer = comparison::ComparisonLayer::paired;
-  comparison.layer_reason = "they are of different builds";
+  comparison.layer_reason = "the builds differ";
   comparison.manifest_differences = {{"controller.ki", "1e-5", ""}};
   comparison::PointComparison point;
   point.label = "a | \"b\"";

@@ -96,7 +96,7 @@ TEST(MarginsFile, EveryMistakeIsReportedWithLineAndColumn) {
   EXPECT_EQ(fault("require: [success_rate ≥ 99.5]\n"),
             "gate.yaml:1:11: require.0: 99.5 is not a proportion; expected a number from 0 to 1");
   EXPECT_EQ(fault("require: arrival_time.p95 ≥ 0.1\n"),
-            "gate.yaml:1:10: require: a least arrival_time.p95 is asked for; expected ≤ and a limit");
+            "gate.yaml:1:10: require: arrival_time.p95 cannot have a lower limit; expected ≤ and a limit");
   EXPECT_EQ(fault("measures: []\n"),
             "gate.yaml:1:11: measures: the list is empty; expected a list of some of goal_rate, "
             "goal_machines, goal_settling_time, success_rate, arrival_rate, stable_rate, arrival_time, "

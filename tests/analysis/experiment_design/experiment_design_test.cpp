@@ -150,7 +150,7 @@ TEST(ExperimentDesign, ReportsParametersThatCannotBeIdentified) {
   EXPECT_EQ(parameter_of(design, "friction.alpha").found.status, fit::EstimateStatus::not_identifiable);
   EXPECT_EQ(parameter_of(design, "friction.alpha").told, 0);
   EXPECT_EQ(parameter_of(design, "friction.k1").found.status, fit::EstimateStatus::estimated);
-  EXPECT_NE(text_of(design).find("friction.alpha cannot be told from this record, because "),
+  EXPECT_NE(text_of(design).find("friction.alpha cannot be identified from this record, because "),
             std::string::npos)
       << text_of(design);
 }

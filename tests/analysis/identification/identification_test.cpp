@@ -311,7 +311,7 @@ TEST(Identification, ARecordGivenTwiceIsRefused) {
   other.name = "other";
   fit::TestRecord again = one;
   again.name = "again";
-  EXPECT_EQ(refusal({one, other, again}).find("again: is one once more"), 0u);
+  EXPECT_EQ(refusal({one, other, again}).find("again: is the same record as one"), 0u);
 }
 
 // Torque and angle that were sampled at different instants: the truth is simulated with every interval split.

@@ -412,10 +412,10 @@ TEST(RepeatabilityFile, AFileOfAnotherSequenceIsRefused) {
   const auto expect_bad = [&](const study::Study& other, const std::string& words) {
     EXPECT_TRUE(says(refusal_by([&] { study_repeatability(file, other); }, ExitCode::bad_data), words));
   };
-  expect_bad(testing::sequence_study("cycles: 2", 5), "it is not of all trials of the study");
+  expect_bad(testing::sequence_study("cycles: 2", 5), "it does not hold all trials of the study");
   study::Study fewer = study;
   for (study::SequenceMove& move : fewer.sequence) move.target = std::min<std::int64_t>(move.target, 1);
-  expect_bad(fewer, "it is of another number of targets");
+  expect_bad(fewer, "it has another number of targets");
 }
 
 }  // namespace

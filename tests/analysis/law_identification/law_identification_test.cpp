@@ -176,7 +176,7 @@ TEST(LawIdentification, LawsThatCannotBeFittedAreLeftOutWithTheReason) {
   EXPECT_EQ(found.left_out.front().law, FrictionModel::dahl);
   const std::string text = document::text(fit::laws_answer().of(found));
   EXPECT_NE(text.find("dahl is left out, which says nothing about the contact: "), std::string::npos) << text;
-  EXPECT_NE(text.find("which the friction model dahl does not remember"), std::string::npos) << text;
+  EXPECT_NE(text.find("which the friction model dahl cannot represent"), std::string::npos) << text;
 }
 
 /// Slow loading and unloading without steps, as of a drive that limits the rate of its torque.

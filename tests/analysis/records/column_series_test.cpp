@@ -170,14 +170,15 @@ TEST_F(ColumnSeries, ColumnsThatDoNotFitAreNamed) {
   }
   EXPECT_EQ(refusal(text, columns({"torque=i/amplifier"})),
             "has no column 'i/amplifier'; its columns are t, i, x, y, torque, theta");
-  EXPECT_EQ(
-      refusal(text, columns({"torque=i"})),
-      "column 'i' is in A, which is no torque without a factor; expected --column 'torque=i[A]*FACTOR'");
-  EXPECT_EQ(
-      refusal(text, columns({"angle=x"})),
-      "column 'x' is in mm, which is no angle without a factor; expected --column 'angle=x[mm]*FACTOR'");
+  EXPECT_EQ(refusal(text, columns({"torque=i"})),
+            "column 'i' is in A, which cannot be converted to torque without a factor; expected --column "
+            "'torque=i[A]*FACTOR'");
+  EXPECT_EQ(refusal(text, columns({"angle=x"})),
+            "column 'x' is in mm, which cannot be converted to angle without a factor; expected --column "
+            "'angle=x[mm]*FACTOR'");
   EXPECT_EQ(refusal(text, columns({"time=x[m]"})),
-            "column 'x' is in m, which is no time without a factor; expected --column 'time=x[m]*FACTOR'");
+            "column 'x' is in m, which cannot be converted to time without a factor; expected --column "
+            "'time=x[m]*FACTOR'");
   EXPECT_NE(
       refusal(text, columns({"angle=y"})).find("'furlong', which is not a known unit; expected one of s, ms"),
       std::string::npos);

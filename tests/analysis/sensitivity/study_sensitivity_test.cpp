@@ -187,8 +187,9 @@ TEST(StudySensitivity, UsesTheFirstTrialOfEachMachine) {
       }
     }
     ASSERT_FALSE(many.notes.empty());
-    EXPECT_EQ(many.notes.front(),
-              "of each of the 40 machines the first trial is used: the others are not independent of it");
+    EXPECT_EQ(
+        many.notes.front(),
+        "only the first trial of each of the 40 machines is used: the others are not independent of it");
   }
 }
 

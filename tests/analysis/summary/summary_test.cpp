@@ -222,7 +222,7 @@ TEST(SummaryTable, HasMachineColumnsIfTrialsShareMachines) {
   const std::string table = summary_text(summary);
   EXPECT_NE(table.find("machines w/o failure"), std::string::npos);
   EXPECT_NE(table.find("50.0 %"), std::string::npos) << table;
-  EXPECT_NE(table.find("design: monte_carlo, 20 machines: bounds are of all machines"), std::string::npos)
+  EXPECT_NE(table.find("design: monte_carlo, 20 machines: bounds hold for all machines"), std::string::npos)
       << table;
   const auto machines = summary_json(summary)["points"][0]["machines"];
   EXPECT_EQ(machines["without_failure"], 0.5);

@@ -417,7 +417,7 @@ TEST(Ages, MistakesAreReportedWithTheirPlaceAndRemedy) {
        "friction.coulomb_ratio: its values at 10 cycles, 1.2"},
       {refusal_with(k2 + "design: saltelli\n"), "the trials of all ages share factors"},
       {refusal_with(k2 + "stop: {success_rate_halfwidth: 0.1, max_trials: 48}\n"),
-       "sequential stopping does not tell ages apart"},
+       "sequential stopping does not distinguish ages"},
       {refusal_with(k2 + "goal: {within: 0.002, moves: 0.9}\ntune: {free: {friction.k2: [500, 700]}}\n"),
        "friction.k2 changes with age"},
       {refusal_with(k2 + "goal: {within: 0.002, moves: 0.9}\ntune: {free: {friction.k2.aging: [-0.1, 0]}}\n"),

@@ -276,7 +276,7 @@ TEST(Conditions, MistakesAreReportedWithTheirPlaceAndRemedy) {
        "7 trials cannot be divided equally among 2 conditions; expected a multiple of 2, such as 6 or 8"},
       {of("{a: {}, b: {}}", {"design=saltelli"}), "the trials of all conditions share factors"},
       {of("{a: {}, b: {}}", {"stop={success_rate_halfwidth: 0.1, max_trials: 48}"}),
-       "sequential stopping does not tell conditions apart"},
+       "sequential stopping does not distinguish conditions"},
       {of("{a: {plant.inertia: 7.0e-4}}",
           {"goal={within: 0.002, moves: 0.9}", "tune={free: {plant.inertia: [1.0e-4, 1.0e-3]}}"}),
        "plant.inertia is tuned at --set tune"}};

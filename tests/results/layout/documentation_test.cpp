@@ -221,7 +221,7 @@ TEST(StudyDifferences, AreGivenForShardsPartsAndExtensionsAlike) {
       layout::require_same_study("shard.h5", header, other);
       ADD_FAILURE() << map;
     } catch (const layout::ForeignFile& foreign) {
-      EXPECT_TRUE(says(std::string_view(foreign.what()), "of another study: "));
+      EXPECT_TRUE(says(std::string_view(foreign.what()), "is from another study: "));
       EXPECT_TRUE(says(std::string_view(foreign.what()), differences(study, other))) << foreign.what();
     }
   }

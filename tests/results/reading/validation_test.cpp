@@ -212,16 +212,17 @@ TEST_F(UnusableFile, ContradictoryAttributesAreReported) {
   replace_attribute(copy("rows.h5"), "trial_count", 59);
   expect_bad(directory / "rows.h5", "complete");
   replace_attribute(copy("trials.h5"), "trials", -3);
-  expect_bad(directory / "trials.h5", "cannot be of");
+  expect_bad(directory / "trials.h5", "cannot belong to");
   remove_attribute(copy("missing.h5"), "seed");
   expect_bad(directory / "missing.h5", "the attribute 'seed' is missing");
 }
 
 TEST_F(UnusableFile, AnOverflowingNumberOfTrialsIsReported) {
   replace_attribute(copy("trials.h5"), "trials", std::int64_t{1} << 62);
-  expect_bad(directory / "trials.h5", "cannot be of 2 design points with 4611686018427387904 trials each");
+  expect_bad(directory / "trials.h5",
+             "cannot belong to 2 design points with 4611686018427387904 trials each");
   replace_attribute(copy("first.h5"), "first_trial", std::numeric_limits<std::int64_t>::max());
-  expect_bad(directory / "first.h5", "cannot be of");
+  expect_bad(directory / "first.h5", "cannot belong to");
 }
 
 TEST_F(UnusableFile, MessagesContainNoControlCharacters) {

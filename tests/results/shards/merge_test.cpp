@@ -317,7 +317,7 @@ TEST(Merge, RefusesShardsOfAnotherStudyOrFormat) {
   study::Study other = study;
   other.study_sha256 = "another";
   const std::vector<fs::path> inputs{write_sample_file(directory.path(), study)};
-  expect_failure(ExitCode::bad_data, "of another study", [&] { shards::merge_inputs(inputs, other); });
+  expect_failure(ExitCode::bad_data, "is from another study", [&] { shards::merge_inputs(inputs, other); });
   replace_attribute(inputs[0], "format_version", layout::format_version + 1);
   expect_failure(ExitCode::bad_data, fmt::format("newer than the {}", layout::format_version),
                  [&] { shards::merge_inputs(inputs, study); });

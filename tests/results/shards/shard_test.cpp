@@ -166,7 +166,7 @@ TEST(ShardSurvey, SeparatesGoodShardsFromOthersWithTheReason) {
       {"commit.shard", "(commit 0000000000000000000000000000000000000000), and this is", Kind::foreign},
       {"earlier.shard", "run by zerocount 0.0.9", Kind::foreign},
       {"newer.shard", "a shard in format version 99, and this program reads version 5", Kind::foreign},
-      {"other.shard", "of another study", Kind::foreign},
+      {"other.shard", "is from another study", Kind::foreign},
       {"short.shard", "checksum at its end is missing", Kind::damaged},
       {"text.shard", "not in the HDF5 format", Kind::damaged}};
   ASSERT_EQ(survey.problems.size(), expected.size());

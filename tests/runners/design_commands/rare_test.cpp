@@ -82,7 +82,7 @@ TEST_F(Rare, FailuresAreReplayed) {
   const std::string trial = text.out.substr(at + 8, text.out.find_first_of(",\n", at) - at - 8);
   EXPECT_EQ(program({"trace", "rare.h5", "--trial", trial, "-o", "failure.csv"}).code, 0);
   expect_refused({"trace", "rare.h5", "--trial", "100000000"}, "--trial");
-  expect_refused({"trace", "rare.h5", "--point", "0"}, "of one point of one manifest");
+  expect_refused({"trace", "rare.h5", "--point", "0"}, "belongs to one point of one manifest");
 }
 
 // With a larger budget the same command goes on; the answer is that of one run.
@@ -217,8 +217,7 @@ TEST_F(Rare, EstimatesTheSelectedCondition) {
   }
   // The file knows its condition: it goes on with it, refuses another, and replays its trials.
   answer_to({"rare", "both.yaml", "-o", "rare.h5", "--condition", "weak"});
-  expect_refused({"rare", "both.yaml", "-o", "rare.h5", "--condition", "usual"},
-                 "it is of another condition");
+  expect_refused({"rare", "both.yaml", "-o", "rare.h5", "--condition", "usual"}, "its condition differs");
   EXPECT_EQ(program({"trace", "rare.h5", "--trial", "0", "-o", "trial.csv"}).code, 0);
 }
 

@@ -355,7 +355,7 @@ TEST_F(Tune, RefusesACriterionThatIsNotAQuantile) {
   write_axis("goal: {within: 0.1, moves: 0.98}\n" + std::string(two_gains) + "  minimise: ki\n");
   for (const ProgramResult& result : {tune(), program({"check", "axis.yaml"})}) {
     EXPECT_EQ(result.code, 2);
-    EXPECT_TRUE(says(result.err, "tune.minimise: 'ki' is no quantile"));
+    EXPECT_TRUE(says(result.err, "tune.minimise: 'ki' is not a quantile"));
   }
 }
 

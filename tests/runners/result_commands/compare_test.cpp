@@ -196,7 +196,7 @@ TEST_F(Compare, WritesSeveralFormatsInOneRun) {
   const ProgramResult result =
       program({"compare", "a.h5", "a.h5", "--json", "r.json", "--junit", "r.xml", "--markdown", "r.md"});
   EXPECT_EQ(result.code, 0) << result.err;
-  EXPECT_TRUE(says(result.out, "this shows nothing of the program"));
+  EXPECT_TRUE(says(result.out, "this comparison shows nothing about the program"));
   EXPECT_EQ(nlohmann::json::parse(folder_.read("r.json"))["verdict"], "passed");
   EXPECT_TRUE(folder_.read("r.xml").starts_with("<?xml"));
   EXPECT_TRUE(folder_.read("r.md").starts_with("**passed: "));

@@ -182,8 +182,8 @@ TEST_F(KeptStatistics, StatisticsAndTrialsAreNotMerged) {
   run("statistics.h5", {"--shard", "2/2", "--set", "keep=statistics"});
   for (const std::vector<std::string>& parts :
        {std::vector<std::string>{"trials.h5", "statistics.h5"}, {"statistics.h5", "trials.h5"}}) {
-    EXPECT_TRUE(
-        says(refusal({"merge", parts[0], parts[1], "-o", "out.h5"}, 4), parts[1] + ": of another study"));
+    EXPECT_TRUE(says(refusal({"merge", parts[0], parts[1], "-o", "out.h5"}, 4),
+                     parts[1] + ": is from another study"));
   }
 }
 

@@ -198,7 +198,7 @@ TEST_F(ReportIndex, RefusesOptionsOfASingleFileAndEmptyFolders) {
   EXPECT_TRUE(says(empty.err, "it has no results file"));
   const ProgramResult refused = index({"--with", "limits"});
   EXPECT_EQ(refused.code, 2);
-  EXPECT_TRUE(says(refused.err, "option '--with': is of one results file"));
+  EXPECT_TRUE(says(refused.err, "option '--with': applies to one results file"));
 }
 
 // `report --with`: the answers of other commands as parts of the page.

@@ -191,7 +191,7 @@ TEST_F(SequentialRun, SummarySeparatesBoundsForTheseMachinesFromThoseForAll) {
   }
   EXPECT_TRUE(differ) << result.out;
   EXPECT_TRUE(says(zerocount_program({"summary", "out.h5"}, folder_.path()).out,
-                   "these bounds are of the mean over the 10 machines of the study"));
+                   "these bounds hold for the mean over the 10 machines of the study"));
 }
 
 /// Every trial of the file can be run again from it.

@@ -184,7 +184,7 @@ TEST_F(Verify, NamesForeignAndDamagedShards) {
   make("out.h5.shards/part.h5", {"--shard", "4/4"});
   change_element(shards / "part.h5", "/outcome/creep", 3);
   const std::string found = problems("out.h5.shards");
-  EXPECT_TRUE(says(found, "shards: " + name + " is of another study ('verified') than most",
+  EXPECT_TRUE(says(found, "shards: " + name + " is from another study ('verified') than most",
                    "part.h5: trials run again: point 1, trial 9: move 1: creep"));
 }
 

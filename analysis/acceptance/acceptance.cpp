@@ -414,10 +414,11 @@ Acceptance accept(const reading::AllTrialsFile& file, std::int64_t point,
   const study::Study& study = file.study();
   const std::string path = file.path().string();
   if (study.machines == 0)
-    throw Failure(ExitCode::bad_input,
-                  fmt::format("{}: no trials share a machine, so that it does not tell machines from moves; "
-                              "expected machines: 50, or more",
-                              path));
+    throw Failure(
+        ExitCode::bad_input,
+        fmt::format("{}: no trials share a machine, so machines cannot be distinguished from moves; "
+                    "expected machines: 50, or more",
+                    path));
   Acceptance acceptance{.study = path, .point = file.point_labels()[static_cast<std::size_t>(point)]};
   acceptance.judged = judged;
   for (const monitor::MoveLog& log : logs) {

@@ -112,7 +112,7 @@ std::string sentences_of_goals(Of a) {
 
 std::string comparison_of(OfClaim c) {
   const std::string_view word = agreement_word(c);
-  return fmt::format("{} (p = {})", word == "too_few" ? "too few to tell" : word,
+  return fmt::format("{} (p = {})", word == "too_few" ? "too few to decide" : word,
                      text::short_number(c.agreement.p));
 }
 
@@ -140,8 +140,8 @@ Description<Claim> claim_rows() {
       .value(percent("wanted", "wanted", "proportion of moves that should meet it"),
              [](OfClaim c) { return c.goal.moves; })
       .value(percent("predicted", "predicted",
-                     "proportion of the simulated moves that meet it; bounds: of as many machines, in as "
-                     "many moves as are compared, with 95 %"),
+                     "proportion of the simulated moves that meet it; bounds: 95 % interval for as many "
+                     "machines and moves as are compared"),
              [](OfClaim c) {
                return Bounded{c.predicted.moves.value, c.agreement.predicted.low, c.agreement.predicted.high};
              })
@@ -156,21 +156,23 @@ Description<Claim> claim_rows() {
                      {"consistent", "differs", "too_few"}),
           agreement_word)
       .shown_as(comparison_of)
-      .value(in_data("p_value", "two-sided p-value of that", "1"), [](OfClaim c) { return c.agreement.p; })
+      .value(in_data("p_value", "two-sided p-value of the agreement", "1"),
+             [](OfClaim c) { return c.agreement.p; })
       .value(everywhere("like_worlds", "like worlds",
-                        "worlds of the study that the machines are like; null: it has none"),
+                        "worlds of the study that agree with the machines; null: it has no worlds"),
              &Claim::like_worlds)
       .value(in_data("compared_moves", "first moves of each machine that are compared"),
              [](OfClaim c) { return c.agreement.moves; })
       .value(
-          percent("all_machines", "of all such machines",
+          percent("all_machines", "all such machines",
                   "proportion of moves of all machines of which these are a sample, with one-sided bounds"),
           [](OfClaim c) { return goal::bounded(c.measured.moves); })
       .value(percent("machines_predicted", "machines, predicted",
                      "proportion of machines that meet it in the wanted proportion of moves, with one-sided "
                      "bounds; null: the goal does not ask for machines"),
              [](OfClaim c) { return of_machines(c, c.predicted); })
-      .value(percent("machines_measured", "machines, measured", "likewise as measured"),
+      .value(percent("machines_measured", "machines, measured",
+                     "that proportion of the measured machines, with one-sided bounds"),
              [](OfClaim c) { return of_machines(c, c.measured); });
 }
 
@@ -189,7 +191,7 @@ Description<MeasuredMachine> machine_rows() {
              &MeasuredMachine::moves)
       .value({.key = "met",
               .heading = "meet the goal",
-              .meaning = "of these, those that meet it",
+              .meaning = "its moves that meet each goal, in the same order",
               .numeric = true},
              &MeasuredMachine::met)
       .shown_as(met_text);
@@ -221,7 +223,7 @@ Description<StandardValue> standard_rows() {
       .value(counts("predicted_high", "to", "and less"), &StandardValue::high)
       .value({.key = "measured",
               .heading = "measured",
-              .meaning = "of each measured run",
+              .meaning = "value of each measured run",
               .unit = "count",
               .numeric = true},
              &StandardValue::measured)
@@ -234,8 +236,8 @@ Description<StandardValue> standard_rows() {
 std::string worlds_sentence(Of a) {
   if (a.worlds == 0) return "";
   return fmt::format(
-      "of {} worlds: the prediction is that of the world that the machines are most like, with the interval "
-      "of all",
+      "with {} worlds, the prediction is that of the world that agrees best with the machines, and the "
+      "interval that of all worlds",
       a.worlds);
 }
 
@@ -287,14 +289,14 @@ document::AnswerDescription<Acceptance> acceptance_answer() {
       .table(everywhere("machines", "machines", "each machine that was measured"), machine_rows(),
              &Acceptance::machines)
       .value({.key = "assumed",
-              .meaning = "effects that the prediction is without, which its manifest does not name",
+              .meaning = "effects that the prediction leaves out because its manifest does not name them",
               .shown = document::Shown::in_json},
              &Acceptance::assumed)
       .sentence(assumed_sentence)
       .sentence([](Of) {
         return std::string(
-            "measured bounds are of moves that do not depend on each other; those of the measured machines "
-            "are of these machines alone, the others of all machines of which they are a sample");
+            "measured bounds hold for moves that do not depend on each other; those of the measured machines "
+            "hold for these machines alone, the others for all machines of which they are a sample");
       })
       .sentence([](Of) { return std::string("date, name, signature: ____________________"); });
   return answer;

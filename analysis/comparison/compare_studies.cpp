@@ -22,11 +22,11 @@ namespace {
 /// Reason why the datasets of the two files need not be equal to the bit; empty if they must be equal.
 std::string why_bits_may_differ(const layout::FileHeader& one, const layout::FileHeader& other) {
   if (one.study_sha256 != other.study_sha256) return "the manifests or overrides differ";
-  if (one.engine != other.engine) return "they are of different engines";
-  if (!layout::same_build(one.provenance, other.provenance)) return "they are of different builds";
-  if (one.provenance.compiler != other.provenance.compiler) return "they are of different compilers";
+  if (one.engine != other.engine) return "the engines differ";
+  if (!layout::same_build(one.provenance, other.provenance)) return "the builds differ";
+  if (one.provenance.compiler != other.provenance.compiler) return "the compilers differ";
   if (layout::is_dirty(one.provenance) || layout::is_dirty(other.provenance)) {
-    return "a build had changes that were not committed, and need not be that of the other";
+    return "a build had uncommitted changes, so the builds may differ";
   }
   if (one.provenance.git_commit == "unknown") return "the commits they were built from are unknown";
   return {};
@@ -402,7 +402,7 @@ StudyComparison compare_files(const std::filesystem::path& baseline, const std::
   StudyComparison result = compare_studies(before, after, rules_of(options, after.point_labels()));
   std::error_code error;
   if (std::filesystem::equivalent(baseline, current, error)) {
-    result.notes.push_back("both names are of one file: this shows nothing of the program");
+    result.notes.push_back("both names mean the same file: this comparison shows nothing about the program");
   }
   return result;
 }

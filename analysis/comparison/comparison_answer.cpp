@@ -201,7 +201,7 @@ Description<Judgement> measure_description() {
              &Judgement::changed_fails)
       .value(in_data("detectable_change", "smallest change for the worse that these trials find"),
              &Judgement::detectable_change)
-      .value(in_data("test", "test that p is of"), &Judgement::test)
+      .value(in_data("test", "test that gives p"), &Judgement::test)
       .value(in_data("p", "p-value against a change for the worse", "1"), &Judgement::p)
       .value(
           in_data("adjusted_p",
@@ -232,7 +232,7 @@ Description<Judgement> requirement_description() {
       .value(gate_item("verdict", "verdict of the gate"), [](Judged r) { return to_string(r.verdict); })
       .value(in_data("limit", "limit of the value"), &Judgement::margin)
       .value(in_data("value", "value in the file"), &Judgement::current)
-      .value(in_data("n", "trials or moves that the value is of"), &Judgement::current_n)
+      .value(in_data("n", "trials or moves from which the value is computed"), &Judgement::current_n)
       .value(in_data("bounds",
                      "one-sided bounds, low and high: of the value, or of the proportion within "
                      "the limit of a quantile"),
@@ -434,11 +434,10 @@ std::string legend(Comparison comparison) {
       "smallest change for the worse that these trials find with a probability of {:.0f} %.{}",
       100.0 * comparison.confidence, comparison.tests, 100.0 * comparison.false_discovery_rate,
       100.0 * decision_probability,
-      any_contrast(comparison)
-          ? "\nA p below the false discovery rate beside bounds that hold 0: bounds allow for one more "
-            "machine or trial that differs by as much as one can, p does not; more machines bring them "
-            "together."
-          : "");
+      any_contrast(comparison) ? "\nIf p is below the false discovery rate although the bounds include 0: "
+                                 "the bounds allow for one more machine or trial that differs as much as "
+                                 "possible, p does not; with more machines they agree."
+                               : "");
 }
 
 std::optional<std::string> baseline_label(Comparison comparison) {

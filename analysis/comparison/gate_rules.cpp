@@ -283,7 +283,7 @@ std::optional<Requirement> read_requirement(const yaml::Field& field, yaml::Prob
     return refuse(fmt::format("{} is not a proportion", parts->limit), "a number from 0 to 1");
   }
   if (!proportion && requirement.at_least) {
-    return refuse(fmt::format("a least {} is asked for", quantity->name), "≤ and a limit");
+    return refuse(fmt::format("{} cannot have a lower limit", quantity->name), "≤ and a limit");
   }
   return requirement;
 }

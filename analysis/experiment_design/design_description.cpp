@@ -56,10 +56,10 @@ std::string limits_text(const ExperimentDesign& design) {
   std::string text;
   for (const ExpectedParameter& parameter : design.parameters) {
     if (!parameter.found.reason.empty()) {
-      text += fmt::format("{} cannot be told from this record, because {}.\n", parameter.key,
+      text += fmt::format("{} cannot be identified from this record, because {}.\n", parameter.key,
                           parameter.found.reason);
     } else if (parameter.told < design.machines) {
-      text += fmt::format("{} can be told on {} of {} machines only.\n", parameter.key, parameter.told,
+      text += fmt::format("{} can be identified on only {} of {} machines.\n", parameter.key, parameter.told,
                           design.machines);
     }
   }
@@ -88,7 +88,7 @@ std::string identify_command(const ExperimentDesign& design) {
 std::string headline_of(const ExperimentDesign& design) {
   const auto told = std::ranges::count_if(
       design.parameters, [](const ExpectedParameter& one) { return is_estimated(one.found); });
-  return fmt::format("{:g} s of {} tell {} of {} parameters of {}", seconds(design, design.frame.samples),
+  return fmt::format("{:g} s of {} identify {} of {} parameters of {}", seconds(design, design.frame.samples),
                      parameters::text_on(design.frame.axis, "$torque"), told, design.parameters.size(),
                      design.study);
 }

@@ -17,15 +17,13 @@ void require_known_law(const study::Study& study, const Machine& machine) {
   const friction::FrictionModel model = machine.parameters.friction.model;
   if (!friction::has_spring(model))
     throw Failure(ExitCode::bad_input,
-                  fmt::format("{}: friction.model is another law than presliding and spring, for which alone "
-                              "an experiment can be designed; identify --model fits others to any record",
+                  fmt::format("{}: friction.model: an experiment can be designed only for presliding and "
+                              "spring; 'zerocount identify --model' fits other laws to any record",
                               study.name));
   if (motion::has_load(machine.parameters.plant))
-    throw Failure(
-        ExitCode::bad_input,
-        fmt::format("{}: it has a second mass (plant.load), which identify's model has not; expected "
-                    "one mass",
-                    study.name));
+    throw Failure(ExitCode::bad_input, fmt::format("{}: it has a second mass (plant.load), which the model "
+                                                   "of 'zerocount identify' lacks; expected one mass",
+                                                   study.name));
 }
 
 /// Time in which an oscillation about the spring falls to 1/e, s: 2J/c, or of an overdamped motion the

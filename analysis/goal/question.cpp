@@ -153,7 +153,7 @@ void require_claim(const study::Study& study, std::string_view path, std::string
 void require_targets(const study::Study& study, std::string_view path) {
   if (!study.open_loop) return;
   throw Failure(ExitCode::bad_input,
-                fmt::format("{}: torque levels have no targets, so that nothing is asked of a move; expected "
+                fmt::format("{}: torque levels have no targets, so no move can be judged; expected "
                             "command.targets",
                             path));
 }

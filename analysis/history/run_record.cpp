@@ -274,8 +274,9 @@ std::optional<RunRecord> monitor_record(const std::filesystem::path& path) {
   read_answer(path, "monitor", "--format json' prints", [&](const Json& answer, const std::string& text) {
     const std::string name = yaml::name_of_text(path);
     if (answer.at("answer") != "monitor")
-      throw Failure(ExitCode::bad_input,
-                    fmt::format("{}: is another answer; expected that of 'zerocount monitor'", name));
+      throw Failure(
+          ExitCode::bad_input,
+          fmt::format("{}: is the answer of another command; expected one of 'zerocount monitor'", name));
     run = run_of(answer);
     if (run.values.empty())
       throw Failure(ExitCode::inconclusive, fmt::format("{}: has no moves with values yet", name));

@@ -241,7 +241,8 @@ Description<SeriesRun> run_description() {
           .value(everywhere("trials", "trials", "trials per design point"), &RunIdentity::trials);
   return Description<SeriesRun>()
       .include(of_run, [](Run r) -> const RunIdentity& { return *r.run; })
-      .value(in_data("n", "trials or values that the value is of"), [](Run r) { return r.value.n; })
+      .value(in_data("n", "trials or values from which the value is computed"),
+             [](Run r) { return r.value.n; })
       .value(
           everywhere("value", "value and 95 % bounds", "value of the measure, in its unit, with 95 % bounds"),
           [](Run r) { return document::bounded(r.value.value, r.value.bounds); })

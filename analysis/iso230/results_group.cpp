@@ -67,7 +67,7 @@ void find_masses(const study::Study& study, std::int64_t number, PointRepeatabil
 }
 
 void require_rows(const auto& io, std::int64_t rows) {
-  if (io.rows() != rows) io.row_scale().fail("it is not of all trials of the study");
+  if (io.rows() != rows) io.row_scale().fail("it does not hold all trials of the study");
 }
 
 /// The trials of these rows.
@@ -287,8 +287,7 @@ RepeatabilitySummary read_repeatability(const hdf5::Group& root, const study::St
   RepeatabilitySummary summary{confidence, shape_of(study.sequence), {}, study.units.axis, &sources};
   require_rows(axis, study::trial_count(study));
   require_rows(targets, study::trial_count(study));
-  if (targets.width() != summary.shape.targets)
-    targets.row_scale().fail("it is of another number of targets");
+  if (targets.width() != summary.shape.targets) targets.row_scale().fail("it has another number of targets");
   for (std::int64_t point = 0; point < study::point_count(study); ++point) {
     const std::int64_t first = point * study.trials;
     summary.points.push_back(

@@ -109,7 +109,7 @@ Description<statistics::ClusteredProportion> proportion_description() {
               .unit = "1",
               .notation = document::Notation::percent},
              [](const Proportion& p) { return bounded(p.value, p.korn_graubard); })
-      .value(document::in_data("independent", "number of independent jerks that tell as much", "1"),
+      .value(document::in_data("independent", "number of independent jerks that give as narrow bounds", "1"),
              &Proportion::effective_events);
 }
 
@@ -127,10 +127,10 @@ Description<JerkMagnitudes> magnitude_description() {
 Description<CreepAgreement> agreement_description() {
   return Description<CreepAgreement>()
       .value(fact("ended", "waits that ended with a jerk"), &CreepAgreement::ended)
-      .value(fact("predicted", "of these, predicted to within two samples and 1 %"),
+      .value(fact("predicted", "ended waits that are predicted to within two samples and 1 %"),
              &CreepAgreement::predicted)
       .value(fact("lasting", "waits without a jerk"), &CreepAgreement::lasting)
-      .value(fact("lasting_predicted", "of these, predicted to last as long"),
+      .value(fact("lasting_predicted", "waits without a jerk that are predicted to last as long"),
              &CreepAgreement::lasting_predicted)
       .value(fact("median_deviation", "median deviation of the onset from its prediction", "s"),
              &CreepAgreement::median_deviation)

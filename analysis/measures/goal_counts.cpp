@@ -228,7 +228,7 @@ MoveEvent parse_event(const study::Study& study, std::string_view text) {
                   .sign = relation->sign,
                   .limit = *limit};
   if (study.open_loop && event.measure.values.needs_target)
-    fail(text, "needs targets, which torque levels have not");
+    fail(text, "needs targets, but torque levels have none");
   if (event.measure.values.magnitude && event.limit < 0.0)
     fail(text, "compares a magnitude with a negative number");
   return event;

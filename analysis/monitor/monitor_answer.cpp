@@ -212,7 +212,7 @@ std::string untried_text(const ChangeExplanation& explanation) {
 
 std::string explanation_text(const ChangeExplanation& explanation) {
   if (explanation.told == ChangeTold::unknown)
-    return "which parameter changed is not told: " + explanation.reason + untried_text(explanation);
+    return "it is unknown which parameter changed: " + explanation.reason + untried_text(explanation);
   const std::string since =
       explanation.since > 1
           ? fmt::format("since move {}, compared with the machine's own moves before", explanation.since)
@@ -228,7 +228,7 @@ std::string explanation_text(const ChangeExplanation& explanation) {
   return fmt::format("{} {}; {}{}",
                      explanation.told == ChangeTold::one
                          ? "if one parameter of the model differs, it is"
-                         : "which parameter differs cannot be told from these measures:",
+                         : "these measures do not show which parameter differs:",
                      fmt::join(texts, ", or "), since, untried_text(explanation));
 }
 
@@ -264,7 +264,7 @@ std::string notes_of(Of r) {
   if (r.repeated > 0)
     notes.push_back(fmt::format(
         "the first {} of these moves have the same values as those of the baseline: if they are the same "
-        "moves, they tell nothing of a change",
+        "moves, they show nothing about a change",
         r.repeated));
   if (likes.count() > 1) {
     notes.push_back(fmt::format("moves are compared with those of the same {} ({} in the baseline)",
@@ -274,7 +274,7 @@ std::string notes_of(Of r) {
   }
   if (monitor.unlike() > 0)
     notes.push_back(
-        fmt::format("moves without a like in the baseline, which are not compared: {}; the first: {}",
+        fmt::format("moves of a kind that the baseline lacks, which are not compared: {}; the first: {}",
                     monitor.unlike(), text::printable(monitor.first_unlike())));
   if (monitor.continued() > 0)
     notes.push_back(fmt::format("moves of the last group of the baseline, which are not compared: {}",
@@ -284,7 +284,7 @@ std::string notes_of(Of r) {
                                                    : fmt::format("blocks of {} moves", settings.block);
   notes.push_back(fmt::format(
       "a false alarm within any number of moves has at most the probability {}, where the {} are "
-      "exchangeable with those of the baseline ({}) that are like them",
+      "exchangeable with those of the same kind in the baseline ({})",
       text::percent(settings.alarm), values, grouped ? monitor.baseline_values() : r.baseline.moves));
   std::int64_t over = 0;
   std::vector<std::string> resembling, alternating;
@@ -301,14 +301,13 @@ std::string notes_of(Of r) {
                              "longer --block"));
   note("in the baseline neighbours differ more than others in ",
        fmt::format("{}", fmt::join(alternating, ", ")),
-       ", as if moves of several kinds took turns: a column 'move' or 'target' in both files compares moves "
-       "with their like");
+       ", as if moves of several kinds alternated: with a column 'move' or 'target' in both files, only "
+       "moves of the same kind are compared");
   if (r.baseline.is_model)
     notes.push_back(fmt::format(
         "the baseline is a model of {} machine{}: an alarm can mean that the model is wrong, or that this "
-        "machine is not an average one, not that it changed; whether it changed is told by its own first "
-        "moves "
-        "as the baseline",
+        "machine is not an average one, not that it changed; to see whether it changed, take its own first "
+        "moves as the baseline",
         r.baseline.machines, r.baseline.machines == 1 ? "" : "s"));
   return fmt::format("{}", fmt::join(notes, "\n"));
 }
@@ -342,14 +341,16 @@ Description<MeasureState> measure_description() {
              &MeasureState::baseline_median)
       .shown_as(shown(&MeasureState::baseline_median))
       .value(right("moves", "moves",
-                   "likewise of the moves, since the change if there is one; null: none, or never"),
+                   "median of the moves, of a quality its proportion, since the change if there is one; "
+                   "null: none, or never"),
              &MeasureState::median)
       .shown_as(shown(&MeasureState::median))
       .value(number("evidence", "evidence",
                     "largest capital of the bets on a change of the measure, as a part of the alarm's scale",
                     Notation::three_digits, "1"),
              &MeasureState::evidence)
-      .value(with_words(everywhere("direction", "direction", "of the change; null: no alarm"), directions),
+      .value(with_words(everywhere("direction", "direction", "direction of the change; null: no alarm"),
+                        directions),
              [](State s) {
                return s.direction ? std::optional(word_of(directions, *s.direction)) : std::nullopt;
              })
@@ -391,11 +392,11 @@ Description<LikeValue> like_description() {
       .value(everywhere("like", "moves like", "what these moves have in common"), &LikeValue::like)
       .value(number("baseline", "baseline", "their median in the baseline; null: never"),
              &LikeValue::baseline)
-      .value(everywhere("baseline_moves", "of", "of so many moves"), &LikeValue::baseline_moves)
+      .value(everywhere("baseline_moves", "of", "number of moves of that median"), &LikeValue::baseline_moves)
       .value(number("median", "moves",
                     "their median in the log, since the change if there is one; null: none, or never"),
              &LikeValue::median)
-      .value(everywhere("moves", "of", "of so many moves"), &LikeValue::moves);
+      .value(everywhere("moves", "of", "number of moves of that median"), &LikeValue::moves);
 }
 
 Description<ParameterChange> parameter_description() {
@@ -450,10 +451,11 @@ Description<ChangeExplanation> explanation_description() {
   return Description<ChangeExplanation>()
       .value(
           with_words(
-              in_data("told", "what is told of the parameters of the model after an alarm; null: not asked"),
+              in_data("told", "what is known of the parameters of the model after an alarm; null: not asked"),
               told_words),
           [](Told e) { return word_of(told_words, e.told); })
-      .value(in_data("parameters_since", "first move that the parameters are of, from 1; null: not asked"),
+      .value(in_data("parameters_since",
+                     "first move of those that the parameters explain, from 1; null: not asked"),
              &ChangeExplanation::since);
 }
 
@@ -498,7 +500,7 @@ document::AnswerDescription<MonitorReading> monitor_answer() {
       .table({.key = "measures", .meaning = "each measure"}, measure_description(),
              [](Of r) { return r.monitor.measures(); })
       .table({.key = "not_judged",
-              .meaning = "measures of which 'unchanged' says nothing",
+              .meaning = "measures about which 'unchanged' says nothing",
               .shown = document::Shown::in_json},
              not_judged_description(), not_judged)
       .table(

@@ -79,7 +79,7 @@ text::Unit si_unit(Quantity quantity) {
     case text::Dimension::proportion:
       break;
   }
-  throw std::invalid_argument("a quantity of no SI unit");
+  throw std::invalid_argument("a quantity without an SI unit");
 }
 
 bool is_linear(Quantity quantity) {

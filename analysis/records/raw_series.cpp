@@ -58,11 +58,12 @@ FoundColumn finished(const tables::ColumnSource& source, FoundColumn found, std:
   const bool of_encoder = dimension == text::Dimension::angle || dimension == text::Dimension::length;
   const bool counted_angle = of_encoder && found.unit.dimension == text::Dimension::count;
   if (!own && !factor && !counted_angle) {
-    refuse_column(source,
-                  fmt::format("column '{}' is in {}, which is no {} without a factor; expected "
-                              "--column '{}={}[{}]*FACTOR'",
-                              text::printable(found.column), found.unit.name, name_of(found.quantity),
-                              name_of(found.quantity), text::printable(found.column), found.unit.name));
+    refuse_column(
+        source,
+        fmt::format("column '{}' is in {}, which cannot be converted to {} without a factor; expected "
+                    "--column '{}={}[{}]*FACTOR'",
+                    text::printable(found.column), found.unit.name, name_of(found.quantity),
+                    name_of(found.quantity), text::printable(found.column), found.unit.name));
   }
   found.has_factor = factor.has_value();
   found.factor = (own ? found.unit.si : 1.0) * factor.value_or(1.0);

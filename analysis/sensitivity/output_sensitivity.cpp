@@ -197,8 +197,8 @@ void add_log_odds(const Varying& varying, const std::vector<double>& y, double c
   }
   if (fit.status == LogisticFit::Status::separated) {
     result.notes.emplace_back(
-        "a combination of the factors separates the trials that say yes from those that say no: a logistic "
-        "fit has no finite coefficients");
+        "a combination of the factors separates the trials with the result yes from those with the result "
+        "no: a logistic fit has no finite coefficients");
   }
   const auto said_yes = static_cast<std::int64_t>(std::llround(yes.sum()));
   const std::int64_t fewer = std::min(said_yes, static_cast<std::int64_t>(y.size()) - said_yes);
@@ -229,7 +229,7 @@ void add_notes(const PointInputs& point, const SensitivityOutput& output, const 
   }
   if (used.of_machines > 0) {
     result.notes.push_back(fmt::format(
-        "of each of the {} machines the first trial is used: the others are not independent of it",
+        "only the first trial of each of the {} machines is used: the others are not independent of it",
         point.machines));
   }
   if (trials.late > 0) {

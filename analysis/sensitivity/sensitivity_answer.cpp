@@ -61,7 +61,7 @@ Description<FactorSensitivity> factor_description() {
   add("first_order", "first order", "first-order Sobol' index", &FactorSensitivity::first_order);
   add("rank_correlation", "rank corr.", "Spearman's rank correlation", &FactorSensitivity::rank_correlation);
   add("partial_rank_correlation", "partial rank corr.",
-      "rank correlation with the part of the other factors taken out",
+      "rank correlation after the effect of the other factors is removed",
       &FactorSensitivity::partial_rank_correlation);
   add("log_odds", "log odds per sd",
       "change of ln(p/(1 - p)) over one standard deviation of the factor, p the proportion of yes",
@@ -164,9 +164,9 @@ std::string legend(const StudySensitivity& sensitivity) {
       "total, first order: proportions of the variance (Sobol' indices) in which the factor has a part, and "
       "that "
       "it explains alone. What several factors share counts in the total of each.\n"
-      "rank corr.: whether the output rises (+) or falls (-) with the factor; partial rank corr.: with the "
-      "part of the other factors taken out. log odds per sd: what a standard deviation of the factor adds to "
-      "ln(p/(1 - p)), p the proportion of yes.{}",
+      "rank corr.: whether the output rises (+) or falls (-) with the factor; partial rank corr.: the same "
+      "after the effect of the other factors is removed. log odds per sd: what a standard deviation of the "
+      "factor adds to ln(p/(1 - p)), p the proportion of yes.{}",
       text::percent(sensitivity.confidence),
       sensitivity.from_saltelli
           ? fmt::format("total are above {:g}", relevant_index)

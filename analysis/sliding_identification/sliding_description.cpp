@@ -74,17 +74,14 @@ std::string reversal_sentence(const SlidingIdentification& i) {
   const std::string length = parameters::unit_on(i.axis, "rad");
   if (r.samples < min_reversal_samples)
     return fmt::format(
-        "After a reversal the friction turns over by {:.3g} {} within {:.3g} {}, {} samples or fewer: faster "
-        "than "
-        "this record shows. Its stiffness before sliding is not told.",
+        "After a reversal the friction changes by {:.3g} {} within {:.3g} {}, {} samples or fewer: faster "
+        "than this record shows. Its stiffness before sliding remains unknown.",
         r.swing, parameters::unit_on(i.axis, "N m"), r.max_travel, length, r.samples);
   return fmt::format(
-      "After each of {} reversals nine tenths of the friction, of a swing of {:.3g} {}, turn over within "
-      "{:.3g} to "
-      "{:.3g} {}, {} samples: a secant stiffness of {:.2g} {} before sliding. Its course in between is "
-      "smoothed over "
-      "7 samples, and creep and the stiffness at rest are not told: material tests before sliding tell them "
-      "(zerocount experiment).",
+      "After each of {} reversals nine tenths of the change of the friction, which is {:.3g} {} in all, take "
+      "place within {:.3g} to {:.3g} {}, {} samples: a secant stiffness of {:.2g} {} before sliding. Its "
+      "course in between is smoothed over 7 samples, and creep and the stiffness at rest remain unknown: "
+      "material tests before sliding show them (zerocount experiment).",
       r.reversals.size(), r.swing, parameters::unit_on(i.axis, "N m"), r.min_travel, r.max_travel, length,
       r.samples, r.stiffness, parameters::unit_on(i.axis, "N m/rad"));
 }
@@ -133,7 +130,8 @@ document::Description<ReversalFriction> reversal_description() {
       .value(in_data("max_travel", "largest of them, rad or m"), &ReversalFriction::max_travel)
       .value(in_data("samples", "samples in that travel, median; below 6 the travel is an upper bound"),
              &ReversalFriction::samples)
-      .value(in_data("stiffness", "0.9 swing/travel, N m/rad or N/m"), &ReversalFriction::stiffness);
+      .value(in_data("stiffness", "0.9 of the change of the friction over the travel, N m/rad or N/m"),
+             &ReversalFriction::stiffness);
 }
 
 document::Description<SecondMass> second_mass_description() {
@@ -141,7 +139,7 @@ document::Description<SecondMass> second_mass_description() {
   return document::Description<SecondMass>()
       .value(in_data("explained", "part of the squares of the residuals that it explains", "1"),
              &SecondMass::explained)
-      .value(in_data("frequency", "of the masses against each other, Hz; 0: not well known"),
+      .value(in_data("frequency", "frequency of the masses against each other, Hz; 0: not well known"),
              &SecondMass::frequency);
 }
 

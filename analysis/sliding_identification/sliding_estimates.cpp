@@ -87,7 +87,7 @@ std::vector<Quantity> quantities_of(const SlidingFit& fit) {
        "it shows too little at these velocities: with 95 % confidence it is at most {0:.3g} {1}; move at "
        "velocities that differ more"},
       {"coulomb_level", "", "N m", coulomb_level, coulomb, of_coulomb, Scale::positive,
-       "the velocities differ too little to tell it from the viscous damping"},
+       "the velocities differ too little to distinguish it from the viscous damping"},
       {"breakaway_level", "friction.breakaway", "N m", stribeck_excess, level, of_coulomb + of_excess,
        Scale::positive, "the slow motion is too short"},
       {"coulomb_ratio", "friction.coulomb_ratio", "1", stribeck_excess, coulomb / level, of_ratio,
@@ -170,16 +170,16 @@ ParameterEstimate estimate_of(const Quantity& quantity, const SlidingFit& fit, p
     leave_open(estimate,
                quantity.name == "coulomb_level"
                    ? fmt::format("the motion has one direction, in which an offset of the {} cannot be "
-                                 "told from it: together they are {:.4g} [{:.4g}, {:.4g}] {}",
+                                 "distinguished from it: together they are {:.4g} [{:.4g}, {:.4g}] {}",
                                  torque, estimate.value, estimate.low, estimate.high, estimate.unit)
                    : fmt::format("the motion has one direction, in which an offset of the {} cannot be "
-                                 "told from the Coulomb level",
+                                 "distinguished from the Coulomb level",
                                  torque));
     return estimate;
   }
   if (!quantity.alike.empty()) {
     leave_open(estimate,
-               fmt::format("over so small a part of a {} it cannot be told from {}; move farther",
+               fmt::format("over so small a part of a {} it cannot be distinguished from {}; move farther",
                            axis == parameters::AxisKind::linear ? "pitch" : "revolution", quantity.alike));
     return estimate;
   }
@@ -216,7 +216,7 @@ std::string impossible_parameter(const SlidingFit& fit, parameters::AxisKind axi
     if (!is_impossible(quantity, fit)) continue;
     ParameterEstimate estimate = estimate_within(quantity, fit, quantile_of(fit, 0.975));
     estimate.unit = parameters::unit_on(axis, quantity.unit);
-    return fmt::format("of {} {}: the law is not that of the axis", quantity.name,
+    return fmt::format("for {} {}: the axis does not follow this law", quantity.name,
                        value_and_range(quantity, estimate));
   }
   return "";

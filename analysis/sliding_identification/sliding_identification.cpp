@@ -374,9 +374,8 @@ std::string reason_of_distrust(const SlidingIdentification& identification) {
     return fmt::format("{} predicts {:.0f} % of the {}", force->with, 100.0 * force->predicted, left);
   if (identification.one_direction)
     return fmt::format(
-        "the motion has one direction, in which an offset of the {} cannot be told from the Coulomb "
-        "friction; "
-        "record strokes in the other direction, too",
+        "the motion has one direction, in which an offset of the {} cannot be distinguished from the Coulomb "
+        "friction; record strokes in the other direction, too",
         parameters::text_on(identification.axis, "$torque"));
   return "";
 }

@@ -182,7 +182,7 @@ document::Description<CellOfPoint> cell_description(const goal::Question& questi
                           .optional = true};
   };
   document::Description<CellOfPoint> cell;
-  document::Item condition{"condition", "condition", "what every machine bears"};
+  document::Item condition{"condition", "condition", "condition under which every machine runs"};
   condition.optional = claims;
   if (claims)
     cell.value({.key = "goal", .heading = "goal", .meaning = "name of the goal", .optional = true},
@@ -469,7 +469,7 @@ std::string bad_worlds_sentence(const worlds::PointWorlds& point,
   if (bad == 0 || bad == all) return fmt::format("{} of {} worlds {}", bad == 0 ? "none" : "all", all, what);
   if (!point.rule) {
     return fmt::format(
-        "{} of {} worlds {}, and no rule on one or two parameters tells them from the others (at a "
+        "{} of {} worlds {}, and no rule on one or two parameters distinguishes them from the others (at a "
         "significance of {})",
         bad, all, what, text::percent(worlds::significance_of_rules));
   }

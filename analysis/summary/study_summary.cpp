@@ -167,8 +167,8 @@ StudySummary summary_of_pieces(const std::filesystem::path& output, double confi
     const layout::FileHeader header = shards::inspect_header(path, layout::Checksum::not_yet);
     if (!study) study = layout::recorded_study(header, path);
     if (header.study_sha256 == study->study_sha256) continue;
-    throw Failure(ExitCode::bad_data,
-                  fmt::format("{}: of another study than the others of {}", path.string(), output.string()));
+    throw Failure(ExitCode::bad_data, fmt::format("{}: is from another study than the others of {}",
+                                                  path.string(), output.string()));
   }
   if (study) {
     TrialsSoFar trials(*study, confidence, bootstrap);

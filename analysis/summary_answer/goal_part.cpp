@@ -31,15 +31,16 @@ document::Description<goal::ClaimVerdict> verdict_description(const goal::Questi
   const bool has_machines = std::ranges::any_of(
       question.parts, [](const goal::JudgedPart& part) { return part.claim->machines.has_value(); });
   if (has_names(question))
-    description.value({.key = "name",
-                       .heading = has_several(question) ? "worst goal" : "",
-                       .meaning = "name of the goal: of several the worst, which all of this is of",
-                       .optional = true},
-                      [question](Verdict v) { return question.parts[v.goal].claim->name; });
+    description.value(
+        {.key = "name",
+         .heading = has_several(question) ? "worst goal" : "",
+         .meaning = "name of the goal (of several goals the worst), to which these values apply",
+         .optional = true},
+        [question](Verdict v) { return question.parts[v.goal].claim->name; });
   if (!question.conditions.empty())
     description.value({.key = "condition",
                        .heading = "worst condition",
-                       .meaning = "the worst condition, which all of this is under",
+                       .meaning = "the worst condition, to which these values apply",
                        .optional = true},
                       [question](Verdict v) { return question.conditions[v.condition]; });
   description
@@ -89,7 +90,7 @@ document::Description<goal::ClaimVerdict> verdict_description(const goal::Questi
   }
   if (std::ranges::any_of(question.parts, [](const auto& part) { return part.claim->beside_load; }))
     description.object({.key = "other_mass",
-                        .meaning = "the same of the load, which the goal of the motor does not ask",
+                        .meaning = "the same values of the load, which the goal of the motor does not limit",
                         .shown = Shown::in_data,
                         .optional = true},
                        goal::load_description(), &goal::ClaimVerdict::of_load);

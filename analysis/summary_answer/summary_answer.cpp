@@ -272,14 +272,15 @@ std::string design_line(const StudySummary& summary) {
   std::string line = fmt::format("design: {}", summary.design);
   if (features.machines && !summary.points.empty()) {
     line += fmt::format(
-        ", {} machines: bounds are of all machines that the manifest describes, and more trials on the same "
+        ", {} machines: bounds hold for all machines that the manifest describes, and more trials on the "
+        "same "
         "machines narrow them only so far",
         machines_of(summary));
   }
   if (summary.question.worlds > 0) {
     line += fmt::format(", {} worlds: rates over all trials are averages over the worlds{}",
                         summary.question.worlds,
-                        summary.question.claim() ? "; those of the goal are of the worst world" : "");
+                        summary.question.claim() ? "; those of the goal hold for the worst world" : "");
   }
   const std::size_t ages = summary.question.ages.at.size();
   const std::size_t conditions = summary.conditions.size() / std::max<std::size_t>(ages, 1);

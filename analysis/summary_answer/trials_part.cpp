@@ -73,7 +73,7 @@ std::string note_on_stopping(const summary::StudySummary& summary) {
       summary.stop->block,
       machines == 0
           ? ""
-          : fmt::format("\nthese bounds are of the mean over the {} machines of the study, which more "
+          : fmt::format("\nthese bounds hold for the mean over the {} machines of the study, which more "
                         "trials narrow; those over all machines are in the table above, and more machines "
                         "narrow them",
                         machines));

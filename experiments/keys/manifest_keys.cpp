@@ -306,7 +306,8 @@ std::span<const Shape> general_keys() {
       of(Form::entries,
          {.name = "conditions",
           .meaning =
-              "conditions that every machine has to bear, names and overrides of parameters: {empty: {}, "
+              "conditions under which every machine has to run, names and overrides of parameters: {empty: "
+              "{}, "
               "loaded: "
               "{plant.inertia: 4.6}}; trial i runs under condition floor(i/R) mod C (R machines, or 1), and "
               "`trials` must be a multiple of R*C",

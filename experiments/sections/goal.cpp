@@ -164,11 +164,13 @@ void choose_masses(const yaml::Field& of_goals, keys::Reading& reading,
     goal.of_other_mass = of && (goal.of == load ? at_motor : at_load);
     if (!goal.of_other_mass) continue;
     if (!goal.tolerance)
-      reading.problems.add(*of, "a band is of the encoder that closes the loop, which reads the other mass",
+      reading.problems.add(*of,
+                           "a band refers to the encoder that closes the loop, and that reads the other mass",
                            "tolerance, in place of band");
     if (other && other != goal.of)
       reading.problems.add(of_goals,
-                           "goals of both masses, each of one that does not close the loop somewhere",
+                           "goals of both masses, although the loop is closed on the motor in some cases and "
+                           "on the load in others",
                            "one encoder that closes the loop everywhere");
     other = goal.of;
   }

@@ -86,7 +86,7 @@ void require_machine(std::size_t point, const TrialInProgress& t) {
     });
     if (fault)
       throw Failure(ExitCode::bad_input,
-                    fmt::format("{}: a draw is that of no machine: {}; expected {}",
+                    fmt::format("{}: a drawn value is impossible for a machine: {}; expected {}",
                                 t.plan.table.rows[fault->slots.front()].name, fault->what, fault->expected));
   }
 }

@@ -137,7 +137,7 @@ study::Engine read_engine(const hdf5::File& file) {
 
 void check_numbers(const hdf5::File& file, const FileHeader& header) {
   if (!has_possible_numbers(header)) {
-    file.fail(fmt::format("{} trials from trial {} on cannot be of {} design points with {} trials each",
+    file.fail(fmt::format("{} trials from trial {} on cannot belong to {} design points with {} trials each",
                           header.rows.count, header.rows.first, header.points, header.trials));
   }
   const bool all = header.rows.count == header.trials * header.points;
@@ -331,7 +331,7 @@ void require_same_study(const std::filesystem::path& path, const FileHeader& hea
                         const study::Study& study) {
   const std::vector<manifest_text::ManifestDifference> differences = study_differences(path, header, study);
   if (!differences.empty())
-    throw ForeignFile(path, "of another study: " + manifest_text::differences_text(differences));
+    throw ForeignFile(path, "is from another study: " + manifest_text::differences_text(differences));
   require_same_plugin(path, header, study.plugin.get());
   if (header.trials != study.trials || header.points != study::point_count(study)) {
     throw ForeignFile(
@@ -355,7 +355,7 @@ void require_same_study(const std::filesystem::path& path, const FileHeader& hea
   }
   // The same build gives the same values the same hash.
   if (header.study_sha256 != study.study_sha256)
-    throw ForeignFile(path, "of another study: its SHA-256 is another");
+    throw ForeignFile(path, "is from another study: its SHA-256 differs");
 }
 
 std::filesystem::path shards_directory(const std::filesystem::path& output) {
@@ -380,7 +380,8 @@ hdf5::File open_results(const std::filesystem::path& path, Checksum checksum) {
                                          : ""));
   }
   if (!std::filesystem::is_regular_file(path, ignored)) {
-    const char* const kind = std::filesystem::is_directory(path, ignored) ? "a directory" : "no regular file";
+    const char* const kind =
+        std::filesystem::is_directory(path, ignored) ? "a directory" : "not a regular file";
     throw Failure(ExitCode::bad_input,
                   fmt::format("{}: {}; a results file was expected", path.string(), kind));
   }

@@ -47,7 +47,7 @@ Budget budget_option(const Arguments& arguments) {
   if (error != std::errc() || !(number > 0.0) || !(number < 1e12) || !whole ||
       (!unit.empty() && unit != "s" && unit != "min" && unit != "h"))
     arguments.refuse(
-        fmt::format("option '--budget': '{}' is no budget; expected a whole number, or a time such as "
+        fmt::format("option '--budget': '{}' is not a budget; expected a whole number, or a time such as "
                     "60s, 5min or 2h",
                     *text));
   if (unit.empty()) return {static_cast<std::int64_t>(number), std::nullopt};

@@ -360,7 +360,7 @@ commands::Command limits_command() {
             condition_option(),
             age_option(),
             set_option(),
-            {"budget", "B", "of all that is simulated: a number of trials, or a time such as 60s or 5min"}}},
+            {"budget", "B", "budget of all simulations: a number of trials, or a time such as 60s or 5min"}}},
           "what stands between a point and its goal",
           limits_help,
           limits,

@@ -70,7 +70,7 @@ commands::Command plan_command() {
        "[PILOT|MANIFEST]",
        {excluding({"margin"}, {"success", "P", "minimum proportion of successful axes to be shown"}),
         needing({"success", "halfwidth", "margin"},
-                {"confidence", "LEVEL", "of the claim, or of the bounds (default 0.95)"}),
+                {"confidence", "LEVEL", "confidence of the claim, or of the bounds (default 0.95)"}),
         needing({"success"}, {"failures", "K", "list plans for 0 to K failures (default 3)"}),
         excluding(
             {"machines-share"},

@@ -159,7 +159,7 @@ commands::Command rare_command() {
             {"world", "W", "the world, of a study with worlds"},
             {"condition", "NAME", "the condition, of a study with conditions"},
             {"age", "A", "the age, of a study with ages"},
-            {"confidence", "C", "of both bounds together (default 0.95)"},
+            {"confidence", "C", "confidence of both bounds together (default 0.95)"},
             {"ratio", "R", "how narrow: high at most R times low (default 2)"},
             {"budget", "B", "a number of trials (default 1000000), or a time such as 60s, 5min or 2h"},
             {"threads", "N", "threads to use; default: all cores"},

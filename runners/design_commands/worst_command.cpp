@@ -71,7 +71,8 @@ std::string replay_sentence(const Search& search) {
 
 document::Description<JudgedMachine> judged_description() {
   return document::Description<JudgedMachine>()
-      .value(optional(everywhere("condition", "condition", "the condition that it bears, with conditions")),
+      .value(optional(everywhere("condition", "condition",
+                                 "the condition under which it runs, in a study with conditions")),
              &JudgedMachine::condition_name)
       .value(optional(everywhere("goal", "goal that its moves meet the least often",
                                  "the goal that its moves meet the least often, of several")),

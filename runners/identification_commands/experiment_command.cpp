@@ -101,7 +101,7 @@ study::Study experiment_study(const command_line::Arguments& arguments) {
 document::AnswerDescription<experiment_design::ExperimentDesign> experiment_answer() {
   document::AnswerDescription<experiment_design::ExperimentDesign> answer{
       {.name = "experiment",
-       .meaning = "the record from which identify tells the friction",
+       .meaning = "the record from which 'zerocount identify' estimates the friction",
        .csv_table = "parameters"},
       experiment_design::design_description()};
   answer.items.figures(
@@ -155,7 +155,7 @@ commands::Command experiment_command() {
             {"record", "FILE", "write the simulated record of the median machine there, as CSV"}),
         command_line::written_file(
             {"plot", "FILE", "draw the torque and the expected readings: a page (*.html), *.svg or *.png"}),
-        {"duration", "S", "of the record (default 10)"},
+        {"duration", "S", "duration of the record (default 10)"},
         {"travel", "X", "largest distance from the start, rad or m (default: what breakaway allows)"},
         {"max-torque", "P", "largest torque, as a proportion of the breakaway torque (default 0.7)"},
         {"machines", "N", "machines drawn from the manifest (default 16)"},
@@ -167,7 +167,7 @@ commands::Command experiment_command() {
         answers::format_option(),
         {"quiet,q", "", "print no progress"},
         command_line::needing({"output", "streamer", "record", "plot"}, command_line::force_option())}},
-      "design the torque over time from which identify tells the friction",
+      "design the torque over time from which identify estimates the friction",
       experiment_help,
       experiment,
       [] { return std::vector{experiment_answer().complete_type()}; }};

@@ -145,7 +145,8 @@ sliding_identification::SlidingIdentification identify_sliding_axis(
   for (const records::RawSeries& series : read_all_series(arguments)) {
     if (pitch > 0.0 && !series.linear)
       arguments.refuse(
-          "option '--pitch' is of a linear axis; a torque of a rotary one repeats by revolution");
+          "option '--pitch' applies only to a linear axis; the torque of a rotary one repeats with each "
+          "revolution");
     found.push_back(sliding_identification::sliding_record(series, pitch));
     if (found.back().axis != found.front().axis) {
       arguments.refuse("the records are of a linear and of a rotary axis; expected one axis");

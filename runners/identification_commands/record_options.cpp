@@ -84,7 +84,8 @@ std::optional<double> count_size_option(const command_line::Arguments& arguments
     arguments.refuse("options '--counts-per-revolution' and '--resolution' exclude each other");
   }
   if (counts && choice.linear) {
-    arguments.refuse("option '--counts-per-revolution' is of a rotary axis; expected '--resolution'");
+    arguments.refuse(
+        "option '--counts-per-revolution' applies only to a rotary axis; expected '--resolution'");
   }
   return counts ? std::optional(2.0 * std::numbers::pi / *counts) : resolution;
 }
@@ -154,7 +155,7 @@ void refuse_equal_files(const command_line::Arguments& arguments, const std::vec
       if (found[i].operand != found[j].operand && records::are_equal(found[i].series, found[j].series))
         arguments.refuse(fmt::format(
             "{} and {} have the same readings, which would count twice; expected each record once, or "
-            "--allow-equal if they are of two tests",
+            "--allow-equal if they come from two tests",
             found[j].series.name, found[i].series.name));
 }
 

@@ -302,7 +302,7 @@ std::string description_of(const study::Study& study) {
 randomness::RandomVariables sampled_variables(const study::Study& study, std::int64_t point) {
   require_point(study, point);
   if (!study.conditions.empty())
-    throw Failure(ExitCode::bad_input, fmt::format("{}: a sample is of one condition; expected one of {}",
+    throw Failure(ExitCode::bad_input, fmt::format("{}: a sample needs one condition; expected one of {}",
                                                    study.name, fmt::join(study.conditions, ", ")));
   return randomness::random_variables(study, point);
 }

@@ -26,12 +26,12 @@ constexpr double seconds_between_writes = 60.0;
 /// How the question of a file differs from this one; empty if it does not.
 std::string difference(const fs::path& file, const RareRecord& record, const Question& question) {
   if (record.header.study_sha256 != question.whole.study_sha256)
-    return fmt::format("its study is another: {}", manifest_text::differences_text(layout::study_differences(
-                                                       file, record.header, question.whole)));
-  if (record.of.point != question.of.point) return "it is of another design point";
-  if (record.of.world != question.of.world) return "it is of another world";
-  if (record.of.condition != question.of.condition) return "it is of another condition";
-  if (record.event != question.event.text) return "it is of another event";
+    return fmt::format("its study differs: {}", manifest_text::differences_text(layout::study_differences(
+                                                    file, record.header, question.whole)));
+  if (record.of.point != question.of.point) return "its design point differs";
+  if (record.of.world != question.of.world) return "its world differs";
+  if (record.of.condition != question.of.condition) return "its condition differs";
+  if (record.event != question.event.text) return "its event differs";
   if (!layout::same_build(record.header.provenance, layout::current_provenance()))
     return "it was made by another build of the program";
   return "";
@@ -41,7 +41,7 @@ std::string difference(const fs::path& file, const RareRecord& record, const Que
 std::optional<RareRecord> earlier_record(const Question& question, const RareSettings& settings) {
   std::error_code error;
   if (settings.output.empty() || !fs::exists(settings.output, error) || settings.force) return std::nullopt;
-  std::string problem = "it is no estimate of 'zerocount rare'";
+  std::string problem = "it is not an estimate of 'zerocount rare'";
   if (is_rare_file(settings.output)) {
     RareRecord record = read_rare_file(settings.output);
     problem = difference(settings.output, record, question);

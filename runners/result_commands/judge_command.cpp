@@ -107,7 +107,7 @@ document::AnswerDescription<Judgement> judge_answer(const goal::Question& questi
       .value(document::in_data("machines_high", "its upper bound", "1"),
              [](Of j) { return j.of_machines(j.judged.verdict.machines.high); })
       .object({.key = "other_mass",
-               .meaning = "the same of the load, which the goal of the motor does not ask",
+               .meaning = "the same values of the load, which the goal of the motor does not limit",
                .shown = Shown::in_data,
                .optional = true},
               goal::load_description(), [](Of j) { return j.judged.verdict.of_load; })
@@ -154,7 +154,7 @@ study::Study judgeable_study(const command_line::Arguments& arguments) {
   if (!std::filesystem::exists(path, error) && shards::has_begun(path)) {
     throw Failure(ExitCode::bad_data,
                   fmt::format("{}: unfinished: its run has not ended; 'zerocount run' goes on with it, and "
-                              "'zerocount summary' is of the finished trials",
+                              "'zerocount summary' describes the finished trials",
                               path.string()));
   }
   study::Study study = commands::described_study(path);

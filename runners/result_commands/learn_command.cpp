@@ -150,7 +150,7 @@ std::string headline_of(const Outcome& outcome) {
                "is to be decided";
       return fmt::format(
           "first more trials, then a measurement: {} of {} worlds are undecided, and {} fall short by their "
-          "observed rates, so that no difference between worlds is seen that a measurement could tell",
+          "observed rates, so no difference between worlds is seen that a measurement could reveal",
           outcome.worlds_that(goal::Status::undecided), all,
           outcome.bad() == 0 ? std::string("none") : fmt::format("all {}", all));
     case Next::measure: {
@@ -215,7 +215,8 @@ document::Description<Measurement> measurement_description() {
       .value({"p_value", "by chance", "probability of as many decided if the unknowns did not matter", "1",
               document::Notation::two_digits},
              [](Of m) { return m.learned.p_value; })
-      .value({"record", "record", "record of identify that tells the unknown; null: none"}, record_of);
+      .value({"record", "record", "record of 'zerocount identify' that shows the unknown; null: none"},
+             record_of);
 }
 
 document::AnswerDescription<Outcome> learn_answer() {

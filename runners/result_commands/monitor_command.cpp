@@ -120,7 +120,7 @@ std::optional<monitor::ChangeExplanation> explanation_of(const command_line::Arg
 std::optional<double> change_from(const command_line::Arguments& arguments) {
   const std::optional<double> change = command_line::number_option(arguments, "change", 0.0);
   if (change && !(*change > 0.0))
-    arguments.refuse("option '--change': no change is always there; expected a number above 0");
+    arguments.refuse("option '--change': 0 means no change; expected a number above 0");
   return change;
 }
 
@@ -226,10 +226,10 @@ commands::Command monitor_command() {
         {"condition", "NAME", "condition of a results file with conditions"},
         {"age", "A", "age of a results file with ages"},
         {"machine", "R", "only this machine of a results file, from 0"},
-        {"seed", "N", "of ties and of simulated changes (default 1)"},
+        {"seed", "N", "seed of ties and of simulated changes (default 1)"},
         {"budget", "B",
-         "of the simulations after an alarm: a number of trials, or a time such as 60s (default: as many "
-         "trials as all parameters take, some 20000)"},
+         "budget of the simulations after an alarm: a number of trials, or a time such as 60s (default: as "
+         "many trials as all parameters take, some 20000)"},
         {"follow", "", "read the log while it grows, and print lines of JSON until the alarm"},
         needing({"follow"}, {"idle", "S", "end after S seconds without new moves (default: never)"})},
        2,

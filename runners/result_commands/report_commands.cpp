@@ -117,7 +117,7 @@ ExitCode write_index(const command_line::Arguments& arguments, const std::filesy
   for (const char* const option : {"with", "budget", "baseline", "history", "point"}) {
     if (arguments.has(option))
       arguments.refuse(
-          fmt::format("option '--{}': is of one results file; expected none with a folder", option));
+          fmt::format("option '--{}': applies to one results file; expected none with a folder", option));
   }
   const report::ReportPage index_page =
       folder_index(arguments.operands()[0], output,

@@ -179,12 +179,13 @@ std::optional<double> speed_of(const Asked& asked, const trials::Effort& effort)
 std::vector<command_line::OptionSpec> part_options() {
   std::vector<std::string> words{"all"};
   for (const Part& part : all_parts) words.emplace_back(part.name);
-  return {command_line::list_of(
-              std::move(words),
-              {"with", "PARTS", "add answers of other commands: all, or some of " + all_names()}),
-          command_line::needing({"with"}, {"budget", "B",
-                                           "of these answers together: a number of trials, or a time such as "
-                                           "60s or 5min"})};
+  return {
+      command_line::list_of(
+          std::move(words),
+          {"with", "PARTS", "add answers of other commands: all, or some of " + all_names()}),
+      command_line::needing(
+          {"with"}, {"budget", "B",
+                     "budget of these answers together: a number of trials, or a time such as 60s or 5min"})};
 }
 
 std::vector<std::string_view> parts_option(const command_line::Arguments& arguments) {

@@ -194,7 +194,7 @@ commands::Command summary_command() {
             {"confirm", "N", "run the chosen point again with N new trials, and print what they show"},
             command_line::read_file(
                 {"plugin", "LIBRARY", "for --confirm: the controller of a study that has one of its own"}),
-            {"confidence", "LEVEL", "of all bounds, between 0 and 1 (default 0.95)"}}},
+            {"confidence", "LEVEL", "confidence of all bounds, between 0 and 1 (default 0.95)"}}},
           "print the statistics of a results file",
           summary_help,
           summarise_file,

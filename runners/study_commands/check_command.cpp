@@ -184,7 +184,7 @@ std::string theory_text(const Plan& plan) {
                 "lowest and the highest k1",
                 theory::max_trials_examined_closely);
   return fmt::format(
-      "The theory is of the first {} trials of {}{}, each with the friction it starts on{}",
+      "The theory covers the first {} trials of {}{}, each with the friction it starts on{}",
       std::min(trials, loops_alone ? theory::max_trials_examined_closely : theory::max_trials_examined),
       points, plan.study.conditions.empty() ? "" : " under each condition", close);
 }
@@ -246,7 +246,7 @@ document::Description<PointReading> point_description() {
       .value({.key = "name", .heading = "point", .shown = document::Shown::to_people}, &PointReading::name)
       .value({.key = "condition",
               .heading = "condition",
-              .meaning = "what every machine bears",
+              .meaning = "condition under which every machine runs",
               .optional = true},
              &PointReading::condition)
       .include(theory::point_theory_description(), &PointReading::theory)
@@ -273,7 +273,7 @@ document::Description<Plan> plan_description() {
       .value({"worlds", "worlds", "worlds; 0: none"}, [](Of p) { return p.study.worlds; })
       .shown_as(worlds_text)
       .value({"conditions", "under the conditions",
-              "names of the conditions that every machine bears; empty: none"},
+              "names of the conditions under which every machine runs; empty: none"},
              [](Of p) { return p.study.conditions; })
       .shown_as(conditions_text)
       .value({.heading = "at the ages", .shown = document::Shown::to_people}, ages_text)
@@ -372,7 +372,8 @@ void warn_of_short_moves(std::span<const PointReading> points) {
       "warning: point {} ({}){}: the loop's slowest time constant{}: moves may end before they arrive{}\n",
       first->point, first->label, first->condition ? ", " + *first->condition : "",
       theory::slowness_text(first->theory.approach),
-      others > 0 ? fmt::format("; likewise {} more of the {} examined", others, points.size()) : "");
+      others > 0 ? fmt::format("; the same holds for {} more of the {} examined", others, points.size())
+                 : "");
 }
 
 std::vector<PointReading> examined_points(const study::Study& study, std::int64_t count) {

@@ -237,7 +237,7 @@ commands::Command controller_command() {
              "the design point, by label or number, or 'best' of a results file; default: the first"},
             command_line::written_file({"output,o", "FILE", "the file to write; default: standard output"}),
             {"condition", "NAME", "the condition whose controller it is, where the conditions have several"},
-            {"age", "A", "likewise the age"},
+            {"age", "A", "the age whose controller it is, where the ages have several"},
             command_line::choice_option("language", "LANGUAGE", {"c", "linuxcnc", "st"}),
             command_line::choice_option("precision", "PRECISION", {"double", "single"}),
             {"set", "KEY=VALUE", "override a manifest key, e.g. controller.ki=3e-5; may be repeated", true},

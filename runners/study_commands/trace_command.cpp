@@ -107,8 +107,8 @@ ExitCode trace_rare(const command_line::Arguments& arguments, const std::filesys
   for (const char* option : {"set", "point"}) {
     if (arguments.has(option))
       arguments.refuse(
-          fmt::format("option '--{}': an estimate of 'zerocount rare' is of one point of one "
-                      "manifest; expected --trial alone",
+          fmt::format("option '--{}': an estimate of 'zerocount rare' belongs to one point of one manifest; "
+                      "expected --trial alone",
                       option));
   }
   const rare::RareRecord record = rare::read_rare_file(input);

@@ -75,11 +75,11 @@ std::string common_study(std::span<const ShardHeader> shards) {
 /// The first reason why the shard cannot be of one run with `first`; empty if it can.
 std::string stranger(const layout::FileHeader& shard, const layout::FileHeader& first) {
   if (shard.study_sha256 != first.study_sha256)
-    return fmt::format("of another study ('{}') than most", shard.name);
+    return fmt::format("from another study ('{}') than most", shard.name);
   if (!layout::same_build(shard.provenance, first.provenance))
-    return fmt::format("of another build ({}, commit {})", shard.provenance.zerocount_version,
+    return fmt::format("from another build ({}, commit {})", shard.provenance.zerocount_version,
                        shard.provenance.git_commit);
-  if (shard.engine != first.engine) return fmt::format("of the {} engine", layout::name_of(shard.engine));
+  if (shard.engine != first.engine) return fmt::format("from the {} engine", layout::name_of(shard.engine));
   return {};
 }
 
@@ -239,7 +239,7 @@ std::vector<CheckReport> verify(std::span<const fs::path> operands, const Verify
       verify_file(operand, settings, reports);
     } else {
       throw Failure(ExitCode::bad_input,
-                    fmt::format("{}: no regular file; a results file was expected", operand.string()));
+                    fmt::format("{}: not a regular file; a results file was expected", operand.string()));
     }
   }
   return reports;

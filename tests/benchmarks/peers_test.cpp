@@ -34,7 +34,7 @@ TEST(BenchmarkPeers, AgreeWithTheReferenceSampleBySample) {
   }
 }
 
-TEST(BenchmarkPeers, MeasureWhatTheReferenceMeasures) {
+TEST(BenchmarkPeers, HaveTheMeasuresOfTheReference) {
   for (const Peer& peer : all_peers()) {
     for (const Sight& sight : sights) {
       const study::Study study = workload_study(sight.manifest);
@@ -80,7 +80,7 @@ TEST(BenchmarkPeers, BreakAwayAsOftenAndOscillateAlike) {
 }
 
 // Moves one after the other, a delay and the other gains are in the loop too.
-TEST(BenchmarkPeers, KnowTheWholePlainLoop) {
+TEST(BenchmarkPeers, CoverTheWholePlainLoop) {
   const study::Study study = workload_study(
       "bench-transient", {"controller.kp=3.0e-4", "controller.kd=1.0e-4", "controller.delay=1",
                           "controller.ki=2.0e-5", "initial.preload=-0.1", "initial.hardening=1.0e-6"});
@@ -96,7 +96,7 @@ TEST(BenchmarkPeers, KnowTheWholePlainLoop) {
   }
 }
 
-TEST(BenchmarkPeers, RefuseWhatTheyDoNotKnow) {
+TEST(BenchmarkPeers, RefuseUnsupportedFeatures) {
   trial::TrialParameters parameters = study::study_trial(workload_study("bench-transient"), 0, 0).parameters;
   parameters.amplifier.bandwidth = 500.0;
   for (const Peer& peer : all_peers()) EXPECT_THROW(peer.run(parameters), std::invalid_argument);

@@ -26,7 +26,7 @@ void expect_understood(const std::filesystem::path& manifest) {
   EXPECT_EQ(study.manifest.text.rfind("# ", 0), 0u) << manifest << " is explained in its own comments";
 }
 
-TEST(ShippedManifests, AllAreUnderstoodWithoutWarningsAndNamedLikeTheirFiles) {
+TEST(ShippedManifests, AreReadWithoutWarningsAndNamedLikeTheirFiles) {
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(ZEROCOUNT_MANIFESTS)) {
     if (entry.path().extension() != ".yaml") continue;
@@ -36,7 +36,7 @@ TEST(ShippedManifests, AllAreUnderstoodWithoutWarningsAndNamedLikeTheirFiles) {
   EXPECT_GE(count, 6);
 }
 
-TEST(ShippedManifests, SoAreThoseOfTheBenchmarks) {
+TEST(ShippedManifests, BenchmarkManifestsAreReadWithoutWarnings) {
   std::set<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(benchmark_folder())) {
     if (entry.path().extension() != ".yaml") continue;
@@ -48,7 +48,7 @@ TEST(ShippedManifests, SoAreThoseOfTheBenchmarks) {
 }
 
 // Zero counts depend on them, so no study that one starts from leaves them out without a word.
-TEST(ShippedManifests, TheyStateNoiseDelayAndAmplifier) {
+TEST(ShippedManifests, StateNoiseDelayAndAmplifier) {
   using Unstated = std::vector<std::string_view>;
   for (const auto& entry : std::filesystem::directory_iterator(ZEROCOUNT_MANIFESTS)) {
     if (entry.path().extension() != ".yaml") continue;
@@ -77,7 +77,7 @@ TEST(ShippedManifests, Figure8HasThirtyCountsAnd15000Samples) {
   EXPECT_FALSE(study.retained_trials.empty());
 }
 
-TEST(ShippedManifests, TheGainsAreThoseOfThePaperWithWhatItSaw) {
+TEST(ShippedManifests, PaperGainsHasTheGainsAndObservationsOfThePaper) {
   const study::Study study = shipped("paper-gains");
   EXPECT_EQ(study.trials, 10000);
   EXPECT_EQ(study.machines, 10000);
@@ -94,7 +94,7 @@ TEST(ShippedManifests, TheGainsAreThoseOfThePaperWithWhatItSaw) {
 }
 
 // Samples, gain and targets of the work that benchmarks time.
-TEST(ShippedManifests, TheBenchmarksHaveTheWorkThatTheyAreNamedFor) {
+TEST(ShippedManifests, BenchmarksHaveTheStatedSamplesGainAndTargets) {
   struct Work {
     std::string name;
     std::int64_t samples;
@@ -125,7 +125,7 @@ TEST(ShippedManifests, TheBenchmarksHaveTheWorkThatTheyAreNamedFor) {
 }
 
 // What friction may be is not known of any trial, and no two are alike.
-TEST(ShippedManifests, TheBenchmarksLeaveAllFrictionToChance) {
+TEST(ShippedManifests, BenchmarksDrawAllFrictionParameters) {
   for (const std::string name : {"bench-transient", "bench-creep", "bench-marginal", "bench-million"}) {
     std::set<std::string> random;
     for (const study::InputColumn& column : benchmark_study(name).columns.inputs) random.insert(column.name);
@@ -137,7 +137,7 @@ TEST(ShippedManifests, TheBenchmarksLeaveAllFrictionToChance) {
 }
 
 // A million of the very trials that bench-transient has.
-TEST(ShippedManifests, TheMillionIsOfTheTransientBenchmark) {
+TEST(ShippedManifests, BenchMillionHasTheTrialsOfBenchTransient) {
   const study::Study few = benchmark_study("bench-transient");
   const study::Study million = benchmark_study("bench-million");
   for (const std::int64_t index : {0, 1, 99999})
@@ -214,7 +214,7 @@ study::Study study_in_pages(const std::string& text) {
   return manifest::parse_study(text, "m.yaml", {}, sections::known_companions(nullptr, table->text));
 }
 
-TEST(ManifestPages, TheirManifestsAreUnderstoodWithoutWarnings) {
+TEST(ManifestPages, ManifestsInPagesAreReadWithoutWarnings) {
   int whole = 0;
   int parts = 0;
   for (const Block& block : fenced_blocks()) {
@@ -248,7 +248,7 @@ TEST(ManifestPages, ListThePointsOfTheirSweepInOrder) {
   EXPECT_EQ(blocks[sweep + 1].text, listed);
 }
 
-TEST(ManifestPages, ShowTheErrorsOfTheirBadManifest) {
+TEST(ManifestPages, ShowTheErrorsThatTheirBadManifestGives) {
   const std::vector<Block> blocks = fenced_blocks();
   const std::size_t bad = index_of_block(blocks, "# bad.yaml");
   ASSERT_LT(bad + 1, blocks.size());

@@ -150,7 +150,7 @@ DEAR = ("identify", "identify laws", "jerks", "limits")
 
 
 @pytest.mark.parametrize("dear", [False, pytest.param(True, marks=pytest.mark.long)])
-def test_answers_are_those_of_the_program(
+def test_answers_equal_those_of_the_program(
     axis: zc.Study, small: zc.Results, other: zc.Results, results_of: ResultsOf, folder: pathlib.Path, schema: Any, dear: bool
 ) -> None:
     """Functions and commands answer with the JSON and the text of the program, and the attributes that its schema tells."""
@@ -187,7 +187,7 @@ def assert_as_annotated(record: Record, schema: Any) -> None:
             assert value == record.get(key)
 
 
-def test_an_answer_is_needed_for_an_exit_code_to_be_a_verdict(small: zc.Results) -> None:
+def test_a_command_without_an_answer_raises_its_error(small: zc.Results) -> None:
     """A command that ends without an answer raises the error of its exit code."""
     with pytest.raises(zc.ManifestError, match="99"):
         zc.ask("judge", small, point=99)
@@ -224,7 +224,7 @@ SCHEMA = {
 }
 
 
-def test_tables_in_tables_are_one() -> None:
+def test_nested_tables_become_one_table() -> None:
     """Inner rows have the values of the outer ones, except those of the same name, and the units of both."""
     measure = {"properties": {"name": {"type": "string"}, "value": NUMBER, "notes": {"type": "array", "items": ROW}}}
     point = {"properties": {"point": {"unit": "1"}, "name": {}, "list": {"items": NUMBER}, "measures": {"items": measure}}}
@@ -287,7 +287,7 @@ def test_a_study_with_a_sweep_and_observations_is_tuned(axis: zc.Study, tmp_path
         zc.tune(study, tmp_path / "u.h5", free={"controller.ki": [1]})
 
 
-def test_a_tuning_is_that_of_the_program(quick: pathlib.Path, tuned: zc.Tuning) -> None:
+def test_a_tuning_equals_that_of_the_program(quick: pathlib.Path, tuned: zc.Tuning) -> None:
     """The answer of `tune` is the JSON of the program for the same call; its study has the gains, its results the proof."""
     record = json.loads(by_program("tune", quick, "-o", quick.with_name("again.h5"), "--format", "json", "--budget", 2000))
     answer = tuned.to_dict()
@@ -321,7 +321,7 @@ def test_a_tuning_without_a_task_is_refused(axis: zc.Study, tmp_path: pathlib.Pa
         zc.tune(axis.without("sweep").set(**{"controller.ki": 1e4}), tmp_path / "none.h5")
 
 
-def test_what_is_identified_can_be_put_into_a_study(results_of: ResultsOf) -> None:
+def test_identified_parameters_can_be_set_in_a_study(results_of: ResultsOf) -> None:
     """The parameters hold the truth, and are settings of a study."""
     r = results_of("identification")
     found = zc.identify(r.path, point="steps")
@@ -336,7 +336,7 @@ def test_what_is_identified_can_be_put_into_a_study(results_of: ResultsOf) -> No
 
 
 @pytest.mark.long
-def test_of_several_laws_the_parameters_of_the_best_are_given(results_of: ResultsOf) -> None:
+def test_the_best_of_several_laws_gives_its_parameters(results_of: ResultsOf) -> None:
     """With two laws the exit code compares none, and the table is that of the first."""
     several = zc.identify(results_of("identification").path, point="steps", model=["spring", "dahl"])
     best = several["laws"][0]
@@ -362,7 +362,7 @@ def test_a_plan_without_a_question_is_refused() -> None:
         zc.plan()
 
 
-def test_options_are_words() -> None:
+def test_keyword_arguments_become_command_line_options() -> None:
     """Names have hyphens; None and False are left out, lists and dicts repeat the option."""
     words = options(
         dac_bits=16, quiet=True, none=None, no=False, zero=0, exclude=["0:1", "2:3"], fix={"friction.n": 2, "a": 0.5, "t": "5%"},

@@ -67,7 +67,7 @@ def calls(axis: zc.Study, first: zc.Results) -> dict[str, Callable[[Any], Any]]:
     }
 
 
-def test_faults_of_arguments_are_errors_of_the_package(
+def test_wrong_arguments_raise_errors_of_the_package(
     axis: zc.Study, first: zc.Results, tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """No TypeError, AttributeError or KeyError of the inside reaches the caller."""
@@ -93,7 +93,7 @@ def test_the_message_names_the_argument() -> None:
         zc.plan(odd=1)  # type: ignore[call-arg]
 
 
-def test_numbers_and_tables_of_others_are_arguments(axis: zc.Study, first: zc.Results) -> None:
+def test_numpy_numbers_and_pandas_columns_are_accepted(axis: zc.Study, first: zc.Results) -> None:
     """Numbers of NumPy, paths, and columns of pandas."""
     assert len(first.trials(np.int64(2))) == len(first.trials(2))
     assert len(axis.sweep("controller.ki", np.geomspace(5e3, 1e5, 3)).labels) == 3
@@ -121,7 +121,7 @@ def test_results_are_the_same_in_another_folder_and_process(
     assert said.stdout.strip() == first.judge().status
 
 
-def test_a_limit_in_brackets_is_no_part_of_a_key() -> None:
+def test_a_limit_in_brackets_is_kept_in_short_names() -> None:
     """Measures of tolerances keep their names."""
     names = ["tolerance_settling_time[8.727e-05]", "band_settling_time[1]", "friction.k1", "friction.k1@v1.5", "true_overshoot"]
     assert [short_name(name, names) for name in names] == [

@@ -45,7 +45,7 @@ def test_moves_meet_the_goals_that_are_about_them(results: zc.Results) -> None:
     assert (moves["goal_met"] == expected).all()
 
 
-def test_the_summary_counts_them_by_goal(results: zc.Results) -> None:
+def test_the_summary_counts_moves_by_goal(results: zc.Results) -> None:
     """The rate of each goal is that of its own moves, and the goal of a point is the worst of them."""
     moves = results.moves(inputs=True).reset_index()
     for point in results.summary["points"]:
@@ -73,7 +73,7 @@ def test_the_headline_names_every_missed_goal(axis: zc.Study, tmp_path: pathlib.
     assert "the goals 'early' and 'soon' are missed" in headline
 
 
-def test_friction_without_a_smallest_value_holds_nothing(axis: zc.Study) -> None:
+def test_friction_without_a_smallest_value_cannot_hold_a_load(axis: zc.Study) -> None:
     """The message says so, and not that the friction is 0."""
     held = axis.set({"initial.holding": True, "disturbance.torque": 1e-3, "friction.breakaway": {"lognormal": {"median": 0.3, "cv": 0.2}}})
     with pytest.raises(zc.ManifestError, match="friction.breakaway is drawn without a smallest value above 0"):

@@ -37,7 +37,7 @@ def pi(kp: float, ki: float, zone: float = float("inf"), *, si: bool = False) ->
     return law
 
 
-def test_a_trial_is_named_in_every_way(axis: zc.Study, folder: pathlib.Path) -> None:
+def test_a_trial_can_be_named_in_several_ways(axis: zc.Study, folder: pathlib.Path) -> None:
     """A study, the path of its manifest and a dict give the same trial, at a point by its number or label."""
     expected = zc.trial(axis, 3, 7)
     assert expected.inputs["controller.ki"] == axis.checked.axes[0]["values"][3]
@@ -47,7 +47,7 @@ def test_a_trial_is_named_in_every_way(axis: zc.Study, folder: pathlib.Path) -> 
 
 
 @pytest.mark.parametrize("point", range(8))
-def test_an_integral_law_has_the_bits_of_the_built_in_one(axis: zc.Study, point: int) -> None:
+def test_an_integral_law_equals_the_built_in_one_bit_for_bit(axis: zc.Study, point: int) -> None:
     """The integral of the README's study in Python gives the same trials, at every gain."""
     gain = axis.checked.axes[0]["values"][point]
     for trial in (0, 17, 399):
@@ -68,7 +68,7 @@ AROUND: list[dict[str, Any]] = [
 
 
 @pytest.mark.parametrize("around", AROUND, ids=str)
-def test_a_proportional_and_integral_law_has_the_bits_of_the_built_in_one(around: dict[str, Any]) -> None:
+def test_a_proportional_and_integral_law_equals_the_built_in_one_bit_for_bit(around: dict[str, Any]) -> None:
     """kp, ki and a zone of the integral in Python give the same trials, with all that the manifest adds to them."""
     rng = random.Random(str(around))
     study = zc.study(
@@ -194,13 +194,13 @@ def test_a_wrong_type_of_torque_is_refused(axis: zc.Study, value: Any) -> None:
 
 
 @pytest.mark.parametrize("value", [0, True, np.float64(0.1), np.float32(0.1), np.int8(1), np.array(0.1)], ids=repr)
-def test_every_number_is_a_torque(axis: zc.Study, value: Any) -> None:
+def test_python_and_numpy_numbers_are_torques(axis: zc.Study, value: Any) -> None:
     """Numbers of Python and NumPy are torques."""
     expected = zc.trial(axis, 0, 0, lambda setup: lambda sample: float(value))
     assert same_trace(zc.trial(axis, 0, 0, lambda setup: lambda sample: value), expected)
 
 
-def test_a_law_gives_a_function(axis: zc.Study) -> None:
+def test_a_law_must_return_a_function(axis: zc.Study) -> None:
     """A law that gives no function for the setup, or cannot be called with it, is refused."""
     with pytest.raises(TypeError, match="the controller returned float for the setup of the trial; expected a function of a sample"):
         zc.trial(axis, 0, 0, lambda setup: 1.0)

@@ -19,7 +19,7 @@ def times(seed: int, moves: int, factor: float = 1.0) -> list[float]:
     return list(0.05 * factor * np.exp(0.2 * np.random.default_rng(seed).standard_normal(moves)))
 
 
-def test_updates_say_what_the_log_says(tmp_path: pathlib.Path) -> None:
+def test_updates_give_the_answer_of_the_whole_log(tmp_path: pathlib.Path) -> None:
     before = pd.DataFrame({"arrival_time": times(1, 100), "overshoot": np.arange(100) % 3})
     moves = pd.DataFrame({"arrival_time": times(2, 30) + times(3, 60, 1.5), "overshoot": np.arange(90) % 3})
     moves.loc[5, "arrival_time"] = np.nan
@@ -55,7 +55,7 @@ def test_moves_of_other_columns_are_refused() -> None:
         zc.monitor({"overshoot": [1, 2]}, {"arrival_time": [1.0]})
 
 
-def test_what_is_not_judged_is_named() -> None:
+def test_measures_that_are_not_judged_are_named() -> None:
     """A column under another name is told from one that is not there."""
     before = {"arrival_time": times(1, 100), "overshoot": list(range(100)), "jerk_count": [0, 1] * 50}
     moves = {"arrival_time": times(2, 100), "Over_Shoot": list(range(100))}

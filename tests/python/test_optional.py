@@ -98,7 +98,7 @@ zc.open("my-axis.h5")
     assert "ImportError: a results file needs h5py" in done.stderr and "python3-h5py" in done.stderr
 
 
-def test_everything_else_works_without_them(axis: zc.Study, folder: pathlib.Path, without: dict[str, dict[str, object]]) -> None:
+def test_everything_else_works_without_optional_packages(axis: zc.Study, folder: pathlib.Path, without: dict[str, dict[str, object]]) -> None:
     """Runs, judgements, traces, samples and answers are as with the packages, and none of these is imported."""
     answers = without["answers"]
     r = zc.open(folder / "without.h5")

@@ -80,7 +80,7 @@ def results(request: pytest.FixtureRequest, small: zc.Results, results_of: Resul
     return small if request.param == "small" else results_of(request.param)
 
 
-def test_tables_are_those_of_export(results: zc.Results, tmp_path: pathlib.Path) -> None:
+def test_tables_equal_those_of_export(results: zc.Results, tmp_path: pathlib.Path) -> None:
     """Statistics, inputs, moves and jerks have the values and units of the exported CSV."""
     tables = exported(results, tmp_path / "csv")
     assert_same_table(results.statistics.reset_index(), tables["points"])
@@ -125,7 +125,7 @@ LAST = {
 }  # fmt: skip
 
 
-def test_a_trial_combines_its_moves(results: zc.Results) -> None:
+def test_measures_of_a_trial_follow_from_its_moves(results: zc.Results) -> None:
     """Every measure of a trial follows from those of its moves; success is zero counts at the end of each."""
     trials, moves = results.trials(), results.moves()
     of_moves = moves.groupby(level="trial")
@@ -145,7 +145,7 @@ def test_a_trial_combines_its_moves(results: zc.Results) -> None:
         assert same(trials[name].to_numpy(), expected), name
 
 
-def test_a_trial_is_as_its_worst_move(small: zc.Results) -> None:
+def test_a_trial_counts_as_its_worst_move(small: zc.Results) -> None:
     """The outcome of a trial is that of its worst move, for all pairs of outcomes."""
     worse = ["zero_count", "one_count", "off_target", "oscillating", "nonfinite"]
     recorded = small._file.group("outcome")["outcome"]
@@ -156,7 +156,7 @@ def test_a_trial_is_as_its_worst_move(small: zc.Results) -> None:
     assert of_trials["success"].values.tolist() == [pair == ("zero_count", "zero_count") for pair in pairs]
 
 
-def test_trials_tell_how_moves_are_combined(small: zc.Results) -> None:
+def test_the_table_of_trials_states_how_moves_are_combined(small: zc.Results) -> None:
     """The table of trials tells for each measure how it follows from the moves."""
     told = small.trials().attrs["combined"]
     for rule, names in (("sum", SUMS), ("any", SOME), ("last", LAST)):
@@ -166,7 +166,7 @@ def test_trials_tell_how_moves_are_combined(small: zc.Results) -> None:
 
 
 @pytest.mark.parametrize("shared", [{"machines": 6}, {"worlds": 3}, {"machines": 6, "worlds": 3}], ids=str)
-def test_trials_under_a_condition_are_those_of_its_study(shared: dict[str, int], tmp_path: pathlib.Path) -> None:
+def test_trials_under_a_condition_equal_those_of_its_study(shared: dict[str, int], tmp_path: pathlib.Path) -> None:
     """The trials under a condition are those of the study with its overrides, with machine and world."""
     manifest: dict[str, Any] = {
         "zerocount": 1,
@@ -196,7 +196,7 @@ def test_trials_under_a_condition_are_those_of_its_study(shared: dict[str, int],
             assert mine[name].tolist() == alone[name].tolist() or same(mine[name].to_numpy(), alone[name].to_numpy()), name
 
 
-def test_ages_and_lives_are_those_of_the_trials(tmp_path: pathlib.Path) -> None:
+def test_ages_and_lives_match_the_trials(tmp_path: pathlib.Path) -> None:
     """Ages and lives of machines, recomputed from the trials and their moves."""
     manifest: dict[str, Any] = {
         "zerocount": 1,
@@ -291,7 +291,7 @@ def test_tables_agree_with_one_another(results: zc.Results) -> None:
         assert results.jerks(point).equals(jerks[jerks["trial"].isin(mine.index)])
 
 
-def test_moves_of_a_point_are_some_of_all(results: zc.Results) -> None:
+def test_moves_of_a_point_are_a_subset_of_all_moves(results: zc.Results) -> None:
     """The moves of a point are those of its trials."""
     trials, moves = results.trials(), results.moves()
     for point in (0, 1):
@@ -420,7 +420,7 @@ TRACED = ["small", "unknown-friction", "linear-stage", "contact-variation", "ide
 
 
 @pytest.mark.parametrize("name", dear_by_night(TRACED))
-def test_a_trace_is_that_of_this_process(name: str, small: zc.Results, results_of: ResultsOf) -> None:
+def test_a_trace_equals_that_of_this_process(name: str, small: zc.Results, results_of: ResultsOf) -> None:
     """A trial that the program replays and one of this process have the same values, and the recorded outcome."""
     r = small if name == "small" else results_of(name)
     rng, moves = random.Random(name), r.moves()
@@ -476,7 +476,7 @@ def test_results_have_the_study_that_was_run(axis: zc.Study, folder: pathlib.Pat
     assert r.study.sha256 == r.checked.sha256
 
 
-def test_what_is_no_results_file_is_refused(folder: pathlib.Path, axis: zc.Study, tmp_path: pathlib.Path) -> None:
+def test_files_that_are_not_results_are_refused(folder: pathlib.Path, axis: zc.Study, tmp_path: pathlib.Path) -> None:
     """A missing file, a text, and an HDF5 file of something else give an error with the file's name."""
     with h5py.File(tmp_path / "other.h5", "w") as file:
         file["x"] = 1
@@ -486,7 +486,7 @@ def test_what_is_no_results_file_is_refused(folder: pathlib.Path, axis: zc.Study
         assert raised.value.code == 4 and str(path) in str(raised.value)
 
 
-def test_a_report_and_other_commands_are_those_of_the_program(small: zc.Results, tmp_path: pathlib.Path) -> None:
+def test_reports_and_other_commands_equal_those_of_the_program(small: zc.Results, tmp_path: pathlib.Path) -> None:
     """The report is a page, written again without a question; a command gives what the program prints."""
     for _ in range(2):
         assert small.report(tmp_path / "r.html").read_text(encoding="utf-8").startswith("<!DOCTYPE html>")

@@ -117,7 +117,7 @@ def test_a_watched_run_leaves_its_report(axis: zc.Study, tmp_path: pathlib.Path)
 
 
 @pytest.mark.parametrize("arguments", [("check", "bad.yaml"), ("run", "bad.yaml", "-o", "x.h5"), ("judge", "missing.h5"), ("runs",)])
-def test_messages_are_those_of_the_program(
+def test_messages_equal_those_of_the_program(
     axis: zc.Study, tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch, arguments: tuple[str, ...]
 ) -> None:
     """The message of an error is all that the program says, line for line, with and without progress."""
@@ -165,7 +165,7 @@ def refused(axis: zc.Study) -> zc.MachineError:
     return raised.value
 
 
-def test_a_missing_program_is_told(axis: zc.Study, found_anew: pytest.MonkeyPatch, tmp_path: pathlib.Path) -> None:
+def test_a_missing_program_is_reported(axis: zc.Study, found_anew: pytest.MonkeyPatch, tmp_path: pathlib.Path) -> None:
     """Without the program the error says how to install it; what runs in this process still does."""
     found_anew.delenv("ZEROCOUNT_PROGRAM")
     found_anew.setenv("PATH", str(tmp_path))
@@ -250,7 +250,7 @@ CODES = {1: zc.Error, 2: zc.ManifestError, 3: zc.TooLittleDataError, 4: zc.DataE
 
 @pytest.mark.parametrize("progress", [None, lambda line: None], ids=["quiet", "progress"])
 @pytest.mark.parametrize("code", CODES)
-def test_an_exit_code_is_a_class_of_errors(fake: Callable[..., pathlib.Path], code: int, progress: Callable[[str], None] | None) -> None:
+def test_each_exit_code_raises_its_error(fake: Callable[..., pathlib.Path], code: int, progress: Callable[[str], None] | None) -> None:
     """Each exit code raises its own error, with all that was said, also in a last line without an end and between progress."""
     fake("1 %\r\x1b[Ka.yaml:3:4: key: β is wrong\r\n2 %\r\x1b[Kb.h5: no end", code)
     with pytest.raises(zc.Error) as raised:
@@ -263,7 +263,7 @@ def test_an_exit_code_is_a_class_of_errors(fake: Callable[..., pathlib.Path], co
         zerocount.program.run(["run"], accepted=frozenset({code}))
 
 
-def test_a_program_that_says_nothing_is_told_by_its_exit_code(fake: Callable[..., pathlib.Path]) -> None:
+def test_a_silent_failure_is_reported_with_its_exit_code(fake: Callable[..., pathlib.Path]) -> None:
     """An end without a message tells the program and the exit code."""
     folder = fake("", 77)
     with pytest.raises(zc.Error, match="ended with exit code 77") as raised:
@@ -271,7 +271,7 @@ def test_a_program_that_says_nothing_is_told_by_its_exit_code(fake: Callable[...
     assert str(folder / "fake") in str(raised.value) and len(raised.value.problems) == 1
 
 
-def test_a_program_that_is_killed_is_told_by_the_signal(fake: Callable[..., pathlib.Path]) -> None:
+def test_a_killed_program_is_reported_with_its_signal(fake: Callable[..., pathlib.Path]) -> None:
     """The end by a signal is a failure of the machine, with what was said before."""
     fake("a last word", -9)
     with pytest.raises(zc.MachineError, match="was ended by the signal SIGKILL\na last word"):
@@ -279,7 +279,7 @@ def test_a_program_that_is_killed_is_told_by_the_signal(fake: Callable[..., path
 
 
 @pytest.mark.parametrize("code", [0, 4])
-def test_a_warning_of_the_program_is_one_of_python(fake: Callable[..., pathlib.Path], code: int) -> None:
+def test_a_warning_of_the_program_becomes_a_python_warning(fake: Callable[..., pathlib.Path], code: int) -> None:
     """A warning is passed on, whether the program succeeds or not, and is none of the errors."""
     fake("zerocount plot: warning: few trials\nwarning: little memory\na.h5: damaged", code)
     with pytest.warns(UserWarning) as warned:
@@ -292,14 +292,14 @@ def test_a_warning_of_the_program_is_one_of_python(fake: Callable[..., pathlib.P
     assert [str(warning.message) for warning in warned] == ["few trials", "little memory"]
 
 
-def test_an_interrupted_program_is_an_interruption(fake: Callable[..., pathlib.Path]) -> None:
+def test_an_interrupted_program_raises_keyboard_interrupt(fake: Callable[..., pathlib.Path]) -> None:
     """A program that was interrupted by somebody else raises KeyboardInterrupt, too."""
     fake("interrupted", 130)
     with pytest.raises(KeyboardInterrupt, match="interrupted"):
         zerocount.program.run(["run"])
 
 
-def test_a_run_is_a_command(small: zc.Results, fake: Callable[..., pathlib.Path], monkeypatch: pytest.MonkeyPatch) -> None:
+def test_options_of_a_run_become_options_of_the_command(small: zc.Results, fake: Callable[..., pathlib.Path], monkeypatch: pytest.MonkeyPatch) -> None:
     """Options of a run are those of the command, and paths are absolute."""
     small.study.checked  # noqa: B018
     folder = fake("", 0)

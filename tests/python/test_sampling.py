@@ -175,7 +175,7 @@ def test_the_inputs_of_trials_give_their_recorded_outcomes(name: str, first: zc.
     assert total - equal <= 0.005 * total + 2
 
 
-def test_the_success_over_draws_is_that_of_the_study(first: zc.Results) -> None:
+def test_the_success_rate_over_draws_agrees_with_the_study(first: zc.Results) -> None:
     """The mean over draws agrees with the rate of the study, within the spread of both."""
     for point in (2, 4):
         f, row = zc.sample(first.study, point), first.table.loc[point]
@@ -184,7 +184,7 @@ def test_the_success_over_draws_is_that_of_the_study(first: zc.Results) -> None:
         assert abs(mean - rate) < 4 * math.sqrt(rate * (1 - rate) * (1 / n + 1 / 200))  # 400 trials on 200 machines
 
 
-def test_a_profile_is_its_mean_and_its_score(folder: pathlib.Path) -> None:
+def test_a_profile_is_given_by_its_mean_and_score(folder: pathlib.Path) -> None:
     """The profile of each trial is drawn anew; the success over draws is that of a study with many machines."""
     study = zc.study(
         {
@@ -224,7 +224,7 @@ initial: {encoder_phase: {uniform: [0, 1]}}
 ROWS = [(108, 741.5, 81200), (111.9, 752.3, 79650), (75, 700, 1.1e5), (130, 620, 1.3e5)]
 
 
-def test_a_row_of_joint_samples_is_its_number(tmp_path: pathlib.Path) -> None:
+def test_a_row_of_joint_samples_is_one_variable(tmp_path: pathlib.Path) -> None:
     """A row is one variable; its values are those of the table."""
     (tmp_path / "joint.yaml").write_text(JOINT, encoding="utf-8")
     lines = ["friction.k1,friction.k2,friction.beta", *(",".join(map(str, row)) for row in ROWS)]
@@ -282,7 +282,7 @@ def test_set_keeps_the_machines(noisy: zc.Study) -> None:
         f.set({"friction.k2": 600})
 
 
-def test_a_table_is_read_by_names(first: zc.Results, every_kind: zc.Study, results_of: ResultsOf) -> None:
+def test_columns_of_a_table_are_matched_by_name(first: zc.Results, every_kind: zc.Study, results_of: ResultsOf) -> None:
     """The columns of a DataFrame are the variables, in full or short; a missing one is refused, and a value that is no score."""
     f = zc.sample(first, 2, outcome="peak_torque")
     trials = first.trials(2).iloc[:50]
@@ -367,7 +367,7 @@ def test_wrong_calls_are_refused(every_kind: zc.Study, axis: zc.Study) -> None:
         zc.sample(certain)
 
 
-def test_a_study_is_named_in_every_way(axis: zc.Study, first: zc.Results, folder: pathlib.Path) -> None:
+def test_a_study_can_be_named_in_several_ways(axis: zc.Study, first: zc.Results, folder: pathlib.Path) -> None:
     """A study, results and the path of a manifest give the same function."""
     path = folder / "my-axis.yaml"
     functions = [zc.sample(of, 2, outcome="peak_torque") for of in (axis, first, path, str(path), axis.to_dict())]
@@ -376,7 +376,7 @@ def test_a_study_is_named_in_every_way(axis: zc.Study, first: zc.Results, folder
     assert all(f.names == functions[0].names and same(f(x), functions[0](x)) for f in functions)
 
 
-def test_a_sample_is_of_one_condition(axis: zc.Study) -> None:
+def test_a_sample_needs_one_condition(axis: zc.Study) -> None:
     """Under a condition the function is that of the study with its overrides; without one it is not defined."""
     study = zc.study({**axis.to_dict(), "conditions": {"empty": {}, "loaded": {"plant.inertia": 9.0}}}).set(trials=32000)
     with pytest.raises(zc.ManifestError, match="condition= one of empty, loaded"):
@@ -390,7 +390,7 @@ def test_a_sample_is_of_one_condition(axis: zc.Study) -> None:
         assert same(f.set({"controller.ki": 2e4})(x), g.set({"controller.ki": 2e4})(x))
 
 
-def test_worlds_stay_with_the_numbers_of_trials() -> None:
+def test_the_number_of_a_trial_decides_its_world() -> None:
     """What is drawn for a world is no variable: it follows from the number of the trial."""
     study = shipped("unknown-friction")
     f = zc.sample(study, 2, outcome="peak_torque")

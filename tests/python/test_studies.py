@@ -109,7 +109,7 @@ def test_a_value_that_a_manifest_cannot_have_is_refused(axis: zc.Study, value: A
         zc.study({**axis.to_dict(), "description": value})
 
 
-def test_a_setting_is_what_the_program_calls_set(axis: zc.Study, folder: pathlib.Path) -> None:
+def test_a_setting_equals_the_option_set_of_the_program(axis: zc.Study, folder: pathlib.Path) -> None:
     """The hash of a study with settings is the one that `zerocount run --set` records, and their order counts."""
     values: dict[str, Any] = {
         "trials": 4, "machines": 2, "controller.delay": 1, "friction.k1": {"lognormal": {"median": 80, "cv": 0.1}},
@@ -145,7 +145,7 @@ def test_a_sweep_has_the_given_values(axis: zc.Study) -> None:
     assert len(cases.labels) == 16 and cases.labels[8].startswith("stiff, controller.ki=5000")
 
 
-def test_without_takes_keys_out(axis: zc.Study) -> None:
+def test_without_removes_keys(axis: zc.Study) -> None:
     """A study without some keys has their defaults, keeps everything else, and ignores keys that it lacks."""
     study = axis.set(trials=3000, **{"controller.delay": 1, "controller.kp": 10.0, "dac.bits": 14})
     tree = study.to_dict()
@@ -189,7 +189,7 @@ def test_a_study_at_a_point_has_its_trials(path: pathlib.Path) -> None:
             study.at(wrong)
 
 
-def test_a_study_is_a_study(axis: zc.Study) -> None:
+def test_a_study_survives_conversion_and_pickling(axis: zc.Study) -> None:
     """A study is taken as it is, survives pickling, and is shown also where it is wrong."""
     assert zc.study(axis) is axis
     study = axis.set({"controller.delay": 1}, trials=3000)
@@ -333,7 +333,7 @@ def test_errors_can_be_sent_to_another_process(axis: zc.Study) -> None:
 
 
 @pytest.mark.parametrize("name", ["missing.yaml", ".", "no-text.yaml"])
-def test_what_is_no_manifest_is_refused(name: str, tmp_path: pathlib.Path) -> None:
+def test_files_that_are_not_manifests_are_refused(name: str, tmp_path: pathlib.Path) -> None:
     """A missing file, a folder and a file that is no text give an error with the file's name."""
     (tmp_path / "no-text.yaml").write_bytes(b"\xff\xfe\x00")
     with pytest.raises(zc.ManifestError, match="expected a manifest") as raised:

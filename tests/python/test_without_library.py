@@ -38,7 +38,7 @@ print(json.dumps({
 """
 
 
-def test_all_else_is_as_with_it(axis: zc.Study, folder: pathlib.Path) -> None:
+def test_everything_else_works_without_the_library(axis: zc.Study, folder: pathlib.Path) -> None:
     """Studies, runs, tables, traces and answers are the same; a trial and a sample say what is missing."""
     environment = {**os.environ, "ZEROCOUNT_LIBRARY": "/nowhere/libzerocount.so.1"}
     done = subprocess.run([sys.executable, "-c", SCRIPT], cwd=folder, capture_output=True, text=True, check=False, env=environment)

@@ -63,7 +63,7 @@ def shown_by(monkeypatch: pytest.MonkeyPatch, show: Callable[[str], None]) -> No
     monkeypatch.setattr(zerocount.studies, "progress_bar", lambda name, wanted: contextlib.nullcontext(show))
 
 
-def test_the_bytes_are_those_of_one_machine(
+def test_the_file_equals_that_of_one_computer(
     long: zc.Study, alone: pathlib.Path, client: Any, tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A run on workers gives the file of a run without them, tells its progress, and leaves nothing else."""
@@ -77,7 +77,7 @@ def test_the_bytes_are_those_of_one_machine(
     assert identity(long.run(r.path, client=client).path) == before
 
 
-def test_options_of_the_other_kind_of_run_are_refused(axis: zc.Study, client: Any, tmp_path: pathlib.Path) -> None:
+def test_options_of_the_wrong_kind_of_run_are_refused(axis: zc.Study, client: Any, tmp_path: pathlib.Path) -> None:
     """No option is ignored."""
     with pytest.raises(zc.ManifestError, match="parts: a run on this machine"):
         axis.run(tmp_path / "r.h5", parts=2)
@@ -106,7 +106,7 @@ def test_a_killed_worker_costs_only_its_parts(
     assert set(client.scheduler_info()["workers"]) != before
 
 
-def test_an_interrupted_call_goes_on_with_the_parts_that_are_missing(
+def test_an_interrupted_call_continues_with_the_missing_parts(
     long: zc.Study, alone: pathlib.Path, client: Any, tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """After Ctrl-C the finished parts are there; the same call runs the others, in the same division without being told."""
@@ -191,7 +191,7 @@ def program_of_workers(client: Any, path: str) -> Iterator[None]:
 
 
 @pytest.mark.long
-def test_a_failure_of_the_workers_is_one_of_the_machine(axis: zc.Study, client: Any, tmp_path: pathlib.Path) -> None:
+def test_a_failure_of_every_worker_raises_a_machine_error(axis: zc.Study, client: Any, tmp_path: pathlib.Path) -> None:
     """A part that fails on every worker ends the run with what the package says there."""
     few = axis.set(machines=2, trials=4)
     with program_of_workers(client, "/nowhere/zerocount"):
@@ -227,7 +227,7 @@ def test_another_build_is_refused_before_it_runs(axis: zc.Study, client: Any) ->
         client.submit(workers.run_part, axis, 1, 2, 1, "zerocount 0.0").result()
 
 
-def test_a_cluster_without_workers_is_told(axis: zc.Study, tmp_path: pathlib.Path) -> None:
+def test_a_cluster_without_workers_is_reported(axis: zc.Study, tmp_path: pathlib.Path) -> None:
     """Without workers the default number of parts is not known."""
     with (
         distributed.LocalCluster(n_workers=0, processes=False, dashboard_address=None) as cluster,

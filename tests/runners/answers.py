@@ -266,7 +266,7 @@ class Answers(unittest.TestCase):
                 self.assertEqual(without_times(answer), without_times(plain))
                 self.assertEqual(given, {})
 
-    def test_table_is_another_name_of_text(self):
+    def test_table_is_an_alias_of_text(self):
         self.assertEqual(self.ask("judge sweep.h5 --format table").stdout, self.ask("judge sweep.h5").stdout)
 
 

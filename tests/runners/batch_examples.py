@@ -92,7 +92,7 @@ class Contract(Batch):
     def has_shard(self, output):
         return lambda: any((self.folder / f"{output}.shards").glob("*.shard"))
 
-    def test_a_killed_part_goes_on_here_or_elsewhere(self):
+    def test_a_killed_part_continues_here_or_elsewhere(self):
         """After SIGKILL the part is absent, its shards are whole, and the same command runs only what is missing, also where the folder
         of shards has been moved to."""
         self.assertEqual(self.killed(self.has_shard("1.h5"), *self.part(1, 2, "1.h5")), -signal.SIGKILL)
@@ -111,7 +111,7 @@ class Contract(Batch):
         self.ended("zerocount", "merge", "elsewhere/2.h5", "1.h5", "-o", "study.h5")
         self.require_alone()
 
-    def test_two_of_the_same_part(self):
+    def test_a_second_run_of_the_same_part_is_refused(self):
         """The second of two runs of a part ends with 5, and does not disturb the first."""
         first = subprocess.Popen(self.part(1, 2, "1.h5"), cwd=self.folder, env=self.env, stderr=subprocess.DEVNULL)
         while not (self.folder / "1.h5.lock").exists():
@@ -130,14 +130,14 @@ class Contract(Batch):
         self.require_alone()
         self.assertEqual(self.names(), ["1.h5", "2.h5", "study.h5", "study.yaml"])
 
-    def test_a_merge_of_different_divisions(self):
+    def test_a_merge_accepts_parts_of_different_divisions(self):
         """Halves and quarters together have the bytes of one machine."""
         for number, parts in ((1, 2), (3, 4), (4, 4)):
             self.ended(*self.part(number, parts, f"{number}-of-{parts}.h5"))
         self.ended("zerocount", "merge", *[name for name in self.names() if "-of-" in name], "-o", "study.h5")
         self.require_alone()
 
-    def test_what_no_retry_mends(self):
+    def test_errors_that_no_retry_repairs_exit_with_two(self):
         """A wrong division, a study with `stop` and another manifest than meant: exit code 2."""
         self.ended(*self.part(9, 8, "9.h5"), code=2)
         self.ended(*self.part(1, 8, "1.h5", "--study", "0" * 64), code=2)
@@ -158,7 +158,7 @@ class Parts(Batch):
         after = (self.folder / "1.h5").stat()
         self.assertEqual((before.st_mtime_ns, before.st_ino), (after.st_mtime_ns, after.st_ino))
 
-    def test_a_merge_is_whole_or_refused(self):
+    def test_an_incomplete_merge_is_refused(self):
         """A missing part, one twice, and one of another study: exit code 4 and no file; with all parts the bytes of one machine."""
         for number in (1, 2, 4):
             self.ended(*self.part(number, 4, f"{number}.h5"))
@@ -176,7 +176,7 @@ class Parts(Batch):
         self.ended(*merge, "--force")
         self.require_alone()
 
-    def test_a_damaged_part(self):
+    def test_a_damaged_part_is_refused_and_made_again_with_force(self):
         """It is refused by merge (4) and by its own command (2), which makes it again with --force."""
         for number in (1, 2):
             self.ended(*self.part(number, 2, f"{number}.h5"))

@@ -184,7 +184,7 @@ class Completions(unittest.TestCase):
     def test_fish(self):
         self.check_all("fish")
 
-    def test_bash_completes_within_quotes(self):
+    def test_bash_completes_inside_quotes(self):
         shell = self.shell("bash")
         for line, label in (
             ('--point "a b', "a b c"),
@@ -199,7 +199,7 @@ class Completions(unittest.TestCase):
             with self.subTest(line=line):
                 self.assertEqual(shell.run(f"zerocount trace axis.yaml {line}\t")[-1].removeprefix("--point="), label)
 
-    def test_lists_the_names_of_a_study(self):
+    def test_completion_lists_points_conditions_goals_and_ages(self):
         def listed(what):
             words = [PROGRAM, "completion", what, self.folder / "axis.yaml"]
             return subprocess.run(words, capture_output=True, text=True, check=True).stdout.splitlines()

@@ -47,7 +47,7 @@ class FirstStudy : public ProgramTest {
   std::string text_;
 };
 
-TEST_F(FirstStudy, IsUnderstoodWithoutWarnings) {
+TEST_F(FirstStudy, IsReadWithoutWarnings) {
   ASSERT_NE(folder_.read("my-axis.yaml").find("name: my-axis"), std::string::npos) << text_;
   const ProgramResult checked = program({"check", "my-axis.yaml"});
   EXPECT_EQ(checked.code, 0);
@@ -68,7 +68,7 @@ std::string success_of(const nlohmann::json& point) {
 }
 
 // The whole study, as the reader runs it, and what the README says of it.
-TEST_F(FirstStudy, ItsCommandsDoWhatTheReadmeSays) {
+TEST_F(FirstStudy, ItsCommandsPrintWhatTheReadmeSays) {
   std::istringstream lines(block(text_, "sh"));
   std::vector<std::string> commands;
   for (std::string line; std::getline(lines, line);) {
@@ -111,7 +111,7 @@ constexpr const char* best_gain = "sweep={grid: {controller.ki: [1.1768e+4]}}";
 
 // Premises that docs/reliability.md names, by night: of the position the answer survives them, of the reading
 // it does not.
-TEST_F(FirstStudy, DISABLED_ItsAnswerHoldsUnderThePremisesOfItsPage) {
+TEST_F(FirstStudy, DISABLED_ItsAnswerHoldsUnderTheAssumptionsOfItsPage) {
   const auto judged_with = [this](const std::vector<std::string>& settings) {
     std::vector<std::string> words{"run",     "my-axis.yaml", "-o",    "other.h5",
                                    "--quiet", "--force",      "--set", best_gain};
@@ -129,7 +129,7 @@ TEST_F(FirstStudy, DISABLED_ItsAnswerHoldsUnderThePremisesOfItsPage) {
   EXPECT_EQ(judged_with({noisy, "goal={band: 1, within: 0.05, moves: 0.95}"})["status"], "missed");
 }
 
-TEST_F(FirstStudy, NoiseAndCreepKeepItFromZeroCounts) {
+TEST_F(FirstStudy, NoiseAndCreepPreventZeroCounts) {
   const auto zero_counts = [this](const std::vector<std::string>& settings) {
     std::vector<std::string> words{"run",     "my-axis.yaml", "-o",      "still.h5", "--quiet",
                                    "--force", "--set",        best_gain, "--set",    "trials=1000"};

@@ -114,7 +114,7 @@ class Interruptions(Runs):
         self.assertIn("nothing to run", self.complete("run", "short.yaml", "-o", "out.h5").stderr)
 
     @unittest.skipUnless(os.geteuid() == 0, "needs another user, so that the limit counts its processes alone")
-    def test_where_no_thread_can_be_started_one_sentence_says_so(self):
+    def test_a_refused_thread_gives_one_sentence(self):
         self.folder.chmod(0o777)
         for processes in (1, 2):
             def limit(processes=processes):

@@ -166,7 +166,7 @@ class Trials(Files):
                 self.assertEqual([file[f"condition/{name}"][p, c] for name in ("trials", "success", "goal_met")],
                                  [here.sum(), success[here].sum(), meets[here].sum()])
 
-    def test_files_of_random_studies(self):
+    def test_random_studies_match_the_judge(self):
         draw = random.Random(66)
         for number in range(15):
             with self.subTest(number):
@@ -175,7 +175,7 @@ class Trials(Files):
                 self.run_program("run", "aged.yaml", "-o", "aged.h5", "-q", "--force")
                 self.judge("aged.h5", manifest, values)
 
-    def test_an_aging_changes_no_other_draw(self):
+    def test_aging_changes_no_other_draw(self):
         manifest, _ = random_study(random.Random(3))
         manifest.update(friction={"k1": {"lognormal": {"median": 110, "cv": 0.3}}, "k2": {"uniform": [600, 900]}}, plant={})
         aged = json.loads(json.dumps(manifest))
@@ -188,7 +188,7 @@ class Trials(Files):
                 if path != "friction.k2":
                     np.testing.assert_array_equal(plain[f"trial/input/{path}"], other[f"trial/input/{path}"])
 
-    def test_both_engines_run_the_values_as_they_act(self):
+    def test_both_engines_have_the_same_aged_inputs(self):
         manifest, _ = random_study(random.Random(8))
         self.write("aged.yaml", manifest)
         for engine in ("batch", "reference"):
@@ -198,7 +198,7 @@ class Trials(Files):
             for path in lanes["trial/input"]:
                 np.testing.assert_array_equal(lanes[f"trial/input/{path}"], reference[f"trial/input/{path}"])
 
-    def test_answers_say_what_the_file_has(self):
+    def test_answers_agree_with_the_file(self):
         manifest, _ = random_study(random.Random(12))
         manifest["ages"]["at"] = [0, 10]
         manifest["trials"] = 2 * manifest["machines"] * max(len(manifest.get("conditions", {})), 1) * 3
@@ -233,7 +233,7 @@ class Runs(Files):
         manifest.pop("goals", None)
         return manifest
 
-    def test_however_it_is_run_the_file_is_the_same(self):
+    def test_the_file_does_not_depend_on_how_it_was_run(self):
         for keep in ("trials", "statistics", "failures"):
             with self.subTest(keep):
                 self.write(f"{keep}.yaml", {**self.study(144), "keep": keep})
@@ -250,7 +250,7 @@ class Runs(Files):
                 if path.startswith(f"{group}/") and "@" not in path and whole[path] is not None:
                     np.testing.assert_array_equal(whole[path], sums[path], err_msg=path)
 
-    def test_more_trials_extend_it(self):
+    def test_more_trials_extend_the_file(self):
         for trials in (72, 288):
             self.write(f"{trials}.yaml", self.study(trials))
         self.run_program("run", "72.yaml", "-o", "extended.h5", "-q")
@@ -258,7 +258,7 @@ class Runs(Files):
         self.run_program("run", "288.yaml", "-o", "fresh.h5", "-q")
         self.expect_equal("extended.h5", "fresh.h5")
 
-    def test_an_interrupted_run_goes_on(self):
+    def test_an_interrupted_run_continues(self):
         self.write("long.yaml", self.study(12024))
         shards = self.folder / "resumed.h5.shards"
         process = subprocess.Popen([PROGRAM, "run", "long.yaml", "-o", "resumed.h5", "--threads", "1", "-q"], cwd=self.folder)

@@ -91,7 +91,7 @@ class Replays(unittest.TestCase):
         self.assertEqual(result.returncode, 0, result.stderr + result.stdout)
         return f"{name}.h5"
 
-    def test_no_trial_that_verify_passes_is_called_damaged(self):
+    def test_trials_that_pass_verify_are_never_called_damaged(self):
         parted = 0
         for name in STUDIES:
             with self.subTest(name):
@@ -110,7 +110,7 @@ class Replays(unittest.TestCase):
             traced = self.run_program("trace", file, "--trial", str(trial), "-o", "t.csv", "--force")
             self.assertEqual(traced.returncode, 0, traced.stderr)
 
-    def test_the_time_since_when_the_engines_part_is_right(self):
+    def test_the_time_of_divergence_of_the_engines_is_right(self):
         said = 0
         for name in ("lugre", "dahl"):
             batch = self.made(name)
@@ -128,13 +128,13 @@ class Replays(unittest.TestCase):
                 self.assertLess(int(parting[2]), len(rows))
         self.assertGreater(said, 0)
 
-    def test_the_reference_engine_parts_from_nothing(self):
+    def test_the_reference_engine_replays_its_own_trials_exactly(self):
         file = self.made("lugre", "--engine", "reference")
         for trial in range(3):
             traced = self.run_program("trace", file, "--trial", str(trial), "-o", "t.csv", "--force")
             self.assertEqual((traced.returncode, traced.stderr), (0, ""))
 
-    def test_a_changed_value_is_damage_in_both(self):
+    def test_trace_and_verify_call_a_changed_value_damage(self):
         file = self.made("lugre")
         with h5py.File(self.folder / file, "a") as changed:
             changed["outcome/overshoot"][2] += 1

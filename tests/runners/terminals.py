@@ -76,11 +76,11 @@ class Terminals(unittest.TestCase):
         clean = {name: value for name, value in os.environ.items() if name != "COLUMNS"}
         return subprocess.run([PROGRAM, *words], cwd=self.folder.name, env={**clean, **environment}, capture_output=True, text=True)
 
-    def test_limits_of_many_trials_shows_what_it_does(self):
+    def test_limits_shows_its_progress(self):
         shown = on_terminal(100, "limits", "axis.yaml", "--point", "0", cwd=self.folder.name, seconds=2)
         self.assertIn("zerocount limits: the point as it is, ", shown)
 
-    def test_everything_for_people_fits(self):
+    def test_text_for_people_fits_the_terminal(self):
         commands = [["check", "short.yaml"], ["check", "--help"], ["verify", "--help"], ["--help"], ["parameters"], ["new", "--list"],
                     ["plan", "short.yaml"], ["plan", "short.yaml", "--success", "0.99"], ["parameters", "--guides"],
                     ["run", "axis.yaml", "--treads", "3"], ["check", "nowhere.yaml"], ["new"], []]
@@ -93,14 +93,14 @@ class Terminals(unittest.TestCase):
                     wide = [line for line in lines(shown) if columns(line) > width and " " in line.strip()]
                     self.assertEqual(wide, [])
 
-    def test_the_words_are_those_of_a_file(self):
+    def test_a_terminal_shows_the_same_words_as_a_pipe(self):
         for words in (["run", "axis.yaml", "--treads", "3"], ["--help"], ["trace", "--help"]):
             with self.subTest(words=words):
                 result = self.piped(*words)
                 shown = on_terminal(120, *words, cwd=self.folder.name)
                 self.assertEqual(sorted(shown.split()), sorted((result.stderr + result.stdout).split()))
 
-    def test_what_is_piped_follows_columns_where_that_is_set(self):
+    def test_piped_text_follows_the_variable_columns(self):
         for words in (["check", "short.yaml"], ["parameters"]):
             free = self.piped(*words)
             self.assertGreater(max(map(columns, (free.stdout + free.stderr).splitlines())), 100)

@@ -87,7 +87,7 @@ class Arrays(unittest.TestCase):
         self.require_same_as_local_run()
         self.assertTrue(self.status()["complete"])
 
-    def test_status_of_a_running_array_which_is_cancelled_and_goes_on(self):
+    def test_status_follows_an_array_that_is_cancelled_and_continued(self):
         self.submit(60000)
         self.wait_for_shards()
         status = self.status()
@@ -102,7 +102,7 @@ class Arrays(unittest.TestCase):
         self.submit(60000)
         self.require_same_as_local_run()
 
-    def test_a_requeued_element_and_a_restarted_controller(self):
+    def test_a_requeued_element_and_a_restarted_controller_lose_nothing(self):
         self.submit(60000, elements=2)
         self.wait_for_shards()
         before = self.status()["finished"]
@@ -119,7 +119,7 @@ class Arrays(unittest.TestCase):
         self.cluster.start_controller()
         self.require_same_as_local_run()
 
-    def test_no_merge_where_a_part_cannot_be_made(self):
+    def test_nothing_is_merged_if_a_part_fails(self):
         (self.folder / "study.h5.parts").mkdir()
         (self.folder / "study.h5.parts/part-3-of-8.h5").write_text("no part")
         self.submit(400)

@@ -20,7 +20,7 @@ std::string with_step(const char* resolution) {
   return std::string("dac.resolution=") + resolution;
 }
 
-TEST(DacResolution, UpToTheConditionAllMovesAreStableAndAllJerksAreOfCreep) {
+TEST(DacResolution, UpToTheConditionAllMovesAreStableAndAllJerksComeFromCreep) {
   const study::Study study = shipped_study("dac-resolution");
   for (const char* resolution : {"4.27e-05", "0.000107", "0.000213"}) {
     const auto outcomes = outcomes_of(study, with_step(resolution), dac_trials);
@@ -91,7 +91,7 @@ TEST(EncoderResolution, AFinerConverterKeepsTheLoopStable) {
 }
 
 // A finer count is crossed by creep more often: without creep, all moves end in zero counts.
-TEST(EncoderResolution, WhatIsLeftToAFineEncoderIsCreep) {
+TEST(EncoderResolution, CreepIsTheRemainingErrorOfAFineEncoder) {
   EXPECT_TRUE(share_below(0.80, zero_count_moves(outcomes_with("ten-times", "2.4e-05")), encoder_trials));
   const study::Study study = shipped_study("encoder-resolution", {"friction.alpha=0"});
   EXPECT_TRUE(share_above(
@@ -108,7 +108,7 @@ std::int64_t stable_at_rate(const std::string& label) {
                     [](const trial::MoveOutcome& move) { return move.stable; });
 }
 
-TEST(SampleRate, TheIntegralAloneIsStableAtTwoAndAHalfTimesTheNaturalFrequency) {
+TEST(SampleRate, PureIntegralControlIsStableAtTwoAndAHalfTimesTheNaturalFrequency) {
   EXPECT_TRUE(share_above(0.96, stable_at_rate("integral, controller.sample_rate=500"), rate_trials));
 }
 
@@ -121,7 +121,7 @@ TEST(SampleRate, TheProportionalGainNeedsTenTimesTheNaturalFrequency) {
 }
 
 // ki·Δx·T/2 and kp·Δx: the loops of all rates are one controller.
-TEST(SampleRate, TheGainsAreThoseOfOneController) {
+TEST(SampleRate, GainsDescribeOneContinuousController) {
   const study::Study study = shipped_study("sample-rate");
   for (const auto& [rate, factor] : {std::pair{"500", 4.0}, {"2000", 1.0}, {"20000", 0.1}}) {
     const trial::TrialParameters p =
@@ -151,7 +151,7 @@ std::vector<trial::Jerk> jerks_at(const study::Study& study, const std::string& 
   return jerks;
 }
 
-TEST(Derivative, AddsTheDampingThatCriterionSixAsksFor) {
+TEST(Derivative, AddsTheDampingThatCriterion6Requires) {
   const study::Study study = shipped_study("derivative");
   EXPECT_TRUE(share_below(0.55, stable_moves(study, "b, controller.kd=0"), derivative_trials));
   EXPECT_TRUE(share_above(0.85, stable_moves(study, "b, controller.kd=0.0016"), derivative_trials));
@@ -175,7 +175,7 @@ TEST(Derivative, MakesMoreJerksOfASingleSample) {
   EXPECT_TRUE(share_above(0.7, single(with), count(with)));
 }
 
-TEST(Derivative, ChattersWhereItsKickLeavesTheCountOnTheOtherSide) {
+TEST(Derivative, ChattersIfItsKickCrossesTheTargetCount) {
   const study::Study study = shipped_study("derivative");
   const auto outcomes = outcomes_of(study, "a, controller.kd=0.0128", derivative_trials);
   EXPECT_TRUE(share_below(0.85, moves_with(outcomes, [](const auto& move) { return move.stable; }),

@@ -26,14 +26,14 @@ std::int64_t stable_moves(const std::string& study, const std::string& point, st
                     [](const trial::MoveOutcome& move) { return move.stable; });
 }
 
-TEST(FrictionModels, HoldZeroCountsWithASpringAndDampingBeforeTheySlide) {
+TEST(FrictionModels, ModelsWithASpringAndDampingHoldZeroCounts) {
   for (const char* law : {"presliding", "lugre", "dahl", "gms-damped"})
     EXPECT_TRUE(share_above(0.85, moves_at_zero("friction-models", law, 60), 60)) << law;
   for (const char* law : {"coulomb", "none"})
     EXPECT_TRUE(share_below(0.15, moves_at_zero("friction-models", law, 60), 60)) << law;
 }
 
-TEST(FrictionModels, ShowJerksWithCreepAlone) {
+TEST(FrictionModels, OnlyModelsWithCreepShowJerks) {
   const auto with_jerks = [](const char* law) {
     return moves_with(outcomes_of(shipped_study("friction-models"), law, 60),
                       [](const trial::MoveOutcome& move) { return move.jerk_count > 0; });
@@ -91,7 +91,7 @@ TEST(Hunting, HasTheAmplitudeAndThePeriodOfTheStickSlipCycle) {
   }
 }
 
-TEST(Deadband, OfOneCountCostsZeroCounts) {
+TEST(Deadband, ADeadbandOfOneCountCostsZeroCounts) {
   const study::Study study = shipped_study("deadband");
   EXPECT_TRUE(share_above(0.85, moves_at_zero("deadband", study.points.labels[0], 100), 100));
   EXPECT_TRUE(share_below(0.4, moves_at_zero("deadband", study.points.labels[4], 100), 100));
@@ -117,7 +117,7 @@ TEST(Resonance, LimitsALoopWithTheEncoderAtTheLoad) {
   EXPECT_TRUE(share_above(0.85, at(11), 50)) << "at the load, 221 Hz";
 }
 
-TEST(Notch, HelpsWhereItIsWideEnough) {
+TEST(Notch, HelpsIfItIsWideEnough) {
   EXPECT_TRUE(share_below(0.75, stable_moves("notch", "none", 100), 100));
   EXPECT_TRUE(share_above(0.9, stable_moves("notch", "wide", 100), 100));
 }
@@ -132,7 +132,7 @@ std::int64_t moves_ending_in(const std::string& bearing, trial::Outcome outcome)
                     [outcome](const trial::MoveOutcome& move) { return move.outcome == outcome; });
 }
 
-TEST(AirBearing, HoldsZeroCountsOnlyWhereNothingDisturbsIt) {
+TEST(AirBearing, HoldsZeroCountsOnlyWithoutADisturbance) {
   EXPECT_TRUE(share_above(0.95, moves_ending_in("air", trial::Outcome::zero_count), air_trials));
   EXPECT_TRUE(share_below(0.10, moves_ending_in("air-disturbed", trial::Outcome::zero_count), air_trials));
 }
@@ -180,7 +180,7 @@ TEST(EncoderNoise, LeavesOneCountAtTheResolutionOfThePaper) {
   EXPECT_TRUE(share_above(0.5, moves_with(outcomes, one_count), machine_trials));
 }
 
-TEST(Compensators, LoseZeroCountsInAZoneOfOneCount) {
+TEST(Compensators, AZoneOfOneCountLosesZeroCounts) {
   EXPECT_TRUE(share_above(0.8, moves_at_zero("compensators", "plain", machine_trials), machine_trials));
   EXPECT_TRUE(share_above(0.8, moves_at_zero("compensators", "standstill", machine_trials), machine_trials));
   EXPECT_TRUE(

@@ -12,11 +12,11 @@
 namespace zerocount::testing {
 namespace {
 
-class PreslidingPast : public ::testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(InitialConditions, PreslidingPast,
+class StartInPresliding : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(InitialConditions, StartInPresliding,
                          ::testing::Values("virgin", "preloaded", "history", "moving", "integrator-preset"));
 
-TEST_P(PreslidingPast, IsStableInAllTests) {
+TEST_P(StartInPresliding, IsStableInAllTests) {
   const std::int64_t trials = 150;
   const auto outcomes = outcomes_of(shipped_study("initial-conditions"), GetParam(), trials);
   EXPECT_TRUE(share_above(
@@ -42,7 +42,7 @@ TEST(InitialConditions, AllTrialsSatisfyCriterionSix) {
   }
 }
 
-TEST(InitialConditions, EachPastIsOfItsKind) {
+TEST(InitialConditions, EachInitialHistoryIsAsDescribed) {
   const study::Study study = shipped_study("initial-conditions");
   std::set<std::int64_t> depths, targets;
   int moving = 0, preset = 0, sliding = 0;

@@ -32,7 +32,7 @@ void look_at_trials(const Look& look) {
   }
 }
 
-TEST(PaperFig4, ClosedLoopsLeaveNoTrace) {
+TEST(PaperFig4, ClosedHysteresisLoopsAreForgotten) {
   look_at_trials([](const trial::TrialParameters& parameters, const std::vector<trial::MoveOutcome>& at) {
     const double tolerance = position_tolerance(parameters);
     ASSERT_LT(tolerance, 1e-10);
@@ -76,7 +76,7 @@ double elongation_at(const StopElements& spring, double torque) {
 }
 
 // A parallel of stop elements (Prandtl–Ishlinskii) knows neither reversal points nor closures.
-TEST(PaperFig4, PositionsAreThoseOfStopElements) {
+TEST(PaperFig4, PositionsAgreeWithStopElements) {
   const study::Study study = shipped_study("paper-fig4");
   for (std::int64_t index = 0; index < 5; ++index) {
     const trial::TrialParameters parameters = trial_of(study, "all", index);
@@ -145,7 +145,7 @@ bool goes_beyond(const std::vector<double>& levels, std::size_t level) {
   return true;
 }
 
-TEST(PaperFig6, EachLevelCreepsToItsHardeningAndNoFurther) {
+TEST(PaperFig6, EachLevelCreepsToItsHardeningLimit) {
   const study::Study study = shipped_study("paper-fig6");
   for (std::int64_t index = 0; index < 25; ++index) {
     const trial::TrialParameters parameters = trial_of(study, "all", index);
@@ -168,7 +168,7 @@ TEST(PaperFig6, EachLevelCreepsToItsHardeningAndNoFurther) {
   }
 }
 
-TEST(PaperFig6, HardeningIsNeverUndoneAndIsWhatHasCreptEitherWay) {
+TEST(PaperFig6, HardeningIsTheTotalCreepInBothDirections) {
   const study::Study study = shipped_study("paper-fig6");
   for (std::int64_t index = 0; index < 8; ++index) {
     const WatchedTrial trial = watched(trial_of(study, "all", index));
@@ -218,7 +218,7 @@ TEST(PaperFig6, CreepUnderTheFirstTorqueFollowsTheClosedForm) {
   }
 }
 
-TEST(PaperFig6, ThePositionAtARepeatedTorqueIsTheSame) {
+TEST(PaperFig6, ARepeatedTorqueReturnsToThePositionExceptForCreep) {
   const study::Study study = shipped_study("paper-fig6");
   for (std::int64_t index = 0; index < 25; ++index) {
     const trial::TrialParameters parameters = trial_of(study, "all", index);

@@ -38,7 +38,7 @@ TEST(PaperGains, AboveTheUpperBoundHardlyAnyMoveIsStable) {
 }
 
 // Early decision saves time, and changes no verdict.
-TEST(PaperGains, TheTrialsThatAreStoppedWouldNotHaveComeBack) {
+TEST(PaperGains, StoppedTrialsWouldNotHaveRecovered) {
   const study::Study stopped = shipped_study("paper-gains");
   const study::Study run_on = shipped_study("paper-gains", {"verdict.stop=false"});
   for (const char* gain : {"b", "c", "above-upper"}) {
@@ -51,7 +51,7 @@ TEST(PaperGains, TheTrialsThatAreStoppedWouldNotHaveComeBack) {
   }
 }
 
-TEST(PaperGains, EveryAxisHasAFrictionOfItsOwnAndEveryMoveAStartOfItsOwn) {
+TEST(PaperGains, EveryAxisHasItsFrictionAndEveryMoveItsStart) {
   const study::Study study = shipped_study("paper-gains", {"machines=500"});
   std::set<double> k1, k2, beta, exponent, preload;
   for (std::int64_t index = 0; index < 2 * study.machines; ++index) {
@@ -81,18 +81,18 @@ std::int64_t stable_moves_at(const std::string& gain, const std::string& beta,
                     [](const trial::MoveOutcome& move) { return move.stable; });
 }
 
-TEST(BetaFromOutcomes, ASpringThatSoftensLaterIsTooStable) {
+TEST(BetaFromOutcomes, ASmallerBetaIsTooStable) {
   EXPECT_TRUE(share_above(0.55, stable_moves_at("b", "50000"), beta_trials))
       << "the paper: unstable in most cases";
 }
 
-TEST(BetaFromOutcomes, ASpringThatSoftensSoonerIsTooUnstable) {
+TEST(BetaFromOutcomes, ALargerBetaIsTooUnstable) {
   EXPECT_TRUE(share_below(0.92, stable_moves_at("b-with-kp", "200000"), beta_trials))
       << "the paper: stable in all the cases we tested";
 }
 
 // With half a sample of delay or more, no β makes gain b unstable in most moves and keeps the gain with kp.
-TEST(BetaFromOutcomes, NoBetaAgreesWithADelayOfASample) {
+TEST(BetaFromOutcomes, ADelayOfOneSampleFitsNoBeta) {
   EXPECT_TRUE(share_below(0.95, stable_moves_at("b-with-kp", "50000", "1"), beta_trials));
   EXPECT_TRUE(share_above(0.80, stable_moves_at("b", "25000", "1"), beta_trials))
       << "a smaller β is no way out";
@@ -167,7 +167,7 @@ TEST(PaperOvershoot, WithAStifferContactAllMovesFitTheAxes) {
   expect_peaks(peaks_of_fig8({"friction.k1=150"}), 38.0, 39);
 }
 
-TEST(PaperOvershoot, WithASpringThatSoftensLaterOnlyTheShortMovesFit) {
+TEST(PaperOvershoot, WithASmallerBetaOnlyTheShortMovesFit) {
   expect_peaks(peaks_of_fig7({"friction.beta=5e4"}), 11.0, 12);
   expect_peaks(peaks_of_fig8({"friction.beta=5e4"}), 43.0, 49);
 }

@@ -6,7 +6,7 @@
 namespace zerocount::testing {
 namespace {
 
-TEST(ShareBounds, OfSuccessesAloneAreThePowers) {
+TEST(ProportionBounds, WithoutFailuresHaveTheClosedForm) {
   const double bound = std::pow(0.001, 1.0 / 150.0);  // p¹⁵⁰ = 0.001
   EXPECT_TRUE(share_above(bound - 1e-9, 150, 150));
   EXPECT_FALSE(share_above(bound + 1e-9, 150, 150));
@@ -14,7 +14,7 @@ TEST(ShareBounds, OfSuccessesAloneAreThePowers) {
   EXPECT_FALSE(share_below(1.0 - bound - 1e-9, 0, 150));
 }
 
-TEST(ShareBounds, OfASingleFailureSolveTheirEquation) {
+TEST(ProportionBounds, WithOneFailureSolveTheirEquation) {
   const auto at_most_one = [](double p) { return std::pow(1.0 - p, 20) + 20.0 * p * std::pow(1.0 - p, 19); };
   for (const double p : {0.30, 0.35, 0.40, 0.45}) {
     EXPECT_EQ(static_cast<bool>(share_below(p, 1, 20)), at_most_one(p) <= 0.001) << p;
@@ -22,7 +22,7 @@ TEST(ShareBounds, OfASingleFailureSolveTheirEquation) {
   }
 }
 
-TEST(ShareBounds, NothingShowsWithoutTrialsAndOppositesAreNotBothShown) {
+TEST(ProportionBounds, ShowNothingWithoutTrialsAndNeverBothDirections) {
   EXPECT_FALSE(share_above(0.001, 0, 0));
   EXPECT_FALSE(share_below(0.999, 0, 0));
   for (std::int64_t k = 0; k <= 50; ++k)

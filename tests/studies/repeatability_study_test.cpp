@@ -106,7 +106,7 @@ TEST(RepeatabilityStudy, WithoutAnIntegralTheAxisStopsShortFromEitherSide) {
 
 // The reversal value is what the two stall errors make together, and almost all of the bidirectional
 // repeatability.
-TEST(RepeatabilityStudy, TheReversalValueIsTheSumOfTheStallErrors) {
+TEST(RepeatabilityStudy, ReversalValueIsTheSumOfTheStallErrors) {
   const study::Study study = shipped_study("repeatability", {"command.sequence.cycles=2"});
   for (std::int64_t index = 0; index < 6; ++index) {
     const MeasuredAxis axis = measured_axis(study, "pd-alone", index);
@@ -228,7 +228,7 @@ TEST_P(StudyDeterminism, DatasetsDoNotDependOnThreadsPartsOrTheirOrder) {
   expect_same_datasets(folder_ / "whole.h5", folder_ / "merged.h5");
 }
 
-TEST_P(StudyDeterminism, ATrialThatIsReplayedIsTheRecordedOne) {
+TEST_P(StudyDeterminism, AReplayedTrialEqualsTheRecordedOne) {
   write(5);
   complete("out.h5");
   for (const char* point : {"0", "1"}) {

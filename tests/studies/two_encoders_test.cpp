@@ -141,7 +141,7 @@ TEST(TwoEncoders, AnEccentricScaleIsFollowedToItsError) {
 
 // A reading that trembles by a fifth of a count is at zero at every sample only by chance, even though the
 // rotor is there.
-TEST(TwoEncoders, NoiseCostsZeroCountsByItselfAndMissedCoarseCountsCostNothing) {
+TEST(TwoEncoders, NoiseCostsZeroCountsButMissedCoarseCountsDoNot) {
   const study::Study study = shipped_study("two-encoders");
   const std::int64_t trials = 100;
   std::int64_t zero_counts = 0;
@@ -192,7 +192,7 @@ TEST(CoarseToFine, TwoPhaseControlEndsItsMovesInZeroCounts) {
   }
 }
 
-TEST(CoarseToFine, WhatMissesZeroCountsAtTheEndOfTwoPhaseMovesIsAJerk) {
+TEST(CoarseToFine, TwoPhaseMovesMissZeroCountsOnlyByAJerk) {
   const study::Study study = shipped_study("coarse-to-fine");
   int missed = 0;
   for (std::int64_t index = 0; index < study.trials && missed < 3; ++index) {
@@ -209,7 +209,7 @@ TEST(CoarseToFine, WhatMissesZeroCountsAtTheEndOfTwoPhaseMovesIsAJerk) {
   EXPECT_EQ(missed, 3) << "otherwise nothing was looked at";
 }
 
-TEST(CoarseToFine, FineGainsAloneDestabiliseSliding) {
+TEST(CoarseToFine, FineGainsAreUnstableWhileSliding) {
   const study::Study study = shipped_study("coarse-to-fine");
   const std::int64_t trials = 100;
   std::int64_t stable = 0;
@@ -232,7 +232,7 @@ TEST(CoarseToFine, FineGainsAloneDestabiliseSliding) {
   EXPECT_TRUE(share_below(0.07, stable, trials));
 }
 
-TEST(CoarseToFine, TheSameFineGainsAreStableWhereNothingSlides) {
+TEST(CoarseToFine, FineGainsAreStableIfNothingSlides) {
   const study::Study study = shipped_study(
       "coarse-to-fine", {"command.targets.0={integers: [1, 30]}", "command.profile={shape: step}"});
   const std::int64_t trials = 100;
@@ -275,7 +275,7 @@ TEST_P(WithoutIntegral, TheRotorStallsAwayFromItsTarget) {
 // spring's torque at rest, by stop elements that follow the recorded elongation from the virgin contact, is
 // what is left of the control's: kp·e. At zero error that would be 0, and a spring that has been stretched to
 // the target is not without torque there.
-TEST(CoarseToFine, AProportionalControlRestsWhereTheSpringBalancesIt) {
+TEST(CoarseToFine, ProportionalControlStopsWhereTheSpringBalancesIt) {
   const study::Study study =
       shipped_study("coarse-to-fine", {"command.targets.0={integers: [10, 60]}", "friction.alpha=0",
                                        "command.profile={shape: step}", "command.hold=1"});

@@ -31,7 +31,7 @@ TEST_P(WithPresliding, TheLoopIsStableInAllTests) {
       trials));
 }
 
-TEST(WhyPresliding, JerksAreOfCreepAndTheSpringAloneHasNone) {
+TEST(WhyPresliding, JerksComeFromCreepAndASpringAloneHasNone) {
   const study::Study study = shipped_study("why-presliding");
   const auto jerks = [](const trial::MoveOutcome& move) { return move.jerk_count > 0; };
   const std::int64_t trials = 100;
@@ -83,7 +83,7 @@ TEST_P(WithCoulomb, TheLoopNeverArrives) {
   EXPECT_TRUE(share_below(0.07, arrived, trials));
 }
 
-TEST_P(WithCoulomb, TheLoopGoesOnHuntingHoweverLongItIsHeld) {
+TEST_P(WithCoulomb, TheLoopHuntsForever) {
   // An error of one count winds the torque up from one breakaway to the other in 5 s. Then it goes faster.
   const study::Study study = shipped_study("why-presliding", {"command.hold=15"});
   for (std::int64_t index = 0; index < 12; ++index) {
@@ -99,7 +99,7 @@ TEST_P(WithCoulomb, TheLoopGoesOnHuntingHoweverLongItIsHeld) {
 // has one sign, the torque grows from the breakaway torque, which is above all that friction can do: so the
 // rotor gains speed up to the target's count, where the torque stays, and beyond. It cannot stop in that
 // count, only on its other side.
-TEST_P(WithCoulomb, NoLeapEndsInTheTargetsCountAtAnyGain) {
+TEST_P(WithCoulomb, NoStickSlipJumpEndsInTheTargetCount) {
   for (const auto& [ki, hold] : {std::pair{"3.85e-5", "2"}, {"1.0e-5", "8"}, {"1.0e-6", "30"}}) {
     const study::Study study = shipped_study(
         "why-presliding", {std::string("controller.ki=") + ki, std::string("command.hold=") + hold});
@@ -133,7 +133,7 @@ double growth_of_a_leap() {
   return -(std::exp(-low) + 2.0 * std::exp(0.5 * low) * std::cos(0.5 * std::numbers::sqrt3 * low)) / 3.0;
 }
 
-TEST(WhyPresliding, EveryLeapGoesFurtherThanTheLast) {
+TEST(WhyPresliding, EveryStickSlipJumpIsLargerThanTheLast) {
   const double growth = growth_of_a_leap();
   EXPECT_NEAR(growth, 4.78, 0.01);
   // The slower, the closer to the closed form: sampling delays the torque by what is a part of a leap.

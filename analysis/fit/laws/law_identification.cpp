@@ -167,7 +167,7 @@ ParameterEstimate estimate_of(const Quantity& quantity, const FitErrors& errors)
   const bool vague = !(widened <= (quantity.logarithmic ? max_widened_log_halfwidth : max_widened_halfwidth));
   if (open || vague) {
     leave_open(estimate, open ? "the records hardly depend on it"
-                              : "the law departs too far from the records to tell it");
+                              : "the law departs too far from the records to determine it");
   }
   return estimate;
 }
@@ -237,7 +237,7 @@ void require_start(Records records, friction::FrictionModel law) {
     const bool hardened = record.start.hardening != 0.0;
     if (!(loaded && !traits.remembers_loading) && !(hardened && !friction::has_creep(law))) continue;
     refuse(record.axis, record.name,
-           fmt::format("the record begins {}, which the friction model {} does not remember",
+           fmt::format("the record begins {}, which the friction model {} cannot represent",
                        hardened ? "work-hardened" : "after a preload", traits.word));
   }
 }

@@ -453,14 +453,14 @@ void refuse_unexplained(Records records, const ContactFit& fit, double tolerance
     const double misfit = misfit_of(records, fit, r);
     if (misfit <= tolerance * allowed) continue;
     const std::size_t sample = largest_misfit_growth(records[r], fit.model.motions[r].path);
-    refuse(
-        records[r].axis, records[r].name,
-        fmt::format("the pre-sliding model does not explain this record: its residuals are {:.3g} $rad (root "
-                    "mean square) of a travel of {:.3g} $rad, and grow most at {:.4g} s. Did the axis slide, "
-                    "was the $torque clipped, is the contact not as it was said to be at the start? --model "
-                    "all compares other friction laws{}",
-                    misfit * records[r].unit, (*high - *low) * records[r].unit,
-                    static_cast<double>(sample) * records[r].sample_time, early_end_text(fit)));
+    refuse(records[r].axis, records[r].name,
+           fmt::format(
+               "the pre-sliding model does not explain this record: its residuals are {:.3g} $rad (root "
+               "mean square) of a travel of {:.3g} $rad, and grow most at {:.4g} s. Did the axis slide, "
+               "was the $torque clipped, did the contact start in another state than was stated? --model "
+               "all compares other friction laws{}",
+               misfit * records[r].unit, (*high - *low) * records[r].unit,
+               static_cast<double>(sample) * records[r].sample_time, early_end_text(fit)));
   }
 }
 
@@ -471,15 +471,14 @@ void refuse_gross_misfit(Records records, const ContactFit& fit, const ResidualC
   for (std::size_t r = 1; r < records.size(); ++r)
     if (misfit_of(records, fit, r) > misfit_of(records, fit, worst)) worst = r;
   const std::size_t sample = largest_misfit_growth(records[worst], fit.model.motions[worst].path);
-  refuse(
-      records[worst].axis, records[worst].name,
-      fmt::format(
-          "the pre-sliding model does not explain the records: the residuals are {:.0f} times those that "
-          "the encoder's steps and noise give, and grow most at {:.4g} s of this record. Does a record "
-          "begin under load, is the $torque of another time than the $angle (--delay), did the axis slide? "
-          "{}--model all compares other friction laws{}",
-          checks.spread / checks.expected_spread, static_cast<double>(sample) * records[worst].sample_time,
-          cause.empty() ? "" : cause + ". ", early_end_text(fit)));
+  refuse(records[worst].axis, records[worst].name,
+         fmt::format(
+             "the pre-sliding model does not explain the records: the residuals are {:.0f} times those that "
+             "the encoder's steps and noise give, and grow most at {:.4g} s of this record. Does a record "
+             "begin under load, is the $torque delayed against the $angle (--delay), did the axis slide? "
+             "{}--model all compares other friction laws{}",
+             checks.spread / checks.expected_spread, static_cast<double>(sample) * records[worst].sample_time,
+             cause.empty() ? "" : cause + ". ", early_end_text(fit)));
 }
 
 namespace {

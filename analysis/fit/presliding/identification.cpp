@@ -34,10 +34,10 @@ void check_reversals(Records records, const IdentificationOptions& options) {
   for (const TestRecord& record : records) reversals += record.parts.reversals();
   if (reversals >= min_reversals) return;
   throw Failure(ExitCode::bad_data,
-                fmt::format("too few reversals: the {} turns {} (swings below 2 % of its range do not "
-                            "count); expected {} times at least, a loading, an unloading and a reloading",
+                fmt::format("too few reversals: the {} {} (changes below 2 % of its range do not count); "
+                            "expected at least {} reversals: a loading, an unloading and a reloading",
                             parameters::text_on(records.front().axis, "$torque"),
-                            reversals == 0 ? "never" : "once", min_reversals));
+                            reversals == 0 ? "never reverses" : "reverses once", min_reversals));
 }
 
 bool is_same(const motion::TorqueCourse& one, const motion::TorqueCourse& other) {
@@ -237,9 +237,9 @@ void check_different(Records records) {
     if (record.axis == records.front().axis) continue;
     throw Failure(
         ExitCode::bad_input,
-        fmt::format("{}: is of another kind of axis than {}; expected records of one axis, rotary or "
-                    "linear",
-                    record.name, records.front().name));
+        fmt::format(
+            "{}: its axis is of another kind than that of {}; expected records of one axis, rotary or linear",
+            record.name, records.front().name));
   }
   for (std::size_t i = 0; i < records.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
@@ -249,9 +249,10 @@ void check_different(Records records) {
           !std::equal(one.torque.begin(), one.torque.end(), other.torque.begin(), is_same)) {
         continue;
       }
-      refuse(other.axis, other.name,
-             fmt::format("is {} once more, equal in every sample; expected records of different tests",
-                         one.name));
+      refuse(
+          other.axis, other.name,
+          fmt::format("is the same record as {}, equal in every sample; expected records of different tests",
+                      one.name));
     }
   }
 }

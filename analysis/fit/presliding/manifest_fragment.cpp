@@ -185,7 +185,8 @@ std::string manifest_fragment(const Identification& identification) {
       pairs += fmt::format("\n# {} and {}: {:.2f}", pair.one, pair.other, pair.value);
   if (!pairs.empty()) remarks += ", although errors correlate:" + pairs;
   if (creep)
-    remarks += "\n# Creep is said by its extension under a torque at which that and n do not correlate.";
+    remarks +=
+        "\n# Creep is given by its extension under a torque at which this extension and n do not correlate.";
   remarks += "\n" + lack_of_fit_comment(identification.checks.passed);
   std::vector<ParameterEstimate> parameters = identification.parameters;
   if (creep)

@@ -462,7 +462,7 @@ Figure rates_figure(const ReportedStudy& reported, const std::vector<summary::Ce
   Figure figure = figure_of(
       "ages", "ages", "How long does it hold?",
       fmt::format(
-          "Proportions at each age, at {}: of moves those of the worst goal and condition{}; {}. Dashed: "
+          "Proportions at each age, at {}: for moves, those of the worst goal and condition{}; {}. Dashed: "
           "what is asked.",
           label_of(reported, reported.chosen.point),
           question.claim() ? "; of machines those that meet every goal under every condition" : "",

@@ -221,7 +221,7 @@ Figure response_figure(const ReportedStudy& reported, const std::vector<SampleTr
       one_of_two && !shown.parts.empty() && std::ranges::all_of(shown.parts, [&](const auto& part) {
         return part.claim && part.claim->beside_load && part.claim->of != shown.mass;
       });
-  const std::string boxes = shown.parts.empty() ? "No goal is of this mass."
+  const std::string boxes = shown.parts.empty() ? "No goal applies to this mass."
                             : is_beside         ? "The shaded boxes are what the goal asks of the motor."
                             : question.claim()  ? "The goal asks that the error stay in the shaded boxes."
                                                 : "The shaded box is zero counts.";

@@ -169,7 +169,7 @@ void describe_limits(Items& items) {
 
 tuning::Extra margins_extra() {
   return {.name = "margins",
-          .question = "How much more delay does it bear?",
+          .question = "How much more delay does it tolerate?",
           .part = "margins (what more delay loses)",
           .cost = cost_of_delay,
           .run = find_delay,

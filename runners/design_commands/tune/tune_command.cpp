@@ -252,7 +252,7 @@ void refuse_options_of_manifests(const command_line::Arguments& arguments) {
   const bool replaces_page = arguments.has("report") || arguments.has("watch");
   for (const char* const option : {"output", "manifest", "force"}) {
     if (arguments.has(option) && !(replaces_page && std::string_view(option) == "force"))
-      arguments.refuse(fmt::format("option '--{}': is of a manifest, not of a results file", option));
+      arguments.refuse(fmt::format("option '--{}': applies to a manifest, not to a results file", option));
   }
 }
 
@@ -286,7 +286,7 @@ commands::Command tune_command() {
            {command_line::renewed_file(
                 {"output,o", "FILE", "the results file of the proof (required with a manifest)"}),
             answers::format_option(),
-            {"budget", "B", "of all: a number of trials, or a time such as 60s or 5min"},
+            {"budget", "B", "budget of the tuning: a number of trials, or a time such as 60s or 5min"},
             command_line::written_file({"manifest,m", "TUNED", "write the manifest with the tuned values"}),
             extras_spec(),
             command_line::page_file(

@@ -122,8 +122,8 @@ std::string mode_sentence(Of tuning) {
   constexpr double crossover_of_mode = 1.0 / 3.0;
   const double crossover = answer.tuned.margins->crossover;
   return fmt::format(
-      "a mode of half of the inertia, which the study lacks, is borne from {} Hz on; the loops cross over at "
-      "{} Hz{}",
+      "a mode of half of the inertia, which the study lacks, leaves the loops stable if it is at {} Hz or "
+      "higher; they cross over at {} Hz{}",
       short_number(*answer.tuned.lowest_mode), short_number(crossover),
       crossover > crossover_of_mode * *answer.tuned.lowest_mode
           ? ", more than a third of it: make sure that the axis has no mode that low"
@@ -145,9 +145,10 @@ Description<LoopReading> loop_description() {
           [](Reading r) { return r.loop.stiffness; })
       .value(in_data("machine", "number of the machine; unknown where the stiffness says all of it"),
              [](Reading r) { return r.loop.machine; })
-      .value(optional(in_data("condition", "the condition that it bears, with conditions")), [](Reading r) {
-        return tuning::names_of(r.study, {0, static_cast<std::size_t>(r.loop.condition)}).condition;
-      });
+      .value(optional(in_data("condition", "the condition under which it runs, in a study with conditions")),
+             [](Reading r) {
+               return tuning::names_of(r.study, {0, static_cast<std::size_t>(r.loop.condition)}).condition;
+             });
 }
 
 Description<SmallestMargins> margins_description() {
@@ -221,11 +222,11 @@ void add_margins(Items& items) {
   add_margin_table(items);
   items.object(in_data("margins", "smallest margins of the tuned loops"), margins_description(),
                [](Of t) { return t.answer.tuned.margins; });
-  items.value(
-      in_data("lowest_mode",
-              "frequency from which on the loops bear a mode of half of the inertia, which the study lacks",
-              "Hz"),
-      [](Of t) { return t.answer.tuned.lowest_mode; });
+  items.value(in_data("lowest_mode",
+                      "lowest frequency of a mode of half of the inertia, which the study lacks, with which "
+                      "the loops are stable",
+                      "Hz"),
+              [](Of t) { return t.answer.tuned.lowest_mode; });
   for (const Margin& one : all_margins) {
     items.object(in_data(std::string(one.loop_key), fmt::format("the loop that has the worst {}", one.title)),
                  loop_description(), [found = one.found](Of t) -> std::optional<LoopReading> {

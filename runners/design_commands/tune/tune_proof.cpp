@@ -213,7 +213,7 @@ Description<MoveBehaviour> behaviour_columns() {
   columns
       .value(optional(everywhere("goal", "goal", "name of the goal that asks the moves")),
              &MoveBehaviour::goal)
-      .value(optional(everywhere("condition", "condition", "the condition that the machines bear")),
+      .value(optional(everywhere("condition", "condition", "the condition under which the machines run")),
              &MoveBehaviour::condition)
       .value(everywhere("moves", "moves", "moves of these trials"), &MoveBehaviour::moves);
   add_upper(columns, {.key = "overshoot", .meaning = "excursion beyond the target", .unit = "count"},

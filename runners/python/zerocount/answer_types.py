@@ -49,7 +49,7 @@ class CheckAnswer(Answer):
     worlds : int
         Worlds; 0: none.
     conditions : list[str]
-        Names of the conditions that every machine bears; empty: none.
+        Names of the conditions under which every machine runs; empty: none.
     judged_by : str or None
         What the moves are judged by; null without targets.
     stopping : pandas.DataFrame
@@ -93,7 +93,7 @@ class CheckAnswer(Answer):
 
         - ``point``: number of the design point
         - ``label``: label of the design point
-        - ``condition``: what every machine bears
+        - ``condition``: condition under which every machine runs
         - ``outside``: why (6) and (7) do not apply; null: they do
         - ``gain_name``: name of the integral gain
         - ``gain_unit``: unit of the gain and its bounds
@@ -224,7 +224,7 @@ class Best(Record):
 
 
 class OtherMass(Record):
-    """The same of the load, which the goal of the motor does not ask.
+    """The same values of the load, which the goal of the motor does not limit.
 
     Attributes
     ----------
@@ -250,9 +250,9 @@ class Goal(Record):
     Attributes
     ----------
     name : str or None
-        Name of the goal: of several the worst, which all of this is of.
+        Name of the goal (of several goals the worst), to which these values apply.
     condition : str or None
-        The worst condition, which all of this is under.
+        The worst condition, to which these values apply.
     status : Literal["met", "missed", "undecided"]
         Verdict on the goal.
     rate : float or None
@@ -279,7 +279,7 @@ class Goal(Record):
         Trials without a miss that show of one machine that it meets the goal; left out where the goal is not on
         machines.
     other_mass : OtherMass or None
-        The same of the load, which the goal of the motor does not ask.
+        The same values of the load, which the goal of the motor does not limit.
     machines_without_miss : int or None
         Machines all of whose moves meet the goal.
     """
@@ -368,8 +368,8 @@ class SummaryAnswer(Answer):
           without_miss, without_miss_low, without_miss_high, trials_of_one_machine, other_mass, machines_without_miss):
           whether the point meets the goal, with bounds of this point alone
         - ``goals``: each of the goals, by name
-          - ``name``: name of the goal: of several the worst, which all of this is of
-          - ``condition``: the worst condition, which all of this is under
+          - ``name``: name of the goal (of several goals the worst), to which these values apply
+          - ``condition``: the worst condition, to which these values apply
           - ``status``: verdict on the goal
           - ``rate``: proportion of moves that meet the goal, with one-sided bounds; with worlds of the worst world
           - ``rate_low``: lower bound
@@ -384,8 +384,8 @@ class SummaryAnswer(Answer):
           - ``without_miss_high``: upper bound
           - ``trials_of_one_machine``: trials without a miss that show of one machine that it meets the goal; left out
             where the goal is not on machines
-          - ``other_mass``.* (of, rate, rate_low, rate_high): the same of the load, which the goal of the motor does not
-            ask
+          - ``other_mass``.* (of, rate, rate_low, rate_high): the same values of the load, which the goal of the motor
+            does not limit
           - ``machines_without_miss``: machines all of whose moves meet the goal
         - ``machines_together``: proportion of machines that meet all goals on machines, as observed; nothing where only
           one claim is on machines
@@ -501,7 +501,7 @@ class SummaryAnswer(Answer):
           the worlds at the point
         - ``claims``: each goal under each condition at the point
           - ``goal``: name of the goal
-          - ``condition``: what every machine bears
+          - ``condition``: condition under which every machine runs
           - ``moves``: moves that the goal asks, of all trials
           - ``met``: of them, moves that meet the goal
           - ``rate``: proportion of moves (under a condition of what the question is about, without a goal of trials),
@@ -517,7 +517,7 @@ class SummaryAnswer(Answer):
           - ``within``: time from the start of a move that the goal allows, the longest of its moves, s
           - ``status``: verdict on the goal
         - ``conditions``: the point under each condition
-          - ``condition``: what every machine bears
+          - ``condition``: condition under which every machine runs
           - ``trials``: trials under the condition, or at the age
           - ``success``: trials all of whose moves ended at zero error
           - ``goal_met``: trials all of whose moves meet the goal
@@ -603,7 +603,7 @@ class VerifyAnswer(Answer):
 
 
 class ExperimentAnswer(Answer):
-    """The record from which identify tells the friction.
+    """The record from which 'zerocount identify' estimates the friction.
 
     Attributes
     ----------
@@ -914,7 +914,7 @@ class SecondMass(Record):
     explained : float or None
         Part of the squares of the residuals that it explains.
     frequency : float or None
-        Of the masses against each other, Hz; 0: not well known.
+        Frequency of the masses against each other, Hz; 0: not well known.
     """
 
     explained: float | None
@@ -939,7 +939,7 @@ class Reversal(Record):
     samples : int
         Samples in that travel, median; below 6 the travel is an upper bound.
     stiffness : float or None
-        0.9 swing/travel, N m/rad or N/m.
+        0.9 of the change of the friction over the travel, N m/rad or N/m.
     """
 
     reversals: int
@@ -1208,7 +1208,7 @@ class JudgeAnswer(Answer):
     machines_high : float or None
         Its upper bound.
     other_mass : OtherMass or None
-        The same of the load, which the goal of the motor does not ask.
+        The same values of the load, which the goal of the motor does not limit.
     missed_saturated : float or None
         Proportion of the moves that miss the goal in which the converter clipped; null: the goal is met, or the file
         does not keep every trial.
@@ -1222,7 +1222,7 @@ class JudgeAnswer(Answer):
         Each goal under each condition.
 
         - ``goal``: name of the goal
-        - ``condition``: what every machine bears
+        - ``condition``: condition under which every machine runs
         - ``moves``: moves that the goal asks, of all trials
         - ``met``: of them, moves that meet the goal
         - ``rate``: proportion of moves (under a condition of what the question is about, without a goal of trials),
@@ -1333,7 +1333,7 @@ class LearnAnswer(Answer):
         - ``open``: worlds that the measurement does not decide
         - ``better``: whether it does better than to call all worlds good, or all bad, unmeasured
         - ``p_value``: probability of as many decided if the unknowns did not matter
-        - ``record``: record of identify that tells the unknown; null: none
+        - ``record``: record of 'zerocount identify' that shows the unknown; null: none
 
     """
 
@@ -1509,7 +1509,7 @@ class GainMarginLoop(Record):
     machine : int or None
         Number of the machine; unknown where the stiffness says all of it.
     condition : str or None
-        The condition that it bears, with conditions.
+        The condition under which it runs, in a study with conditions.
     """
 
     loop: str
@@ -1530,7 +1530,7 @@ class PhaseMarginLoop(Record):
     machine : int or None
         Number of the machine; unknown where the stiffness says all of it.
     condition : str or None
-        The condition that it bears, with conditions.
+        The condition under which it runs, in a study with conditions.
     """
 
     loop: str
@@ -1551,7 +1551,7 @@ class DelayMarginLoop(Record):
     machine : int or None
         Number of the machine; unknown where the stiffness says all of it.
     condition : str or None
-        The condition that it bears, with conditions.
+        The condition under which it runs, in a study with conditions.
     """
 
     loop: str
@@ -1572,7 +1572,7 @@ class SensitivityLoop(Record):
     machine : int or None
         Number of the machine; unknown where the stiffness says all of it.
     condition : str or None
-        The condition that it bears, with conditions.
+        The condition under which it runs, in a study with conditions.
     """
 
     loop: str
@@ -1632,7 +1632,7 @@ class TuneAnswer(Answer):
         Each goal under each condition, by the proof; the bounds allow for its attempts.
 
         - ``goal``: name of the goal
-        - ``condition``: what every machine bears
+        - ``condition``: condition under which every machine runs
         - ``moves``: moves that the goal asks, of all trials
         - ``met``: of them, moves that meet the goal
         - ``rate``: proportion of moves (under a condition of what the question is about, without a goal of trials),
@@ -1663,7 +1663,7 @@ class TuneAnswer(Answer):
         study does not measure it.
 
         - ``goal``: name of the goal that asks the moves
-        - ``condition``: the condition that the machines bear
+        - ``condition``: the condition under which the machines run
         - ``moves``: moves of these trials
         - ``overshoot_p95``: excursion beyond the target, which 95 % of the moves do not exceed, count
         - ``overshoot_max``: largest excursion beyond the target, count
@@ -1686,7 +1686,7 @@ class TuneAnswer(Answer):
     margins : Margins or None
         Smallest margins of the tuned loops.
     lowest_mode : float or None
-        Frequency from which on the loops bear a mode of half of the inertia, which the study lacks, Hz.
+        Lowest frequency of a mode of half of the inertia, which the study lacks, with which the loops are stable, Hz.
     gain_margin_loop : GainMarginLoop or None
         The loop that has the worst gain margin.
     phase_margin_loop : PhaseMarginLoop or None
@@ -1863,7 +1863,7 @@ class Again(Record):
     Attributes
     ----------
     condition : str or None
-        The condition that it bears, with conditions.
+        The condition under which it runs, in a study with conditions.
     goal : str or None
         The goal that its moves meet the least often, of several.
     moves : int
@@ -1888,7 +1888,7 @@ class Box(Record):
     trial : int
         Its worst trial, of its manifest.
     condition : str or None
-        The condition that it bears, with conditions.
+        The condition under which it runs, in a study with conditions.
     goal : str or None
         The goal that its moves meet the least often, of several.
     moves : int
@@ -1924,7 +1924,7 @@ class Likely(Record):
     trial : int
         Its worst trial, of its manifest.
     condition : str or None
-        The condition that it bears, with conditions.
+        The condition under which it runs, in a study with conditions.
     goal : str or None
         The goal that its moves meet the least often, of several.
     moves : int
@@ -2448,7 +2448,7 @@ class CompareAnswer(Answer):
           - ``margin``: largest accepted effect
           - ``changed_fails``: whether a change for the better beyond the margin fails too
           - ``detectable_change``: smallest change for the worse that these trials find
-          - ``test``: test that p is of
+          - ``test``: test that gives p
           - ``p``: p-value against a change for the worse
           - ``adjusted_p``: p against a change for the worse beyond the margin, with control of the false discoveries
           - ``improvement_p``: p-value against a change for the better
@@ -2465,7 +2465,7 @@ class CompareAnswer(Answer):
           - ``verdict``: verdict of the gate
           - ``limit``: limit of the value
           - ``value``: value in the file
-          - ``n``: trials or moves that the value is of
+          - ``n``: trials or moves from which the value is computed
           - ``bounds``: one-sided bounds, low and high: of the value, or of the proportion within the limit of a
             quantile
           - ``trials_to_decide``: trials per design point that decide the requirement
@@ -2530,7 +2530,7 @@ class HistoryAnswer(Answer):
           - ``study_sha256``: hash of the study
           - ``seed``: seed of the study, decimal
           - ``trials``: trials per design point
-          - ``n``: trials or values that the value is of
+          - ``n``: trials or values from which the value is computed
           - ``value``: value of the measure, in its unit, with 95 % bounds
           - ``value_low``: lower bound
           - ``value_high``: upper bound
@@ -2608,9 +2608,10 @@ class MonitorAnswer(Answer):
         - ``unit``: its unit
         - ``baseline``: median of the baseline, of a quality its proportion; null: never, or one for each like: see
           `likes`
-        - ``moves``: likewise of the moves, since the change if there is one; null: none, or never
+        - ``moves``: median of the moves, of a quality its proportion, since the change if there is one; null: none, or
+          never
         - ``evidence``: largest capital of the bets on a change of the measure, as a part of the alarm's scale
-        - ``direction``: of the change; null: no alarm
+        - ``direction``: direction of the change; null: no alarm
         - ``since``: first move of the change, from 1; null: no alarm
         - ``alarm_at``: move of the alarm, from 1; null: none
         - ``correlation``: rank correlation of successive values of the baseline; null: of a simulated one
@@ -2620,7 +2621,7 @@ class MonitorAnswer(Answer):
           have been seen with 90 %, where there are as many; null: later, or not asked
 
     not_judged : pandas.DataFrame
-        Measures of which 'unchanged' says nothing.
+        Measures about which 'unchanged' says nothing.
 
         - ``measure``: name of the measure
         - ``why``: missing: the moves have no such column; not_in_baseline: the baseline has none; accumulates: it grows
@@ -2633,14 +2634,14 @@ class MonitorAnswer(Answer):
         - ``measure``: name of the measure
         - ``like``: what these moves have in common
         - ``baseline``: their median in the baseline; null: never
-        - ``baseline_moves``: of so many moves
+        - ``baseline_moves``: number of moves of that median
         - ``median``: their median in the log, since the change if there is one; null: none, or never
-        - ``moves``: of so many moves
+        - ``moves``: number of moves of that median
 
     told : Literal["one", "several", "none", "unknown"] or None
-        What is told of the parameters of the model after an alarm; null: not asked.
+        What is known of the parameters of the model after an alarm; null: not asked.
     parameters_since : int or None
-        First move that the parameters are of, from 1; null: not asked.
+        First move of those that the parameters explain, from 1; null: not asked.
     tried : list[str]
         Parameters of the model that were tried and act on the measures.
     untried : list[str]
@@ -2713,8 +2714,8 @@ class AcceptAnswer(Answer):
         - ``status``: verdict on the machines by the goal and its prediction
         - ``goal_status``: verdict on the goal alone, whatever was predicted
         - ``wanted``: proportion of moves that should meet it
-        - ``predicted``: proportion of the simulated moves that meet it; bounds: of as many machines, in as many moves
-          as are compared, with 95 %
+        - ``predicted``: proportion of the simulated moves that meet it; bounds: 95 % interval for as many machines and
+          moves as are compared
         - ``predicted_low``: lower bound
         - ``predicted_high``: upper bound
         - ``measured``: proportion of the measured moves that meet it, with one-sided bounds of these machines
@@ -2723,8 +2724,8 @@ class AcceptAnswer(Answer):
         - ``met``: measured moves that meet it
         - ``moves``: measured moves
         - ``agreement``: whether these machines are like those simulated
-        - ``p_value``: two-sided p-value of that
-        - ``like_worlds``: worlds of the study that the machines are like; null: it has none
+        - ``p_value``: two-sided p-value of the agreement
+        - ``like_worlds``: worlds of the study that agree with the machines; null: it has no worlds
         - ``compared_moves``: first moves of each machine that are compared
         - ``all_machines``: proportion of moves of all machines of which these are a sample, with one-sided bounds
         - ``all_machines_low``: lower bound
@@ -2733,7 +2734,7 @@ class AcceptAnswer(Answer):
           bounds; null: the goal does not ask for machines
         - ``machines_predicted_low``: lower bound
         - ``machines_predicted_high``: upper bound
-        - ``machines_measured``: likewise as measured
+        - ``machines_measured``: that proportion of the measured machines, with one-sided bounds
         - ``machines_measured_low``: lower bound
         - ``machines_measured_high``: upper bound
 
@@ -2745,7 +2746,7 @@ class AcceptAnswer(Answer):
         - ``predicted``: median of the simulated runs, count
         - ``predicted_low``: 95 % of the simulated runs have more, count
         - ``predicted_high``: and less, count
-        - ``measured``: of each measured run, count
+        - ``measured``: value of each measured run, count
         - ``within``: measured runs in the predicted interval
         - ``runs``: measured runs
 
@@ -2757,10 +2758,10 @@ class AcceptAnswer(Answer):
 
         - ``machine``: its log
         - ``moves``: its moves that each goal is about, in the order of the goals
-        - ``met``: of these, those that meet it
+        - ``met``: its moves that meet each goal, in the same order
 
     assumed : list[str]
-        Effects that the prediction is without, which its manifest does not name.
+        Effects that the prediction leaves out because its manifest does not name them.
     """
 
     status: Literal["accepted", "rejected", "undecided"]
@@ -3028,7 +3029,7 @@ class SensitivityAnswer(Answer):
             - ``rank_correlation``: Spearman's rank correlation
             - ``rank_correlation_low``: lower bound
             - ``rank_correlation_high``: upper bound
-            - ``partial_rank_correlation``: rank correlation with the part of the other factors taken out
+            - ``partial_rank_correlation``: rank correlation after the effect of the other factors is removed
             - ``partial_rank_correlation_low``: lower bound
             - ``partial_rank_correlation_high``: upper bound
             - ``log_odds``: change of ln(p/(1 - p)) over one standard deviation of the factor, p the proportion of yes

@@ -280,7 +280,7 @@ def sample(
 
     subject = (study.study if isinstance(study, Results) else study_of(study)).at(point)
     if condition is None and subject.conditions:
-        raise ManifestError(f"a sample is of one condition; expected condition= one of {', '.join(subject.conditions)}", 2)
+        raise ManifestError(f"a sample needs one condition; expected condition= one of {', '.join(subject.conditions)}", 2)
     variables = (subject.checked if condition is None else subject.checked.under(condition)).variables(0)
     measures = subject.checked.descriptions["outcome"]
     if not variables["names"]:

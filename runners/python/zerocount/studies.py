@@ -315,7 +315,7 @@ class Study:
 
     @property
     def conditions(self) -> list[str]:
-        """Names of the conditions that every machine bears; empty: there is one, which the manifest describes.
+        """Names of the conditions under which every machine runs; empty: there is one, which the manifest describes.
 
         With ages each condition at each age: ``loaded, 100000 cycles``.
         """

@@ -174,8 +174,9 @@ void resample_biquads(trial::TrialParameters& p) {
       if (filter.kind != loop::FilterKind::biquad) continue;
       const std::optional<loop::Filter> resampled = loop::resampled(filter, rate_ratio);
       if (!resampled)
-        throw Failure(ExitCode::bad_input,
-                      "a biquad with a pole at half the sample rate is of no other sample rate");
+        throw Failure(
+            ExitCode::bad_input,
+            "a biquad with a pole at half the sample rate cannot be converted to another sample rate");
       filter = *resampled;
     }
   }

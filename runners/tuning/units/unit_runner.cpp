@@ -223,7 +223,7 @@ Criterion criterion_of(const study::Study& study, std::size_t goal, const std::s
   const auto quantity = comparison::find_requirable(with_band);
   if (!quantity || quantity->kind != comparison::RequirementKind::quantile) {
     throw Failure(ExitCode::bad_input,
-                  fmt::format("{}: tune.minimise: '{}' is no quantile of a measure; expected one such as "
+                  fmt::format("{}: tune.minimise: '{}' is not a quantile of a measure; expected one such as "
                               "band_settling_time.p95, arrival_time.median or, with verdict.motion, "
                               "rest_torque_noise.p95",
                               study.name, text));
@@ -234,7 +234,7 @@ Criterion criterion_of(const study::Study& study, std::size_t goal, const std::s
       return {&measure, quantity->probability};
   }
   throw Failure(ExitCode::bad_input,
-                fmt::format("{}: tune.minimise: '{}' is of an error band that the study does not measure; "
+                fmt::format("{}: tune.minimise: '{}' needs an error band that the study does not measure; "
                             "expected one of verdict.bands or the goal's",
                             study.name, text));
 }

@@ -36,7 +36,7 @@ class Machines {
 };
 
 // For one machine the exact rank test is known.
-TEST(Agreement, OfOneMachineIsTheRankTest) {
+TEST(Agreement, ForOneMachineEqualsTheRankTest) {
   Machines machines(1, 0.8, 0.15);
   for (int i = 0; i < 10; ++i) {
     const std::vector<MachineMoves> simulated = machines.simulated(50, 60);
@@ -54,7 +54,7 @@ TEST(Agreement, OfOneMachineIsTheRankTest) {
   }
 }
 
-TEST(Agreement, IsSeldomRefusedToMachinesOfTheSameKind) {
+TEST(Agreement, IsSeldomRejectedForMachinesOfTheSimulatedPopulation) {
   Machines machines(2, 0.85, 0.1);
   constexpr int studies = 120;
   int refused = 0;
@@ -67,7 +67,7 @@ TEST(Agreement, IsSeldomRefusedToMachinesOfTheSameKind) {
   EXPECT_GE(refused, 1);
 }
 
-TEST(Agreement, IsRefusedToWorseMachines) {
+TEST(Agreement, IsRejectedForWorseMachines) {
   Machines built(3, 0.6, 0.05);
   Machines simulated(4, 0.9, 0.05);
   const std::vector<std::int64_t> met{built.met_of(100), built.met_of(100), built.met_of(100)};
@@ -80,7 +80,7 @@ TEST(Agreement, IsRefusedToWorseMachines) {
 }
 
 // Of machines that are the simulated ones about 95 % are in the interval.
-TEST(Agreement, PredictsTheProportionOfSuchMachines) {
+TEST(Agreement, PredictionIntervalHolds95PercentOfFutureMachines) {
   Machines machines(5, 0.85, 0.1);
   const Agreement agreement =
       agreement_of(std::vector<std::int64_t>{40, 40}, 50, machines.simulated(300, 50), 1);

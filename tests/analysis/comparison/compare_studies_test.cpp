@@ -175,7 +175,7 @@ TEST_F(ComparedStudies, AnotherSeedIsAnotherSample) {
   EXPECT_EQ(result.verdict, comparison::GateVerdict::inconclusive);  // 120 trials do not show 2 %
 }
 
-TEST_F(ComparedStudies, MoreTrialsOfTheSameDrawsAreComparedAsFarAsTheyGo) {
+TEST_F(ComparedStudies, OnlyCommonTrialsOfTheSameDrawsAreCompared) {
   const comparison::StudyComparison result =
       comparison::compare_studies(write("a.h5", study_of("x: 1\n"), good_trials()),
                                   write("b.h5", study_of("x: 2\n", 1, 200), good_trials(200)));
@@ -185,7 +185,7 @@ TEST_F(ComparedStudies, MoreTrialsOfTheSameDrawsAreComparedAsFarAsTheyGo) {
   EXPECT_TRUE(says(result.notes[0], "have no partner"));
 }
 
-TEST_F(ComparedStudies, PointsWithoutAPartnerAreNeverIgnored) {
+TEST_F(ComparedStudies, PointsMissingFromOneFileAreReported) {
   study::Study other = study_of("x: 1\n");
   other.points.labels[1] = "point 7";
   EXPECT_EQ(fault(write("a.h5", study_of(), good_trials()), write("b.h5", other, good_trials())),
@@ -193,7 +193,7 @@ TEST_F(ComparedStudies, PointsWithoutAPartnerAreNeverIgnored) {
                 " has 'point 1'; only " + (folder_ / "b.h5").string() + " has 'point 7'");
 }
 
-TEST_F(ComparedStudies, EqualLabelsOfOtherAxesAreNoPartners) {
+TEST_F(ComparedStudies, PointsWithEqualLabelsButOtherAxisValuesAreRefused) {
   study::Study other = study_of("x: 1\n");
   other.points.axes[0].numbers[1] = 9.0;
   const std::string what =
@@ -226,7 +226,7 @@ TEST_F(ComparedStudies, TrialsThatAreNotIndependentAreNotTested) {
   EXPECT_TRUE(says(what, "a.h5: cannot be compared: the trials of `design: saltelli` are not independent"));
 }
 
-TEST_F(ComparedStudies, WhatMeasuresNothingNeverPasses) {
+TEST_F(ComparedStudies, AComparisonThatMeasuresNothingIsInconclusive) {
   std::vector<TrialRecord> open;
   for (std::int64_t row = 0; row < 2 * trials; ++row) {
     TrialRecord record = trial_of(true, 10);
@@ -247,7 +247,7 @@ std::vector<TrialRecord> first_of(const std::vector<TrialRecord>& all, std::int6
   return some;
 }
 
-TEST_F(ComparedStudies, JudgesAsManyTrialsAsAsked) {
+TEST_F(ComparedStudies, MaxTrialsLimitsTheTrialsThatAreJudged) {
   std::vector<TrialRecord> worse = good_trials();
   for (std::size_t row = 0; row < worse.size(); ++row)
     worse[row] = trial_of(row % 7 != 0, 45 + int(row % 31));
@@ -275,7 +275,7 @@ TEST_F(ComparedStudies, JudgesAsManyTrialsAsAsked) {
   }
 }
 
-TEST_F(ComparedStudies, SaysHowSoManyTrialsAsWouldDecideAreJudged) {
+TEST_F(ComparedStudies, AnOpenComparisonNamesTheMaxTrialsThatWouldDecide) {
   std::vector<TrialRecord> other = good_trials();
   for (std::size_t row = 0; row < other.size(); ++row)
     other[row] = trial_of(row % 9 != 0, 40 + int(row * 5 % 23));
@@ -300,7 +300,7 @@ TEST_F(ComparedStudies, ADriftingBaselineDoesNotCarryARequirementAway) {
   EXPECT_EQ(result.points[0].judgements.back().verdict, comparison::GateVerdict::regression);
 }
 
-TEST(Draws, RiseInTheSameOrderThroughAnotherDistribution) {
+TEST(Draws, KeepTheirOrderUnderAnotherDistribution) {
   const TemporaryFolder folder;
   const auto write = [&](const std::string& name, const std::function<double(std::int64_t)>& k1,
                          const std::string& more = "") {

@@ -45,7 +45,7 @@ comparison::StudyComparison sample() {
   comparison.baseline.path = "old.h5";
   comparison.current.header.name = "gains & <more>";
   comparison.layer = comparison::ComparisonLayer::paired;
-  comparison.layer_reason = "they are of different builds";
+  comparison.layer_reason = "the builds differ";
   comparison.manifest_differences = {{"controller.ki", "1e-5", ""}};
   comparison::PointComparison point;
   point.label = "a | \"b\"";
@@ -78,7 +78,7 @@ TEST(ComparisonReport, TheTableHoldsAllThatWasJudged) {
                    "regression: 1 of 4 judgements failed"));
 }
 
-TEST(ComparisonReport, OfManyRowsOnlyTheNoteworthyAreShown) {
+TEST(ComparisonReport, ALongTableOmitsRowsThatPassed) {
   comparison::StudyComparison comparison = sample();
   comparison.points.assign(30, comparison.points[0]);
   const std::string table = document::text(answer_of(comparison));
@@ -86,7 +86,7 @@ TEST(ComparisonReport, OfManyRowsOnlyTheNoteworthyAreShown) {
   EXPECT_TRUE(says(table, "(60 rows that simply passed are not shown)"));
 }
 
-TEST(ComparisonReport, AnswersThatSpeakOfStabilitySayHowManyMovesAreUndecided) {
+TEST(ComparisonReport, AnswersAboutStabilityCountUndecidedMoves) {
   comparison::StudyComparison comparison = sample();
   const std::string remark = "undecided: 12 of 300 moves in the baseline, 4 of 280 in the file";
   EXPECT_FALSE(says(document::text(answer_of(comparison)), "undecided: "));
@@ -106,7 +106,7 @@ TEST(ComparisonReport, AnswersThatSpeakOfStabilitySayHowManyMovesAreUndecided) {
 }
 
 // A change for the better that fails is a failure in every form, and is not called a regression.
-TEST(ComparisonReport, AFailedImprovementIsAFailureAndNoRegression) {
+TEST(ComparisonReport, AnImprovementThatFailsIsReportedAsAFailureButNotAsARegression) {
   comparison::StudyComparison comparison = sample();
   comparison.points[0].judgements = {reported_measure("success_rate", comparison::GateVerdict::changed)};
   comparison.verdict = comparison.points[0].verdict = comparison::GateVerdict::changed;
@@ -133,7 +133,7 @@ TEST(ComparisonReport, TheJsonReadsBack) {
   EXPECT_EQ(json["points"][0]["requirements"][0]["require"], "success_rate ≥ 0.8");
 }
 
-TEST(ComparisonReport, JUnitCountsFailuresErrorsAndWhatWasSkipped) {
+TEST(ComparisonReport, JUnitCountsFailuresErrorsAndSkippedCases) {
   const TemporaryFolder folder;
   folder.write("r.xml", comparison::comparison_junit(sample()));
   const std::string command = fmt::format(
@@ -147,7 +147,7 @@ TEST(ComparisonReport, JUnitCountsFailuresErrorsAndWhatWasSkipped) {
 }
 
 // What no single case tells must be a case of its own, or a runner of tests would see all green.
-TEST(ComparisonReport, JUnitIsNotGreenWhereNothingWasMeasured) {
+TEST(ComparisonReport, JUnitReportsAnErrorIfNothingWasMeasured) {
   comparison::StudyComparison nothing;
   nothing.verdict = comparison::GateVerdict::inconclusive;
   EXPECT_TRUE(says(comparison::comparison_junit(nothing), "errors=\"1\""));
@@ -161,7 +161,7 @@ TEST(ComparisonReport, JUnitIsNotGreenWhereNothingWasMeasured) {
 }
 
 // What no number of trials decides is named, with the margin that would be decided.
-TEST(ComparisonReport, TheSentenceSaysWhatWouldDecide) {
+TEST(ComparisonReport, TheVerdictNamesTheNumberOfTrialsThatWouldDecide) {
   comparison::StudyComparison comparison = sample();
   comparison.verdict = comparison::GateVerdict::inconclusive;
   comparison.points[0].judgements.erase(comparison.points[0].judgements.begin());

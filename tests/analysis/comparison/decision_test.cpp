@@ -28,14 +28,14 @@ comparison::Judgement decided(const comparison::Judgement& one) {
   return point.judgements.front();
 }
 
-TEST(Verdict, PassesWhereTheBoundIsWithinTheMargin) {
+TEST(Verdict, PassesIfTheBoundIsWithinTheMargin) {
   EXPECT_EQ(decided(measure(0.0, {-0.01, 0.01}, 0.5)).verdict, comparison::GateVerdict::passed);
   EXPECT_EQ(decided(measure(0.015, {0.011, 0.019}, 1e-9)).verdict,
             comparison::GateVerdict::passed);  // significant, but small
   EXPECT_EQ(decided(measure(-0.5, {-0.6, -0.4}, 1.0)).verdict, comparison::GateVerdict::passed);
 }
 
-TEST(Verdict, FailsWhereTheChangeIsSignificantAndBeyondTheMargin) {
+TEST(Verdict, FailsIfTheChangeIsSignificantAndBeyondTheMargin) {
   EXPECT_EQ(decided(measure(0.05, {0.03, 0.07}, 1e-6)).verdict, comparison::GateVerdict::regression);
   EXPECT_EQ(decided(measure(0.05, {-0.01, 0.12}, 0.2)).verdict, comparison::GateVerdict::inconclusive);
   EXPECT_EQ(decided(measure(0.018, {0.01, 0.026}, 1e-6)).verdict, comparison::GateVerdict::inconclusive);
@@ -43,7 +43,7 @@ TEST(Verdict, FailsWhereTheChangeIsSignificantAndBeyondTheMargin) {
 
 // The effect, its bounds and p against a change for the worse, and what is shown by them with a margin of 2
 // %.
-TEST(Verdict, SaysInWhichDirectionAMeasureChanged) {
+TEST(Verdict, NamesTheDirectionOfAChange) {
   using comparison::ChangeVerdict;
   EXPECT_EQ(decided(measure(0.05, {0.03, 0.07}, 1e-6)).change, ChangeVerdict::worse);
   EXPECT_EQ(decided(measure(-0.05, {-0.07, -0.03}, 1.0 - 1e-6)).change, ChangeVerdict::better);
@@ -56,7 +56,7 @@ TEST(Verdict, SaysInWhichDirectionAMeasureChanged) {
 }
 
 // With a margin of 2 %; where every change fails, only equivalence passes.
-TEST(Verdict, WhereEveryChangeFailsAnImprovementFailsToo) {
+TEST(Verdict, IfEveryChangeFailsAnImprovementFailsToo) {
   comparison::Judgement better = measure(-0.05, {-0.07, -0.03}, 1.0 - 1e-6);
   EXPECT_EQ(decided(better).verdict, comparison::GateVerdict::passed);
   better.changed_fails = true;
@@ -75,7 +75,7 @@ TEST(Verdict, WhereEveryChangeFailsAnImprovementFailsToo) {
 }
 
 // Both directions together have the stated rate: each has half of it.
-TEST(Verdict, WhereEveryChangeFailsTheTestIsTwoSided) {
+TEST(Verdict, IfEveryChangeFailsTheTestIsTwoSided) {
   comparison::Judgement worse = measure(0.05, {0.03, 0.07}, 0.03);
   EXPECT_EQ(decided(worse).change, comparison::ChangeVerdict::worse);
   worse.changed_fails = true;
@@ -84,7 +84,7 @@ TEST(Verdict, WhereEveryChangeFailsTheTestIsTwoSided) {
   EXPECT_DOUBLE_EQ(decided(worse).adjusted_improvement_p, 1.0);
 }
 
-TEST(Verdict, OneSmallValueAmongManyTestsIsNoDiscovery) {
+TEST(Verdict, OneSmallPValueAmongFiftyTestsIsInconclusive) {
   comparison::PointComparison point;
   point.judgements.assign(50, measure(0.0, {-0.01, 0.01}, 0.5));
   point.judgements[7] = measure(0.05, {0.025, 0.075}, 0.01);
@@ -96,7 +96,7 @@ TEST(Verdict, OneSmallValueAmongManyTestsIsNoDiscovery) {
 }
 
 // A change may be certain, and its estimate beyond the margin, and still be smaller than the margin.
-TEST(Verdict, AnEstimateBeyondTheMarginIsUndecidedWhereItsBoundIsNot) {
+TEST(Verdict, AnEstimateBeyondTheMarginIsUndecidedUnlessItsBoundIsBeyondToo) {
   const comparison::Judgement one = decided(measure(0.021, {0.012, 0.03}, 1e-6));
   EXPECT_EQ(one.verdict, comparison::GateVerdict::inconclusive);
   EXPECT_EQ(one.note, "beyond the margin, but not significantly");
@@ -106,7 +106,7 @@ TEST(Verdict, AnEstimateBeyondTheMarginIsUndecidedWhereItsBoundIsNot) {
 }
 
 // The level at which a bound reaches the margin, found from the other side: bounds of that confidence do.
-TEST(Verdict, TheTestOfAChangeWithinTheMarginIsTheOneOfTheBounds) {
+TEST(Verdict, AChangeWithinTheMarginIsTestedByItsBounds) {
   std::mt19937_64 random(83);
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> uniform;
@@ -127,7 +127,7 @@ TEST(Verdict, TheTestOfAChangeWithinTheMarginIsTheOneOfTheBounds) {
   }
 }
 
-TEST(Verdict, WhatWasNotMeasuredCountsNeitherWay) {
+TEST(Verdict, AMeasureWithoutValuesDoesNotAffectTheVerdict) {
   comparison::Judgement nothing;
   EXPECT_EQ(decided(nothing).verdict, comparison::GateVerdict::not_measured);
   const std::vector<comparison::GateVerdict> both{comparison::GateVerdict::not_measured,
@@ -136,7 +136,7 @@ TEST(Verdict, WhatWasNotMeasuredCountsNeitherWay) {
   EXPECT_EQ(comparison::worst_of({}), comparison::GateVerdict::not_measured);
 }
 
-TEST(Verdict, AnOpenMeasureSaysWhy) {
+TEST(Verdict, AnOpenMeasureGivesTheReason) {
   EXPECT_EQ(decided(measure(0.02, {0.01, 0.03}, 1e-3)).note, "not shown to be within the margin");
   EXPECT_EQ(decided(measure(0.03, {0.0, 0.06}, 0.1)).note, "beyond the margin, but not significantly");
   EXPECT_EQ(decided(measure(0.0, {-0.01, 0.01}, 0.5)).note, "");
@@ -167,7 +167,7 @@ comparison::GateVerdict verdict_on(const comparison::PointTrials& before,
   return comparison::worst_of(verdicts);
 }
 
-TEST(Evidence, AFewTrialsThatAgreeShowNothing) {
+TEST(Evidence, AFewTrialsThatAgreeAreInconclusive) {
   for (const bool paired : {false, true}) {
     for (const std::int64_t trials : {1, 5, 19, 50}) {
       EXPECT_EQ(verdict_on(agreeing(trials), agreeing(trials), paired), comparison::GateVerdict::inconclusive)
@@ -177,7 +177,7 @@ TEST(Evidence, AFewTrialsThatAgreeShowNothing) {
   }
 }
 
-TEST(Evidence, TrialsThatNoLongerArriveFailByTheirArrivalAndNotByTheirTimes) {
+TEST(Evidence, TrialsThatNoLongerArriveLowerTheArrivalRateAndNotTheArrivalTime) {
   comparison::PointTrials after = agreeing(500);
   std::fill(after.values["arrival_rate"].begin(), after.values["arrival_rate"].end(), false);
   std::fill(after.values["arrival_time"].begin(), after.values["arrival_time"].end(), std::nan(""));
@@ -189,7 +189,7 @@ TEST(Evidence, TrialsThatNoLongerArriveFailByTheirArrivalAndNotByTheirTimes) {
 }
 
 // A trial of several moves is one trial, whose moves that arrived in both are compared.
-TEST(Evidence, MovesAreComparedWithTheirPartners) {
+TEST(Evidence, MovesOfTheSameTrialsAreComparedInPairs) {
   comparison::PointTrials before = agreeing(100);
   before.moves = 2;
   before.values["arrival_time"].clear();
@@ -208,20 +208,20 @@ TEST(Evidence, MovesAreComparedWithTheirPartners) {
 
 constexpr double z95 = 1.6448536269514722;
 
-TEST(ShareTests, NothingThatDiffersIsNoEvidence) {
+TEST(ProportionTests, EqualSamplesHaveThePValueOne) {
   EXPECT_EQ(two_samples::mcnemar({500, 0, 0}), 1.0);
   EXPECT_EQ(two_samples::fisher({0, 300, 0, 200}), 1.0);
   EXPECT_EQ(two_samples::fisher({300, 300, 200, 200}), 1.0);
   EXPECT_EQ(two_samples::mcnemar({500, 0, 7}), 1.0);
 }
 
-TEST(ShareTests, SevenOfSevenIsOneInTwoToTheSeventh) {
+TEST(ProportionTests, SevenChangesInOneDirectionHaveTheExactPValue) {
   EXPECT_NEAR(two_samples::mcnemar({500, 7, 0}), 1.0 / 128.0, 1e-15);
   EXPECT_NEAR(two_samples::fisher({0, 7, 7, 7}), 1.0 / 3432.0, 1e-15);  // 14 choose 7
 }
 
 // With no pair that differs, Tango's bound solves n·λ/√(nλ(1 − λ)) = z.
-TEST(ShareTests, BoundsWithoutAnyDifferingPair) {
+TEST(ProportionTests, TangoBoundsWithoutADifferingPairHaveTheirClosedForm) {
   for (const std::int64_t n : {1, 20, 200, 5000}) {
     const statistics::ConfidenceInterval bounds = two_samples::tango({n, 0, 0}, 0.95);
     const double expected = z95 * z95 / (static_cast<double>(n) + z95 * z95);
@@ -230,7 +230,7 @@ TEST(ShareTests, BoundsWithoutAnyDifferingPair) {
   }
 }
 
-TEST(ShareTests, TheBoundsOfTheOppositeAreOpposite) {
+TEST(ProportionTests, ExchangingTheSamplesMirrorsTheBounds) {
   std::mt19937_64 random(3);
   for (int i = 0; i < 200; ++i) {
     const auto n = static_cast<std::int64_t>(1 + random() % 300);
@@ -245,7 +245,7 @@ TEST(ShareTests, TheBoundsOfTheOppositeAreOpposite) {
 }
 
 // The probability that the bound misses, summed over all tables, is near what it says.
-TEST(ShareTests, BoundsOfPairsHoldAsOftenAsTheySay) {
+TEST(ProportionTests, TangoBoundsCoverTheDifferenceWithTheirConfidence) {
   constexpr std::int64_t n = 60;
   for (const double proportion : {0.02, 0.05, 0.1}) {
     for (const double difference : {0.0, 0.05, 0.1}) {
@@ -269,14 +269,14 @@ TEST(ShareTests, BoundsOfPairsHoldAsOftenAsTheySay) {
   }
 }
 
-TEST(RankTests, EqualSamplesAreNoEvidence) {
+TEST(RankTests, EqualSamplesHaveThePValueOne) {
   const std::vector<double> values{1.0, 2.0, 2.0, 3.0};
   EXPECT_EQ(two_samples::smirnov(values, values), 1.0);
   EXPECT_EQ(two_samples::smirnov(values, {}), 1.0);
   EXPECT_EQ(two_samples::signed_rank(std::vector<double>{0.0, 0.0}), 1.0);
 }
 
-TEST(RankTests, AllOnOneSideIsTheRarestOfAll) {
+TEST(RankTests, SamplesThatDoNotOverlapHaveTheSmallestPossiblePValue) {
   EXPECT_NEAR(two_samples::signed_rank(std::vector<double>{1.0, 1.0, 2.0, 3.0, 3.0}), 1.0 / 32.0, 1e-16);
   EXPECT_NEAR(two_samples::smirnov(std::vector<double>{1.0, 2.0, 3.0}, std::vector<double>{4.0, 5.0, 6.0}),
               1.0 / 20.0, 1e-16);
@@ -285,7 +285,7 @@ TEST(RankTests, AllOnOneSideIsTheRarestOfAll) {
 }
 
 // Where a sample is too large for the exact law, its limit takes over without a step.
-TEST(RankTests, TheLimitsJoinTheExactLaws) {
+TEST(RankTests, LargeSampleFormulasContinueTheExactDistributions) {
   std::mt19937_64 random(5);
   std::normal_distribution<double> normal;
   std::vector<double> differences;
@@ -305,7 +305,7 @@ TEST(RankTests, TheLimitsJoinTheExactLaws) {
   EXPECT_NEAR(std::log(two_samples::smirnov(one, two) / exact), 0.0, 0.1);
 }
 
-TEST(MeanTests, ManyTrialsThatAgreeBoundTheMeanAsTheRuleOfThree) {
+TEST(MeanTests, EqualPairsBoundTheMeanByTheRuleOfThree) {
   for (const std::size_t n : {100u, 1000u, 10000u}) {
     const statistics::ConfidenceInterval bounds =
         two_samples::cautious_bounds(std::vector<double>(n, 0.0), 1.0, 0.95);
@@ -350,7 +350,7 @@ std::vector<bool> step_up(const std::vector<double>& p, double level) {
   return rejected;
 }
 
-TEST(FalseDiscovery, AdjustedValuesRejectWhatTheProcedureRejects) {
+TEST(FalseDiscovery, AdjustedPValuesRejectTheSameTestsAsTheStepUpProcedure) {
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> uniform;
   for (int round = 0; round < 500; ++round) {

@@ -86,7 +86,7 @@ void expect_hardly_any_at_the_defaults(bool paired, int comparisons) {
   EXPECT_LE(alarms, comparisons * 0.05);
 }
 
-TEST_P(NullComparisons, RaiseHardlyAnyAtTheDefaults) {
+TEST_P(NullComparisons, DefaultMarginsRaiseHardlyAnyFalseAlarm) {
   expect_hardly_any_at_the_defaults(GetParam(), 150);
 }
 
@@ -165,7 +165,7 @@ TEST_P(NullComparisons, FailAChangeOfTheMarginNoMoreOftenThanStated) {
   expect_failures_beyond_the_margin_alone(GetParam(), 100);
 }
 
-TEST_P(NullComparisons, FailWhereAllIsMuchWorse) {
+TEST_P(NullComparisons, AStudyThatIsMuchWorseFails) {
   std::mt19937_64 random(53);
   int seen = 0;
   for (int i = 0; i < 20; ++i) {

@@ -195,7 +195,7 @@ TEST(Forecast, DoesNotDependOnTheNumberOfThreads) {
 }
 
 // All measures together need at least as many trials as any of them where nothing fails.
-TEST(Forecast, TheWholeNeedsMoreThanAnyOfItsParts) {
+TEST(Forecast, TheWholeComparisonNeedsMoreTrialsThanAnyOfItsMeasures) {
   const Compared open = an_open_pair();
   const comparison::Forecast forecast =
       comparison::forecast_equivalence(samples_of(open.points, true), {.max_factor = 1000.0});
@@ -207,7 +207,7 @@ TEST(Forecast, TheWholeNeedsMoreThanAnyOfItsParts) {
 }
 
 // A rate p, both bounds within ± M with power 1 − β: n = 2p(1 − p)·(z_c + z_{1−β/2})²/M² of each study.
-TEST(Forecast, OfOneRateAgreesWithTheClosedForm) {
+TEST(Forecast, ForOneRateAgreesWithTheClosedForm) {
   const StudyPair pair{{{0.8, 0.03, 0.5}}, {{0.8, 0.03, 0.5}}, false, 5};
   GateRules rules;
   rules.measures = {"success_rate"};
@@ -221,7 +221,7 @@ TEST(Forecast, OfOneRateAgreesWithTheClosedForm) {
   EXPECT_NEAR(*forecast.trials, 2.0 * 0.8 * 0.2 * z * z / (0.03 * 0.03), 0.07 * *forecast.trials);
 }
 
-TEST(Forecast, TellsWhichMarginCanBeDecidedWhereNoNumberOfTrialsDecides) {
+TEST(Forecast, NamesTheMarginThatMaxTrialsCouldDecide) {
   const Compared open = an_open_pair();
   const comparison::Forecast forecast =
       comparison::forecast_decision(samples_of(open.points), {.max_factor = 1.5});

@@ -88,7 +88,7 @@ std::vector<std::string> measure_names(const std::vector<Judgement>& measures) {
   return names;
 }
 
-TEST(GoalMeasures, AreJudgedInPlaceOfTheOthersUnlessTheRulesNameThese) {
+TEST(GoalMeasures, ReplaceTheOtherMeasuresUnlessTheRulesNameThem) {
   using Names = std::vector<std::string>;
   const PointTrials of_moves = settled_trials({}, 1);
   const PointTrials of_machines = settled_trials({.machines = 50}, 1);
@@ -199,7 +199,7 @@ TEST(GoalMeasures, AMoveThatNeverSettlesIsLaterThanAnyTime) {
 }
 
 // Half as many trials on each machine show more machines without a miss; they are no better.
-TEST(GoalMeasures, JudgeMachinesByAsManyMovesOfEach) {
+TEST(GoalMeasures, JudgeEveryMachineByTheSameNumberOfMoves) {
   const Machines few{.machines = 200, .trials = 400};
   Machines many = few;
   many.trials = 4000;

@@ -37,14 +37,14 @@ int false_alarms(int comparisons, bool as_if_independent) {
   return alarms;
 }
 
-TEST(ComparisonOverMachines, KeepsItsRateOfFalseAlarmsWhereTrialsForThemselvesWouldNot) {
+TEST(ComparisonOverMachines, KeepsItsFalseAlarmRateAlthoughTrialsOfAMachineAreDependent) {
   constexpr int comparisons = 300;
   EXPECT_LE(false_alarms(comparisons, false),
             0.05 * comparisons + 3.0 * std::sqrt(0.05 * 0.95 * comparisons));
   EXPECT_GT(false_alarms(comparisons, true), 0.12 * comparisons);
 }
 
-TEST(ComparisonOverMachines, FindsMachinesThatFailNow) {
+TEST(ComparisonOverMachines, FindsMachinesThatBeganToFail) {
   std::mt19937_64 random(6);
   const PointTrials before = trials_on_machines(60, 1200, random);
   PointTrials after = before;

@@ -19,7 +19,7 @@ std::string fault(const std::string& text) {
   return refusal_by([&] { read(text); });
 }
 
-TEST(MarginsFile, SaysWhatTheRulesAre) {
+TEST(MarginsFile, IsReadIntoTheGateRules) {
   const comparison::GateRules rules = read(R"(
 confidence: 0.99
 false_discovery_rate: 0.01
@@ -53,14 +53,14 @@ points:
   EXPECT_FALSE(comparison::requirements_of(rules, "b-with-kp")[2].at_least);
 }
 
-TEST(MarginsFile, SaysWhetherEveryChangeFails) {
+TEST(MarginsFile, FailOnChangedMakesEveryChangeFail) {
   EXPECT_TRUE(read("fail_on: changed\n").changed_fails);
   EXPECT_FALSE(read("fail_on: worse\n").changed_fails);
   EXPECT_EQ(fault("fail_on: better\n"),
             "gate.yaml:1:10: fail_on: 'better' is not a kind of failure; expected worse or changed");
 }
 
-TEST(MarginsFile, LeavesTheDefaultsToWhatItDoesNotName) {
+TEST(MarginsFile, UnnamedMeasuresKeepTheirDefaultMargins) {
   const comparison::GateRules rules = read("margins: {success_rate: 0.1}\n");
   const comparison::GateMeasure stable = *comparison::find_gate_measure("stable_rate");
   EXPECT_EQ(comparison::margin_of(rules, "a", stable).absolute, stable.margin.absolute);
@@ -68,7 +68,7 @@ TEST(MarginsFile, LeavesTheDefaultsToWhatItDoesNotName) {
   EXPECT_TRUE(rules.requirements.empty());
 }
 
-TEST(MarginsFile, TellsEveryMistakeWithItsPlace) {
+TEST(MarginsFile, EveryMistakeIsReportedWithLineAndColumn) {
   EXPECT_EQ(fault("margin: {}\n"),
             "gate.yaml:1:1: margin: unknown key, nearest known: margins; expected one of confidence, "
             "false_discovery_rate, fail_on, measures, margins, require, points");
@@ -96,7 +96,7 @@ TEST(MarginsFile, TellsEveryMistakeWithItsPlace) {
   EXPECT_EQ(fault("require: [success_rate ≥ 99.5]\n"),
             "gate.yaml:1:11: require.0: 99.5 is not a proportion; expected a number from 0 to 1");
   EXPECT_EQ(fault("require: arrival_time.p95 ≥ 0.1\n"),
-            "gate.yaml:1:10: require: a least arrival_time.p95 is asked for; expected ≤ and a limit");
+            "gate.yaml:1:10: require: arrival_time.p95 cannot have a lower limit; expected ≤ and a limit");
   EXPECT_EQ(fault("measures: []\n"),
             "gate.yaml:1:11: measures: the list is empty; expected a list of some of goal_rate, "
             "goal_machines, goal_settling_time, success_rate, arrival_rate, stable_rate, arrival_time, "
@@ -109,7 +109,7 @@ TEST(MarginsFile, TellsEveryMistakeWithItsPlace) {
       says(fault("require: speed ≥ 1\n"), "'speed' cannot be required; expected one of success_rate"));
 }
 
-TEST(MarginsFile, TakesARequirementWithAnyBlanks) {
+TEST(MarginsFile, RequirementsMayHaveAnyBlanks) {
   for (const std::string text :
        {"success_rate≥0.5", "'  success_rate  >=\t0.5 '", "\"\\tsuccess_rate >=0.5\\n\""}) {
     const comparison::GateRules rules = read("require: " + text + "\n");
@@ -121,7 +121,7 @@ TEST(MarginsFile, TakesARequirementWithAnyBlanks) {
   EXPECT_FALSE(read("require: arrival_time.p95<=0.1\n").requirements[0].at_least);
 }
 
-TEST(MarginsFile, TakesRequirementsOfErrorBandsAndTheGoal) {
+TEST(MarginsFile, RequirementsMayNameErrorBandsAndTheGoal) {
   const comparison::GateRules rules =
       read("require: ['band_settling_time[5].p95 ≤ 0.05', 'band_exits[0] <= 2', goal]\n");
   ASSERT_EQ(rules.requirements.size(), 3u);
@@ -143,7 +143,7 @@ TEST(MarginsFile, TakesRequirementsOfErrorBandsAndTheGoal) {
   }
 }
 
-TEST(MarginsFile, RefusesARequirementWithoutAllItsParts) {
+TEST(MarginsFile, AnIncompleteRequirementIsRefused) {
   for (const std::string text :
        {"success_rate", "success_rate ≥", "≥ 0.5", "success_rate 0.5", "success rate ≥ 0.5",
         "success_rate ≥ 0.5 s", "Success_rate ≥ 0.5", "success_rate > 0.5"}) {
@@ -159,7 +159,7 @@ TEST(MarginsFile, RefusesAVeryLongRequirement) {
       says(long_name, "gate.yaml:1:10: require: 'aaa", "' cannot be understood; expected a text such as"));
 }
 
-TEST(MarginsFile, MustBeThereAndHoldSomething) {
+TEST(MarginsFile, AMissingOrEmptyFileIsRefused) {
   EXPECT_TRUE(says(fault(""), "the file is empty"));
   const TemporaryFolder folder;
   EXPECT_THROW(comparison::read_gate_rules(folder / "none.yaml", labels), Failure);
@@ -189,7 +189,7 @@ comparison::Judgement judged(const std::string& text, const comparison::PointTri
 }
 
 // 598 successes of 598 show 99.5 % with 95 % confidence, 597 of 597 do not: 0.995^598 < 0.05 < 0.995^597.
-TEST(Requirement, IsShownByTheLowerBound) {
+TEST(Requirement, PassesIfTheLowerBoundReachesTheLimit) {
   EXPECT_EQ(judged("success_rate ≥ 0.995", with_successes(598, 598)).verdict,
             comparison::GateVerdict::passed);
   const comparison::Judgement open = judged("success_rate >= 0.995", with_successes(597, 597));
@@ -197,7 +197,7 @@ TEST(Requirement, IsShownByTheLowerBound) {
   EXPECT_EQ(open.current, 1.0);
 }
 
-TEST(Requirement, IsContradictedByTheUpperBound) {
+TEST(Requirement, FailsIfTheUpperBoundIsBelowTheLimit) {
   EXPECT_EQ(judged("success_rate ≥ 0.995", with_successes(960, 1000)).verdict,
             comparison::GateVerdict::regression);
   EXPECT_EQ(judged("success_rate ≥ 0.995", with_successes(993, 1000)).verdict,
@@ -225,7 +225,7 @@ TEST(Requirement, AQuantileCountsTrialsThatNeverSettle) {
   EXPECT_NEAR(judged("arrival_time.median ≤ 0.3", with_successes(400, 500)).current, 0.250, 1e-12);
 }
 
-TEST(Requirement, TheMeanOfTheJerksHasBoundsOfItsOwn) {
+TEST(Requirement, JerkCountIsJudgedByTheBoundsOfItsMean) {
   EXPECT_EQ(judged("jerk_count ≤ 0.7", with_successes(500, 500)).verdict, comparison::GateVerdict::passed);
   EXPECT_EQ(judged("jerk_count ≤ 0.4", with_successes(500, 500)).verdict,
             comparison::GateVerdict::regression);
@@ -234,7 +234,7 @@ TEST(Requirement, TheMeanOfTheJerksHasBoundsOfItsOwn) {
 }
 
 // At the limit itself a requirement is met: it must not fail more often than stated, nor pass.
-TEST(Requirement, AtItsLimitItRarelyFailsAndRarelyPasses) {
+TEST(Requirement, ATrueRateEqualToTheLimitRarelyFailsAndRarelyPasses) {
   std::mt19937_64 random(17);
   std::binomial_distribution<std::int64_t> law(500, 0.97);
   int passed = 0;
@@ -264,7 +264,7 @@ class Baselines : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(Baselines, AreTheResultsFileByteByByte) {
+TEST_F(Baselines, AreByteIdenticalCopiesOfTheResultsFile) {
   const comparison::BaselineUpdate update =
       comparison::update_baseline(results("a.h5", 0), folder_ / "base.h5", "the first: \"it works\"");
   EXPECT_TRUE(update.changed);
@@ -275,7 +275,7 @@ TEST_F(Baselines, AreTheResultsFileByteByByte) {
   EXPECT_FALSE(says(log, "replaces"));
 }
 
-TEST_F(Baselines, KeepTheRecordOfWhatTheyReplace) {
+TEST_F(Baselines, KeepALogOfTheFilesTheyReplace) {
   comparison::update_baseline(results("a.h5", 0), folder_ / "base.h5", "first");
   const std::string before = folder_.read("base.h5.log.yaml");
   const comparison::BaselineUpdate update =
@@ -287,7 +287,7 @@ TEST_F(Baselines, KeepTheRecordOfWhatTheyReplace) {
   EXPECT_TRUE(says(log, "  replaces: \"", "  comparison: \"" + update.comparison.substr(0, 8)));
 }
 
-TEST_F(Baselines, AreLeftAloneByTheSameFile) {
+TEST_F(Baselines, AreNotReplacedByTheSameFile) {
   const auto file = results("a.h5", 0);
   comparison::update_baseline(file, folder_ / "base.h5", "first");
   const std::string log = folder_.read("base.h5.log.yaml");
@@ -295,7 +295,7 @@ TEST_F(Baselines, AreLeftAloneByTheSameFile) {
   EXPECT_EQ(folder_.read("base.h5.log.yaml"), log);
 }
 
-TEST_F(Baselines, ThatWereChangedWithoutARecordAreNoticed) {
+TEST_F(Baselines, AChangeWithoutALogEntryGivesAWarning) {
   comparison::update_baseline(results("a.h5", 0), folder_ / "base.h5", "first");
   std::filesystem::copy_file(results("b.h5", 1000), folder_ / "base.h5",
                              std::filesystem::copy_options::overwrite_existing);

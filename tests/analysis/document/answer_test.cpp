@@ -70,7 +70,7 @@ TEST(Answer, StatesItsNameVersionAndHeadlineInJson) {
   EXPECT_EQ(json["headline"], "the goal is met");
 }
 
-TEST(Answer, WritesTheTextOfItsTreeInPieces) {
+TEST(Answer, WritesJsonInPiecesThatEqualTheWhole) {
   Subject subject = example();
   for (const char* name : {"a \"quoted\" name", "back\\slash", "line\nbreak", "Größe", "broken \xff UTF-8"})
     subject.axes.push_back({.name = name, .torque = -0.0});
@@ -125,7 +125,7 @@ TEST(Answer, QuotesCellsOfCsvThatWouldEndThem) {
   EXPECT_TRUE(says(document::csv(description().of(subject)), "\n\"a,\"\"b\"\"\nc\",0.3"));
 }
 
-TEST(Answer, ShowsPeopleTheTitleTheUnitsAndNoColumnWithoutContent) {
+TEST(Answer, TextShowsTitlesAndUnitsAndOmitsEmptyColumns) {
   const std::string text = document::text(description().of(example()));
   EXPECT_TRUE(text.starts_with("the goal is met\n")) << text;
   EXPECT_TRUE(says(text, "gains: controller.ki = 3e+04\n", "\naxes of the machine:\n\naxis  torque (N m)",
@@ -141,7 +141,7 @@ TEST(Answer, LeavesOutTablesWithoutRowsAndEmptySentences) {
   EXPECT_EQ(text, "the goal is met\ngains: controller.ki = 3e+04\nrates: 0.1, –\n");
 }
 
-TEST(Answer, LetsNoTextOfAManifestBecomeMarkup) {
+TEST(Answer, EscapesManifestTextInMarkup) {
   Subject subject = example();
   subject.axes[0].name = "<script>|`*_\x1b[31m";
   subject.headline = "<b>&";
@@ -193,7 +193,7 @@ TEST(AnswerSchema, HasOneDefinitionForEachType) {
   EXPECT_TRUE(schema["$defs"]["example"].contains("properties"));
 }
 
-TEST(ItemInData, IsInJsonAndItsSchemaAndNotShownToPeople) {
+TEST(DataOnlyItem, IsInJsonAndItsSchemaButNotInText) {
   AnswerDescription<double> description{{.name = "example", .meaning = "an example"}, {}};
   description.items
       .value(in_data("travel", "distance from the start", "m"), [](double travel) { return travel; })
@@ -236,7 +236,7 @@ TEST(Values, WholeNumbersKeepAllTheirBits) {
   expect_kept(std::numeric_limits<std::int64_t>::min());
 }
 
-TEST(Values, WithoutBoundsAreShownWithoutThem) {
+TEST(Values, UndefinedBoundsAreOmittedFromText) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(text(answer_with(Bounded{0.5, unknown, unknown})), "number: 0.5\n");
   EXPECT_EQ(text(answer_with(Bounded{0.5, unknown, 1.0})), "number: 0.5 [–, 1]\n");
@@ -244,7 +244,7 @@ TEST(Values, WithoutBoundsAreShownWithoutThem) {
 }
 
 // An answer without a table in CSV has one line there: its values, and those of its objects.
-TEST(Values, AreALineOfCsvWhereNoTableIs) {
+TEST(Values, WithoutATableFormOneLineOfCsv) {
   using Inner = Holder<double>;
   AnswerDescription<Inner> description{{.name = "holder", .meaning = "a number"}, {}};
   description.items.value({.key = "number", .heading = "number"}, &Inner::number)
@@ -256,7 +256,7 @@ TEST(Values, AreALineOfCsvWhereNoTableIs) {
 }
 
 // The schema lets be null what may be missing, and nothing else.
-TEST(Values, OfAPartAreNullableWhereThePartMayBeMissing) {
+TEST(Values, AreNullableInTheSchemaIfTheirPartIsOptional) {
   using Part = Holder<double>;
   const auto part = Description<Part>().value({.key = "number", .heading = "number"}, &Part::number);
   const auto there = Description<Part>().include(part, [](const Part& whole) { return whole; });
@@ -303,22 +303,22 @@ Answer answer_of(const std::vector<Loop>& loops) {
   return description.of(loops);
 }
 
-TEST(CommonColumns, OfRowsThatAgreeStandOnceAboveTheTable) {
+TEST(CommonColumns, AColumnWithEqualValuesIsShownOnceAboveTheTable) {
   const std::string text = document::text(answer_of({{"a", 2000.0, 1.0}, {"b", 2000.0, 2.0}}));
   EXPECT_TRUE(text.starts_with("Loops:\nsample rate: 2000 Hz\n\nloop  gain\n")) << text;
 }
 
-TEST(CommonColumns, OfASingleRowAreAll) {
+TEST(CommonColumns, ASingleRowIsShownAsAList) {
   EXPECT_EQ(document::text(answer_of({{"a", 2000.0, 1.0}})),
             "Loops:\nloop:        a\nsample rate: 2000 Hz\ngain:        1\n");
 }
 
-TEST(CommonColumns, LeaveATableWhoseRowsDifferAsItIs) {
+TEST(CommonColumns, ATableWhoseRowsDifferKeepsAllItsColumns) {
   const std::string text = document::text(answer_of({{"a", 1.0, 1.0}, {"b", 2.0, 2.0}}));
   EXPECT_TRUE(text.starts_with("Loops:\n\nloop  sample rate (Hz)  gain\n")) << text;
 }
 
-TEST(CommonColumns, AreInEachRowOfData) {
+TEST(CommonColumns, JsonAndCsvRepeatThemInEveryRow) {
   const Answer answer = answer_of({{"a", 2000.0, 1.0}, {"b", 2000.0, 2.0}});
   EXPECT_EQ(json(answer)["loops"][1]["rate"], 2000.0);
   EXPECT_EQ(csv(answer), "name,rate,gain\na,2000,1\nb,2000,2\n");

@@ -41,7 +41,7 @@ AnswerDescription<Gains> gains_answer(std::vector<std::string>& computed) {
   return answer;
 }
 
-TEST(Audience, IsShownItsItemsOfOneDescription) {
+TEST(Audience, EachAudienceGetsItsItemsFromOneDescription) {
   std::vector<std::string> computed;
   const Answer answer = gains_answer(computed).of(Gains{});
   EXPECT_EQ(json(answer)["gains"][1].dump(), R"({"axes":{"ki":2.0,"case":"a"},"settling":0.5})");
@@ -51,7 +51,7 @@ TEST(Audience, IsShownItsItemsOfOneDescription) {
             R"({"type":"object","additionalProperties":{"type":["number","string","null"]}})");
 }
 
-TEST(Audience, WhatItIsNotShownIsNotComputed) {
+TEST(Audience, ItemsForOtherAudiencesAreNotComputed) {
   for (const auto& [audience, keys] :
        std::vector<std::pair<Audience, std::vector<std::string>>>{{Audience::json, {"axes", "settling"}},
                                                                   {Audience::csv, {"ki", "settling"}},
@@ -65,7 +65,7 @@ TEST(Audience, WhatItIsNotShownIsNotComputed) {
 }
 
 // People find the members of an object without heading among the columns of its row, in data it is an object.
-TEST(Audience, PeopleAreShownObjectsAsColumnsOrInTheirOwnTables) {
+TEST(Audience, TextShowsObjectsAsColumnsOrAsTables) {
   using Of = const Gain&;
   const auto same = [](Of gain) -> const Gain& { return gain; };
   Description<Gain> goal, speed, gain, when;
@@ -106,7 +106,7 @@ TEST(Audience, PeopleAreShownObjectsAsColumnsOrInTheirOwnTables) {
 }
 
 // Columns of CSV have the names of their objects before them, or one of their own.
-TEST(Csv, HasWholeNumbersAndTheNamesOfColumns) {
+TEST(Csv, NumbersAreUnroundedAndColumnsAreNamed) {
   Description<Gain> goal, gain;
   goal.value({.key = "rate", .unit = "1"},
              [](const Gain& g) {
@@ -161,7 +161,7 @@ AnswerDescription<Report> report_description() {
 const Report two_points{
     {{"low", {{0.5, Bounded{2.0, 1.0, 4.0}}, {1.0, {}}}}, {"b, high", {{0.25, Bounded{3.0, 2.0, 5.0}}}}}};
 
-TEST(Sections, StandOneBelowTheOtherForPeople) {
+TEST(Sections, TextPlacesThemOneBelowTheOther) {
   const std::string text = document::text(report_description().of(two_points));
   EXPECT_EQ(text.find("2 points"), 0U);
   EXPECT_LT(text.find("low:"), text.find("2 [1, 4]")) << text;
@@ -181,7 +181,7 @@ TEST(Sections, AreAListOfObjectsInJson) {
   EXPECT_EQ(schema["properties"]["points"]["items"]["properties"]["rates"]["type"], "array");
 }
 
-TEST(Sections, GiveTheLinesOfATableInThemTheirValues) {
+TEST(Sections, CsvRepeatsTheirValuesInEachLineOfTheirTable) {
   EXPECT_EQ(csv(report_description().of(two_points)),
             "label,from,rate,rate_low,rate_high\n"
             "low,0.5,2,1,4\n"
@@ -214,20 +214,20 @@ Answer named_answer(const std::string& name, const std::string& lines = "") {
   return description.of({name, {{name}}, lines});
 }
 
-TEST(Escaping, ATextOfCsvIsNoFormula) {
+TEST(Escaping, CsvTextIsNeverASpreadsheetFormula) {
   EXPECT_EQ(csv(named_answer("=cmd|' /C calc'!A0")), "name\n'=cmd|' /C calc'!A0\n");
   EXPECT_EQ(csv(named_answer("@SUM(1,2)")), "name\n\"'@SUM(1,2)\"\n");
   EXPECT_EQ(csv(named_answer("+1+1")), "name\n'+1+1\n");
   EXPECT_EQ(csv(named_answer("-3")), "name\n-3\n");
 }
 
-TEST(Escaping, AWholeAnswerOfCsvIsNoFormula) {
+TEST(Escaping, ACsvAnswerOfOneValueIsNeverASpreadsheetFormula) {
   AnswerDescription<NamedRow> description{{.name = "holder", .meaning = "a name"}, {}};
   description.items.value({.key = "name", .heading = "name"}, &NamedRow::name);
   EXPECT_EQ(csv(description.of({"=1+1"})), "name\n'=1+1\n");
 }
 
-TEST(Escaping, NoNameIsALinkInMarkdown) {
+TEST(Escaping, NamesDoNotBecomeLinksInMarkdown) {
   const std::string link = markdown(named_answer("[x](javascript:alert(2))"));
   EXPECT_EQ(link.find("]("),
             link.find("\\](") == std::string::npos ? std::string::npos : link.find("\\](") + 1);
@@ -238,7 +238,7 @@ TEST(Escaping, NoNameIsALinkInMarkdown) {
   EXPECT_TRUE(says(markdown(named_answer("90 [87, 95] %")), "90 [87, 95] %"));
 }
 
-TEST(Escaping, NoNameIsLayoutInMarkdown) {
+TEST(Escaping, NamesDoNotBecomeMarkupInMarkdown) {
   EXPECT_FALSE(says(markdown(named_answer("# a")), "\n# a"));
   for (const char* const name : {"# a", "- a", "+ a", "> a", "1. a", "12) a", "=== a", "---"}) {
     const std::string text = markdown(named_answer(name));

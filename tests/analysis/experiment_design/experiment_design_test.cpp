@@ -53,7 +53,7 @@ const ExpectedParameter& parameter_of(const ExperimentDesign& design, const std:
   return *std::ranges::find(design.parameters, key, &ExpectedParameter::key);
 }
 
-TEST(ExperimentDesign, IsSafeOnMachinesThatTheSearchHasNotSeen) {
+TEST(ExperimentDesign, StaysBelowBreakawayOnUnseenMachines) {
   const ExperimentDesign& design = quick_design();
   const std::vector<Machine> machines = drawn_machines(study_of(manifest_with()), 0, 40);
   int beyond = 0;
@@ -65,7 +65,7 @@ TEST(ExperimentDesign, IsSafeOnMachinesThatTheSearchHasNotSeen) {
   EXPECT_LE(beyond, 20);  // the travel that it tells is the largest of 7 machines
 }
 
-TEST(ExperimentDesign, KeepsTheTravel) {
+TEST(ExperimentDesign, StaysWithinTheAllowedTravel) {
   DesignSettings settings = quick_settings();
   settings.search.max_protocols = 6;
   settings.max_travel = 0.4 * quick_design().travel;
@@ -82,7 +82,7 @@ TEST(ExperimentDesign, KeepsTheTravel) {
   EXPECT_EQ(travel, design.travel);
 }
 
-TEST(ExperimentDesign, AMachineThatBreaksAwayIsSeen) {
+TEST(ExperimentDesign, SimulationDetectsMachinesThatBreakAway) {
   const ExperimentDesign& design = quick_design();
   Machine weak = design.median;
   weak.parameters.friction.uniform.breakaway = 0.5 * design.shape.amplitude * design.frame.max_torque;
@@ -90,7 +90,7 @@ TEST(ExperimentDesign, AMachineThatBreaksAwayIsSeen) {
 }
 
 // The usual tests of the identification's own suite, in the same time and on the same machine.
-TEST(ExperimentDesign, IsBetterThanTheUsualTest) {
+TEST(ExperimentDesign, GivesNarrowerIntervalsThanTheUsualTest) {
   const ExperimentDesign& design = quick_design();
   testing::TorqueProgramme usual(design.frame.sample_time);
   for (int i = 0; i < 2; ++i) usual.step(0.06).hold(0.03).step(0.0).hold(0.03);
@@ -109,7 +109,7 @@ TEST(ExperimentDesign, IsBetterThanTheUsualTest) {
   EXPECT_LT(std::exp(spread(design.protocol)), 0.8 * std::exp(spread(protocol)));
 }
 
-TEST(ExperimentDesign, EachImprovementIsOne) {
+TEST(ExperimentDesign, EachListedImprovementLowersTheSpread) {
   const auto& improvements = quick_design().search.improvements;
   ASSERT_GE(improvements.size(), 3u);
   EXPECT_TRUE(std::ranges::is_sorted(improvements, std::greater<>(), &JudgedShape::spread));
@@ -141,7 +141,7 @@ std::string text_of(const ExperimentDesign& design) {
   return document::text(answer.of(design));
 }
 
-TEST(ExperimentDesign, TellsWhatCannotBeTold) {
+TEST(ExperimentDesign, ReportsParametersThatCannotBeIdentified) {
   DesignSettings settings = quick_settings();
   settings.search.max_protocols = 4;
   settings.machines = 2;
@@ -150,7 +150,7 @@ TEST(ExperimentDesign, TellsWhatCannotBeTold) {
   EXPECT_EQ(parameter_of(design, "friction.alpha").found.status, fit::EstimateStatus::not_identifiable);
   EXPECT_EQ(parameter_of(design, "friction.alpha").told, 0);
   EXPECT_EQ(parameter_of(design, "friction.k1").found.status, fit::EstimateStatus::estimated);
-  EXPECT_NE(text_of(design).find("friction.alpha cannot be told from this record, because "),
+  EXPECT_NE(text_of(design).find("friction.alpha cannot be identified from this record, because "),
             std::string::npos)
       << text_of(design);
 }
@@ -178,7 +178,7 @@ TEST(ExperimentDesign, ASecondExperimentFollowsFromTheFirst) {
   EXPECT_LT(spread(second), spread(first) + 0.02);
 }
 
-TEST(ExperimentDesign, ALinearAxisIsARotaryOneInOtherUnits) {
+TEST(ExperimentDesign, ALinearAxisIsDesignedInForceAndPosition) {
   const std::string linear =
       "zerocount: 1\nname: linear\naxis: linear\ntravel: 0.1\nseed: 3\ntrials: 100\ncommand: {targets: [0]}\n"
       "plant: {inertia: 0.55, presliding_damping: 200, sliding_damping: 1}\n"
@@ -219,7 +219,7 @@ std::string refusal_of(const study::Study& study, const DesignSettings& settings
   return "";
 }
 
-TEST(ExperimentDesign, RefusesWhatItCannotDesign) {
+TEST(ExperimentDesign, RefusesLoadsOtherLawsAndImpossibleLimits) {
   DesignSettings settings = quick_settings();
   EXPECT_NE(refusal_of(study_of(manifest_with(), {"friction.model=lugre"}), settings).find("presliding"),
             std::string::npos);

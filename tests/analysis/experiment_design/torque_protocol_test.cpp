@@ -27,7 +27,7 @@ ProtocolFrame random_frame(std::mt19937_64& random) {
 }
 
 // The record has the asked length, whole codes, torques within the limit, and begins and ends at 0.
-TEST(TorqueProtocol, EveryShapeFillsEveryFrame) {
+TEST(TorqueProtocol, EveryShapeFillsItsDuration) {
   std::mt19937_64 random(1);
   for (int i = 0; i < 500; ++i) {
     const ProtocolFrame frame = random_frame(random);

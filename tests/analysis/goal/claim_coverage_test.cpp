@@ -99,16 +99,16 @@ void expect_rarely_wrong(int studies) {
   }
 }
 
-TEST(ClaimCoverage, MetIsRarelyWrong) {
+TEST(ClaimCoverage, AMetVerdictIsRarelyWrong) {
   expect_rarely_wrong(100);
 }
 
-TEST(ClaimCoverage, DISABLED_MetIsRarelyWrongInManyStudies) {
+TEST(ClaimCoverage, DISABLED_AMetVerdictIsRarelyWrongInManyStudies) {
   expect_rarely_wrong(2000);
 }
 
 // Independent trials meet each of the goals with 0.97, of which 0.95 is claimed.
-TEST(ClaimCoverage, TakesFewerTrialsThanBonferroni) {
+TEST(ClaimCoverage, NeedsFewerTrialsThanBonferroni) {
   constexpr double asked = 0.95, truth = 0.97, power = 0.9;
   const auto trials_at = [&](std::size_t goals, std::size_t divided_by) {
     const study::Goal goal{.within = 0.05, .moves = asked, .machines = {}};

@@ -81,10 +81,10 @@ struct Planned {
   double least_mean;      ///< lower end of the machines' mean, which is drawn for each pilot
 };
 
-class GoalNeedsOf : public ::testing::TestWithParam<Planned> {};
+class GoalNeedsByDesign : public ::testing::TestWithParam<Planned> {};
 
 // The truth is drawn evenly for each pilot. Pilots that decide are left out. Of 70 % decided it sees 99 %.
-TEST_P(GoalNeedsOf, NineInTenStudiesAreDecided) {
+TEST_P(GoalNeedsByDesign, PlannedStudiesAreDecidedNineTimesInTen) {
   const Planned& plan = GetParam();
   testing::Draws draws(7);
   int planned = 0;
@@ -103,7 +103,7 @@ TEST_P(GoalNeedsOf, NineInTenStudiesAreDecided) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Machines, GoalNeedsOf,
+    Machines, GoalNeedsByDesign,
     ::testing::Values(
         Planned{"one_trial_each", {.within = 0.05, .moves = 0.95}, 0, 200, 0.0, 0.85},
         Planned{"small_pilot", {.within = 0.05, .moves = 0.8}, 0, 30, 0.0, 0.5},
@@ -133,7 +133,7 @@ TEST(GoalNeeds, AStudyOfFewMachinesIsDecidedAsOftenAsPlanned) {
 }
 
 // 58 machines without a miss do not exclude that one in twenty always fails.
-TEST(GoalNeeds, CountMachinesWhereTheyHardlyMiss) {
+TEST(GoalNeeds, CountMachinesIfTheyHardlyMiss) {
   const study::Goal goal{.within = 0.05, .moves = 0.95};
   EXPECT_EQ(cheapest(smallest_studies(goal, true, 1, 1)).machines, 59);
   std::int64_t without_miss = 0;
@@ -150,7 +150,7 @@ TEST(GoalNeeds, CountMachinesWhereTheyHardlyMiss) {
 }
 
 // A goal on machines is planned for machines like those of the pilot.
-TEST(GoalNeeds, OfMachinesDecideNineInTenStudiesOfMachinesAsThese) {
+TEST(GoalNeeds, StudiesPlannedOnMachinesAreDecidedNineTimesInTen) {
   testing::Draws draws(13);
   const study::Goal goal{.within = 0.05, .moves = 0.8, .machines = 0.8};
   int planned = 0;
@@ -178,7 +178,7 @@ TEST(GoalNeeds, OfMachinesDecideNineInTenStudiesOfMachinesAsThese) {
 }
 
 // In worlds each of which has its own truth, the study is decided as a whole.
-TEST(GoalNeedsInWorlds, NineInTenStudiesAreDecided) {
+TEST(GoalNeedsInWorlds, PlannedStudiesAreDecidedNineTimesInTen) {
   testing::Draws draws(11);
   const study::Goal goal{.within = 0.05, .moves = 0.9};
   constexpr std::int64_t worlds = 4;
@@ -205,7 +205,7 @@ TEST(GoalNeedsInWorlds, NineInTenStudiesAreDecided) {
 
 // The chance of several claims is a bound whatever they have in common: here half of the moves meet or miss
 // both goals together.
-TEST(GoalNeedsOfSeveral, NineInTenStudiesAreDecided) {
+TEST(GoalNeedsOfSeveralGoals, PlannedStudiesAreDecidedNineTimesInTen) {
   testing::Draws draws(17);
   const std::vector<study::Goal> goals{{.within = 0.05, .moves = 0.9}, {.within = 0.05, .moves = 0.8}};
   constexpr std::int64_t conditions = 2;

@@ -32,7 +32,7 @@ measures::CellCounts counts_of(std::int64_t met, std::int64_t trials, std::int64
   return counts;
 }
 
-TEST(Goal, IsMetByAMoveWithinItsBandForGoodInTime) {
+TEST(Goal, IsMetByAMoveThatSettlesInTheBandInTime) {
   EXPECT_TRUE(measures::meets(within_50_ms, move_settled_at(0.05)));
   EXPECT_FALSE(measures::meets(within_50_ms, move_settled_at(0.0505)));
   // Sample 71 at 2 kHz is at 0.0355 s; the product is rounded up.
@@ -41,7 +41,7 @@ TEST(Goal, IsMetByAMoveWithinItsBandForGoodInTime) {
   EXPECT_FALSE(measures::meets(within_50_ms, {}));  // NaN: it ended outside, or was lost
 }
 
-TEST(Goal, OfIndependentMovesHasTheBoundsOfClopperAndPearson) {
+TEST(Goal, IndependentMovesHaveClopperPearsonBounds) {
   const study::Goal goal{.within = 0.05, .moves = 0.95, .confidence = 0.9};
   for (const auto& [met, status] : {std::pair{990, Status::met}, std::pair{900, Status::missed},
                                     std::pair{950, Status::undecided}, std::pair{1000, Status::met}}) {
@@ -52,13 +52,13 @@ TEST(Goal, OfIndependentMovesHasTheBoundsOfClopperAndPearson) {
   }
 }
 
-TEST(Goal, OfTheBestOfManyPointsNeedsMore) {
+TEST(Goal, TheBestOfManyPointsNeedsMoreTrials) {
   const study::Goal goal{.within = 0.05, .moves = 0.99};
   EXPECT_EQ(judge_goal(goal, counts_of(300, 300), 1).status, Status::met);
   EXPECT_EQ(judge_goal(goal, counts_of(300, 300), 20).status, Status::undecided);
 }
 
-TEST(Goal, OfMovesOnMachinesAllowsForTheirDifferences) {
+TEST(Goal, BoundsAllowForDifferencesBetweenMachines) {
   const study::Goal goal{.within = 0.05, .moves = 0.99};
   EXPECT_EQ(judge_goal(goal, counts_of(1000, 1000), 1).status, Status::met);
   EXPECT_EQ(judge_goal(goal, counts_of(1000, 1000, 100), 1).status, Status::undecided);
@@ -66,7 +66,7 @@ TEST(Goal, OfMovesOnMachinesAllowsForTheirDifferences) {
 }
 
 // Ten machines cannot show more than 74 % of all moves, whether the last three moves of them miss or not.
-TEST(Goal, IsNotEasierToShowWithMissesThanWithout) {
+TEST(Goal, MissesNeverMakeAGoalEasierToShow) {
   const study::Goal goal{.within = 0.05, .moves = 0.8};
   const Verdict some = judge_goal(goal, counts_of(157, 160, 10), 1);
   const Verdict none = judge_goal(goal, counts_of(160, 160, 10), 1);
@@ -77,7 +77,7 @@ TEST(Goal, IsNotEasierToShowWithMissesThanWithout) {
 }
 
 // A goal that many equal points miss by little is claimed for their best in at most 5 % of the studies.
-TEST(Goal, IsRarelyClaimedOfTheBestPointThatMissesIt) {
+TEST(Goal, IsRarelyClaimedForABestPointThatMissesIt) {
   std::mt19937_64 random(3);
   const study::Goal goal{.within = 0.05, .moves = 0.9};
   std::binomial_distribution<std::int64_t> met(200, 0.8999);
@@ -93,7 +93,7 @@ TEST(Goal, IsRarelyClaimedOfTheBestPointThatMissesIt) {
   EXPECT_GE(claimed_alone, 0.2 * studies);
 }
 
-TEST(GoalNeeds, DecideIfTheProportionsAreThoseObserved) {
+TEST(GoalNeeds, DecideIfTheTrueProportionsEqualTheObservedOnes) {
   const study::Goal moves{.within = 0.05, .moves = 0.98};
   const Needs trials = needs_of(moves, counts_of(99, 100), 1);
   EXPECT_EQ(trials.machines, 0);
@@ -133,7 +133,7 @@ TEST(GoalText, NamesTheGoalAndItsThreeReadings) {
 }
 
 // 372 of 400 machines pass 10 trials of 4 moves: a machine at 98 % whose trials fail as a whole often does.
-TEST(GoalText, SaysWhatTheMovesOfOneMachineLack) {
+TEST(GoalText, SaysHowManyMovesOneMachineWouldNeed) {
   const study::Goal goal{.band = 1, .within = 0.05, .moves = 0.99, .machines = 0.95};
   measures::MoveCounts counts{.moves = 16000, .met = 15888, .of_trials = {}, .machines = {}};
   for (int machine = 0; machine < 400; ++machine)
@@ -198,7 +198,7 @@ TEST(GoalPlan, IsTheSmallestStudyThatCanMeetTheGoal) {
   EXPECT_EQ(smallest_studies(plain, true, 1, 1).at(0).machines, 299);
 }
 
-TEST(GoalText, SaysWhichStudyDecides) {
+TEST(GoalText, NamesTheStudyThatWouldDecide) {
   const study::Goal goal{.within = 0.05, .moves = 0.9};
   EXPECT_TRUE(needs_sentence(goal, {0, 500}, false).starts_with("About 500 trials decide it"));
   EXPECT_TRUE(needs_sentence(goal, {20, 400}, true).starts_with("About 20 machines with 20 trials each"));

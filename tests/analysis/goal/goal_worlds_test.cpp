@@ -33,7 +33,7 @@ void expect_equal_bounds(const BoundedProportion& one, const BoundedProportion& 
   }
 }
 
-TEST(GoalInWorlds, IsMetIfItIsMetInEachAndMissedIfItIsMissedInOne) {
+TEST(GoalInWorlds, IsMetIfEveryWorldMeetsItAndMissedIfOneMissesIt) {
   const study::Goal goal{.within = 0.05, .moves = 0.95, .confidence = 0.9};
   const auto status = [&](const std::vector<std::int64_t>& met) {
     return judge_goal(goal, counts_in_worlds(met, 1000), 1).status;
@@ -47,7 +47,7 @@ TEST(GoalInWorlds, IsMetIfItIsMetInEachAndMissedIfItIsMissedInOne) {
 
 // Clopper and Pearson's bounds of the worst world: the lower one without correction, the upper one with the
 // confidence that each of three must have.
-TEST(GoalInWorlds, HasBoundsOfTheWorstWorld) {
+TEST(GoalInWorlds, BoundsAreThoseOfTheWorstWorld) {
   const study::Goal goal{.within = 0.05, .moves = 0.95, .confidence = 0.9};
   const double each = 1.0 - 0.1 / 3.0;
   const Verdict verdict = judge_goal(goal, counts_in_worlds({990, 940, 970}, 1000), 1);
@@ -88,7 +88,7 @@ struct RatesInWorlds {
       static_cast<std::size_t>(worlds), measures::CellCounts({.machines = machines}))};  ///< [world]
 };
 
-TEST_EACH_SEED(RatesInWorlds, AreJudgedAsTheLowestOfSoManyStudies) {
+TEST_EACH_SEED(RatesInWorlds, TheWorstWorldDecidesWithACorrectionForItsChoice) {
   const Verdict verdict = judge_goal(goal, counts, points);
   ASSERT_EQ(verdict.worlds.size(), alone.size());
   BoundedProportion lowest_moves{1.0, 1.0, 1.0};
@@ -124,7 +124,7 @@ TEST_EACH_SEED(RatesInWorlds, AreJudgedAsTheLowestOfSoManyStudies) {
   EXPECT_EQ(verdict.status == Status::missed, !missed_in.empty());
 }
 
-TEST_EACH_SEED(RatesInWorlds, HaveAnOrderFromTheWorst) {
+TEST_EACH_SEED(RatesInWorlds, WorldsAreSortedFromTheWorst) {
   const Verdict verdict = judge_goal(goal, counts, points);
   const std::vector<std::size_t> order = worst_worlds_first(goal, verdict);
   ASSERT_EQ(order.size(), verdict.worlds.size());
@@ -196,7 +196,7 @@ struct UndecidedStudy {
 
 // The world that is easiest to be found below the goal decides; where none is below, every world has to be
 // found above.
-TEST(GoalNeedsInWorlds, DecideIfTheRatesAreThoseObserved) {
+TEST(GoalNeedsInWorlds, DecideIfTheTrueRatesEqualTheObservedOnes) {
   for (const UndecidedStudy& observed : {UndecidedStudy{{97, 98, 96}, 100, 0.94, Status::met},
                                          UndecidedStudy{{99, 99}, 100, 0.98, Status::met},
                                          UndecidedStudy{{99, 91, 99}, 100, 0.95, Status::missed},
@@ -247,7 +247,7 @@ std::vector<statistics::MachineMoves> machines_with_rates_of(
 
 // The machines of one world need more trials each, to be told from machines below the goal; the other world
 // needs more machines, because some are below it.
-TEST(GoalNeedsInWorlds, HaveMachinesAndTrialsForTheWorldThatNeedsMost) {
+TEST(GoalNeedsInWorlds, AreThoseOfTheWorldThatNeedsMost) {
   const study::Goal goal{.within = 0.05, .moves = 0.85, .machines = 0.8};
   const std::vector<statistics::MachineMoves> close(20, {10, 10, 9});
   std::vector<statistics::MachineMoves> mixed(20, {10, 10, 10});

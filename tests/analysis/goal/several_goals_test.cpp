@@ -55,7 +55,7 @@ TEST_EACH_SEED(SeveralGoals, AreMetIfEachIsMetAtItsConfidence) {
   EXPECT_EQ(verdict.status == Status::missed, one_missed);
 }
 
-TEST_EACH_SEED(SeveralGoals, AreJudgedByTheWorst) {
+TEST_EACH_SEED(SeveralGoals, TheWorstGoalDecides) {
   const Verdict verdict = judge_goals(goals, counts, 1);
   const auto rank = [](Status status) {
     return status == Status::missed ? 0 : status == Status::undecided ? 1 : 2;
@@ -75,7 +75,7 @@ TEST_EACH_SEED(SeveralGoals, AreJudgedByTheWorst) {
   }
 }
 
-TEST_EACH_SEED(SeveralGoals, AreJudgedUnderEachConditionAlike) {
+TEST_EACH_SEED(SeveralGoals, EachConditionIsJudgedLikeASeparateStudy) {
   const std::int64_t conditions = draws.integer(2, 3);
   std::vector<measures::CellCounts> under(
       goals.size(), measures::CellCounts({.machines = machines, .conditions = conditions}));
@@ -110,7 +110,7 @@ TEST_EACH_SEED(SeveralGoals, AreJudgedUnderEachConditionAlike) {
   EXPECT_EQ(verdict.status == Status::missed, one_missed);
 }
 
-TEST_EACH_SEED(SeveralGoals, ShowTheLoadUnderItsOwnWorstCondition) {
+TEST_EACH_SEED(SeveralGoals, TheLoadIsShownUnderItsWorstCondition) {
   const std::int64_t conditions = draws.integer(2, 4);
   const measures::Shape shape{.machines = machines, .conditions = conditions};
   Question question{.parts = {},
@@ -169,7 +169,7 @@ std::vector<Verdict> verdicts_on(const std::vector<study::Goal>& goals, const st
 }
 
 // One goal is exactly at what it asks for, the others are met by far: the hardest case of the test.
-TEST(SeveralGoals, AreRarelyClaimedToBeMetWhereOneIsAtItsLimit) {
+TEST(SeveralGoals, AreRarelyClaimedToBeMetIfOneIsAtItsLimit) {
   constexpr int studies = 800;
   for (const std::int64_t machines : {0, 60}) {
     for (const std::size_t number : {2U, 4U}) {
@@ -185,7 +185,7 @@ TEST(SeveralGoals, AreRarelyClaimedToBeMetWhereOneIsAtItsLimit) {
 }
 
 // All goals are exactly at what they ask for: some are often seen below.
-TEST(SeveralGoals, AreRarelyClaimedToBeMissedWhereAllAreAtTheirLimits) {
+TEST(SeveralGoals, AreRarelyClaimedToBeMissedIfAllAreAtTheirLimits) {
   constexpr int studies = 800;
   const std::vector<study::Goal> goals(4, {.within = 0.05, .moves = 0.9, .machines = {}});
   const std::vector<Verdict> verdicts = verdicts_on(goals, std::vector<double>(4, 0.9), 0, studies);

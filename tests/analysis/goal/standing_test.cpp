@@ -58,7 +58,7 @@ struct FewMachines {
   std::vector<measures::CellCounts> counts;
 };
 
-TEST_EACH_SEED(FewMachines, AreJudgedByTheBoundsAndWhereTheseAreEqualByTheObservedProportions) {
+TEST_EACH_SEED(FewMachines, EqualBoundsAreRankedByTheObservedProportions) {
   const Verdict verdict = judge_goals(goals, counts, 1);
   std::vector<std::vector<double>> places;
   for (const ClaimVerdict& claim : verdict.claims) places.push_back(places_of(claim, goals[claim.goal]));
@@ -134,7 +134,7 @@ TEST(Standing, ObservedProportionsRankPointsBeforeTimes) {
 }
 
 // Of conditions that are alike in all proportions the slowest is the worst: the time beside them is its own.
-TEST(Standing, TheLaterOfEqualConditionsIsTheWorst) {
+TEST(Standing, TheLaterOfEqualConditionsCountsAsTheWorst) {
   Question question = question_of_goal();
   question.conditions = {"empty", "loaded", "cold"};
   measures::PointSummary point;

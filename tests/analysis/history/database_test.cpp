@@ -38,7 +38,7 @@ class HistoryDatabase : public ::testing::Test {
 };
 
 // However little the evidence is beyond that of no change.
-TEST_F(HistoryDatabase, TheEvidenceOfAMonitorIsTheInverseOfItsChance) {
+TEST_F(HistoryDatabase, MonitorEvidenceIsStoredAsTheInverseOfItsProbability) {
   std::string measures;
   for (const char* const evidence : {"0.5", "1.05", "20.0"})
     measures += fmt::format(R"({}{{"measure": "m{}", "unit": "s", "moves": 2.0, "baseline": 1.0,
@@ -55,7 +55,7 @@ TEST_F(HistoryDatabase, TheEvidenceOfAMonitorIsTheInverseOfItsChance) {
   EXPECT_EQ(run.values[2].comparison->p, 0.05);
 }
 
-TEST_F(HistoryDatabase, GivesBackWhatWasAdded) {
+TEST_F(HistoryDatabase, ReadsBackAddedRunsUnchanged) {
   history::RunRecord compared = run_of_day(2, 0.5);
   compare_with_baseline(compared, 0.25);
   compared.values[0].point = "a 'quoted' \"ü\"; --";
@@ -118,7 +118,7 @@ TEST_F(HistoryDatabase, LosesNoRunOfManyWriters) {
   for (const history::RunRecord& run : runs) EXPECT_EQ(run.values.size(), 3U);
 }
 
-TEST_F(HistoryDatabase, RefusesWhatIsNoHistory) {
+TEST_F(HistoryDatabase, RefusesFilesThatAreNotAHistory) {
   EXPECT_TRUE(says(reading_fails(ExitCode::bad_input), "no such history"));
   write_bytes(path(), std::string(4000, 'x'));
   EXPECT_TRUE(says(reading_fails(ExitCode::bad_data), "not a history"));
@@ -140,7 +140,7 @@ TEST_F(HistoryDatabase, RefusesANewerVersion) {
 }
 
 // Whatever bytes are damaged: one error in our words, or the same rows, or other numbers, but no crash.
-TEST_F(HistoryDatabase, TellsOfDamage) {
+TEST_F(HistoryDatabase, ReportsDamagedPages) {
   for (int day = 0; day < 40; ++day) history::add_run(path(), run_of_day(day, 0.5));
   const std::string whole = read_bytes(path());
   int found = 0;
@@ -155,7 +155,7 @@ TEST_F(HistoryDatabase, TellsOfDamage) {
   reading_fails(ExitCode::bad_data);
 }
 
-TEST_F(HistoryDatabase, DoesNotWaitForEverForAnotherWriter) {
+TEST_F(HistoryDatabase, GivesUpWaitingForAnotherWriterAfterATime) {
   history::add_run(path(), run_of_day(1, 0.5));
   fails(ExitCode::machine_failed, [&] {
     SQLite::Database other(path(), SQLite::OPEN_READWRITE);
@@ -166,7 +166,7 @@ TEST_F(HistoryDatabase, DoesNotWaitForEverForAnotherWriter) {
   });
 }
 
-TEST_F(HistoryDatabase, SaysOnceThatItWaits) {
+TEST_F(HistoryDatabase, ReportsOnceThatItWaits) {
   history::add_run(path(), run_of_day(1, 0.5));
   int said = 0;
   fails(ExitCode::machine_failed, [&] {

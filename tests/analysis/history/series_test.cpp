@@ -64,7 +64,7 @@ TEST(HistorySeries, HaveEachRunOnce) {
   }
 }
 
-TEST(HistorySeries, ShowOnlyWhatIsAskedFor) {
+TEST(HistorySeries, ShowOnlyTheSelectedSeries) {
   const std::vector<RunRecord> runs = nights_with_step(40);
   const History one = history::history_of(runs, {"gains", "b", "success_rate"});
   ASSERT_EQ(one.series.size(), 1U);
@@ -74,7 +74,7 @@ TEST(HistorySeries, ShowOnlyWhatIsAskedFor) {
   EXPECT_TRUE(says(refusal_by([&] { history::history_of(runs, {"gains", "nowhere"}); }), "the points a, b"));
 }
 
-TEST(HistorySeries, StartAnewWhereTheManifestChanged) {
+TEST(HistorySeries, StartAgainAfterAChangedManifest) {
   std::vector<RunRecord> runs = nights_with_step(30);
   for (std::size_t i = 30; i < runs.size(); ++i) runs[i].series_sha256 = "another";
   const History history = history::history_of(runs);
@@ -86,7 +86,7 @@ TEST(HistorySeries, StartAnewWhereTheManifestChanged) {
 }
 
 // Equal seeds and equal code give equal values: any number of them is no evidence.
-TEST(HistorySeries, SeeNoEvidenceInEqualRuns) {
+TEST(HistorySeries, EqualRunsAreNoEvidenceOfAChange) {
   std::vector<RunRecord> runs;
   for (int day = 0; day < 100; ++day) {
     runs.push_back(run_of_day(day, day < 50 ? 0.5 : 0.6));
@@ -116,7 +116,7 @@ TEST(HistorySeries, JudgeRunsOfOneSeedByTheBaseline) {
   EXPECT_FALSE(series.changes[0].since_baseline);
 }
 
-TEST(HistorySeries, NameTheBaselineWhereTheFirstRunDiffersFromIt) {
+TEST(HistorySeries, NameTheBaselineIfTheFirstRunDiffersFromIt) {
   std::vector<RunRecord> runs{run_of_day(0, 0.6), run_of_day(1, 0.6)};
   for (RunRecord& run : runs) {
     run.seed = "7";
@@ -131,7 +131,7 @@ TEST(HistorySeries, NameTheBaselineWhereTheFirstRunDiffersFromIt) {
 }
 
 // A null history of one seed whose code changes every night at random: p-values are uniform.
-TEST(HistorySeries, OfOneSeedAlarmAsOftenAsStated) {
+TEST(HistorySeries, RunsWithOneSeedRaiseFalseAlarmsAsOftenAsStated) {
   std::mt19937_64 generator(5);
   std::uniform_real_distribution<double> uniform;
   std::vector<RunRecord> runs;
@@ -153,7 +153,7 @@ TEST(HistorySeries, OfOneSeedAlarmAsOftenAsStated) {
   EXPECT_GE(alarms, 29);
 }
 
-TEST(HistorySeries, AreWrittenForMachines) {
+TEST(HistorySeries, JsonHasEverySeries) {
   const History history = history::history_of(nights_with_step(40));
   const document::Answer answer = history::history_answer().of(history);
   const auto json = document::json(answer);
@@ -186,26 +186,26 @@ double constant_level(int) {
 constexpr int histories = 1000;
 constexpr int max_alarms = 71;
 
-TEST(ChangePoint, OfNothingAlarmsAsOftenAsStated) {
+TEST(ChangePoint, RaisesFalseAlarmsAsOftenAsStated) {
   const int one = alarms(normal_series(100, constant_level), 1, histories, 1);
   EXPECT_LE(one, max_alarms);
   EXPECT_GE(one, 20);  // and it is not so cautious that it finds nothing
   EXPECT_LE(alarms(normal_series(100, constant_level), 10, histories, 2), max_alarms);
 }
 
-TEST(ChangePoint, OfSkewedValuesAlarmsNoMoreOften) {
+TEST(ChangePoint, SkewedValuesRaiseNoMoreFalseAlarms) {
   for (const double p : {0.85, 0.98, 0.999})
     EXPECT_LE(alarms(binomial_series(100, 200, [p](int) { return p; }), 1, histories, 3), max_alarms) << p;
   EXPECT_LE(alarms(exponential_series(100, 100), 1, histories / 2, 4), max_alarms / 2 + 8);
 }
 
 // Nights with one seed share their errors: their number is no evidence.
-TEST(ChangePoint, OfRunsWithTheSameDrawsAlarmsNoMoreOften) {
+TEST(ChangePoint, RunsWithTheSameDrawsRaiseNoMoreFalseAlarms) {
   EXPECT_LE(alarms(normal_series(100, constant_level, 5), 1, histories, 5), max_alarms);
   EXPECT_LE(alarms(normal_series(100, constant_level, 50), 1, histories, 6), max_alarms);
 }
 
-TEST(ChangePoint, FindsAStepAndWhereItIs) {
+TEST(ChangePoint, FindsAStepAndItsPlace) {
   const auto level = [](int night) { return night < 30 ? 0.0 : 3.0; };
   const FoundChanges found = found_changes(normal_series(60, level), 30, 30, 300, 7);
   EXPECT_GT(found.found, 0.97);
@@ -239,7 +239,7 @@ TEST(ChangePoint, FindsTwoChangesOneAfterTheOther) {
 }
 
 // The likelihood ratio follows from its definition where the maximum is known in closed form.
-TEST(ChangePoint, HasTheLikelihoodRatioOfItsDefinition) {
+TEST(ChangePoint, StatisticEqualsTheLikelihoodRatioOfItsDefinition) {
   // 30 of 100, then 60 of 200: 2·ln of the likelihoods at 0.3 and 0.3 against 0.3 is 0; then 90 of 100.
   const std::vector<Measurement> rates{{0.3, 100.0, 1.0, 0}, {0.3, 200.0, 1.0, 1}, {0.9, 100.0, 2.5, 2}};
   const auto found = statistics::level_changes(MeasurementKind::proportion, rates, 1.0);
@@ -257,7 +257,7 @@ TEST(ChangePoint, HasTheLikelihoodRatioOfItsDefinition) {
   EXPECT_DOUBLE_EQ(step[0].after, 1.0e9 + 8.0);
 }
 
-TEST(ChangePoint, SeesNothingInEqualValues) {
+TEST(ChangePoint, FindsNothingInEqualValues) {
   const std::vector<Measurement> equal(500, Measurement{0.37, 200.0, 0.8, 0});
   EXPECT_TRUE(statistics::level_changes(MeasurementKind::mean, equal, 0.1).empty());
   const std::vector<Measurement> certain(500, Measurement{1.0, 200.0, 1.0, 0});
@@ -266,7 +266,7 @@ TEST(ChangePoint, SeesNothingInEqualValues) {
 }
 
 // One seed: two sides are two measurements, however many nights they have.
-TEST(ChangePoint, CountsRunsWithTheSameDrawsAsOne) {
+TEST(ChangePoint, RunsWithTheSameDrawsCountAsOne) {
   std::vector<Measurement> series;
   for (int i = 0; i < 80; ++i) series.push_back({i < 40 ? 0.0 : 3.0, 1.0, 1.0, 0});
   EXPECT_TRUE(statistics::level_changes(MeasurementKind::mean, series, 3.0).empty());

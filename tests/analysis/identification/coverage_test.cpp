@@ -50,15 +50,15 @@ CoverageStudy of_noisy_counts(int machines) {
 }
 
 // A smoke test of the long ones below.
-TEST(IdentificationCoverage, IntervalsHoldTheTruthOfCountsAlone) {
+TEST(IdentificationCoverage, IntervalsCoverTheTrueValuesWithoutNoise) {
   expect_coverage(of_counts_alone(3));
 }
 
-TEST(IdentificationCoverage, DISABLED_IntervalsHoldTheTruthOfCountsAloneOfManyMachines) {
+TEST(IdentificationCoverage, DISABLED_IntervalsCoverTheTrueValuesOfManyMachinesWithoutNoise) {
   expect_coverage(of_counts_alone(24));
 }
 
-TEST(IdentificationCoverage, DISABLED_IntervalsHoldTheTruthOfNoisyCountsOfManyMachines) {
+TEST(IdentificationCoverage, DISABLED_IntervalsCoverTheTrueValuesOfManyMachinesWithNoise) {
   expect_coverage(of_noisy_counts(12));
 }
 

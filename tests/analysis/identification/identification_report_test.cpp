@@ -88,7 +88,7 @@ double sampled(const study::Study& study, const std::string& key, double proport
   return values[static_cast<std::size_t>(proportion * static_cast<double>(values.size()))];
 }
 
-TEST(ManifestFragment, IsPartOfAManifestWhateverTheNumbers) {
+TEST(ManifestFragment, IsAcceptedInAManifestWhateverItsNumbers) {
   std::mt19937_64 random(61);
   for (int round = 0; round < 200; ++round) {
     const fit::Identification found = random_identification(random);
@@ -97,7 +97,7 @@ TEST(ManifestFragment, IsPartOfAManifestWhateverTheNumbers) {
 }
 
 // What is drawn lies in the interval in 95 % of the trials.
-TEST(ManifestFragment, DistributionsHaveTheIntervals) {
+TEST(ManifestFragment, DistributionsSpanTheIntervals) {
   std::mt19937_64 random(62);
   for (int round = 0; round < 5; ++round) {
     const fit::Identification found = random_identification(random);
@@ -169,7 +169,7 @@ TEST(ManifestFragment, DrawsCreepWithTheCorrelationOfItsErrors) {
   }
 }
 
-TEST(ManifestFragment, GivenValuesStandAsTheyAreAndOpenOnesAsComments) {
+TEST(ManifestFragment, GivenValuesAreKeptAndUnidentifiedOnesAreComments) {
   fit::Identification found;
   found.records.push_back({});
   fit::ParameterEstimate given;
@@ -212,7 +212,7 @@ TEST(IdentificationReport, JsonReadsBackToTheSameDoubles) {
   EXPECT_TRUE(json["residuals"]["passed"].get<bool>());
 }
 
-TEST(IdentificationReport, TextSaysWhatIsOpenAndWhatDoesNotFit) {
+TEST(IdentificationReport, TextNamesUnidentifiedParametersAndLackOfFit) {
   std::mt19937_64 random(64);
   fit::Identification found = random_identification(random);
   found.parameters[0].status = fit::EstimateStatus::not_identifiable;

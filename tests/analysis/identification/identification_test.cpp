@@ -151,7 +151,7 @@ TEST(Identification, FindsCreepAtHeldTorques) {
 
 // Two tests that are not of one contact, and are said to be. Softening and creep, which a search would vary
 // further and further to explain them, are known.
-TEST(Identification, SaysThatTheModelDoesNotFit) {
+TEST(Identification, ReportsALackOfFit) {
   std::mt19937_64 random(50);
   TorqueProgramme programme;
   programme.step(0.05).hold(0.05).step(0.0).hold(0.05).ramp(0.08, 0.8).ramp(-0.08, 0.8).hold(0.1);
@@ -174,7 +174,7 @@ TEST(Identification, SaysThatTheModelDoesNotFit) {
   EXPECT_GT(joint.high - joint.low, alone.high - alone.low);
 }
 
-TEST(Identification, LeavesOpenWhatARecordDoesNotShow) {
+TEST(Identification, ParametersThatTheRecordDoesNotShowStayUnidentified) {
   std::mt19937_64 random(51);
   // Creep at one torque: its course is seen, but not λ and n apart.
   TorqueProgramme one_level;
@@ -238,7 +238,7 @@ std::string refusal(const std::vector<fit::TestRecord>& records) {
   return "not refused";
 }
 
-TEST(Identification, ASingleReadingThatIsOffIsNamed) {
+TEST(Identification, AnOutlierIsRefusedWithItsSample) {
   std::mt19937_64 random(54);
   fit::TestRecord record = simulated_test(strong_contact(), loading_and_unloading(), {}, random);
   record.reading[2000] += 3.0;
@@ -246,7 +246,7 @@ TEST(Identification, ASingleReadingThatIsOffIsNamed) {
   EXPECT_NE(reason.find("the reading at sample 2000"), std::string::npos) << reason;
 }
 
-TEST(Identification, ATorqueOfAnotherTimeIsNotExplained) {
+TEST(Identification, AShiftedTorqueIsALackOfFit) {
   std::mt19937_64 random(55);
   fit::TestRecord record = simulated_test(strong_contact(), loading_and_unloading(2.0), {}, random);
   std::rotate(record.torque.begin(), record.torque.end() - 20, record.torque.end());
@@ -263,7 +263,7 @@ TEST(Identification, ASlowRotorIsIdentifiedLikeAFastOne) {
 
 // The equations of a linear axis are the same with other units, so the same record in them gives the same
 // axis.
-TEST(Identification, DISABLED_NoMagnitudeIsSpecial) {
+TEST(Identification, DISABLED_ScalingTheUnitsScalesTheResult) {
   std::mt19937_64 random(58);
   const fit::TestRecord rotary = simulated_test({}, steps_and_ramps(), {}, random);
   const fit::Identification found = fit::identify({rotary}, {{}, 100});
@@ -290,7 +290,7 @@ TEST(Identification, DISABLED_NoMagnitudeIsSpecial) {
 }
 
 // Readings without steps and noise leave rounding errors only, whose course says nothing.
-TEST(Identification, ExactAnglesAreNoLackOfFit) {
+TEST(Identification, ExactAnglesPassTheFitChecks) {
   std::mt19937_64 random(57);
   TestInstrument fine;
   fine.counts_per_revolution = 1e13;
@@ -311,7 +311,7 @@ TEST(Identification, ARecordGivenTwiceIsRefused) {
   other.name = "other";
   fit::TestRecord again = one;
   again.name = "again";
-  EXPECT_EQ(refusal({one, other, again}).find("again: is one once more"), 0u);
+  EXPECT_EQ(refusal({one, other, again}).find("again: is the same record as one"), 0u);
 }
 
 // Torque and angle that were sampled at different instants: the truth is simulated with every interval split.
@@ -338,7 +338,7 @@ void expect_time_offset(double skew) {
   EXPECT_FALSE(held.checks.passed);
 }
 
-TEST(Identification, DISABLED_FindsTheTimeOffsetAndWhatItWouldHaveFalsified) {
+TEST(Identification, DISABLED_FindsATimeOffsetOfHalfASample) {
   expect_time_offset(0.5);
 }
 
@@ -360,7 +360,7 @@ TEST(Identification, DISABLED_FindsOtherTimeOffsets) {
   expect_time_offset(1.0);
 }
 
-TEST(Identification, DISABLED_TakesWhatIsKnown) {
+TEST(Identification, DISABLED_KeepsGivenParametersFixed) {
   std::mt19937_64 random(52);
   const fit::ContactParameters truth = random_contact(random);
   std::vector<fit::TestRecord> records;
@@ -421,7 +421,7 @@ TEST(Identification, ABreakawayThatWasNotCutIsRefused) {
 }
 
 // Not on the number of threads.
-TEST(Identification, DependsOnTheRecordAlone) {
+TEST(Identification, DoesNotDependOnTheNumberOfThreads) {
   std::mt19937_64 random(55);
   TorqueProgramme programme;
   programme.step(0.05).hold(0.1).step(0.0).hold(0.1).ramp(0.1, 0.4).ramp(-0.1, 0.4).hold(0.5);

@@ -53,7 +53,7 @@ std::vector<std::size_t> order_of(const std::vector<double>& values) {
   return order;
 }
 
-TEST(JointDraws, HaveTheRanksOfTheReplicatesAndTheLimitsOfTheIntervals) {
+TEST(JointDraws, HaveTheRanksOfTheReplicatesWithinTheIntervals) {
   std::mt19937_64 random(92);
   for (const double widening : {1.0, 2.5}) {
     fit::ContactParameters contact = random_contact(random);
@@ -80,7 +80,7 @@ TEST(JointDraws, HaveTheRanksOfTheReplicatesAndTheLimitsOfTheIntervals) {
   }
 }
 
-TEST(JointDraws, AreValuesThatAManifestMayHave) {
+TEST(JointDraws, AreValidInAManifest) {
   std::mt19937_64 random(93);
   fit::ContactParameters contact = random_contact(random);
   contact.friction.n = 1.05;
@@ -108,7 +108,7 @@ TEST(JointDraws, AreValuesThatAManifestMayHave) {
   EXPECT_EQ(few.rows, std::vector(draws.rows.begin(), draws.rows.begin() + 7));
 }
 
-TEST(JointErrors, AreThoseOfTheReplicates) {
+TEST(JointErrors, EqualTheCovarianceOfTheReplicates) {
   std::mt19937_64 random(94);
   const Eigen::MatrixXd errors = correlated_errors(300, 0.02, random);
   const auto quantities = estimated_quantities(random_contact(random), errors, 1.0);

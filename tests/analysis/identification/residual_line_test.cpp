@@ -50,15 +50,15 @@ void expect_frequency_of_second_mass(unsigned seed) {
   EXPECT_NE(second_mass_text(found).find("A second mass on a spring"), std::string::npos);
 }
 
-TEST(ResidualLine, IsTheFrequencyOfASecondMass) {
+TEST(ResidualLine, IsAtTheResonanceOfASecondMass) {
   expect_frequency_of_second_mass(1);
 }
 
-TEST(ResidualLine, DISABLED_IsTheFrequencyOfOtherSecondMasses) {
+TEST(ResidualLine, DISABLED_IsAtTheResonanceOfOtherSecondMasses) {
   for (const unsigned seed : {2U, 3U}) expect_frequency_of_second_mass(seed);
 }
 
-TEST(ResidualLine, DISABLED_AnotherFrictionLawHasNone) {
+TEST(ResidualLine, DISABLED_IsAbsentUnderAnotherFrictionLaw) {
   std::mt19937_64 random(4);
   const Identification found = identified({}, {{}, {}, friction::FrictionModel::gms}, random);
   EXPECT_FALSE(found.checks.passed);
@@ -66,7 +66,7 @@ TEST(ResidualLine, DISABLED_AnotherFrictionLawHasNone) {
 }
 
 /// Noise of 0.05 counts does not show in the fast motion of a ring-down.
-TEST(Identification, DISABLED_NoiseThatOneRecordDoesNotShowIsThatOfTheOthers) {
+TEST(Identification, DISABLED_ARecordThatDoesNotShowTheNoiseTakesItFromTheOthers) {
   std::mt19937_64 random(1);
   const ContactParameters contact = testing::random_contact(random);
   const Identification found = identified(contact.plant, {contact.friction, {}}, random, 0.05);

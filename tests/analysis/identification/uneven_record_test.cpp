@@ -33,7 +33,7 @@ records::RawSeries uneven_series(const fit::ContactParameters& contact, const To
   return series;
 }
 
-TEST(UnevenRecords, GiveTheTruth) {
+TEST(UnevenlySampledRecords, GiveTheTrueParameters) {
   std::mt19937_64 random(77);
   fit::ContactParameters truth;
   const records::RawSeries series = uneven_series(truth, short_test().front(), random);
@@ -52,7 +52,7 @@ TEST(UnevenRecords, GiveTheTruth) {
 }
 
 // A burst of wrong readings, with which the record would be refused. The torque acts all the same.
-TEST(MaskedRecords, GiveTheTruth) {
+TEST(MaskedRecords, GiveTheTrueParameters) {
   std::mt19937_64 random(78);
   fit::ContactParameters truth;
   records::RawSeries series = uneven_series(truth, short_test().front(), random);

@@ -59,7 +59,7 @@ void expect_near(const Values& actual, const Values& expected,
   }
 }
 
-TEST(Repeatability, OfAnExampleWorkedByHand) {
+TEST(Repeatability, MatchesAnExampleWorkedByHand) {
   const Deviations deviations{{{1, 2, 3}, {-1, -1, -1}}, {{0, 0, 0}, {-2, 0, 2}}};
   const Repeatability result = repeatability_of(deviations);
   ASSERT_EQ(result.targets.size(), 2U);
@@ -105,7 +105,7 @@ TEST(Repeatability, OfAnExampleWorkedByHand) {
 // examples/test/fat_sat/report.md (8 December 2023); here in units of 1e-8 mm, to which it is rounded. Its
 // bidirectional R and E are left out: R is stated there as the larger of R↑ and R↓, which is not 3.22, and E
 // as E↑.
-TEST(Repeatability, OfAPublishedTest) {
+TEST(Repeatability, MatchesAPublishedTest) {
   const Deviations deviations{
       {{-8102, -10202, -8702, -9202, -10002}, {-9902, -9402, -8202, -9102, -9402}},
       {{-8702, -9702, -9702, -9502, -8202}, {-10302, -10402, -9502, -11102, -9302}},
@@ -171,7 +171,7 @@ TEST(Repeatability, AgreesWithANumPyJudgeThatUsesIntervals) {
   }
 }
 
-TEST(Repeatability, AConstantAddedToAllDeviationsMovesTheMeansAndNothingElse) {
+TEST(Repeatability, AConstantOffsetShiftsOnlyTheMeans) {
   for_random_runs([](const Deviations& deviations) {
     const Repeatability before = repeatability_of(deviations);
     const Repeatability after = repeatability_of(transformed(deviations, [](double x) { return x + 17.25; }));
@@ -186,7 +186,7 @@ TEST(Repeatability, AConstantAddedToAllDeviationsMovesTheMeansAndNothingElse) {
   });
 }
 
-TEST(Repeatability, AConstantPerTargetChangesNoRepeatabilityAndNoReversal) {
+TEST(Repeatability, AnOffsetPerTargetChangesNeitherRepeatabilityNorReversal) {
   for_random_runs([](const Deviations& deviations) {
     Deviations shifted = deviations;
     for (std::size_t i = 0; i < shifted.size(); ++i) {
@@ -224,7 +224,7 @@ AxisRepeatability with_sides_exchanged(AxisRepeatability axis) {
   return axis;
 }
 
-TEST(Repeatability, ExchangingTheDirectionsTurnsTheSignOfTheReversalsAndExchangesTheRest) {
+TEST(Repeatability, ExchangingTheDirectionsNegatesTheReversals) {
   for_random_runs([](const Deviations& deviations) {
     Deviations exchanged = deviations;
     for (TargetDeviations& target : exchanged) std::swap(target.positive, target.negative);
@@ -240,7 +240,7 @@ TEST(Repeatability, ExchangingTheDirectionsTurnsTheSignOfTheReversalsAndExchange
   });
 }
 
-TEST(Repeatability, MirroringTheDeviationsTurnsTheSignOfTheMeansOnly) {
+TEST(Repeatability, MirroringTheDeviationsNegatesOnlyTheMeans) {
   for_random_runs([](const Deviations& deviations) {
     AxisRepeatability expected = repeatability_of(deviations).axis;
     expected.mean_reversal = -expected.mean_reversal;
@@ -264,7 +264,7 @@ TEST(Repeatability, DoesNotDependOnTheOrderOfTargetsAndCycles) {
 
 // All of these follow from the formulas. With Ui the union of the bands x̄i ± 2·si of both directions, Ri is
 // the length of the interval that Ui spans, and A that of all of them: so A ≥ R.
-TEST(Repeatability, KeepsTheInequalitiesBetweenItsValues) {
+TEST(Repeatability, ValuesSatisfyTheInequalitiesOfTheStandard) {
   for_random_runs([](const Deviations& deviations) {
     const Repeatability result = repeatability_of(deviations);
     const AxisRepeatability& a = result.axis;
@@ -291,7 +291,7 @@ TEST(Repeatability, KeepsTheInequalitiesBetweenItsValues) {
   });
 }
 
-TEST(Repeatability, OfOneTargetHasNoSystematicDeviationButTheReversal) {
+TEST(Repeatability, WithOneTargetTheSystematicDeviationIsTheReversal) {
   std::mt19937_64 random(1);
   const Repeatability result = repeatability_of(random_deviations(random, 1, 5));
   const AxisRepeatability& axis = result.axis;
@@ -304,14 +304,14 @@ TEST(Repeatability, OfOneTargetHasNoSystematicDeviationButTheReversal) {
   EXPECT_DOUBLE_EQ(axis.accuracy_positive, axis.repeatability_positive);
 }
 
-TEST(Repeatability, OfTwoCyclesIsByTheirDifference) {
+TEST(Repeatability, WithTwoCyclesFollowsFromTheirDifference) {
   const TargetRepeatability target = repeatability_of(Deviations{{{3, 7}, {1, 1}}}).targets[0];
   EXPECT_DOUBLE_EQ(target.uncertainty_positive, 4.0 / std::sqrt(2.0));
   EXPECT_DOUBLE_EQ(target.repeatability_positive, 16.0 / std::sqrt(2.0));
   EXPECT_EQ(target.uncertainty_negative, 0.0);
 }
 
-TEST(Repeatability, OfOneCycleHasDeviationsAndReversalsAlone) {
+TEST(Repeatability, WithOneCycleOnlyDeviationsAndReversalsAreDefined) {
   const Repeatability result = repeatability_of(Deviations{{{3}, {1}}, {{-2}, {5}}});
   const AxisRepeatability& axis = result.axis;
   EXPECT_EQ(axis.reversal, 7.0);
@@ -325,7 +325,7 @@ TEST(Repeatability, OfOneCycleHasDeviationsAndReversalsAlone) {
   }
 }
 
-TEST(Repeatability, OfOneDirectionHasItsUnidirectionalValuesAlone) {
+TEST(Repeatability, WithOneDirectionOnlyItsUnidirectionalValuesAreDefined) {
   for_random_runs([](const Deviations& deviations) {
     Deviations below = deviations;
     for (TargetDeviations& target : below) target.negative.clear();
@@ -339,7 +339,7 @@ TEST(Repeatability, OfOneDirectionHasItsUnidirectionalValuesAlone) {
   });
 }
 
-TEST(Repeatability, OfEqualCountsIsExactlyZero) {
+TEST(Repeatability, EqualCountsGiveExactlyZero) {
   // Thirds and sevenths have no finite binary fraction: sums of them would not do.
   for (const std::size_t cycles : {2U, 3U, 5U, 7U, 11U}) {
     for (const double count : {0.0, 1.0, -3.0, 405007.0}) {
@@ -351,7 +351,7 @@ TEST(Repeatability, OfEqualCountsIsExactlyZero) {
   }
 }
 
-TEST(Repeatability, OfNoTargetsIsUndefined) {
+TEST(Repeatability, WithoutTargetsIsUndefined) {
   const Repeatability result = repeatability_of({});
   EXPECT_TRUE(result.targets.empty());
   for (const auto& field : axis_fields()) EXPECT_TRUE(std::isnan(result.axis.*field.value)) << field.name;

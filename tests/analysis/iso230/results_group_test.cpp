@@ -24,7 +24,7 @@ bool same(double a, double b) {
   return a == b || (std::isnan(a) && std::isnan(b));
 }
 
-TEST(ValueStatistics, AreThoseOfATally) {
+TEST(ValueStatistics, EqualThoseOfAHistogram) {
   std::mt19937_64 random(3);
   for (const std::size_t n : {1U, 2U, 5U, 6U, 40U, 73U, 74U, 500U}) {
     std::vector<double> values(n);
@@ -46,7 +46,7 @@ TEST(ValueStatistics, AreThoseOfATally) {
   }
 }
 
-TEST(ValueStatistics, HaveBoundsOfTheConfidenceAskedFor) {
+TEST(ValueStatistics, BoundsHaveTheRequestedConfidence) {
   std::vector<double> values;
   statistics::Histogram<double> histogram;
   for (int i = 0; i < 90; ++i) {
@@ -59,7 +59,7 @@ TEST(ValueStatistics, HaveBoundsOfTheConfidenceAskedFor) {
   EXPECT_GT(result.median.low, statistics_of(values).median.low);
 }
 
-TEST(ValueStatistics, LeaveOutWhatIsNotDefined) {
+TEST(ValueStatistics, UndefinedValuesAreLeftOut) {
   const double none = std::numeric_limits<double>::quiet_NaN();
   const ValueStatistics result = statistics_of({none, 3.0, none, 1.0, 2.0});
   EXPECT_EQ(result.n, 3);
@@ -127,7 +127,7 @@ double one_count_of_reversal(const study::SequenceMove& move, std::int64_t) {
   return move.direction > 0 ? 0.0 : 1.0;
 }
 
-TEST(RepeatabilitySummary, TellsOfTheAxisInArcsecAndCounts) {
+TEST(RepeatabilitySummary, HasTheAxisInArcsecAndCounts) {
   const std::string text =
       testing::summary_text(summary_of(testing::sequence_study(), one_count_of_reversal));
   EXPECT_TRUE(
@@ -143,7 +143,7 @@ TEST(RepeatabilitySummary, TellsOfTheAxisInArcsecAndCounts) {
   EXPECT_EQ(encoder, (std::vector<std::string>{"encoder", "(count)", "80", "1", "(1)"}));
 }
 
-TEST(RepeatabilitySummary, OfASequenceFromOneSideHasItsValuesOnly) {
+TEST(RepeatabilitySummary, AOneSidedSequenceHasOnlyUnidirectionalValues) {
   const study::Study study = testing::sequence_study("cycles: 2, approach: negative");
   const std::string text = testing::summary_text(summary_of(study, one_count_of_reversal));
   EXPECT_TRUE(says(text, "3 targets approached from above in 2 cycles:\n"));
@@ -156,7 +156,7 @@ TEST(RepeatabilitySummary, OfASequenceFromOneSideHasItsValuesOnly) {
 }
 
 // Where R is not defined, no trial has it, and none has it at 0 either: that is not 0 trials of 80.
-TEST(RepeatabilitySummary, OfASingleCycleCountsNoZeros) {
+TEST(RepeatabilitySummary, ASingleCycleHasNoCountOfZeroRepeatability) {
   const nlohmann::ordered_json json =
       testing::summary_json(summary_of(testing::sequence_study("cycles: 1"), one_count_of_reversal));
   const nlohmann::ordered_json& point = json["points"][0]["repeatability"];
@@ -210,7 +210,7 @@ summary::StudySummary summary_of_masses(const std::string& closing, double motor
   return summary::summarise(reading::AllTrialsFile(folder / "study.h5"));
 }
 
-TEST(RepeatabilitySummary, NamesTheMassOfEachValueAndHasThoseOfBoth) {
+TEST(RepeatabilitySummary, HasTheValuesOfBothMassesAndNamesEach) {
   constexpr double arcsec = 360.0 * 3600.0 / 1620000.0;  // of a count
   for (const bool load_closes : {false, true}) {
     const summary::StudySummary summary = summary_of_masses(load_closes ? "load" : "motor", 3.0, 250.0);
@@ -281,21 +281,21 @@ TEST(RepeatabilityFile, AgreesWithAPythonJudgeOfTheWholeFile) {
   expect_judged_right(study, results);
 }
 
-TEST(RepeatabilityFile, OfOneSideAgreesWithThePythonJudge) {
+TEST(RepeatabilityFile, AOneSidedSequenceAgreesWithThePythonJudge) {
   for (const char* approach : {"positive", "negative"}) {
     const study::Study study = testing::sequence_study(fmt::format("cycles: 3, approach: {}", approach), 30);
     expect_judged_right(study, testing::sequence_results(study));
   }
 }
 
-TEST(RepeatabilityFile, OfOneCycleAndOfOneTrialAgreesWithThePythonJudge) {
+TEST(RepeatabilityFile, OneCycleAndOneTrialAgreeWithThePythonJudge) {
   const study::Study one_cycle = testing::sequence_study("cycles: 1", 30);
   expect_judged_right(one_cycle, testing::sequence_results(one_cycle));
   const study::Study one_trial = testing::sequence_study("cycles: 2", 1);
   expect_judged_right(one_trial, testing::sequence_results(one_trial));
 }
 
-TEST(RepeatabilityFile, CountsTheTrialsThatRepeatExactlyByTheEncoder) {
+TEST(RepeatabilityFile, CountsTrialsWithZeroRepeatabilityOfTheEncoder) {
   const study::Study study = testing::sequence_study("cycles: 3", 60);
   std::vector<shards::TrialResult> results = testing::sequence_results(study);
   for (std::size_t row = 60; row < 120; ++row) {
@@ -321,7 +321,7 @@ TEST(RepeatabilityFile, CountsTheTrialsThatRepeatExactlyByTheEncoder) {
 
 // All trials of one of six machines repeat exactly, those of the others do not: one event of six, not ten
 // of 60.
-TEST(RepeatabilityFile, TakesTheTrialsOfAMachineForOneAnother) {
+TEST(RepeatabilityFile, TrialsOfOneMachineCountAsOneEventInTheBounds) {
   const study::Study study = testing::sequence_study("cycles: 3", 60, "machines: 6\n");
   std::vector<shards::TrialResult> results = testing::sequence_results(study);
   for (std::size_t row = 0; row < 60; ++row)
@@ -336,7 +336,7 @@ TEST(RepeatabilityFile, TakesTheTrialsOfAMachineForOneAnother) {
   EXPECT_GT(point.zero_bounds.high, statistics::clopper_pearson(1, 6).high - 0.02);
 }
 
-TEST(RepeatabilityFile, NoTrialLeftHasNoValuesButItsCounts) {
+TEST(RepeatabilityFile, WithoutAnyUsableTrialOnlyCountsRemain) {
   const study::Study study = testing::sequence_study("cycles: 2", 4);
   std::vector<shards::TrialResult> results = testing::sequence_results(study);
   for (shards::TrialResult& result : results) result.outcome.moves[1].outcome = trial::Outcome::nonfinite;
@@ -351,7 +351,7 @@ TEST(RepeatabilityFile, NoTrialLeftHasNoValuesButItsCounts) {
   EXPECT_TRUE(std::isnan(point.sources[0].axis[0].median.value));
 }
 
-TEST(RepeatabilityFile, IsTheSameHoweverTheTrialsAreReadAtOnce) {
+TEST(RepeatabilityFile, DoesNotDependOnTheBlocksInWhichTrialsAreRead) {
   // More rows than are read at once, and not a multiple: 16384/8 = 2048 rows of 8 moves.
   const study::Study study = testing::sequence_study("cycles: 1, approach: positive", 2049);
   const std::vector<shards::TrialResult> results = testing::sequence_results(study);
@@ -394,7 +394,7 @@ TEST(RepeatabilityFile, IsExportedAsCsv) {
   EXPECT_EQ(lines_of(folder.read("csv/repeatability_point_targets.csv")).size(), 7U);
 }
 
-TEST(RepeatabilityFile, AStudyWithoutSequenceHasNone) {
+TEST(RepeatabilityFile, AStudyWithoutASequenceHasNoRepeatability) {
   const study::Study study = manifest::parse_study(
       "zerocount: 1\nname: plain\nseed: 1\ntrials: 3\ncommand: {targets: [1, 2], hold: 0.1}\n", "test");
   const testing::TemporaryFolder folder;
@@ -404,7 +404,7 @@ TEST(RepeatabilityFile, AStudyWithoutSequenceHasNone) {
   EXPECT_TRUE(repeatability_exports(reading::AllTrialsFile(folder / "study.h5")).empty());
 }
 
-TEST(RepeatabilityFile, ThatIsOfAnotherSequenceIsRefused) {
+TEST(RepeatabilityFile, AFileOfAnotherSequenceIsRefused) {
   const study::Study study = testing::sequence_study("cycles: 2", 4);
   const testing::TemporaryFolder folder;
   testing::write_sequence_file(folder / "study.h5", study, testing::sequence_results(study));
@@ -412,10 +412,10 @@ TEST(RepeatabilityFile, ThatIsOfAnotherSequenceIsRefused) {
   const auto expect_bad = [&](const study::Study& other, const std::string& words) {
     EXPECT_TRUE(says(refusal_by([&] { study_repeatability(file, other); }, ExitCode::bad_data), words));
   };
-  expect_bad(testing::sequence_study("cycles: 2", 5), "it is not of all trials of the study");
+  expect_bad(testing::sequence_study("cycles: 2", 5), "it does not hold all trials of the study");
   study::Study fewer = study;
   for (study::SequenceMove& move : fewer.sequence) move.target = std::min<std::int64_t>(move.target, 1);
-  expect_bad(fewer, "it is of another number of targets");
+  expect_bad(fewer, "it has another number of targets");
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ TEST(SequenceShape, IsCountedFromTheMoves) {
   EXPECT_EQ(shape_of({}).targets, 0);
 }
 
-TEST(TrialRepeatability, DeviatesFromTheMiddleOfTheTargetsCountAndByWholeCounts) {
+TEST(TrialRepeatability, DeviationsAreFromTheMiddleOfTheTargetCount) {
   for (const double phase : {0.0, 0.3, 0.5, 0.999}) {
     const trial::TrialParameters parameters = with_targets(phase);
     // Target 0: from below 0.25 and 0.25, from above −0.25 and −1.75 (which reads −2 counts).
@@ -80,7 +80,7 @@ TEST(TrialRepeatability, DeviatesFromTheMiddleOfTheTargetsCountAndByWholeCounts)
 
 // Each mass is measured by its own angle, from the middle of the target's count of the encoder that closes
 // the loop.
-TEST(TrialRepeatability, EachMassHasTheValuesOfAnAxisWithThisMassAlone) {
+TEST(TrialRepeatability, EachMassHasTheValuesOfASingleMassAxis) {
   std::mt19937_64 random(230);
   std::normal_distribution<double> normal(0.0, 3.0);
   for (const motion::EncoderPlace closing : {motion::EncoderPlace::motor, motion::EncoderPlace::load}) {
@@ -113,7 +113,7 @@ TEST(TrialRepeatability, EachMassHasTheValuesOfAnAxisWithThisMassAlone) {
 }
 
 // Friction leaves the load at the side of the gap from which it was pushed: the reversal grows by the gap.
-TEST(TrialRepeatability, ALoadBehindAGapReversesByTheGapMore) {
+TEST(TrialRepeatability, ReversalOfALoadBehindAGapIncludesTheGap) {
   const study::Study study = manifest::parse_study(
       "zerocount: 1\nname: gap\nseed: 1\ntrials: 1\n"
       "plant: {inertia: 1.0e-4, presliding_damping: 1.0e-3, load: {inertia: 1.0e-4, stiffness: 400, damping: "
@@ -136,11 +136,11 @@ TEST(TrialRepeatability, ALoadBehindAGapReversesByTheGapMore) {
   EXPECT_EQ(found->from_position.axis.reversal, found->of_motor.axis.reversal);
 }
 
-TEST(TrialRepeatability, TargetsHaveTheOrderOfTheirList) {
+TEST(TrialRepeatability, TargetsKeepTheOrderOfTheirList) {
   EXPECT_EQ(listed_targets(two_targets(), with_targets(0.5)), (std::vector<double>{100, 250}));
 }
 
-TEST(TrialRepeatability, MeasuresMovesAsTheyEndedWhateverTheirVerdict) {
+TEST(TrialRepeatability, UsesTheFinalPositionWhateverTheOutcome) {
   const trial::TrialParameters parameters = with_targets(0.5);
   std::vector<trial::MoveOutcome> moves = ending_at(parameters, std::vector<double>(12, 0.0));
   for (trial::MoveOutcome& move : moves) move.outcome = trial::Outcome::oscillating;
@@ -150,7 +150,7 @@ TEST(TrialRepeatability, MeasuresMovesAsTheyEndedWhateverTheirVerdict) {
             -20.0);
 }
 
-TEST(TrialRepeatability, IsEmptyWhereTheMotionWasLost) {
+TEST(TrialRepeatability, IsEmptyIfTheMotionBecameNonfinite) {
   const trial::TrialParameters parameters = with_targets(0.5);
   const std::vector<trial::MoveOutcome> sound = ending_at(parameters, std::vector<double>(12, 0.0));
   for (std::size_t i = 0; i < sound.size(); ++i) {
@@ -163,7 +163,7 @@ TEST(TrialRepeatability, IsEmptyWhereTheMotionWasLost) {
   }
 }
 
-TEST(TrialRepeatability, OfOtherMovesThanThoseOfTheSequenceIsRefused) {
+TEST(TrialRepeatability, MovesThatDoNotMatchTheSequenceAreRefused) {
   trial::TrialParameters parameters = with_targets(0.5);
   const std::vector<trial::MoveOutcome> moves = ending_at(parameters, std::vector<double>(12, 0.0));
   EXPECT_THROW(trial_repeatability(two_targets(), parameters, std::span(moves).first(11)), Failure);

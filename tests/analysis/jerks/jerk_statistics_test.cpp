@@ -30,7 +30,7 @@ TEST(ObservedMove, IsAtRiskFromItsDwellToItsEnd) {
   EXPECT_EQ(runs_of(move_with({})), (Runs{{100, 200}}));
 }
 
-TEST(ObservedMove, IsNotAtRiskDuringAJerkNorAtTheSampleThatEndsIt) {
+TEST(ObservedMove, IsNotAtRiskDuringAJerkAndAtItsLastSample) {
   // Samples 120 to 122 have errors, 123 is back at 0: the next jerk could begin at 124.
   EXPECT_EQ(runs_of(move_with({{120, 3, 1, true}})), (Runs{{100, 121}, {124, 200}}));
   EXPECT_EQ(runs_of(move_with({{100, 1, 1, true}, {102, 5, 1, true}})),
@@ -43,7 +43,7 @@ TEST(ObservedMove, IsNoLongerAtRiskAfterAJerkThatLastsToItsEnd) {
 }
 
 /// SciPy 1.10: chi2.ppf(tail, 2k)/2 and chi2.isf(tail, 2k + 2)/2.
-TEST(PoissonBounds, EqualSciPys) {
+TEST(PoissonBounds, MatchSciPy) {
   struct {
     double events, confidence, low, high;
   } const scipy[] = {
@@ -65,7 +65,7 @@ TEST(PoissonBounds, EqualSciPys) {
   }
 }
 
-TEST(PoissonBounds, CoverEveryMeanWithAtLeastTheirConfidence) {
+TEST(PoissonBounds, CoverEveryMeanWithAtLeastTheStatedConfidence) {
   for (double mean = 0.05; mean < 40.0; mean *= 1.13) {
     double covered = 0.0;
     for (int events = 0; events < 150; ++events) {
@@ -77,7 +77,7 @@ TEST(PoissonBounds, CoverEveryMeanWithAtLeastTheirConfidence) {
   }
 }
 
-TEST(PoissonBounds, OfFractionsLieBetweenThoseOfWholeNumbers) {
+TEST(PoissonBounds, FractionalCountsLieBetweenWholeOnes) {
   EXPECT_GT(statistics::poisson_bounds(2.5).low, statistics::poisson_bounds(2).low);
   EXPECT_LT(statistics::poisson_bounds(2.5).high, statistics::poisson_bounds(3).high);
 }
@@ -189,13 +189,13 @@ RateCoverage coverage(double truth, const TrialRate& trial_rate) {
   return {covered.poisson / rounds, covered.reported / rounds};
 }
 
-TEST(JerkRates, BoundsCoverTheRateOfTrialsThatAreAlike) {
+TEST(JerkRates, BoundsCoverTheRateIfTrialsAreAlike) {
   const RateCoverage covered = coverage(5.0, [](auto&) { return 5.0; });
   EXPECT_GE(covered.poisson, 0.95 - 0.027);  // three standard errors
   EXPECT_GE(covered.reported, covered.poisson);
 }
 
-TEST(JerkRates, BoundsCoverTheMeanRateOfTrialsThatDiffer) {
+TEST(JerkRates, BoundsCoverTheMeanRateIfTrialsDiffer) {
   // Half the trials jerk, the others never do, as with creep that is strong or weak.
   const RateCoverage covered = coverage(10.0, [](auto& random) { return random() % 2 == 0 ? 20.0 : 0.0; });
   EXPECT_LT(covered.poisson, 0.9);
@@ -217,7 +217,7 @@ std::vector<ObservedMove> moves_on_machines(std::mt19937_64& random) {
 }
 
 // All trials of a machine have its friction: there are 40 values, not 400.
-TEST(JerkRates, BoundsCoverTheMeanRateOfMachinesThatDiffer) {
+TEST(JerkRates, BoundsCoverTheMeanRateIfMachinesDiffer) {
   constexpr double truth = 10.0;
   constexpr int rounds = 300;
   std::mt19937_64 random(113);
@@ -242,7 +242,7 @@ TEST(JerkRates, BoundsCoverTheMeanRateOfMachinesThatDiffer) {
 }
 
 // The machines come round again: in which order their moves come does not matter.
-TEST(JerkRates, OfMachinesAreThoseOfTheirMovesInAnyOrder) {
+TEST(JerkRates, DoNotDependOnTheOrderOfTheMovesOfMachines) {
   std::mt19937_64 random(114);
   std::vector<ObservedMove> moves = moves_on_machines(random);
   JerkRates in_turn(true), machine_by_machine;
@@ -261,7 +261,7 @@ TEST(JerkRates, OfMachinesAreThoseOfTheirMovesInAnyOrder) {
   }
 }
 
-TEST(JerkRates, WithoutAJerkThereIsAnUpperBound) {
+TEST(JerkRates, WithoutJerksHaveAnUpperBound) {
   JerkRates rates;
   ObservedMove still{.trial = 0,
                      .cluster = 0,

@@ -13,7 +13,7 @@ namespace {
 using Intervals = std::vector<std::int64_t>;
 using Random = std::mt19937_64;
 
-TEST(LaplaceTrend, HasTheMeanAndVarianceOfAllOrders) {
+TEST(LaplaceTrend, HasTheMeanAndVarianceOverAllPermutations) {
   for (Intervals intervals : {Intervals{3, 9}, {1, 2, 2, 7}, {5, 1, 8, 30, 2, 2}}) {
     std::sort(intervals.begin(), intervals.end());
     double sum = 0.0, squares = 0.0;
@@ -29,7 +29,7 @@ TEST(LaplaceTrend, HasTheMeanAndVarianceOfAllOrders) {
   }
 }
 
-TEST(LaplaceTrend, OfFewIntervalsHasTheExactProbabilities) {
+TEST(LaplaceTrend, FewIntervalsHaveExactProbabilities) {
   // Of the 24 orders of four different intervals only one is increasing.
   EXPECT_DOUBLE_EQ(trend_probability(Intervals{1, 2, 4, 8}, 0).slowing, 1.0 / 24.0);
   EXPECT_DOUBLE_EQ(trend_probability(Intervals{1, 2, 4, 8}, 0).quickening, 1.0);
@@ -39,7 +39,7 @@ TEST(LaplaceTrend, OfFewIntervalsHasTheExactProbabilities) {
   EXPECT_EQ(trend_probability(Intervals{1, 2, 3, 4, 5, 6, 7, 8, 9, 10}, 3).slowing, 1.0 / 1000.0);
 }
 
-TEST(LaplaceTrend, OfNothingIsNothing) {
+TEST(LaplaceTrend, WithoutIntervalsIsUndefined) {
   EXPECT_TRUE(std::isnan(trend_score(trend_term({}))));
   EXPECT_TRUE(std::isnan(trend_score(trend_term(Intervals{4}))));
   EXPECT_TRUE(std::isnan(trend_score(trend_term(Intervals{4, 4, 4}))));
@@ -168,7 +168,7 @@ TEST(LaplaceTrend, DoesNotDependOnTheNumberOfThreads) {
   EXPECT_EQ(sum.summary().p_slowing, all);
 }
 
-TEST(LaplaceTrend, OfManyIntervalsIsNormal) {
+TEST(LaplaceTrend, ManyIntervalsUseTheNormalApproximation) {
   Random random(105);
   TrendSum sum(0.95);
   for (int move = 0; move < 3000; ++move) sum.add(in_window(renewals()[0].interval, random));
@@ -183,7 +183,7 @@ study::Study fig8(const std::vector<std::string>& overrides = {}) {
   return manifest::load_study(std::string(ZEROCOUNT_MANIFESTS) + "/paper-fig8.yaml", overrides);
 }
 
-TEST(CreepComparison, CreepAtConstantTorqueForetellsTheJerksOfFigure8) {
+TEST(CreepComparison, CreepAtConstantTorquePredictsTheJerksOfFigure8) {
   const CreepComparison comparison = compare_with_creep(fig8(), 0, 12);
   EXPECT_EQ(comparison.not_applicable, "");
   EXPECT_EQ(comparison.trials, 12);
@@ -196,7 +196,7 @@ TEST(CreepComparison, CreepAtConstantTorqueForetellsTheJerksOfFigure8) {
   EXPECT_LT(agreement.median_deviation, sample_time);  // a jerk shows at the sample after the crossing
 }
 
-TEST(CreepComparison, WaitsFollowEachOther) {
+TEST(CreepComparison, PredictedWaitsStartAtThePreviousJerk) {
   const CreepComparison comparison = compare_with_creep(fig8(), 0, 5);
   std::int64_t trial = -1;
   double last = 0.0;
@@ -214,14 +214,14 @@ TEST(CreepComparison, WaitsFollowEachOther) {
   EXPECT_EQ(trial, 4);
 }
 
-TEST(CreepComparison, APredictionThatIsATenthOffIsNotForetold) {
+TEST(CreepComparison, JerksTenPercentOffThePredictionDoNotAgree) {
   CreepComparison comparison = compare_with_creep(fig8(), 0, 12);
   for (CreepWait& wait : comparison.waits) wait.predicted = wait.since + 1.1 * (wait.predicted - wait.since);
   const CreepAgreement agreement = agreement_of(comparison, sample_time);
   EXPECT_LT(agreement.predicted, agreement.ended / 2);
 }
 
-TEST(CreepComparison, HoldsAgainAfterEachMove) {
+TEST(CreepComparison, StartsAgainAfterEachMove) {
   const CreepComparison comparison =
       compare_with_creep(fig8({"command.targets=[30, 12, -25]", "command.hold=1.5"}), 0, 6);
   const CreepAgreement agreement = agreement_of(comparison, sample_time);
@@ -236,7 +236,7 @@ TEST(CreepComparison, HoldsAgainAfterEachMove) {
   EXPECT_EQ(agreement.lasting_predicted, agreement.lasting);
 }
 
-TEST(CreepComparison, SaysWhyItDoesNotApply) {
+TEST(CreepComparison, GivesTheReasonIfItDoesNotApply) {
   EXPECT_EQ(compare_with_creep(fig8({"friction.model=spring"}), 0, 3).not_applicable,
             "the friction does not creep");
   EXPECT_EQ(compare_with_creep(fig8({"dac.noise=1e-5"}), 0, 3).not_applicable, "the converter has noise");

@@ -25,7 +25,7 @@ fit::TestRecord short_record() {
 
 // A moving time offset moves the path by the velocity, and coordinates that a law does not have have no
 // effect.
-TEST(LawModel, HasDerivativesOfItsFreeCoordinatesAlone) {
+TEST(LawModel, DerivativesCoverOnlyTheFreeCoordinates) {
   const fit::TestRecord record = short_record();
   const auto scales = fit::scales_of(std::span(&record, 1));
   for (const friction::FrictionModel law : fit::fitted_laws()) {

@@ -110,7 +110,7 @@ PointAccumulator restored(const PointAccumulator& sum, const MoveKind& kind, std
   return point;
 }
 
-TEST(DividedPoint, HasTheStatisticsOfTheWhole) {
+TEST(DividedPoint, PartsMergeToTheStatisticsOfTheWholePoint) {
   testing::Draws draws(2304);
   for (int round = 0; round < 24; ++round) {
     const bool open_loop = round % 4 == 3;
@@ -138,7 +138,7 @@ TEST(DividedPoint, HasTheStatisticsOfTheWhole) {
 }
 
 // Measures are added by columns of many trials.
-TEST(DividedPoint, HasTheStatisticsOfTrialsThatWereAddedOneByOne) {
+TEST(DividedPoint, PartsMergeToTheStatisticsOfTrialsAddedOneByOne) {
   testing::Draws draws(2308);
   for (int round = 0; round < 24; ++round) {
     const bool open_loop = round % 4 == 3;
@@ -202,7 +202,7 @@ PlainStatistics plain_statistics(const layout::Measure& measure, const std::vect
   return result;
 }
 
-TEST(DividedPoint, HasTheSumsAndQualitiesOfEachTrial) {
+TEST(DividedPoint, PartsMergeToTheSumsAndQualitiesOfEachTrial) {
   testing::Draws draws(2309);
   for (int round = 0; round < 16; ++round) {
     const MoveKind kind{.shape = {.machines = round % 3 == 1 ? 7 : 0}};
@@ -263,7 +263,7 @@ TEST(DividedPoint, RefusesCountsThatCancel) {
 }
 
 // A number that is changed is refused, or gives other statistics.
-TEST(DividedPoint, OfAnyNumbersIsRefusedOrHasStatistics) {
+TEST(DividedPoint, AChangedStateIsRefusedOrHasStatistics) {
   testing::Draws draws(2307);
   int refused = 0;
   constexpr int rounds = 400;

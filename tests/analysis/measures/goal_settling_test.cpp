@@ -92,7 +92,7 @@ void expect_same(double found, double expected) {
   }
 }
 
-TEST_EACH_SEED(GoalSettlingTimes, AreOfTheMovesThatItAsksUnderEachCondition) {
+TEST_EACH_SEED(GoalSettlingTimes, CoverTheJudgedMovesUnderEachCondition) {
   const std::vector<SettlingTimes> found = of(0, trials).statistics(0.95);
   ASSERT_EQ(std::ssize(found), conditions);
   for (std::int64_t condition = 0; condition < conditions; ++condition) {
@@ -118,7 +118,7 @@ TEST_EACH_SEED(GoalSettlingTimes, AreOfTheMovesThatItAsksUnderEachCondition) {
   }
 }
 
-TEST_EACH_SEED(GoalSettlingTimes, DoNotDependOnHowTrialsAreDivided) {
+TEST_EACH_SEED(GoalSettlingTimes, DoNotDependOnTheDivisionOfTheTrials) {
   const GoalSettling whole = of(0, trials);
   GoalSettling parts = of(0, trials / 3);
   parts += of(trials / 3, trials);
@@ -140,7 +140,7 @@ TEST_EACH_SEED(GoalSettlingTimes, DoNotDependOnHowTrialsAreDivided) {
   }
 }
 
-TEST(GoalSettling, CollectsNothingWhereTheBandOfAllMovesIsMeasured) {
+TEST(GoalSettling, CollectsNothingIfTheBandIsMeasuredForAllMoves) {
   EXPECT_TRUE(GoalSettling(CountedGoal{.slot = 0}, Shape{}).statistics(0.95).empty());
 }
 

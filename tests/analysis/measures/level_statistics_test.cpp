@@ -45,7 +45,7 @@ TEST(Levels, AreCountedAndNotJudged) {
   EXPECT_EQ(statistics.levels[1].of(&trial::MoveOutcome::final_position).mean, 1e-5);
 }
 
-TEST(Levels, AreOfTheTrialsWhoseMotionWasNotLost) {
+TEST(Levels, TrialsWithNonfiniteMotionAreLeftOut) {
   PointAccumulator point({.open_loop = true});
   point.add({{level_that(0.1, 1e-4), level_that(0.2, 3e-4)}}, {});
   point.add({{level_that(0.1, 2e-4), trial::MoveOutcome{}}}, {});
@@ -60,7 +60,7 @@ TEST(Levels, AreOfTheTrialsWhoseMotionWasNotLost) {
   EXPECT_EQ(statistics.levels[1].nonfinite, 1);
 }
 
-TEST(Levels, HaveBoundsOfTheConfidenceAskedFor) {
+TEST(Levels, BoundsHaveTheRequestedConfidence) {
   PointAccumulator point({.open_loop = true});
   statistics::MomentSums positions;
   for (int i = 0; i < 5; ++i) {
@@ -80,7 +80,7 @@ TEST(Levels, HaveBoundsOfTheConfidenceAskedFor) {
   }
 }
 
-TEST(Levels, OfNoTrialAreNotKnown) {
+TEST(Levels, WithoutAUsableTrialAreUndefined) {
   PointAccumulator point({.open_loop = true});
   point.add({{trial::MoveOutcome{}}}, {});
   const PointSummary statistics = point.statistics();
@@ -90,14 +90,14 @@ TEST(Levels, OfNoTrialAreNotKnown) {
   EXPECT_EQ(statistics.levels[0].nonfinite, 1);
 }
 
-TEST(Levels, MovesOfTheOtherKindAreRefused) {
+TEST(Levels, OpenAndClosedLoopMovesDoNotMix) {
   trial::MoveOutcome judged;
   judged.outcome = trial::Outcome::zero_count;
   EXPECT_THROW(PointAccumulator({.open_loop = true}).add({{judged}}, {}), Failure);
   EXPECT_THROW(PointAccumulator().add({{level_that(0.1, 1e-4)}}, {}), Failure);
 }
 
-TEST(Levels, InTheFileAreThoseOfItsOutcomesByNumPyAndSciPy) {
+TEST(Levels, StoredStatisticsAgreeWithNumPyAndSciPy) {
   const testing::TemporaryFolder folder;
   study::Study study = testing::plain_study(3, 60, 5);
   study.open_loop = true;

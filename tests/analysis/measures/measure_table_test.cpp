@@ -120,7 +120,7 @@ TEST_F(AddedMeasure, IsInEveryFormOfTheSummary) {
             std::string::npos);
 }
 
-TEST_F(AddedMeasure, IsAnOutputThatSensitivityExplains) {
+TEST_F(AddedMeasure, IsAnOutputOfTheSensitivityAnalysis) {
   const reading::AllTrialsFile file(path, reading::Require::complete, &table);
   const sensitivity::TrialOutputs outputs = sensitivity::trial_outputs(
       file, study, 0, study.trials, sensitivity::find_sensitivity_output("torque_reserve", file.table()));
@@ -148,7 +148,7 @@ TEST_F(AddedMeasure, IsJudgedByTheGate) {
   }
 }
 
-TEST_F(AddedMeasure, OfATrialIsThatOfItsWorstMove) {
+TEST_F(AddedMeasure, TheValueOfATrialIsThatOfItsWorstMove) {
   const comparison::PointTrials read = read_trials();
   const std::vector<double> worst = comparison::worst_of_moves(read, comparison::gate_measures(table).back());
   ASSERT_EQ(worst.size(), trials.size());
@@ -158,7 +158,7 @@ TEST_F(AddedMeasure, OfATrialIsThatOfItsWorstMove) {
   }
 }
 
-TEST(AddedQuality, IsJudgedByTheTrialsThatHaveItWhereMoreIsWorse) {
+TEST(AddedQuality, IsJudgedByTheTrialsThatHaveItAndMoreIsWorse) {
   layout::MeasureTable table = layout::measure_table();
   for (layout::Measure& measure : table) {
     if (measure.field.column.name == "broke_away")
@@ -182,7 +182,7 @@ TEST(AddedQuality, IsJudgedByTheTrialsThatHaveItWhereMoreIsWorse) {
   }
 }
 
-TEST(MeasureTable, NamesEveryMeasureOnceAndInEveryOrder) {
+TEST(MeasureTable, NamesAreUnique) {
   std::set<std::string> names;
   for (const layout::Measure& measure : layout::measure_table())
     EXPECT_TRUE(names.insert(measure.field.column.name).second) << measure.field.column.name;

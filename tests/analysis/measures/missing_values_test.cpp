@@ -70,7 +70,7 @@ bool meets_limit(const std::string& measure, const trial::MoveOutcome& move) {
   return meets(counted_goals(study).front(), move);
 }
 
-TEST(MissingValues, MeetALimitOnlyWhereThereIsNothingToMeasure) {
+TEST(MissingValues, MeetALimitOnlyIfThereIsNothingToMeasure) {
   std::set<std::string> met;
   const std::vector<std::string> all = lacking_measures();
   EXPECT_GT(all.size(), 20U);
@@ -95,7 +95,7 @@ TEST(MissingValues, AStoppedMoveMissesEveryLimit) {
   EXPECT_FALSE(meets_limit("oscillation_amplitude", not_run));
 }
 
-TEST(MissingValues, AreAnEventOnlyWhereAnEventNeverCame) {
+TEST(MissingValues, AreAnEventOnlyIfSomethingNeverHappened) {
   const study::Study study = study_with_limit("tolerance_settling_time[1.0e-6]");
   for (const layout::Measure& measure : layout::measure_table(study.features)) {
     const std::string& name = measure.field.column.name;
@@ -115,7 +115,7 @@ TEST(MissingValues, AreAnEventOnlyWhereAnEventNeverCame) {
   }
 }
 
-TEST(MissingValues, AMoveWithoutAValueDoesNotHideThoseOfOtherMoves) {
+TEST(MissingValues, AMoveWithoutAValueDoesNotHideTheValuesOfOtherMoves) {
   const layout::MeasureTable& table = layout::measure_table();
   for (const layout::Measure& measure : table) {
     if (measure.field.column.name != "following_error_peak") continue;

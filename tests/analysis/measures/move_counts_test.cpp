@@ -87,7 +87,7 @@ struct CountsInCells {
   std::vector<std::int64_t> met;            ///< [trial]
 };
 
-TEST_EACH_SEED(CountsInCells, AreThoseOfTheTrialsOfEachAlone) {
+TEST_EACH_SEED(CountsInCells, EqualTheCountsOfTheTrialsOfEachCell) {
   const CellCounts counts = counted();
   EXPECT_EQ(counts.sum(), alone({}));
   ASSERT_EQ(std::ssize(counts.by_world()), worlds);
@@ -105,7 +105,7 @@ TEST_EACH_SEED(CountsInCells, AreThoseOfTheTrialsOfEachAlone) {
   EXPECT_FALSE(counts.is_valid(trials + 1, moves));
 }
 
-TEST_EACH_SEED(CountsInCells, OfPartsAddUpToThoseOfTheWhole) {
+TEST_EACH_SEED(CountsInCells, PartsAddUpToTheWhole) {
   const std::int64_t cut = draws.integer(0, trials);
   CellCounts sum = counted(0, cut);
   sum += counted(cut, trials);
@@ -126,7 +126,7 @@ TEST_EACH_SEED(CountsInCells, AreRestoredFromAnArchiveOfTheirShape) {
 }
 
 // Sums that contradict each other are found: all but the number of trials where nothing else counts them.
-TEST_EACH_SEED(CountsInCells, ThatDoNotAddUpAreRefused) {
+TEST_EACH_SEED(CountsInCells, ContradictoryCountsAreRefused) {
   const statistics::State state = state_of(counted());
   const bool only_one_cell = machines == 0 && worlds == 0 && conditions == 0;
   for (std::size_t i = 0; i < state.whole.size(); ++i) {

@@ -66,7 +66,7 @@ TEST(MoveEvent, TheScoreGrowsTowardsTheEvent) {
             score_of(MoveScore::event, missed_question(study), move_with(0.09)));
 }
 
-TEST(MoveEvent, SaysWhatIsWrongWithAText) {
+TEST(MoveEvent, WrongTextsAreRefusedWithTheReason) {
   const study::Study study = study_with_goal();
   for (const auto& [text, expected] :
        {std::pair{"arrival_time", "compares nothing"}, std::pair{"arrival_time = 1", "compares nothing"},

@@ -36,7 +36,7 @@ void add_jerking(PointAccumulator& point, double torque, const std::vector<doubl
   point.add({{move}}, jerks);
 }
 
-TEST(PointStatistics, WithoutTrialsNothingIsKnown) {
+TEST(PointStatistics, WithoutTrialsEverythingIsUndefined) {
   const PointSummary none = PointAccumulator().statistics();
   EXPECT_EQ(none.trials, 0);
   EXPECT_TRUE(std::isnan(none.success_rate().value));
@@ -48,7 +48,7 @@ TEST(PointStatistics, WithoutTrialsNothingIsKnown) {
   EXPECT_TRUE(std::isnan(none.jerk_agreement));
 }
 
-TEST(PointStatistics, EachTrialCountsOnceByTheWorstOfItsMoves) {
+TEST(PointStatistics, EachTrialCountsOnceWithItsWorstMove) {
   PointAccumulator point;
   point.add({{move_that(trial::Outcome::zero_count, 0.1), move_that(trial::Outcome::zero_count, 0.2)}}, {});
   point.add({{move_that(trial::Outcome::one_count, 0.1), move_that(trial::Outcome::zero_count, 0.2)}}, {});
@@ -94,7 +94,7 @@ TEST(PointStatistics, BreakawayAndSaturationInAnyMoveCountTheTrialOnce) {
   EXPECT_EQ(statistics.of(&trial::MoveOutcome::saturated).by_move[1], 2);
 }
 
-TEST(PointStatistics, StoppedTrialsCountInEveryRateAndTheirMovesAsFarAsTheyWereRun) {
+TEST(PointStatistics, StoppedTrialsCountInEveryRate) {
   trial::MoveOutcome sound = move_that(trial::Outcome::zero_count, 0.1),
                      stopped = move_that(trial::Outcome::oscillating, never);
   sound.holding_torque = 0.01;
@@ -133,7 +133,7 @@ TEST(PointStatistics, StoppedTrialsCountInEveryRateAndTheirMovesAsFarAsTheyWereR
   EXPECT_NEAR(statistics.of(&trial::MoveOutcome::holding_torque).mean, (4 * 0.01 + 2 * 0.03) / 6.0, 1e-15);
 }
 
-TEST(PointStatistics, FinalSettlingTimesAreOfAllMovesToo) {
+TEST(PointStatistics, QuantilesOfFinalSettlingTimesIncludeMovesThatNeverSettled) {
   PointAccumulator point;
   for (int i = 1; i <= 100; ++i) {
     trial::MoveOutcome move =
@@ -149,7 +149,7 @@ TEST(PointStatistics, FinalSettlingTimesAreOfAllMovesToo) {
   EXPECT_NEAR(final.mean, 30.5 / 2000.0, 1e-15);
 }
 
-TEST(PointStatistics, LimitsOnMachinesAreOfTheSlowestMove) {
+TEST(PointStatistics, ToleranceLimitsUseTheSlowestMoveOfATrial) {
   PointAccumulator on_machines({.shape = {.machines = 100}}), plain;
   for (int trial = 0; trial < 100; ++trial) {
     const trial::TrialOutcome moves{
@@ -161,7 +161,7 @@ TEST(PointStatistics, LimitsOnMachinesAreOfTheSlowestMove) {
   EXPECT_EQ(on_machines.statistics().settles_within[0].within, 0.5);
 }
 
-TEST(PointStatistics, QuantilesOfSettlingTimesAreOfAllMovesAndTheRestOfThoseThatArrived) {
+TEST(PointStatistics, QuantilesOfArrivalTimesIncludeMovesThatNeverArrivedAndMeansDoNot) {
   PointAccumulator point;
   for (int i = 1; i <= 100; ++i) point.add({{move_that(trial::Outcome::zero_count, i / 2000.0)}}, {});
   for (int i = 0; i < 50; ++i) point.add({{move_that(trial::Outcome::oscillating, never)}}, {});
@@ -230,7 +230,7 @@ TEST(PointStatistics, SlowingDownIsJudgedPerMoveByTheTrendOfItsIntervals) {
   EXPECT_NEAR(slowing.tau, (5.0 - 2.0) / 13.0, 1e-15);
 }
 
-TEST(PointStatistics, AgreementAndMagnitudeAreSharesOfAllJerks) {
+TEST(PointStatistics, JerkAgreementAndMagnitudeAreProportionsOfAllJerks) {
   trial::MoveOutcome up = move_that(trial::Outcome::zero_count, 0.1), down = up, none = up;
   up.holding_torque = 0.02;
   down.holding_torque = -0.02;
@@ -248,7 +248,7 @@ TEST(PointStatistics, AgreementAndMagnitudeAreSharesOfAllJerks) {
   EXPECT_NEAR(statistics.jerk_one_count_share, 4.0 / 5.0, 1e-15);
 }
 
-TEST(PointStatistics, MeansNameTheFiniteValuesTheyAreOf) {
+TEST(PointStatistics, MeansCountTheirFiniteValues) {
   PointAccumulator point;
   trial::MoveOutcome move = move_that(trial::Outcome::zero_count, 0.1);
   move.overshoot = 2;
@@ -278,7 +278,7 @@ TEST(PointStatistics, MeansNameTheFiniteValuesTheyAreOf) {
   EXPECT_EQ(statistics.of(&trial::MoveOutcome::reversal_depth).max, 7.0);
 }
 
-TEST(PointStatistics, FinalErrorsAreDistancesOfTheMovesThatWereFollowed) {
+TEST(PointStatistics, FinalErrorsAreAbsoluteAndSkipNonfiniteMoves) {
   PointAccumulator point;
   for (const std::int64_t error : {-7, 2, 0, 1, -1}) {
     trial::MoveOutcome move = move_that(trial::Outcome::oscillating, never);
@@ -296,7 +296,7 @@ TEST(PointStatistics, FinalErrorsAreDistancesOfTheMovesThatWereFollowed) {
   EXPECT_EQ(errors.max, 7.0);
 }
 
-TEST(PointStatistics, TrueErrorsAreDistancesOfTheMovesThatHaveOne) {
+TEST(PointStatistics, TrueErrorsAreAbsoluteAndSkipMovesWithoutOne) {
   PointAccumulator point;
   for (const double error : {-4.0, 0.0, 2.5, never}) {
     trial::MoveOutcome move = move_that(trial::Outcome::zero_count, 0.1);

@@ -36,7 +36,7 @@ double limit_of(std::uint32_t sequences, double alarm) {
 
 // For every past the mean of the capital over the next p-value is the capital. The mean is by the midpoint
 // rule in p; the normal scores have integrable peaks at the ends.
-TEST(ChangeMartingale, IsAMartingaleOfUniformNumbers) {
+TEST(ChangeMartingale, IsAMartingaleForUniformPValues) {
   for (const std::int64_t baseline : {1, 20, 1000}) {
     random::NumberSource numbers = numbers_of("martingale", static_cast<std::uint32_t>(baseline));
     ChangeMartingale martingale(baseline);
@@ -77,11 +77,11 @@ TEST(ChangeMartingale, DISABLED_KeepsItsBoundIn1000SequencesOf10000Moves) {
 }
 
 // The p-values among the baseline alone do not have this: with 20 moves it is wrong for ever.
-TEST(ChangeMartingale, ASmallBaselineIsNoReasonForAFalseAlarm) {
+TEST(ChangeMartingale, KeepsItsBoundWithASmallBaseline) {
   EXPECT_LE(alarms(largest_capitals({.baseline = 2, .moves = 2000}, 200), 0.05), limit_of(200, 0.05));
 }
 
-TEST(ChangeMartingale, SeesAChangeAndItsTime) {
+TEST(ChangeMartingale, FindsAChangeAndItsTime) {
   for (const double factor : {0.8, 1.25}) {
     std::vector<double> errors;
     for (std::uint32_t i = 0; i < 40; ++i) {
@@ -115,7 +115,7 @@ TEST(ChangeMartingale, DatesAChangeByTheLikelihoodRatioOfNormalScores) {
   }
 }
 
-TEST(ChangeMartingale, StaysFiniteWhereTheChangeIsCertain) {
+TEST(ChangeMartingale, StaysFiniteIfTheChangeIsCertain) {
   ChangeMartingale martingale(100'000);
   for (int t = 0; t < 50'000; ++t) martingale.update(1e-6);
   EXPECT_TRUE(std::isfinite(martingale.capital()));
@@ -124,7 +124,7 @@ TEST(ChangeMartingale, StaysFiniteWhereTheChangeIsCertain) {
 
 // Ranks in a growing multiset.
 
-TEST(RankedBag, CountsLargerAndEqualValuesAsASearchThroughAllDoes) {
+TEST(RankedBag, CountsLargerAndEqualValuesLikeALinearSearch) {
   random::NumberSource numbers = numbers_of("bag", 0);
   std::vector<double> all;
   for (int i = 0; i < 30; ++i) all.push_back(std::rint(20.0 * numbers.uniform()));
@@ -158,7 +158,7 @@ int flagged(double correlation, std::int64_t days, int sequences) {
 }
 
 // p is exact: of exchangeable values one in a hundred has p ≤ 0.01, and half have p ≤ 0.5.
-TEST(Dependence, OfExchangeableValuesIsUniform) {
+TEST(Dependence, PValueIsUniformForExchangeableValues) {
   int half = 0;
   int hundredth = 0;
   constexpr int sequences = 300;
@@ -176,13 +176,13 @@ TEST(Dependence, OfExchangeableValuesIsUniform) {
 }
 
 // Days that differ by so little that neighbouring moves hardly correlate.
-TEST(Dependence, SeesDaysThatDifferALittle) {
+TEST(Dependence, FindsSmallDifferencesBetweenDays) {
   EXPECT_LE(flagged(0.0, 6, 40), 6);
   EXPECT_GE(flagged(0.1, 6, 40), 24);
   EXPECT_GE(flagged(0.05, 20, 40), 28);
 }
 
-TEST(Dependence, SeesWhatAlternates) {
+TEST(Dependence, FindsAlternatingValues) {
   random::NumberSource numbers = numbers_of("alternating", 0);
   for (const int period : {2, 3, 4}) {
     std::vector<double> values;
@@ -206,7 +206,7 @@ TEST(Dependence, LooksWithinClasses) {
   EXPECT_GT(monitor::part_between(values, classes), 0.74) << "the ranks of two classes apart: 3/4";
 }
 
-TEST(Groups, HaveNoMoreFalseAlarmsThanAsked) {
+TEST(Groups, RaiseNoMoreFalseAlarmsThanRequested) {
   constexpr std::uint32_t sequences = 60;
   const Days days{.baseline = 6, .days = 60, .correlation = 0.1};
   int by_day = 0;
@@ -219,7 +219,7 @@ TEST(Groups, HaveNoMoreFalseAlarmsThanAsked) {
   EXPECT_GE(by_move, 40) << "moves of a day are not exchangeable with those of another";
 }
 
-TEST(Groups, SeeAChangeOfMostMoves) {
+TEST(Groups, FindAChangeOfMostMoves) {
   const Days days{.baseline = 20, .days = 60, .correlation = 0.1, .factor = 1.25};
   int seen = 0;
   for (std::uint32_t i = 0; i < 10; ++i) {
@@ -235,7 +235,7 @@ TEST(Groups, SeeAChangeOfMostMoves) {
 }
 
 // The last day may go on, and the first may be the baseline's last one.
-TEST(Groups, AreTakenWhereTheyAreComplete) {
+TEST(Groups, AreCompleteBeforeTheyAreJudged) {
   const auto values = [](const std::string& before, const std::string& after) {
     const monitor::MoveLog log = log_of(after, "moves.csv", "day");
     monitor::MachineMonitor machine(monitor::baseline_of(log_of(before, "baseline.csv", "day")), log,

@@ -53,7 +53,7 @@ std::int64_t equal_moves_of(const std::string& one, const std::string& other) {
   return moves;
 }
 
-TEST(EqualLogs, AreEqualHoweverTheyAreWritten) {
+TEST(EqualLogs, NotationDoesNotMatter) {
   for (std::uint32_t number = 0; number < 20; ++number) {
     const LoggedMoves run = random_run(number, 50);
     EXPECT_EQ(equal_moves_of(plain(run), plain(run)), 50);
@@ -62,7 +62,7 @@ TEST(EqualLogs, AreEqualHoweverTheyAreWritten) {
   }
 }
 
-TEST(EqualLogs, DifferByOneMoveOrTheOrder) {
+TEST(EqualLogs, OneMoveOrTheOrderMakesThemDiffer) {
   for (std::uint32_t number = 0; number < 20; ++number) {
     const LoggedMoves run = random_run(number, 50);
     LoggedMoves other = run;
@@ -80,7 +80,7 @@ TEST(EqualLogs, DifferByOneMoveOrTheOrder) {
 
 // Two machines of the same length with few quantised values are taken for one: the user tells them apart. A
 // shorter log that is the beginning of a longer one by chance is not.
-TEST(EqualLogs, OfFewValuesAreEqualIfTheyHaveTheSameLength) {
+TEST(EqualLogs, LogsWithFewDifferentValuesMustHaveTheSameLength) {
   const std::string five = "outcome\n0\n0\n1\n0\n0\n";
   EXPECT_EQ(equal_moves_of(five, five), 5);
   EXPECT_EQ(equal_moves_of(five, five + "0\n0\n"), 0);
@@ -88,7 +88,7 @@ TEST(EqualLogs, OfFewValuesAreEqualIfTheyHaveTheSameLength) {
   EXPECT_EQ(equal_moves_of(five, "overshoot\n0\n0\n1\n0\n0\n"), 0) << "no measure in common";
 }
 
-TEST(EqualLogs, AreAllNamed) {
+TEST(EqualLogs, AllEqualPairsAreNamed) {
   std::vector<monitor::MoveLog> logs;
   for (const std::uint32_t number : {1, 2, 3, 2, 1, 2}) logs.push_back(log_of(plain(random_run(number, 20))));
   const std::optional<monitor::EqualLogs> equal = monitor::equal_logs(logs);

@@ -67,7 +67,7 @@ std::string log_of_times(const std::vector<double>& values) {
   return log_text(head, values);
 }
 
-TEST(MachineMonitor, SeesAChangeOfEitherDirection) {
+TEST(MachineMonitor, FindsAChangeInEitherDirection) {
   const std::string before = log_of_times(times(1, 200));
   for (const double factor : {0.8, 1.25}) {
     const Said said = said_of(before, log_of_times(times(2, 1000, 301, factor)));
@@ -83,7 +83,7 @@ TEST(MachineMonitor, SeesAChangeOfEitherDirection) {
 }
 
 // 20 % of the median are seen within some 60 moves, so 300 moves show that there was no such change.
-TEST(MachineMonitor, TellsNoChangeFromTooFewMoves) {
+TEST(MachineMonitor, DistinguishesNoChangeFromTooFewMoves) {
   const std::string before = log_of_times(times(1, 200));
   EXPECT_EQ(said_of(before, log_of_times(times(2, 300))).status, MachineStatus::unchanged);
   EXPECT_EQ(said_of(before, log_of_times(times(2, 15))).status, MachineStatus::undecided);
@@ -91,12 +91,12 @@ TEST(MachineMonitor, TellsNoChangeFromTooFewMoves) {
   EXPECT_EQ(said_of(log_of_times(times(1, 5)), log_of_times(times(2, 300))).status, MachineStatus::undecided);
 }
 
-TEST(MachineMonitor, DecidesNothingWithoutMoves) {
+TEST(MachineMonitor, IsUndecidedWithoutMoves) {
   const Said said = said_of(log_of_times(times(1, 200)), head + "\n");
   EXPECT_EQ(said, (Said{MachineStatus::undecided, "", "", {}, {}, 0, 1.0}));
 }
 
-TEST(MachineMonitor, SaysTheSameOfABaselineInAnotherOrder) {
+TEST(MachineMonitor, DoesNotDependOnTheOrderOfTheBaseline) {
   std::vector<double> before = times(1, 200);
   const std::string after = log_of_times(times(2, 400, 200, 0.8));
   const Said said = said_of(log_of_times(before), after);
@@ -106,7 +106,7 @@ TEST(MachineMonitor, SaysTheSameOfABaselineInAnotherOrder) {
   EXPECT_EQ(said_of(log_of_times(before), after), said);
 }
 
-TEST(MachineMonitor, SaysTheSameOfAMonotoneTransform) {
+TEST(MachineMonitor, IsInvariantUnderMonotoneTransforms) {
   const std::vector<double> before = times(1, 200);
   const std::vector<double> after = times(2, 400, 200, 0.8);
   const auto squares = [](std::vector<double> values) {
@@ -117,7 +117,7 @@ TEST(MachineMonitor, SaysTheSameOfAMonotoneTransform) {
   EXPECT_EQ(said_of(squares(before), squares(after)), said);
 }
 
-TEST(MachineMonitor, SaysTheSameInOtherUnits) {
+TEST(MachineMonitor, DoesNotDependOnTheUnits) {
   std::vector<double> before = times(1, 200);
   std::string in_ms = "arrival_time [ms]\n";
   for (const double value : before) in_ms += fmt::format("{}\n", 1e3 * value);
@@ -126,7 +126,7 @@ TEST(MachineMonitor, SaysTheSameInOtherUnits) {
   EXPECT_EQ(said_of(in_ms, after).alarm_at, said.alarm_at);
 }
 
-TEST(MachineMonitor, SeesFewerGoodMovesAndMovesThatNeverSettle) {
+TEST(MachineMonitor, FindsFewerGoodMovesAndMovesThatNeverSettle) {
   random::NumberSource numbers = numbers_of("qualities", 0);
   const auto log = [&](int moves, double good) {
     std::string text = "outcome,arrival_time\n";
@@ -145,7 +145,7 @@ TEST(MachineMonitor, SeesFewerGoodMovesAndMovesThatNeverSettle) {
 }
 
 // What a prefix of the log says does not depend on what follows, however the log is read.
-TEST(MachineMonitor, SaysTheSameWhileTheLogGrows) {
+TEST(MachineMonitor, AGrowingLogGivesTheSameAnswerAsTheWholeLog) {
   const std::string before = log_of_times(times(1, 200));
   const std::vector<double> moves = times(2, 260, 150, 0.75);
   MoveLog log = log_of(head + "\n");
@@ -164,7 +164,7 @@ TEST(MachineMonitor, SaysTheSameWhileTheLogGrows) {
 }
 
 // Each of K measures has the alarm at K/alarm, however they depend on each other.
-TEST(MachineMonitor, SharesTheFalseAlarmsAmongTheMeasures) {
+TEST(MachineMonitor, DividesTheFalseAlarmProbabilityAmongTheMeasures) {
   const auto log = [](const std::vector<double>& values, bool twice) {
     std::string text = twice ? "arrival_time,final_settling_time\n" : "arrival_time\n";
     for (const double value : values)
@@ -199,7 +199,7 @@ TEST(MachineMonitor, CountsBlocksInMoves) {
 }
 
 // Values that wander are not exchangeable; their blocks are, nearly.
-TEST(MachineMonitor, SaysWhereTheBaselineIsNotExchangeable) {
+TEST(MachineMonitor, ReportsABaselineThatIsNotExchangeable) {
   random::NumberSource numbers = numbers_of("wander", 0);
   std::vector<double> values;
   double wander = 0.0;
@@ -222,7 +222,7 @@ TEST(MachineMonitor, SaysWhereTheBaselineIsNotExchangeable) {
 }
 
 // What accumulates in a simulated contact differs from its beginning on, in any machine.
-TEST(MachineMonitor, WatchesAccumulatingStatesOnlyWhereNamed) {
+TEST(MachineMonitor, WatchesAccumulatingStatesOnlyIfNamed) {
   const MoveLog log = log_of("creep,overshoot\n1e-6,1\n");
   const Baseline baseline = monitor::baseline_of(log);
   EXPECT_EQ(MachineMonitor(baseline, log, {}).measures().size(), 1);
@@ -230,7 +230,7 @@ TEST(MachineMonitor, WatchesAccumulatingStatesOnlyWhereNamed) {
   EXPECT_EQ(MachineMonitor(baseline, log, {.measures = {"creep"}}).measures().front().measure.name, "creep");
 }
 
-TEST(MachineMonitor, RefusesWhatCannotBeCompared) {
+TEST(MachineMonitor, RefusesLogsThatCannotBeCompared) {
   const auto message = [](const std::string& before, const std::string& after,
                           const MonitorSettings& settings, ExitCode code = ExitCode::bad_input) {
     return refusal_by([&] { said_of(before, after, settings); }, code);
@@ -356,7 +356,7 @@ std::string log_of_program(const Program& program, int moves, random::NumberSour
 }
 
 // Friction that rises holds the rotor with more torque in both directions.
-TEST(Likes, TakeSignedMeasuresInTheDirectionOfTheMove) {
+TEST(MoveKinds, SignedMeasuresAreTakenInTheDirectionOfTheMove) {
   for (const char* const head : {"move,target,arrival_time,holding_torque",
                                  "move,arrival_time,holding_torque", "target,arrival_time,holding_torque"})
     for (const bool mirrored : {false, true}) {
@@ -382,7 +382,7 @@ TEST(Likes, TakeSignedMeasuresInTheDirectionOfTheMove) {
 
 // As many moves of each kind as before, or not: a program that runs one of its moves more often is no change
 // of the machine. Ranked among all moves it would be: here in each of 40 sequences.
-TEST(Likes, AreNotAChangeWhereTheMixtureChanges) {
+TEST(MoveKinds, AnotherMixtureOfMovesIsNotAChange) {
   constexpr std::uint32_t sequences = 40;
   int false_alarms = 0;
   int without_labels = 0;
@@ -419,7 +419,7 @@ TEST(Likes, AreNotAChangeWhereTheMixtureChanges) {
 }
 
 // Two peaks have no median: the one number would be that of either target, by chance.
-TEST(Likes, HaveTheirOwnMediansWhereTheyDiffer) {
+TEST(MoveKinds, KindsThatDifferHaveTheirOwnMedians) {
   random::NumberSource numbers = numbers_of("medians", 1);
   MachineMonitor machine = watched(log_of_program({}, 301, numbers), log_of_program({}, 300, numbers));
   const monitor::MeasureState& times = machine.measures()[0];
@@ -435,7 +435,7 @@ TEST(Likes, HaveTheirOwnMediansWhereTheyDiffer) {
   EXPECT_NEAR(*machine.measures()[1].median, 0.3, 0.003);
 }
 
-TEST(Likes, AreNoEvidenceWhereTheProgramChanges) {
+TEST(MoveKinds, MovesOfANewProgramAreNotCompared) {
   random::NumberSource numbers = numbers_of("program", 1);
   MachineMonitor machine =
       watched(log_of_program({}, 200, numbers),
@@ -455,7 +455,7 @@ TEST(Likes, AreNoEvidenceWhereTheProgramChanges) {
   EXPECT_EQ(later.unlike(), 50);
 }
 
-TEST(Likes, AreToldByNumbersOfACycleAndNotByThoseOfALog) {
+TEST(MoveKinds, NumbersOfACycleDistinguishThemButRowNumbersDoNot) {
   const auto by = [](const std::string& before, const std::string& after) {
     return watched(before, after).likes().by();
   };
@@ -473,7 +473,7 @@ TEST(Likes, AreToldByNumbersOfACycleAndNotByThoseOfALog) {
   EXPECT_EQ(by(random_targets, random_targets), monitor::LikeBy::direction);
 }
 
-TEST(Likes, KnowTargetsInOtherUnits) {
+TEST(MoveKinds, TargetsInOtherUnitsMatch) {
   std::string in_mm = "target [mm],arrival_time\n";
   std::string in_m = "target [m],arrival_time\n";
   for (int i = 0; i < 60; ++i) {
@@ -491,7 +491,7 @@ TEST(Likes, KnowTargetsInOtherUnits) {
 }
 
 // Blocks of moves of several kinds are alike where they have the same kinds.
-TEST(Likes, MakeBlocksOfTheSameKindsAlike) {
+TEST(MoveKinds, BlocksWithTheSameKindsAreComparable) {
   random::NumberSource numbers = numbers_of("blocks", 1);
   const std::string before = log_of_program({}, 600, numbers);
   Program slower{.time_factor = 1.2};
@@ -519,7 +519,7 @@ Change change_to_see(const monitor::MonitoredMeasure& measure, const Values& val
   return {to_see.sizes.at(0), to_see.directions};
 }
 
-TEST(ChangeToSee, IsAPartOfTheMedianOrOfAProportion) {
+TEST(ChangeToDetect, IsAFractionOfTheMedianOrOfAProportion) {
   const Directions both{Direction::higher, Direction::lower};
   const Change time = change_to_see(measure("arrival_time"), Values{0.04, 0.05, 0.06}, {});
   EXPECT_NEAR(time.size, 0.01, 1e-15);
@@ -534,7 +534,7 @@ TEST(ChangeToSee, IsAPartOfTheMedianOrOfAProportion) {
   EXPECT_EQ(change_to_see(measure("stable"), Values{1.0}, {}).directions, Directions{Direction::lower});
 }
 
-TEST(ChangeToSee, IsNotAskedOfWhatHasNoScale) {
+TEST(ChangeToDetect, MeasuresWithoutAScaleHaveNone) {
   EXPECT_TRUE(change_to_see(measure("holding_torque"), Values{-1.0, 1.0, 2.0}, {}).directions.empty());
   EXPECT_TRUE(change_to_see(measure("arrival_time"), Values{1.0, HUGE_VAL, HUGE_VAL}, {}).directions.empty());
   EXPECT_TRUE(change_to_see(measure("jerk_count"), Values{0.0, 0.0, 3.0}, {}).directions.empty());
@@ -542,7 +542,7 @@ TEST(ChangeToSee, IsNotAskedOfWhatHasNoScale) {
 }
 
 // Of a move to a far target a fifth is more than of one to a near target.
-TEST(ChangeToSee, IsAPartOfTheMedianOfEachClass) {
+TEST(ChangeToDetect, IsAFractionOfTheMedianOfEachClass) {
   const std::vector<Values> classes{{0.02, 0.02, 0.03}, {0.2}, {HUGE_VAL}};
   const monitor::ChangeToSee to_see = monitor::change_to_see(measure("arrival_time"), classes, {});
   ASSERT_EQ(to_see.sizes.size(), 3);
@@ -576,7 +576,7 @@ Values sorted_values(Moves kind, std::int64_t count, std::uint32_t number) {
   return values;
 }
 
-TEST(ValuesToSee, AreMoreForSmallerChangesAndRarerAlarms) {
+TEST(ValuesToDetect, SmallerChangesAndRarerAlarmsNeedMoreValues) {
   const Values baseline = sorted_values(Moves::lognormal, 300, 1);
   const std::int64_t usual = asked(baseline, Direction::lower, 0.01).value();
   EXPECT_LT(asked(baseline, Direction::lower, 0.02).value(), usual);
@@ -586,7 +586,7 @@ TEST(ValuesToSee, AreMoreForSmallerChangesAndRarerAlarms) {
 }
 
 // A real sequence with that change, of the distribution that the baseline came from, is seen as often.
-TEST(ValuesToSee, IsWhatRealSequencesTake) {
+TEST(ValuesToDetect, SimulatedSequencesAlarmWithinThem) {
   for (const Moves kind : {Moves::lognormal, Moves::binary}) {
     const Values baseline = sorted_values(kind, 500, 3);
     const double size = kind == Moves::binary ? 0.1 : 0.01;
@@ -609,7 +609,7 @@ TEST(ValuesToSee, IsWhatRealSequencesTake) {
 }
 
 // Half of the values of a skewed measure lie far below the median. A factor hardly moves them, a shift does.
-TEST(ValuesToSee, AreMoreForAFactorOfASkewedMeasureThanForAShift) {
+TEST(ValuesToDetect, AFactorOnASkewedMeasureNeedsMoreThanAShift) {
   random::NumberSource numbers = numbers_of("skewed", 1);
   Values baseline;
   for (int i = 0; i < 400; ++i) baseline.push_back(0.05 * std::pow(-std::log(numbers.uniform()), 1.0 / 0.7));
@@ -709,7 +709,7 @@ int most_by_chance(int machines, double level) {
   return most;
 }
 
-TEST(Unchanged, IsSaidOfAtMostOneChangedMachineInTen) {
+TEST(UnchangedVerdict, IsGivenToAtMostOneChangedMachineInTen) {
   for (const ChangeForm form : {ChangeForm::shift, ChangeForm::factor})
     for (const Population population : {Population::weibull, Population::normal}) {
       const Trap trap{population, form, 0.6, 150, 30, 1};
@@ -718,7 +718,7 @@ TEST(Unchanged, IsSaidOfAtMostOneChangedMachineInTen) {
     }
 }
 
-TEST(Unchanged, DISABLED_IsSaidOfAtMostOneChangedMachineInTenOfAnyPopulation) {
+TEST(UnchangedVerdict, DISABLED_IsGivenToAtMostOneChangedMachineInTenOfAnyPopulation) {
   const auto night = static_cast<std::uint64_t>(std::chrono::system_clock::now().time_since_epoch() /
                                                 std::chrono::hours(24));
   for (const ChangeForm form : {ChangeForm::shift, ChangeForm::factor})

@@ -43,7 +43,7 @@ TEST(MoveLog, ReadsMeasuresByNameWithBandsUnitsAndMissingValues) {
 
 // A machine that begins to oscillate has a larger amplitude than before, and one that no longer arrives a
 // smaller fraction of its time at zero.
-TEST(MoveLog, RanksEmptyCellsByWhatTheyMean) {
+TEST(MoveLog, AnEmptyCellRanksAsBetterOrWorseDependingOnTheMeasure) {
   const monitor::MoveLog log = log_of(
       "arrival_time,rest_error_rms,zero_fraction,arrival,oscillation_amplitude,jerk_agreement\n"
       "0.05,0.3,0.9,7,4,0.5\n,,,-1,,\n");
@@ -67,7 +67,7 @@ TEST(MoveLog, TakesMagnitudesOfErrorsAndDecimalCommas) {
 }
 
 // A machine that stopped settling writes empty fields until the end of its log.
-TEST(MoveLog, ReadsEachBlankLineOfOneColumnAsAMoveThatNeverSettled) {
+TEST(MoveLog, ABlankLineOfASingleColumnIsAMoveThatNeverSettled) {
   const auto values = [](std::string_view text) { return log_of(text).find("arrival_time")->values; };
   EXPECT_EQ(values("arrival_time\n0.1\n\n0.2\n\"\"\n0.3"), (Values{0.1, never, 0.2, never, 0.3}));
   EXPECT_EQ(values("arrival_time\n0.1\n\n\n"), (Values{0.1, never, never}));
@@ -78,7 +78,7 @@ TEST(MoveLog, ReadsEachBlankLineOfOneColumnAsAMoveThatNeverSettled) {
       << "before the header, and in comments, there are no rows";
 }
 
-TEST(MoveLog, TakesTheLineFeedThatEndsTheLastRowForNoRow) {
+TEST(MoveLog, TheLineFeedAfterTheLastRowIsNotARow) {
   for (const char* const end : {"", "\n", "\r\n", "\n ", "\r\n\r"})
     EXPECT_EQ(log_of(std::string("arrival_time\n0.1") + end).moves, 1) << ::testing::PrintToString(end);
   EXPECT_EQ(log_of("arrival_time\n").moves, 0);
@@ -86,7 +86,7 @@ TEST(MoveLog, TakesTheLineFeedThatEndsTheLastRowForNoRow) {
 }
 
 // A measure that always has a value cannot be empty.
-TEST(MoveLog, RefusesABlankLineOfOneColumnThatCannotBeEmpty) {
+TEST(MoveLog, RefusesABlankLineIfTheSingleColumnCannotBeEmpty) {
   EXPECT_TRUE(says(refusal("outcome\nzero_count\n\n"), "4 moves.csv:3: outcome: ''; expected one of"));
 }
 
@@ -125,7 +125,7 @@ TEST(MoveLog, NamesBandsAndTolerancesAsTheProgramDoes) {
 }
 
 // Each measure in other letters is taken for itself, and for no other one.
-TEST(MisspeltMeasure, IsTheOneWithTheSameLetters) {
+TEST(MisspeltMeasure, IsMatchedByItsLetters) {
   study::StudyFeatures features;
   for (const layout::Measure& row : layout::measure_table(features)) {
     const std::string name = row.field.column.name;
@@ -146,7 +146,7 @@ TEST(MisspeltMeasure, IsTheOneWithTheSameLetters) {
       monitor::resembling_column("arrival_time", std::vector<std::string>{"day", "t", "", "x [mm]"}));
 }
 
-TEST(MoveLog, ReadsPiecesAsTheyGrow) {
+TEST(MoveLog, ReadsAGrowingLogInPieces) {
   for (const std::string text : {"t,arrival_time\n1,0.1\n2,\n\n3,0.3\n4,\n", "arrival_time\n0.1\n\n0.3\n\n"})
     for (std::size_t size = 1; size < text.size(); ++size) {
       monitor::MoveLog log("moves.csv");
@@ -157,7 +157,7 @@ TEST(MoveLog, ReadsPiecesAsTheyGrow) {
     }
 }
 
-TEST(MoveLog, NamesThePlaceOfWhatItCannotRead) {
+TEST(MoveLog, UnreadableCellsAreRefusedWithTheirPlace) {
   EXPECT_EQ(
       refusal(""),
       "2 moves.csv: is empty; expected a header with names of measures, such as arrival_time, and a row "

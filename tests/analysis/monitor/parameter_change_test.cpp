@@ -62,7 +62,7 @@ MoveValues changed_machine(const Machines& machines, const Slopes& slopes, doubl
   return moves;
 }
 
-TEST(ParameterChange, IsToldWithAnIntervalThatCovers) {
+TEST(ParameterChange, IntervalCoversTheTrueChange) {
   const Machines simulated(1, 0.5);
   const std::vector<ChangeCandidate> candidates{candidate("stiffness", simulated, stiffness),
                                                 candidate("damping", simulated, damping)};
@@ -83,7 +83,7 @@ TEST(ParameterChange, IsToldWithAnIntervalThatCovers) {
   EXPECT_GE(covered, told - 8) << "95 % of " << told;
 }
 
-TEST(ParameterChange, OfTwoThatActAlikeIsNotTold) {
+TEST(ParameterChange, TwoParametersThatActAlikeAreNotDistinguished) {
   const Machines simulated(2, 0.5);
   const std::vector<ChangeCandidate> candidates{candidate("stiffness", simulated, stiffness),
                                                 candidate("twin", simulated, stiffness),
@@ -96,7 +96,7 @@ TEST(ParameterChange, OfTwoThatActAlikeIsNotTold) {
 }
 
 // Noise is added where there is none: a factor of it changes nothing.
-TEST(ParameterChange, IsToldAsAnAmountWhereItWasNothing) {
+TEST(ParameterChange, AParameterThatWasZeroChangesByAnAmount) {
   const Machines simulated(8, 0.5);
   ChangeCandidate noise{"noise", {}, ChangeKind::amount, "count"};
   for (const double amount : {0.0, 0.1, 0.2, 0.4, 0.8})
@@ -113,7 +113,7 @@ TEST(ParameterChange, IsToldAsAnAmountWhereItWasNothing) {
   EXPECT_NEAR(found.parameters[0].change, 0.3, 0.1);
 }
 
-TEST(ParameterChange, ThatNoneExplainsIsSaid) {
+TEST(ParameterChange, AChangeThatNoParameterExplainsIsReported) {
   const Machines simulated(4, 0.5);
   const std::vector<ChangeCandidate> candidates{candidate("stiffness", simulated, stiffness),
                                                 candidate("damping", simulated, damping)};
@@ -126,7 +126,7 @@ TEST(ParameterChange, ThatNoneExplainsIsSaid) {
 
 // The means of the measures are where one of the parameters would bring them, but the moves scatter more than
 // with any.
-TEST(ParameterChange, ThatScattersMoreThanAnyExplainsIsToldAsNone) {
+TEST(ParameterChange, MovesThatScatterMoreThanAnyParameterExplainsMatchNone) {
   const Machines simulated(10, 0.5);
   const std::vector<ChangeCandidate> candidates{candidate("stiffness", simulated, stiffness),
                                                 candidate("damping", simulated, damping)};
@@ -143,7 +143,7 @@ TEST(ParameterChange, ThatScattersMoreThanAnyExplainsIsToldAsNone) {
 
 // Whatever the parameters do to the measures, and whichever of them changed, it is among those that are
 // named.
-TEST(ParameterChange, IsAmongThoseThatAreNamed) {
+TEST(ParameterChange, TheTrueParameterIsAmongTheNamedOnes) {
   std::mt19937_64 random(20261130);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   int named = 0;
@@ -177,7 +177,7 @@ TEST(ParameterChange, IsAmongThoseThatAreNamed) {
 
 // A machine that is unlike the simulated ones from its first move on is compared with them, with their
 // spread.
-TEST(ParameterChange, WithoutAChangeIsThePlaceAmongTheMachines) {
+TEST(ParameterChange, WithoutAChangeTheMachineIsPlacedAmongThePopulation) {
   const Machines simulated(6, 0.2);
   const std::vector<ChangeCandidate> candidates{candidate("stiffness", simulated, stiffness),
                                                 candidate("damping", simulated, damping)};
@@ -190,7 +190,7 @@ TEST(ParameterChange, WithoutAChangeIsThePlaceAmongTheMachines) {
   EXPECT_GT(found.parameters[0].high - found.parameters[0].low, 0.05) << "machines differ";
 }
 
-TEST(ParameterChange, WithoutMovesOrEffectsIsUnknown) {
+TEST(ParameterChange, WithoutMovesOrCandidatesIsUnknown) {
   const Machines simulated(8, 0.5);
   const std::vector<ChangeCandidate> candidates{candidate("nothing", simulated, {0.0, 0.0, 0.0})};
   const MoveValues some = changed_machine(Machines(9, 0.5), stiffness, 0.8, 100, 100);

@@ -26,7 +26,7 @@ class ProcessorQuota : public ::testing::Test {
   testing::TemporaryFolder folder_;
 };
 
-TEST_F(ProcessorQuota, OfVersionTwoIsTheLowestOfItsGroups) {
+TEST_F(ProcessorQuota, CgroupVersion2UsesTheLowestOfItsGroups) {
   group("mount/a/b", "cpu.max", "150000 100000\n");
   EXPECT_EQ(quota("0::/a/b\n"), 1.5);
   group("mount/a", "cpu.max", "max 100000\n");
@@ -36,13 +36,13 @@ TEST_F(ProcessorQuota, OfVersionTwoIsTheLowestOfItsGroups) {
   EXPECT_EQ(quota("0::/other\n"), std::nullopt);
 }
 
-TEST_F(ProcessorQuota, OfAContainerStandsInItsRoot) {
+TEST_F(ProcessorQuota, AContainerReadsItsRootGroup) {
   group("mount", "cpu.max", "400000 100000\n");
   for (const char* const list : {"0::/\n", "0::/docker/0123456789ab\n", "0::/../..\n"})
     EXPECT_EQ(quota(list), 4.0) << list;
 }
 
-TEST_F(ProcessorQuota, OfVersionOneIsThatOfTheController) {
+TEST_F(ProcessorQuota, CgroupVersion1UsesTheCpuController) {
   const std::string list = "12:memory:/m\n5:cpu,cpuacct:/docker/x\n3:cpuset:/\n1:name=systemd:/\n";
   old_group("mount/memory/m", "1000", "100000");
   old_group("mount/cpu/docker/x", "300000", "100000");
@@ -55,7 +55,7 @@ TEST_F(ProcessorQuota, OfVersionOneIsThatOfTheController) {
   EXPECT_EQ(quota(list + "0::/\n"), 0.5);
 }
 
-TEST_F(ProcessorQuota, IsNoneWhereNothingSaysSo) {
+TEST_F(ProcessorQuota, IsAbsentIfNoGroupSetsOne) {
   EXPECT_EQ(quota(""), std::nullopt);
   EXPECT_EQ(quota("not of this form\n"), std::nullopt);
   EXPECT_EQ(processor_quota(folder_ / "no file", folder_ / "mount"), std::nullopt);
@@ -65,7 +65,7 @@ TEST_F(ProcessorQuota, IsNoneWhereNothingSaysSo) {
   }
 }
 
-TEST(Processors, AreAtMostThoseOfTheMachine) {
+TEST(Processors, NeverExceedTheProcessorsOfTheComputer) {
   EXPECT_GE(processors(), 1);
   EXPECT_LE(processors(), oneapi::tbb::info::default_concurrency());
 }

@@ -37,7 +37,7 @@ ErrorSums errors_of(double most, double noise) {
   return sums;
 }
 
-TEST(AngleObservations, ErrorsHaveNoMeanAndTheVarianceClaimed) {
+TEST(AngleObservations, ErrorsHaveZeroMeanAndTheClaimedVariance) {
   for (const double most : {0.05, 0.3, 0.9, 1.5, 6.0}) {
     const ErrorSums sums = errors_of(most, 0.0);
     EXPECT_GT(sums.count, 1000.0);
@@ -47,7 +47,7 @@ TEST(AngleObservations, ErrorsHaveNoMeanAndTheVarianceClaimed) {
   }
 }
 
-TEST(AngleObservations, EdgesLieBetweenTheSamplesThatSawThemPassed) {
+TEST(AngleObservations, EdgesLieBetweenTheSamplesAroundThem) {
   std::mt19937_64 random(32);
   std::vector<fit::AngleObservation> observations;
   for (int round = 0; round < 100; ++round) {
@@ -67,7 +67,7 @@ TEST(AngleObservations, EdgesLieBetweenTheSamplesThatSawThemPassed) {
   }
 }
 
-TEST(AngleObservations, FastReadingsAllCount) {
+TEST(AngleObservations, FastReadingsAreAllUsed) {
   std::mt19937_64 random(33);
   Eigen::VectorXd path(50);
   for (Eigen::Index k = 0; k < path.size(); ++k) path[k] = 3.7 * static_cast<double>(k) + 0.1;
@@ -82,7 +82,7 @@ TEST(AngleObservations, FastReadingsAllCount) {
   }
 }
 
-TEST(AngleObservations, WithNoiseAveragesHaveTheVarianceClaimed) {
+TEST(AngleObservations, AveragesOfNoisyReadingsHaveTheClaimedVariance) {
   for (const double noise : {0.1, 0.3, 1.0}) {
     for (const double most : {0.05, 0.3, 1.5}) {
       const ErrorSums sums = errors_of(most, noise);
@@ -93,7 +93,7 @@ TEST(AngleObservations, WithNoiseAveragesHaveTheVarianceClaimed) {
   }
 }
 
-TEST(AngleObservations, ReadingsThatAreNoCountsStandForThemselves) {
+TEST(AngleObservations, UncountedReadingsAreUsedDirectly) {
   std::vector<fit::AngleObservation> observations;
   const Eigen::VectorXd readings = Eigen::VectorXd::LinSpaced(9, 0.3, 4.0);
   fit::observe(fit::TestRecord{}, readings, readings, 0.2, observations);

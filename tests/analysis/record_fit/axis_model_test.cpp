@@ -26,7 +26,7 @@ Eigen::VectorXd sample_by_sample(const fit::TestRecord& record, const fit::Conta
   return path;
 }
 
-TEST(RecordMotion, IsThePlantsWhateverTheHolds) {
+TEST(RecordMotion, EqualsThePlantForAnyHold) {
   std::mt19937_64 random(21);
   for (int round = 0; round < 6; ++round) {
     const fit::ContactParameters contact = random_contact(random);
@@ -44,7 +44,7 @@ TEST(RecordMotion, IsThePlantsWhateverTheHolds) {
 
 // Uneven instants, all of them on a grid ten times as fine. A torque that is late gives the same readings
 // later.
-TEST(RecordMotion, OfUnevenSamplesIsThatAtTheirInstants) {
+TEST(RecordMotion, UnevenSamplesAreEvaluatedAtTheirInstants) {
   std::mt19937_64 random(24);
   const fit::ContactParameters contact = random_contact(random);
   const fit::TestRecord even = simulated_test(contact, one_test().front(), {}, random);
@@ -92,7 +92,7 @@ Eigen::VectorXd with_late_torque(const fit::TestRecord& record, const fit::Conta
 }
 
 // The path samples the response at other instants; here the torque changes at other instants.
-TEST(RecordMotion, ALateOrEarlyTorqueIsASplitInterval) {
+TEST(RecordMotion, ATimeOffsetSplitsTheSampleInterval) {
   std::mt19937_64 random(26);
   for (const double delay : {0.1, 0.5, 1.0, 1.7, -0.4, -1.0, -2.0}) {
     const fit::ContactParameters contact = random_contact(random);
@@ -112,7 +112,7 @@ TEST(RecordMotion, ALateOrEarlyTorqueIsASplitInterval) {
   }
 }
 
-TEST(RecordMotion, BeginsWithTheContactAsItIsSaidToBe) {
+TEST(RecordMotion, StartsFromTheGivenContactState) {
   std::mt19937_64 random(22);
   const fit::ContactParameters contact = random_contact(random);
   fit::TestRecord record = simulated_test(contact, three_tests()[2], {}, random);
@@ -124,7 +124,7 @@ TEST(RecordMotion, BeginsWithTheContactAsItIsSaidToBe) {
   EXPECT_GT((path - sample_by_sample(record, contact)).cwiseAbs().maxCoeff(), 10.0);
 }
 
-TEST(RecordMotion, DerivativesAreThoseOfThePath) {
+TEST(RecordMotion, DerivativesEqualDifferencesOfThePath) {
   std::mt19937_64 random(23);
   const fit::ContactParameters contact = random_contact(random);
   constexpr double creep_torque = 0.1;
@@ -156,7 +156,7 @@ TEST(RecordMotion, DerivativesAreThoseOfThePath) {
 }
 
 // A step of a search knows the paths before it asks for the derivatives.
-TEST(RecordMotion, DerivativesBesideKnownPathsAreTheSameAndCountTheRest) {
+TEST(RecordMotion, DerivativesFromKnownPathsAreEqual) {
   std::mt19937_64 random(25);
   constexpr double creep_torque = 0.1;
   const fit::TestRecord record = simulated_test(random_contact(random), three_tests()[1], {}, random);
@@ -179,7 +179,7 @@ TEST(RecordMotion, DerivativesBesideKnownPathsAreTheSameAndCountTheRest) {
   }
 }
 
-TEST(RecordMotion, CoordinatesAndParametersAreInverse) {
+TEST(RecordMotion, CoordinatesAndParametersConvertBothWays) {
   std::mt19937_64 random(24);
   const fit::ContactParameters contact = random_contact(random);
   for (const double creep_torque : {0.05, 1.0}) {

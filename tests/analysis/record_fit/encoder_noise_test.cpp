@@ -23,7 +23,7 @@ double mean_estimate(double noise, const Path& path, std::mt19937_64& random) {
   return sum / rounds / noise;
 }
 
-TEST(CountingNoise, IsFoundFromNeighbours) {
+TEST(CountingNoise, IsEstimatedFromNeighbouringReadings) {
   std::mt19937_64 random(34);
   const auto path = [&] { return wandering_path(20000, 0.1, random); };
   for (const double noise : {0.04, 0.1, 0.3, 1.0, 3.0})
@@ -31,7 +31,7 @@ TEST(CountingNoise, IsFoundFromNeighbours) {
 }
 
 // Most readings of a fast record have no neighbour within a part of a count.
-TEST(CountingNoise, IsFoundAtAnySpeed) {
+TEST(CountingNoise, IsEstimatedAtAnySpeed) {
   std::mt19937_64 random(38);
   std::uniform_real_distribution<double> phase(0.0, 1.0);
   for (const double noise : {0.05, 0.2, 1.0}) {
@@ -46,7 +46,7 @@ TEST(CountingNoise, IsFoundAtAnySpeed) {
   }
 }
 
-TEST(CountingNoise, IsNoneWhereThereIsNone) {
+TEST(CountingNoise, IsZeroForNoiselessReadings) {
   std::mt19937_64 random(35);
   std::uniform_real_distribution<double> speed(0.05, 3.0);
   for (int round = 0; round < 200; ++round) {
@@ -55,7 +55,7 @@ TEST(CountingNoise, IsNoneWhereThereIsNone) {
   }
 }
 
-TEST(CountingNoise, IsNotWhatTheModelFailsToFollow) {
+TEST(CountingNoise, ExcludesTheErrorOfTheModel) {
   std::mt19937_64 random(36);
   const Eigen::VectorXd path = wandering_path(20000, 0.1, random);
   Eigen::VectorXd off = path;
@@ -64,7 +64,7 @@ TEST(CountingNoise, IsNotWhatTheModelFailsToFollow) {
 }
 
 // A straight line bridges masked readings. Over a step it is far from the path, and so are its edges.
-TEST(CountingNoise, IgnoresTheLinesInPlaceOfMaskedReadings) {
+TEST(CountingNoise, IgnoresMaskedReadings) {
   std::mt19937_64 random(37);
   for (int round = 0; round < 100; ++round) {
     Eigen::VectorXd path = wandering_path(2000, 0.15, random);
@@ -98,7 +98,7 @@ double edge_noise_of(double noise, double most, double model_error, std::mt19937
   return fit::edge_noise(records, model, records.front().unit);
 }
 
-TEST(EdgeNoise, IsFoundBelowATenthOfACount) {
+TEST(EdgeNoise, IsEstimatedBelowATenthOfACount) {
   std::mt19937_64 random(39);
   for (const double noise : {0.025, 0.03, 0.05}) {
     for (const double most : {0.05, 0.1, 0.2}) {
@@ -109,7 +109,7 @@ TEST(EdgeNoise, IsFoundBelowATenthOfACount) {
   }
 }
 
-TEST(EdgeNoise, IsNoneWhereThereIsNone) {
+TEST(EdgeNoise, IsZeroForNoiselessReadings) {
   std::mt19937_64 random(40);
   std::uniform_real_distribution<double> speed(0.02, 0.5);
   std::uniform_real_distribution<double> error(0.0, 1.0);

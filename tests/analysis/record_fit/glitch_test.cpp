@@ -29,7 +29,7 @@ NoisyRecord noisy_record(double noise, bool counted, std::mt19937_64& random) {
   return result;
 }
 
-TEST(Glitch, NoiseIsNone) {
+TEST(Glitch, NoiseIsNotAGlitch) {
   std::mt19937_64 random(1);
   for (int set = 0; set < 40; ++set) {
     const double noise = std::uniform_real_distribution<double>(0.0, 3.0)(random);
@@ -40,7 +40,7 @@ TEST(Glitch, NoiseIsNone) {
   }
 }
 
-TEST(Glitch, AReadingFarBeyondTheNoiseIsOne) {
+TEST(Glitch, AReadingFarBeyondTheNoiseIsAGlitch) {
   std::mt19937_64 random(2);
   for (int set = 0; set < 40; ++set) {
     const double noise = std::uniform_real_distribution<double>(0.0, 1.0)(random);
@@ -56,7 +56,7 @@ TEST(Glitch, AReadingFarBeyondTheNoiseIsOne) {
 }
 
 // A model that does not fit leaves residuals on smooth flanks, which are no faults of the readings.
-TEST(Glitch, AReadingOnTheCourseOfItsNeighboursIsNone) {
+TEST(Glitch, AReadingInLineWithItsNeighboursIsNotAGlitch) {
   std::mt19937_64 random(4);
   NoisyRecord exact = noisy_record(0.0, true, random);
   Eigen::VectorXd wrong = exact.path;
@@ -66,7 +66,7 @@ TEST(Glitch, AReadingOnTheCourseOfItsNeighboursIsNone) {
   EXPECT_TRUE(fit::find_glitch(exact.record, exact.path));
 }
 
-TEST(Glitch, APathThatMissesTheOtherReadingsAccusesNone) {
+TEST(Glitch, APoorFitFindsNoGlitch) {
   std::mt19937_64 random(5);
   NoisyRecord exact = noisy_record(0.0, true, random);
   exact.record.reading[700] += 6.0;
@@ -75,7 +75,7 @@ TEST(Glitch, APathThatMissesTheOtherReadingsAccusesNone) {
   EXPECT_FALSE(fit::find_glitch(exact.record, wrong));
 }
 
-TEST(Glitch, AMaskedReadingIsNone) {
+TEST(Glitch, AMaskedReadingIsNotAGlitch) {
   std::mt19937_64 random(3);
   NoisyRecord noisy = noisy_record(0.2, true, random);
   noisy.record.reading[700] += 50.0;

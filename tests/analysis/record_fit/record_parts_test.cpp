@@ -14,7 +14,7 @@ fit::RecordParts parts_of_programme(const TorqueProgramme& programme, double tor
   return fit::parts_of(simulated_test({}, programme, instrument, random));
 }
 
-TEST(RecordParts, BranchesGoFromTurnToTurn) {
+TEST(RecordParts, BranchesGoFromReversalToReversal) {
   TorqueProgramme programme;
   programme.ramp(0.1, 0.4).ramp(-0.05, 0.4).ramp(0.02, 0.4).hold(0.1).ramp(-0.1, 0.4);
   for (const double torque_step : {0.0, 2.4e-4}) {
@@ -33,13 +33,13 @@ TEST(RecordParts, BranchesGoFromTurnToTurn) {
   }
 }
 
-TEST(RecordParts, SmallSwingsAreNoReversals) {
+TEST(RecordParts, SmallOscillationsAreNotReversals) {
   TorqueProgramme programme;
   for (int i = 1; i <= 50; ++i) programme.ramp(0.002 * i, 0.4).ramp(0.002 * i - 0.001, 0.4);
   EXPECT_EQ(parts_of_programme(programme).reversals(), 0u);
 }
 
-TEST(RecordParts, HoldsBeginWithARingDownAfterAStepOnly) {
+TEST(RecordParts, OnlyAStepStartsARingDown) {
   TorqueProgramme programme;
   programme.step(0.1).hold(0.2).ramp(0.15, 0.1).hold(0.3).step(0.0).hold(0.1);
   const fit::RecordParts parts = parts_of_programme(programme);
@@ -51,7 +51,7 @@ TEST(RecordParts, HoldsBeginWithARingDownAfterAStepOnly) {
   EXPECT_NEAR(static_cast<double>(parts.holds[1].last - parts.holds[1].first), 600.0, 3.0);
 }
 
-TEST(RecordParts, ATorqueThatNeverTurnsHasNoReversal) {
+TEST(RecordParts, AMonotoneTorqueHasNoReversal) {
   TorqueProgramme programme;
   programme.ramp(0.1, 0.2);
   EXPECT_EQ(parts_of_programme(programme).reversals(), 0u);

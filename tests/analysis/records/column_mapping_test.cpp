@@ -22,7 +22,7 @@ std::string fault(const std::string& text) {
   return records::parse_mapping(text).fault;
 }
 
-TEST(ColumnMappings, AreReadFromTheEnd) {
+TEST(ColumnMappings, AreParsedFromTheEnd) {
   EXPECT_EQ(mapping("time=t").column, "t");
   EXPECT_FALSE(mapping("time=t").unit);
   EXPECT_EQ(mapping("torque=current[A]*0.87").quantity, Quantity::torque);
@@ -37,7 +37,7 @@ TEST(ColumnMappings, AreReadFromTheEnd) {
   EXPECT_EQ(mapping("repetition=#4").column, "#4");
 }
 
-TEST(ColumnMappings, UnitsHaveTheirSiValue) {
+TEST(ColumnMappings, UnitsHaveTheirSiFactors) {
   const std::pair<const char*, double> values[] = {{"s", 1},
                                                    {"ms", 1e-3},
                                                    {"us", 1e-6},
@@ -87,7 +87,7 @@ TEST(ColumnMappings, ACountHasManyNamesInAnyCase) {
   }
 }
 
-TEST(ColumnMappings, FaultsAreNamed) {
+TEST(ColumnMappings, MistakesAreNamed) {
   EXPECT_EQ(
       fault("speed=v"),
       "'speed=v': expected QUANTITY=COLUMN, with QUANTITY one of time, torque, drive_torque, angle, force, "

@@ -62,7 +62,7 @@ class ColumnSeries : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(ColumnSeries, NamesUnitsAndFactorsMakeSiUnits) {
+TEST_F(ColumnSeries, MappedColumnsAreConvertedToSiUnits) {
   const RawSeries series = one("zeit;strom;weg\n0,0;0,5;20\n1,0;-1;30\n",
                                columns({"time=zeit[ms]", "torque=strom[A]*0.87", "angle=weg[mm]/10"}));
   EXPECT_EQ(series.time, (std::vector<double>{0.0, 1e-3}));
@@ -73,7 +73,7 @@ TEST_F(ColumnSeries, NamesUnitsAndFactorsMakeSiUnits) {
   EXPECT_FALSE(series.linear);
 }
 
-TEST_F(ColumnSeries, TheUnitIsThatOfTheMappingElseOfTheHeaderElseSi) {
+TEST_F(ColumnSeries, TheUnitComesFromTheMappingThenTheHeaderThenSi) {
   const std::string text = "time [ms],torque (mN m),theta\n1,2,3\n";
   const RawSeries by_header = one(text, {});
   EXPECT_EQ(by_header.time[0], 1e-3);
@@ -97,7 +97,7 @@ TEST_F(ColumnSeries, CountsStayWholeNumbersOfKnownResolution) {
 }
 
 // Without a unit, whole numbers are counts if their size is given, and nothing otherwise.
-TEST_F(ColumnSeries, AnAngleWithoutUnitIsNeverTakenForCountsOrRadSilently) {
+TEST_F(ColumnSeries, AnAngleWithoutAUnitIsNeverGuessed) {
   const std::string counts = "t,M,pos\n0,1,5\n1,1,7\n2,1,-3\n";
   SeriesChoice sized = columns({"torque=M[N m]", "angle=pos"});
   sized.count_size = 1e-3;
@@ -158,7 +158,7 @@ TEST_F(ColumnSeries, RepetitionsBeginWhereTheirColumnChanges) {
   EXPECT_EQ(parts[1].angle, (std::vector<double>{2, 3, 4}));
 }
 
-TEST_F(ColumnSeries, WhatDoesNotFitIsNamed) {
+TEST_F(ColumnSeries, ColumnsThatDoNotFitAreNamed) {
   const std::string text = "t,i [A],x [mm],y [furlong],torque,theta\n0,1,2,3,4,5\n";
   EXPECT_EQ(refusal(text, columns({"torque=current"})),
             "has no column 'current'; its columns are t, i, x, y, torque, theta");
@@ -170,14 +170,15 @@ TEST_F(ColumnSeries, WhatDoesNotFitIsNamed) {
   }
   EXPECT_EQ(refusal(text, columns({"torque=i/amplifier"})),
             "has no column 'i/amplifier'; its columns are t, i, x, y, torque, theta");
-  EXPECT_EQ(
-      refusal(text, columns({"torque=i"})),
-      "column 'i' is in A, which is no torque without a factor; expected --column 'torque=i[A]*FACTOR'");
-  EXPECT_EQ(
-      refusal(text, columns({"angle=x"})),
-      "column 'x' is in mm, which is no angle without a factor; expected --column 'angle=x[mm]*FACTOR'");
+  EXPECT_EQ(refusal(text, columns({"torque=i"})),
+            "column 'i' is in A, which cannot be converted to torque without a factor; expected --column "
+            "'torque=i[A]*FACTOR'");
+  EXPECT_EQ(refusal(text, columns({"angle=x"})),
+            "column 'x' is in mm, which cannot be converted to angle without a factor; expected --column "
+            "'angle=x[mm]*FACTOR'");
   EXPECT_EQ(refusal(text, columns({"time=x[m]"})),
-            "column 'x' is in m, which is no time without a factor; expected --column 'time=x[m]*FACTOR'");
+            "column 'x' is in m, which cannot be converted to time without a factor; expected --column "
+            "'time=x[m]*FACTOR'");
   EXPECT_NE(
       refusal(text, columns({"angle=y"})).find("'furlong', which is not a known unit; expected one of s, ms"),
       std::string::npos);
@@ -190,7 +191,7 @@ TEST_F(ColumnSeries, WhatDoesNotFitIsNamed) {
 }
 
 // As drives and oscilloscopes write them.
-TEST_F(ColumnSeries, AnUnknownUnitIsNamedInEveryPlace) {
+TEST_F(ColumnSeries, AnUnknownUnitIsNamedWhereverItStands) {
   const std::string known = "time (ms);pos act (inc);I act (A)\n0,0;-7;1,5\n1,0;8;2,5\n";
   SeriesChoice choice = columns({"time=time", "torque=I act[A]*0.12", "angle=pos act"});
   choice.count_size = 1e-3;
@@ -209,7 +210,7 @@ TEST_F(ColumnSeries, AnUnknownUnitIsNamedInEveryPlace) {
   }
 }
 
-TEST_F(ColumnSeries, ChoicesMayNotContradictEachOther) {
+TEST_F(ColumnSeries, OptionsThatContradictEachOtherAreRefused) {
   const auto contradiction = [](const std::vector<std::string>& texts, SeriesChoice choice = {}) {
     for (const std::string& text : texts) choice.columns.push_back(records::parse_mapping(text).mapping);
     return records::contradiction_in(choice);
@@ -265,14 +266,14 @@ TEST_F(Datasets, VectorsOfAnyTypeAndShapeAreRead) {
   EXPECT_EQ(records::place_of(series, 3), (folder_ / "log.mat").string() + ", sample 3");
 }
 
-TEST_F(Datasets, VectorsOfAMatrixHaveNumbers) {
+TEST_F(Datasets, RowsOfAMatrixAreNumbered) {
   EXPECT_EQ(read({"time=/t", "torque=/all#2", "angle=/all#3[rad]"}).torque,
             (std::vector<double>{5, 6, 7, 8, 9}));
   EXPECT_EQ(read({"time=/t", "torque=/rows#2", "angle=/all#3[rad]"}).torque,
             (std::vector<double>{1, 4, 7, 10, 13}));
 }
 
-TEST_F(Datasets, WhatDoesNotFitIsNamed) {
+TEST_F(Datasets, DatasetsThatDoNotFitAreNamed) {
   for (const std::string column :
        {"/none", "/group", "/word", "/cube", "/all", "/all#4", "/all#0", "/all#x"}) {
     EXPECT_EQ(
@@ -293,7 +294,7 @@ TEST_F(Datasets, WhatDoesNotFitIsNamed) {
 }
 
 // h5py compresses with lzf where one asks for speed, and the HDF5 library does not have this filter.
-TEST_F(Datasets, BehindAnUnknownFilterAreNamedWithTheFilterAndTheRemedy) {
+TEST_F(Datasets, AnUnknownFilterIsNamedWithItsRemedy) {
   const std::string script =
       folder_
           .write("filter.py",
@@ -318,7 +319,7 @@ TEST_F(Datasets, BehindAnUnknownFilterAreNamedWithTheFilterAndTheRemedy) {
 }
 
 // A trace says where the axis slides. A logger may call something else its mode.
-TEST_F(ColumnSeries, OnlyTheModesOfATraceAreFlagsOfSliding) {
+TEST_F(ColumnSeries, OnlyTheModeColumnOfATraceFlagsSliding) {
   const RawSeries trace = one("t,torque,theta,mode\n0,1,0,stick\n1,1,1,slide\n2,1,3,slide\n", {});
   EXPECT_EQ(trace.sliding, (std::vector<bool>{false, true, true}));
   EXPECT_TRUE(one("t,torque,theta,mode\n0,1,0,auto\n1,1,1,auto\n", {}).sliding.empty());
@@ -338,7 +339,7 @@ std::string table_of(const std::vector<double>& counts, bool newest_first) {
 }
 
 // Random walks of an encoder, read modulo a revolution or a word of the counter.
-TEST_F(ColumnSeries, AWrappingCounterIsContinuedAndSaid) {
+TEST_F(ColumnSeries, AWrappingCounterIsUnwrappedWithANote) {
   std::mt19937_64 random(1);
   for (int i = 0; i < 30; ++i) {
     SeriesChoice choice;
@@ -366,7 +367,7 @@ TEST_F(ColumnSeries, AWrappingCounterIsContinuedAndSaid) {
   }
 }
 
-TEST_F(ColumnSeries, RowsWithTheNewestFirstAreReversedAndSaid) {
+TEST_F(ColumnSeries, RowsInReverseOrderAreReversedWithANote) {
   const std::vector<double> counts{3, 5, 6, 6, 4, 1};
   SeriesChoice choice;
   choice.count_size = 1e-3;

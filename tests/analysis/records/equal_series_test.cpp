@@ -38,7 +38,7 @@ RawSeries first_samples(RawSeries series, std::size_t samples) {
   return series;
 }
 
-TEST(EqualSeries, AreEqualInOtherUnitsAndWithMoreSamples) {
+TEST(EqualSeries, OtherUnitsAndMoreSamplesAreStillEqual) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     const RawSeries series = random_series(seed, 300);
     EXPECT_TRUE(are_equal(series, series));
@@ -47,7 +47,7 @@ TEST(EqualSeries, AreEqualInOtherUnitsAndWithMoreSamples) {
   }
 }
 
-TEST(EqualSeries, DifferByOneReading) {
+TEST(EqualSeries, OneDifferentReadingMakesThemDiffer) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     const RawSeries series = random_series(seed, 300);
     RawSeries other = series;

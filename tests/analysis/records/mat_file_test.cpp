@@ -49,7 +49,7 @@ class MatFiles : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(MatFiles, AreReadAsThoseOfVersion73) {
+TEST_F(MatFiles, Version5ReadsLikeVersion73) {
   const std::vector<double> numbers{0, 1, 2, 3, 4};
   for (const char* name : {"plain.mat", "packed.mat"}) {
     const DatasetFile file(folder_ / name);
@@ -67,7 +67,7 @@ TEST_F(MatFiles, AreReadAsThoseOfVersion73) {
 
 // Variables that libmatio cannot read, and missing ends, are refused. It may not notice other changed
 // numbers.
-TEST_F(MatFiles, DamageIsSaidWithItsPlace) {
+TEST_F(MatFiles, DamageIsReportedWithItsPlace) {
   const std::string packed = folder_.read("packed.mat");
   const std::string plain = folder_.read("plain.mat");
   std::mt19937_64 random(1);

@@ -41,7 +41,7 @@ TEST_F(TextTables, NumbersReadBackToTheSameDouble) {
   EXPECT_EQ(read.numbers("y"), (std::vector<double>{1, 2, 3, 4}));
 }
 
-TEST_F(TextTables, TakesWhatOtherProgramsWrite) {
+TEST_F(TextTables, ReadsByteOrderMarksQuotesCommentsAndBlankLines) {
   // Byte order mark, carriage returns, quotation marks, comments, empty lines, units, no last line feed.
   const tables::TextTable read =
       table("\xEF\xBB\xBF# a machine\r\n\"t [s]\", torque [N m] \r\n\r\n\"0.5\" , 1\r\n# more\r\n1.5,2");
@@ -53,12 +53,12 @@ TEST_F(TextTables, TakesWhatOtherProgramsWrite) {
   EXPECT_EQ(read.line(1), 6u);
 }
 
-TEST_F(TextTables, WordsAreCompared) {
+TEST_F(TextTables, AColumnOfWordsIsComparedWithAWord) {
   const tables::TextTable read = table("x,mode\n1,stick\n2,slide\n");
   EXPECT_EQ(read.equals("mode", "slide"), (std::vector<bool>{false, true}));
 }
 
-TEST_F(TextTables, CellsThatAreNoNumbersAreNamedWithTheirLines) {
+TEST_F(TextTables, CellsThatAreNotNumbersAreNamedWithTheirLines) {
   EXPECT_EQ(refusal("x,y\n1,0\nabc,0\n", ExitCode::bad_data), ":3: x: 'abc' is not a finite number");
   EXPECT_EQ(refusal("y,x\n1,\n", ExitCode::bad_data), ":2: x: an empty cell is not a finite number");
   for (const std::string cell : {"nan", "inf", "-inf", "1e999", "1.5.2", "0x10", "1 2", "--1"}) {
@@ -102,13 +102,13 @@ TEST_F(TextTables, AGivenSeparatorIsTaken) {
   EXPECT_THROW(tables::TextTable(folder_ / "data.csv", tables::Separator::tab), Failure);
 }
 
-TEST_F(TextTables, OneKindOfDecimalMark) {
+TEST_F(TextTables, MixedDecimalMarksAreRefused) {
   EXPECT_EQ(refusal("x;y\n1,5;2\n2.5;3\n", ExitCode::bad_data),
             ":3: x: a decimal point; line 2 has a decimal comma: expected one kind");
   EXPECT_EQ(refusal("x;y\n1.234,5;2\n", ExitCode::bad_data), ":2: x: '1.234,5' is not a finite number");
 }
 
-TEST_F(TextTables, ALineOfUnitsBelowTheHeader) {
+TEST_F(TextTables, ALineOfUnitsBelowTheHeaderIsRead) {
   for (const std::string text : {"x;y;z\ns;mN m;-\n1;2;3\n", "% a machine\nx;y;z\n[s];[mN·m];\n1;2;3\n",
                                  "x;y [mN m];z\n(s);(kN);\n1;2;3\n"}) {
     const tables::TextTable read = table(text);
@@ -125,7 +125,7 @@ TEST_F(TextTables, ALineOfUnitsBelowTheHeader) {
   EXPECT_EQ(refusal("x;y\nabc;def\n1;2\n", ExitCode::bad_data), ":2: x: 'abc' is not a finite number");
 }
 
-TEST_F(TextTables, UnitsInRoundBracketsIfTheyAreUnits) {
+TEST_F(TextTables, UnitsInRoundBracketsAreRead) {
   const tables::TextTable read = table("Time (ms),torque (filtered),phi (°)\n1,2,3\n");
   EXPECT_EQ(read.unit("Time"), "ms");
   EXPECT_EQ(read.unit("phi"), "°");
@@ -162,28 +162,28 @@ TEST_F(TextTables, TitlesAboveTheHeaderAreSkipped) {
 }
 
 // A row is never taken for a title or a header.
-TEST_F(TextTables, RowsOfAnotherLengthAreErrorsBesideTitlesToo) {
+TEST_F(TextTables, RowsOfAnotherLengthAreErrorsEvenBelowTitles) {
   for (const char* text : {"x,y\n1,2\n3\n", "x,y\n1\n3,4\n5,6\n", "x,y\n1,2,3\n3,4,5\n",
                            "Scope\nx,y\n1,2\n3\n", "Scope\nx,y\n1\n3,4\n5,6\n"})
     EXPECT_THROW(table(text), Failure) << text;
 }
 
-TEST_F(TextTables, RowsMayEndWithASeparatorThatTheHeaderHasNot) {
+TEST_F(TextTables, RowsMayEndWithASeparatorThatTheHeaderLacks) {
   EXPECT_EQ(table("x;y\n1,5;2;\n3;4;\n").numbers("y"), (std::vector<double>{2, 4}));
   EXPECT_EQ(table("x,y,\n1,2,\n3,4,\n").numbers("y"), (std::vector<double>{2, 4}));
 }
 
-TEST_F(TextTables, TheUnitOfCountsInALineOfUnitsIsOne) {
+TEST_F(TextTables, TheUnitOfCountsMayBeWrittenAsOne) {
   const tables::TextTable read = table("x,count\nmm,1\n1,2\n");
   EXPECT_EQ(read.rows(), 1u);
   EXPECT_EQ(read.unit("count"), "1");
 }
 
-TEST_F(TextTables, LinesMayEndWithACarriageReturnAlone) {
+TEST_F(TextTables, LinesMayEndWithOnlyACarriageReturn) {
   EXPECT_EQ(table("x,y\r1,2\r3,4\r").numbers("y"), (std::vector<double>{2, 4}));
 }
 
-TEST_F(TextTables, TimeStampsAreNamed) {
+TEST_F(TextTables, TimeStampsAreRefusedWithAHint) {
   try {
     table("t,x\n2026-11-26T12:00:00.5,1\n2026-11-26T12:00:00.6,1\n").numbers("t");
     ADD_FAILURE();
@@ -193,7 +193,7 @@ TEST_F(TextTables, TimeStampsAreNamed) {
   }
 }
 
-TEST_F(TextTables, WhatIsNoTableIsRefused) {
+TEST_F(TextTables, FilesThatAreNotTablesAreRefused) {
   EXPECT_EQ(refusal("x,y\n1,2\n3\n", ExitCode::bad_data),
             ":3: a row of 1 cells; expected 2, as the header has");
   EXPECT_EQ(refusal("zerocount\n", ExitCode::bad_input),

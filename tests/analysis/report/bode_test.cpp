@@ -85,7 +85,7 @@ TEST(BodeFigure, MarksTheMargins) {
   }
 }
 
-TEST(BodeFigure, IsOfThePointAskedFor) {
+TEST(BodeFigure, ShowsTheSelectedPoint) {
   const testing::TemporaryFolder folder;
   testing::run_study_file(folder / "a.h5",
                           std::string(fixed_study) + "sweep: {grid: {controller.ki: [1.0e-5, 2.0e-5]}}\n");
@@ -101,7 +101,7 @@ TEST(BodeFigure, IsOfThePointAskedFor) {
   }
 }
 
-TEST(BodeFigure, ThereIsNoneOfALoopWithoutGain) {
+TEST(BodeFigure, IsAbsentForALoopWithoutGain) {
   EXPECT_TRUE(has_bode(bode_page("")));
   EXPECT_TRUE(has_bode(bode_page("controller: {ki: 0, kp: 1.0e-4}\n")));
   EXPECT_FALSE(has_bode(bode_page("controller: {ki: 0}\n")));
@@ -116,7 +116,7 @@ TEST(Escaping, TextHoldsNoMarkup) {
   EXPECT_EQ(document::markup("µrad\n\tnext"), "µrad\n\tnext");
 }
 
-TEST(Escaping, WhatIsNotTextIsReplaced) {
+TEST(Escaping, InvalidBytesAreReplaced) {
   EXPECT_EQ(document::markup("a\xff"), "a\xEF\xBF\xBD");
   EXPECT_EQ(document::markup(std::string("a\0b", 3)),
             "a\xEF\xBF\xBD"

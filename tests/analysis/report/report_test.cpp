@@ -52,7 +52,7 @@ class Report : public ::testing::Test {
   reading::AllTrialsFile file{*folder / "rich.h5"};
 };
 
-TEST_F(Report, HasAFigureForAllThatTheStudyHas) {
+TEST_F(Report, HasAFigureForEachPartOfTheStudy) {
   const std::vector<std::string> names = figure_names(report().page);
   for (const char* name : {"success", "stability-map", "settling-time", "jerk-raster", "rotor-friction.k1",
                            "bode", "response"}) {
@@ -85,7 +85,7 @@ std::vector<std::string> labels_in_figures(const reading::AllTrialsFile& file) {
   return labels;
 }
 
-TEST_F(Report, TheFigureOfSuccessHasTheNumbersOfTheSummary) {
+TEST_F(Report, SuccessFigureHasTheNumbersOfTheSummary) {
   const summary::StudySummary summary = summary::summarise(file);
   const FigureData data = find_figure(report().page, "success").data.front();
   const std::vector<std::string> labels = labels_in_figures(file);
@@ -101,7 +101,7 @@ TEST_F(Report, TheFigureOfSuccessHasTheNumbersOfTheSummary) {
 }
 
 /// The distribution functions are made again from the settling times, the band from its formula.
-TEST_F(Report, TheSettlingCurvesAreDistributionFunctionsInTheirBands) {
+TEST_F(Report, SettlingCurvesAreDistributionFunctionsWithinTheirBounds) {
   const FigureData data = find_figure(report().page, "settling-time").data.front();
   const double half_width = std::sqrt(std::log(2.0 / 0.05) / (2.0 * 40.0));
   std::map<std::string, std::vector<double>> times;
@@ -125,7 +125,7 @@ TEST_F(Report, TheSettlingCurvesAreDistributionFunctionsInTheirBands) {
 }
 
 /// The curves of the bands are made again from /outcome/band_settling_time.
-TEST_F(Report, TheCurvesOfBandsAreOfTheChosenPoint) {
+TEST_F(Report, BandCurvesShowTheChosenPoint) {
   const FigureData data = find_figure(report().page, "settled").data.front();
   const std::int64_t point = reported_study(file).chosen.point;
   const std::vector<trial::MoveOutcome> moves = file.outcomes({point * 40, 40});
@@ -144,7 +144,7 @@ TEST_F(Report, TheCurvesOfBandsAreOfTheChosenPoint) {
 }
 
 /// Half of the trials do no better than the median one, and none does worse than the worst.
-TEST_F(Report, TheSampleTrialsAreWhatTheySay) {
+TEST_F(Report, SampleTrialsAreTheMedianAndTheWorst) {
   const ReportedStudy reported = reported_study(file);
   const goal::Question& question = question_of(reported);
   const std::vector<trial::MoveOutcome> outcomes = file.outcomes(file.rows());
@@ -194,7 +194,7 @@ TEST_F(Report, TheResponseHasTheErrorsOfItsTrials) {
 }
 
 /// Each mass has its own figure, with the boxes of its own goals, and its own overshoot.
-TEST(TwoMasses, AreShownEachByTheGoalsOfIt) {
+TEST(TwoMasses, EachMassIsShownWithItsOwnGoals) {
   const TemporaryFolder folder;
   testing::run_study_file(
       folder / "joint.h5",
@@ -248,7 +248,7 @@ TEST_F(Report, TracesAreTheRecordedTrials) {
   EXPECT_TRUE(says(report.page.sections.front().html, "a &lt;difference&gt;"));
 }
 
-TEST_F(Report, ShowsTheTrialsOfThePointAskedFor) {
+TEST_F(Report, ShowsTheTrialsOfTheSelectedPoint) {
   ReportOptions options;
   options.point = 3;
   std::vector<std::int64_t> points;
@@ -293,14 +293,14 @@ TEST_F(Report, ShowsAllMeasuresAgainstTheirMargins) {
   }
 }
 
-TEST_F(Report, AFigureThatIsNotThereIsRefusedWithTheNamesOfThoseThatAre) {
+TEST_F(Report, AnUnknownFigureIsRefusedWithTheNamesOfTheOthers) {
   const ReportPage page = report().page;
   testing::expect_failure(ExitCode::bad_input,
                           "unknown figure 'sucess'; this study has: success, stability-map",
                           [&] { find_figure(page, "sucess"); });
 }
 
-TEST_F(Report, ThePageNeedsNothingBesideIt) {
+TEST_F(Report, ThePageIsSelfContained) {
   const std::string page = html_page(report().page);
   EXPECT_EQ(times_in(page, "<script"), times_in(page, "</script>"));
   EXPECT_EQ(times_in(page, "<script src"), 0U);
@@ -358,7 +358,7 @@ TEST(ReportPage, AFlawlessStudyIsNotCalledPerfect) {
 }
 
 /// The best of four flawless points has been chosen: 1 − (0.05/4)^(1/30) = 13.59 %.
-TEST(ReportPage, TheBestPointAllowsForItsChoice) {
+TEST(ReportPage, BoundsOfTheBestPointAllowForItsChoice) {
   const TemporaryFolder folder;
   testing::run_study_file(
       folder / "a.h5",
@@ -387,7 +387,7 @@ ReportPage page_of(const std::string& manifest) {
   return study_report(reading::AllTrialsFile(folder / "a.h5")).page;
 }
 
-TEST(DependentTrials, MakeNoClaimOfAllAxes) {
+TEST(SaltelliTrials, MakeNoClaimAboutAllAxes) {
   for (const char* more : {"sweep: {grid: {controller.ki: [2.0e-5, 6.0e-5, 9.45e-5]}}\n",
                            "controller: {ki: 2.0e-5}\n", "controller: {ki: 9.45e-5}\n"}) {
     const ReportPage page = page_of(saltelli_manifest(more));
@@ -399,7 +399,7 @@ TEST(DependentTrials, MakeNoClaimOfAllAxes) {
   }
 }
 
-TEST(DependentTrials, HaveEveryBoundCalledTooNarrowButThoseOfTheIndices) {
+TEST(SaltelliTrials, EveryBoundButThoseOfTheIndicesIsCalledTooNarrow) {
   const ReportPage page =
       page_of(saltelli_manifest("sweep: {grid: {controller.ki: [2.0e-5, 6.0e-5, 9.45e-5]}}\n"));
   const std::string& table = page.sections[1].html;
@@ -425,7 +425,7 @@ TEST(DependentTrials, HaveEveryBoundCalledTooNarrowButThoseOfTheIndices) {
   EXPECT_GE(with_bounds, 3U);
 }
 
-TEST_F(Report, IndependentTrialsHaveNoSuchWords) {
+TEST_F(Report, BoundsOfIndependentTrialsAreNotCalledTooNarrow) {
   const std::string page = html_page(report().page);
   EXPECT_EQ(times_in(page, "too narrow"), 0U);
   EXPECT_GT(times_in(page, "of all axes that the manifest describes"), 0U);
@@ -439,7 +439,7 @@ struct PaperStudy {
 
 class PaperFigures : public ::testing::TestWithParam<PaperStudy> {};
 
-TEST_P(PaperFigures, StandWhereTheStudyShowsThem) {
+TEST_P(PaperFigures, AppearInStudiesThatReproduceThem) {
   const TemporaryFolder folder;
   testing::run_study_file(folder / "a.h5",
                           std::string("zerocount: 1\nname: paper\nseed: 1\ntrials: 3\n") + GetParam().more);
@@ -514,7 +514,7 @@ ReportPage page_with(int figures, int rows) {
   return page;
 }
 
-TEST(ReportPage, LeavesOutFiguresBeyondSomeDozenAndSaysWhereTheyAre) {
+TEST(ReportPage, LimitsTheFiguresAndNamesTheCommandForTheOthers) {
   const ReportPage page = page_with(500, 3);
   const std::string html = html_page(page);
   EXPECT_EQ(times_in(html, "<figure "), 48U);
@@ -544,7 +544,7 @@ history::History history_of_series(int series) {
   return history;
 }
 
-TEST(HistoryFigures, AreThoseOfSomeDozenSeriesHoweverManyThereAre) {
+TEST(HistoryFigures, AreLimitedTo48Series) {
   const std::vector<Figure> few = document::figures(history_answer().of(history_of_series(40)));
   EXPECT_EQ(few.size(), 40U);
   EXPECT_EQ(times_in(few.front().caption, "Figures stand here"), 0U);

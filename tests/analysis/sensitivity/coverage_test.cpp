@@ -93,15 +93,15 @@ double both_exceed_half(std::span<const double> u) {
   return u[0] > 0.5 && u[1] > 0.5 ? 1.0 : 0.0;
 }
 
-TEST(SensitivityCoverage, BootstrapBoundsOfSobolIndices) {
+TEST(SensitivityCoverage, BootstrapBoundsCoverSobolIndices) {
   expect_saltelli_coverage(g_function, testing::g_first_orders(3), testing::g_totals(3), 100);
 }
 
-TEST(SensitivityCoverage, BootstrapBoundsOfSobolIndicesOfAYesOrNo) {
+TEST(SensitivityCoverage, BootstrapBoundsCoverSobolIndicesOfABinaryOutput) {
   expect_saltelli_coverage(both_exceed_half, {1.0 / 3.0, 1.0 / 3.0}, {2.0 / 3.0, 2.0 / 3.0}, 100);
 }
 
-TEST(SensitivityCoverage, DISABLED_BootstrapBoundsOfSobolIndicesInManySamples) {
+TEST(SensitivityCoverage, DISABLED_BootstrapBoundsCoverSobolIndicesInManySamples) {
   expect_saltelli_coverage(g_function, testing::g_first_orders(3), testing::g_totals(3), 400);
   expect_saltelli_coverage(both_exceed_half, {1.0 / 3.0, 1.0 / 3.0}, {2.0 / 3.0, 2.0 / 3.0}, 400);
 }
@@ -170,7 +170,7 @@ void expect_coverage_of_skewed(const KnownOutput& output, std::size_t rows, std:
   }
 }
 
-TEST(SensitivityCoverage, BoundsOfSobolIndicesOfSkewedOutputs) {
+TEST(SensitivityCoverage, BoundsCoverSobolIndicesOfSkewedOutputs) {
   for (const std::vector<double>& cvs :
        std::vector<std::vector<double>>{{0.7, 0.7}, {1.0, 0.5, 0.3}, {1.5, 0.7}})
     expect_coverage_of_skewed(lognormal_product(cvs), 300, 200, 0);
@@ -178,7 +178,7 @@ TEST(SensitivityCoverage, BoundsOfSobolIndicesOfSkewedOutputs) {
 }
 
 // Other samples on every day: days since 1970.
-TEST(SensitivityCoverage, DISABLED_BoundsOfSobolIndicesOfSkewedOutputsOfToday) {
+TEST(SensitivityCoverage, DISABLED_BoundsCoverSobolIndicesOfSkewedOutputsWithANewSeed) {
   const auto today = std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now());
   const auto first = static_cast<std::uint64_t>(today.time_since_epoch().count()) * 100'000;
   ::testing::Test::RecordProperty("first_sample", std::to_string(first));
@@ -233,11 +233,11 @@ void expect_bounds_of_a_rare_yes(std::uint64_t samples) {
   }
 }
 
-TEST(SensitivityCoverage, BoundsOfSobolIndicesOfARareYesOrNo) {
+TEST(SensitivityCoverage, BoundsCoverSobolIndicesOfARareBinaryOutput) {
   expect_bounds_of_a_rare_yes(100);
 }
 
-TEST(SensitivityCoverage, DISABLED_BoundsOfSobolIndicesOfARareYesOrNoInManySamples) {
+TEST(SensitivityCoverage, DISABLED_BoundsCoverSobolIndicesOfARareBinaryOutputInManySamples) {
   expect_bounds_of_a_rare_yes(200);
 }
 
@@ -280,11 +280,11 @@ void expect_bounds_of_a_rare_jump(std::uint64_t samples) {
   }
 }
 
-TEST(SensitivityCoverage, BoundsOfSobolIndicesOfANumberThatJumpsRarely) {
+TEST(SensitivityCoverage, BoundsCoverSobolIndicesOfAnOutputThatRarelyJumps) {
   expect_bounds_of_a_rare_jump(100);
 }
 
-TEST(SensitivityCoverage, DISABLED_BoundsOfSobolIndicesOfANumberThatJumpsRarelyInManySamples) {
+TEST(SensitivityCoverage, DISABLED_BoundsCoverSobolIndicesOfAnOutputThatRarelyJumpsInManySamples) {
   expect_bounds_of_a_rare_jump(200);
 }
 
@@ -309,7 +309,7 @@ const std::array<NamedFunction, 5> column_functions{{
     {"uneven noise", [](double u, double noise) { return std::floor(10.0 * u) + 20.0 * u * u * noise; }},
 }};
 
-TEST(SensitivityCoverage, BoundsOfRankCorrelations) {
+TEST(SensitivityCoverage, BoundsCoverRankCorrelations) {
   for (const auto& [name, function] : column_functions) {
     const auto many = uniform_columns(2, 100000, 1000000);
     const double truth = rank_correlation(many[0], outputs_of(function, many), 0.95).value;
@@ -325,7 +325,7 @@ TEST(SensitivityCoverage, BoundsOfRankCorrelations) {
   }
 }
 
-TEST(SensitivityCoverage, BoundsOfPartialRankCorrelations) {
+TEST(SensitivityCoverage, BoundsCoverPartialRankCorrelations) {
   // Of three factors the first two act on a number or a yes or no; the third does not.
   const std::array<std::pair<const char*, std::function<double(double, double, double)>>, 3> functions{{
       {"sum", [](double a, double b, double noise) { return 2 * a + b + noise; }},
@@ -358,7 +358,7 @@ TEST(SensitivityCoverage, BoundsOfPartialRankCorrelations) {
   }
 }
 
-TEST(SensitivityCoverage, BoundsOfLogOdds) {
+TEST(SensitivityCoverage, BoundsCoverLogOdds) {
   std::array<Coverage, 3> coverage;
   const std::array<double, 3> truth{1.0, -0.5, 0.0};
   for (std::uint64_t sample = 0; sample < 400; ++sample) {

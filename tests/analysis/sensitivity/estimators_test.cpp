@@ -15,7 +15,7 @@ SaltelliSample g_sample(std::size_t rows) {
 }
 
 // No change in N rows says that a change has at most the probability 1 − 0.025^(1/N), 3.7/N.
-TEST(SaltelliIndices, OfAFactorThatChangesNothingAreZeroWithAnUpperBound) {
+TEST(SaltelliIndices, AFactorWithoutEffectHasZeroIndicesWithAnUpperBound) {
   SaltelliSample sample = g_sample(100);
   sample.c[1] = sample.a;
   const SobolIndices none = saltelli_indices(sample, 0.95, any_stream)[1];
@@ -39,7 +39,7 @@ SaltelliSample yes_no_sample() {
   return sample;
 }
 
-TEST(SaltelliIndices, OfAYesOrNoNeverShrinkToAPoint) {
+TEST(SaltelliIndices, BoundsForABinaryOutputKeepAWidth) {
   const auto [none, all, little] = [] {
     const auto found = saltelli_indices(yes_no_sample(), 0.95, any_stream);
     return std::array{found[0], found[1], found[2]};
@@ -59,7 +59,7 @@ TEST(SaltelliIndices, OfAYesOrNoNeverShrinkToAPoint) {
   EXPECT_NEAR(little.total.value, 0.01 / (2.0 * 0.205 * 0.795), 1e-12);
 }
 
-TEST(SaltelliIndices, OfPairsThatAreAllTheSameThereAreNone) {
+TEST(SaltelliIndices, AConstantOutputHasNoIndices) {
   SaltelliSample sample = yes_no_sample();
   sample.a.assign(100, 0.0);
   sample.c[0] = sample.a;
@@ -69,7 +69,7 @@ TEST(SaltelliIndices, OfPairsThatAreAllTheSameThereAreNone) {
 }
 
 // D of pairs written out, over all tables of 12 pairs.
-TEST(YesNoDifference, IsHalfTheMeanSquareDifferenceOverTheVariance) {
+TEST(BinaryTotalIndex, IsHalfTheMeanSquareDifferenceOverTheVariance) {
   for (std::int64_t yes = 0; yes <= 12; ++yes) {
     for (std::int64_t different = 0; yes + different <= 12; ++different) {
       const BoundedNumber found = yes_no_difference({yes, different, 12 - yes - different}, 0.95);
@@ -85,7 +85,7 @@ TEST(YesNoDifference, IsHalfTheMeanSquareDifferenceOverTheVariance) {
   }
 }
 
-TEST(HeldShare, MovesTheBoundsWithTheEstimate) {
+TEST(ClampedIndex, ClampsTheBoundsWithTheEstimate) {
   const auto expect = [](const BoundedNumber& number, double value, double low, double high) {
     const BoundedNumber held = clamped_index(number);
     EXPECT_NEAR(held.value, value, 1e-12);
@@ -99,7 +99,7 @@ TEST(HeldShare, MovesTheBoundsWithTheEstimate) {
   EXPECT_TRUE(std::isnan(clamped_index({std::nan(""), 0.0, 1.0}).high));
 }
 
-TEST(SaltelliIndices, AOneFactorFunctionIsAllItsOwn) {
+TEST(SaltelliIndices, AFunctionOfOneFactorHasTheIndexOne) {
   SaltelliSample sample = g_sample(500);
   sample.c = {sample.b};
   const SobolIndices all = saltelli_indices(sample, 0.95, any_stream)[0];
@@ -125,7 +125,7 @@ TEST(SaltelliIndices, DoNotDependOnScaleAndOriginOfTheOutput) {
   }
 }
 
-TEST(SaltelliIndices, BoundsAreAFunctionOfTheSeedAndEncloseTheValue) {
+TEST(SaltelliIndices, BoundsDependOnlyOnTheSeedAndEncloseTheValue) {
   const SaltelliSample sample = g_sample(6000);  // more rows than groups
   const auto once = saltelli_indices(sample, 0.95, any_stream);
   const auto again = saltelli_indices(sample, 0.95, any_stream);
@@ -153,7 +153,7 @@ TEST(SaltelliIndices, GroupingDoesNotChangeTheWidthOfTheBounds) {
   EXPECT_NEAR(width(4096) / width(16384), 1.0, 0.15);
 }
 
-TEST(SaltelliIndices, WithoutVarianceThereAreNone) {
+TEST(SaltelliIndices, AreUndefinedWithoutVariance) {
   const SaltelliSample flat{{1, 1, 1}, {1, 1, 1}, {{1, 2, 1}}};
   EXPECT_TRUE(std::isnan(saltelli_indices(flat, 0.95, any_stream)[0].total.value));
 }
@@ -169,7 +169,7 @@ std::vector<double> counting(std::size_t n) {
   return values;
 }
 
-TEST(RankCorrelation, SeesOnlyTheOrder) {
+TEST(RankCorrelation, DependsOnlyOnTheOrder) {
   const std::vector<double> x = counting(40);
   std::vector<double> rising;
   std::vector<double> falling;
@@ -183,7 +183,7 @@ TEST(RankCorrelation, SeesOnlyTheOrder) {
   EXPECT_TRUE(std::isnan(rank_correlation(counting(9), counting(9), 0.95).value));
 }
 
-TEST(PartialRankCorrelations, LeaveOutWhatTheOthersSayAlready) {
+TEST(PartialRankCorrelations, AreUndefinedForACollinearInput) {
   const auto points = testing::drawn_points("monte_carlo", 2, 200, 2);
   Eigen::MatrixXd x(200, 3);
   std::vector<double> y;
@@ -198,13 +198,13 @@ TEST(PartialRankCorrelations, LeaveOutWhatTheOthersSayAlready) {
   EXPECT_TRUE(std::isnan(found[2].value));
 }
 
-TEST(IndependentColumns, AreThoseThatAddSomething) {
+TEST(IndependentColumns, OmitCollinearColumns) {
   Eigen::MatrixXd x = Eigen::MatrixXd::Random(50, 4);
   x.col(2) = x.col(0) - 3.0 * x.col(1);
   EXPECT_EQ(independent_columns(x).places, (std::vector<std::size_t>{0, 1, 3}));
 }
 
-TEST(GivenDataFirstOrder, OfAChoiceIsThatOfItsValues) {
+TEST(GivenDataFirstOrder, IsExactForADiscreteInput) {
   // Three values of x with the means 0, 1, 2 of y, and ±1 about them: V = 2/3 + 1.
   std::vector<double> x;
   std::vector<double> y;
@@ -223,7 +223,7 @@ LogisticFit fit_of(const std::vector<double>& x, const std::vector<double>& yes)
                       Eigen::VectorXd::Map(yes.data(), std::ssize(yes)), 0.95);
 }
 
-TEST(LogisticFit, SeparatedTrialsAreFoundOut) {
+TEST(LogisticFit, DetectsSeparatedTrials) {
   const std::vector<double> x = counting(40);
   std::vector<double> yes(40, 0.0);
   std::fill(yes.begin() + 25, yes.end(), 1.0);
@@ -237,7 +237,7 @@ TEST(LogisticFit, SeparatedTrialsAreFoundOut) {
   EXPECT_GT(fit_of(x, yes).slopes[0].value, 0.0);
 }
 
-TEST(LogisticFit, NeedsBothAnswersAndEnoughOfThem) {
+TEST(LogisticFit, NeedsEnoughTrialsOfBothOutcomes) {
   EXPECT_EQ(fit_of(counting(40), std::vector<double>(40, 1.0)).status, LogisticFit::Status::too_few);
   EXPECT_EQ(fit_of({1, 2, 3, 4}, {0, 1, 0, 1}).status, LogisticFit::Status::too_few);
 }

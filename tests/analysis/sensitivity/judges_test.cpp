@@ -45,7 +45,7 @@ std::vector<SobolIndices> indices_of(const SaltelliSample& sample, double confid
   return saltelli_indices(sample, confidence, {designs::random_key(3, "bootstrap"), 0});
 }
 
-TEST(SensitivityJudges, SobolIndicesOfASaltelliDesignAreThoseOfOpenTurns) {
+TEST(SensitivityJudges, SobolIndicesAgreeWithOpenTurns) {
   Json cases = Json::array();
   for (const DesignCase& known : design_cases()) {
     const std::size_t factors = known.totals.size();
@@ -68,7 +68,7 @@ TEST(SensitivityJudges, SobolIndicesOfASaltelliDesignAreThoseOfOpenTurns) {
 }
 
 // The bounds of 99 % cover what is known; with 100 000 rows, the error is below 0.02.
-TEST(SensitivityJudges, SobolIndicesAreThoseOfTheTestFunctions) {
+TEST(SensitivityJudges, SobolIndicesMatchTheKnownTestFunctions) {
   for (const DesignCase& known : design_cases()) {
     const std::size_t factors = known.totals.size();
     for (const std::size_t rows : {1000UL, 100000UL}) {
@@ -89,7 +89,7 @@ TEST(SensitivityJudges, SobolIndicesAreThoseOfTheTestFunctions) {
 }
 
 // Of any design of these, the proportion explained alone; that of Ishigami's third factor is 0.
-TEST(SensitivityJudges, FirstOrderIndicesFromAnySampleAreThoseOfTheTestFunctions) {
+TEST(SensitivityJudges, GivenDataIndicesMatchTheKnownTestFunctions) {
   for (const DesignCase& known : design_cases()) {
     for (const char* design : {"monte_carlo", "latin_hypercube", "sobol"}) {
       const Points points = testing::drawn_points(design, known.totals.size(), 20000, 5);
@@ -125,7 +125,7 @@ PlainSample plain_sample(const Points& points, const testing::UnitFunction& func
   return sample;
 }
 
-TEST(SensitivityJudges, RankCorrelationsAreThoseOfSciPyAndOpenTurns) {
+TEST(SensitivityJudges, RankCorrelationsAgreeWithSciPyAndOpenTurns) {
   Json cases = Json::array();
   for (const DesignCase& known : design_cases()) {
     for (const bool rounded : {false, true}) {
@@ -147,7 +147,7 @@ TEST(SensitivityJudges, RankCorrelationsAreThoseOfSciPyAndOpenTurns) {
   expect_agreement("sample", cases);
 }
 
-TEST(SensitivityJudges, LogisticFitsAreThoseOfAGeneralMinimiser) {
+TEST(SensitivityJudges, LogisticFitsAgreeWithAGeneralMinimiser) {
   Json cases = Json::array();
   for (const double threshold : {0.9, 1.1, 2.0}) {
     const Points points = testing::drawn_points("monte_carlo", 5, 500, 8);

@@ -87,7 +87,7 @@ bool encloses(const BoundedNumber& number, double truth) {
 }
 
 // p = ¼, so V = 3/16; the mean given one factor is 0 or ½, its variance 1/16.
-TEST(StudySensitivity, OfASaltelliDesignHasBothIndices) {
+TEST(StudySensitivity, ASaltelliDesignGivesFirstOrderAndTotalIndices) {
   const OutputSensitivity success = MadeUpStudy(manifest(), both_in_upper_half).about("success");
   EXPECT_EQ(success.trials, 2000);
   EXPECT_NEAR(success.mean, 0.25, 0.05);
@@ -109,7 +109,7 @@ TEST(StudySensitivity, OfASaltelliDesignHasBothIndices) {
   EXPECT_TRUE(says(success.conclusion, "friction.alpha (at most "));
 }
 
-TEST(StudySensitivity, OfAnyOtherDesignHasWhatEachExplainsAlone) {
+TEST(StudySensitivity, OtherDesignsGiveFirstOrderIndicesOnly) {
   std::string text = manifest();
   text.replace(text.find("saltelli"), 8, "monte_carlo");
   const MadeUpStudy study(text, both_in_upper_half);
@@ -122,7 +122,7 @@ TEST(StudySensitivity, OfAnyOtherDesignHasWhatEachExplainsAlone) {
 
 // k1 and k2 act only together: each has a total index of 1 and explains nothing alone. A file without total
 // indices cannot show that, and must not say that they have no influence.
-TEST(StudySensitivity, WhatADesignCannotShowIsNotDenied) {
+TEST(StudySensitivity, WithoutTotalIndicesNoInfluenceIsDenied) {
   const auto either = [](std::span<const double> inputs) {
     const bool success = (inputs[k1] > 1.5) != (inputs[k2] > 1.5);
     return std::vector{move_with(success), move_with(success)};
@@ -140,7 +140,7 @@ TEST(StudySensitivity, WhatADesignCannotShowIsNotDenied) {
 }
 
 // A factor that changes the output in every trial, but by a thousandth of its standard deviation.
-TEST(StudySensitivity, AnIndexOfAMillionthDoesNotMatter) {
+TEST(StudySensitivity, ATinyIndexDoesNotCountAsInfluence) {
   const OutputSensitivity creep = MadeUpStudy(manifest(), [](std::span<const double> inputs) {
                                     trial::MoveOutcome move = move_with(true);
                                     move.creep = inputs[k2] + 0.001 * inputs[k1];
@@ -168,7 +168,7 @@ std::string manifest_of_machines(std::int64_t trials, int seed) {
 }
 
 // More trials on the same machines show nothing more of what differs between machines.
-TEST(StudySensitivity, OfMachinesIsThatOfTheirFirstTrials) {
+TEST(StudySensitivity, UsesTheFirstTrialOfEachMachine) {
   for (const int seed : {1, 2, 3}) {
     const OutputSensitivity many =
         MadeUpStudy(manifest_of_machines(800, seed), both_in_upper_half).about("success");
@@ -187,14 +187,15 @@ TEST(StudySensitivity, OfMachinesIsThatOfTheirFirstTrials) {
       }
     }
     ASSERT_FALSE(many.notes.empty());
-    EXPECT_EQ(many.notes.front(),
-              "of each of the 40 machines the first trial is used: the others are not independent of it");
+    EXPECT_EQ(
+        many.notes.front(),
+        "only the first trial of each of the 40 machines is used: the others are not independent of it");
   }
 }
 
 // An output by which machines differ for another reason: taken for independent, 20 trials of every machine
 // show an influence of factors that have none.
-TEST(StudySensitivity, AMachinesOwnTraitIsNotTakenForTheInfluenceOfAnother) {
+TEST(StudySensitivity, DifferencesBetweenMachinesAreNotCreditedToOtherParameters) {
   int alarms = 0;
   constexpr int studies = 25;
   for (int seed = 1; seed <= studies; ++seed) {
@@ -207,7 +208,7 @@ TEST(StudySensitivity, AMachinesOwnTraitIsNotTakenForTheInfluenceOfAnother) {
   EXPECT_LE(alarms, 7);  // of 25 at 5 % for each of two tests
 }
 
-TEST(StudySensitivity, WhatDoesNotVaryIsLeftOutAndNamed) {
+TEST(StudySensitivity, ParametersThatDoNotVaryAreLeftOutAndNamed) {
   const OutputSensitivity success = MadeUpStudy(manifest(), both_in_upper_half).about("success");
   ASSERT_EQ(success.left_out.size(), 1u);
   EXPECT_EQ(success.left_out[0].name, "controller.ki");
@@ -224,7 +225,7 @@ TEST(StudySensitivity, AMoveThatNeverArrivesCountsWithItsDuration) {
   EXPECT_TRUE(said);
 }
 
-TEST(StudySensitivity, WithoutVarianceNothingIsEstimatedAndThatIsSaid) {
+TEST(StudySensitivity, WithoutVarianceItSaysThatNothingIsEstimated) {
   const MadeUpStudy study(manifest(), [](auto) { return std::vector{move_with(true), move_with(true)}; });
   const OutputSensitivity success = study.about("success");
   EXPECT_FALSE(success.estimated);
@@ -258,7 +259,7 @@ TEST(StudySensitivity, RowsWithLostTrialsAreLeftOutWholeAndCounted) {
   EXPECT_EQ(study.about("success").trials, 2000) << "a lost trial is no success, and counts";
 }
 
-TEST(StudySensitivity, SeparatedAndRareAnswersAreSaid) {
+TEST(StudySensitivity, ReportsSeparatedAndRareOutcomes) {
   const MadeUpStudy study(manifest(), [](std::span<const double> inputs) {
     return std::vector{move_with(true), move_with(inputs[k1] < 1.995)};
   });
@@ -270,7 +271,7 @@ TEST(StudySensitivity, SeparatedAndRareAnswersAreSaid) {
                    "differ from the others: the bounds are rough"));
 }
 
-TEST(StudySensitivity, EveryOutputOfEveryPointCanBeAsked) {
+TEST(StudySensitivity, EveryOutputOfEveryPointCanBeAnalysed) {
   const MadeUpStudy study(manifest(), both_in_upper_half);
   SensitivityQuestion question;
   for (const SensitivityOutput& output : sensitivity_outputs()) question.outputs.emplace_back(output.name);
@@ -286,7 +287,7 @@ TEST(StudySensitivity, EveryOutputOfEveryPointCanBeAsked) {
   EXPECT_EQ(usual.points[0].outputs[1].output, "arrival_time");
 }
 
-TEST(StudySensitivity, OfALargeStudyTheFirstTrialsAreUsed) {
+TEST(StudySensitivity, ALargeStudyUsesItsFirstTrials) {
   const auto text = [](int trials) {
     return fmt::format(
         "zerocount: 1\nname: made up\nseed: 5\ntrials: {}\n"
@@ -312,7 +313,7 @@ TEST(StudySensitivity, OfALargeStudyTheFirstTrialsAreUsed) {
       << "a saltelli design is used whole";
 }
 
-TEST(StudySensitivity, QuestionsThatMakeNoSenseAreRefused) {
+TEST(StudySensitivity, MeaninglessQuestionsAreRefused) {
   const MadeUpStudy study(manifest(), both_in_upper_half);
   for (const SensitivityQuestion& question :
        {SensitivityQuestion{.points = {2}}, SensitivityQuestion{.points = {-1}},
@@ -337,7 +338,7 @@ TEST(StudySensitivity, DoesNotDependOnTheNumberOfThreads) {
   }
 }
 
-TEST(StudySensitivity, AnswersWithTheNumbersOfTheFactors) {
+TEST(StudySensitivity, AnswerHasTheNumbersOfEachFactor) {
   const MadeUpStudy study(manifest(), both_in_upper_half);
   const StudySensitivity found = study.ask();
   const document::Answer answer = sensitivity_answer().of(found);

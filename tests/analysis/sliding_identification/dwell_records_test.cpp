@@ -149,7 +149,7 @@ TEST(DwellRecords, MotionWithinThePreslidingRangeIsRefused) {
 }
 
 // Ceres' reasons are not the user's.
-TEST(DwellRecords, AFitThatFailsPrintsNothing) {
+TEST(DwellRecords, AFailedFitPrintsNothing) {
   std::mt19937_64 random(5);
   const std::vector<sliding_identification::SlidingRecord> records{
       sliding_identification::sliding_record(dwell_record({}, {}, random))};

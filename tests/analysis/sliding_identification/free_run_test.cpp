@@ -28,7 +28,7 @@ double predicted_by(const SlidingIdentification& found, const std::string& with)
 }
 
 // Where the law is that of the axis only the errors of its parameters add up.
-TEST(FreeRunOfTheAxis, FollowsATwinOfTheSameLaw) {
+TEST(FreeRunOfTheAxis, FollowsAnAxisWithTheSameLaw) {
   std::mt19937_64 random(11);
   const records::RawSeries series = closed_loop_record({}, {}, emps_lap(), 2, random);
   const SlidingIdentification found = identify(series);
@@ -44,7 +44,7 @@ TEST(FreeRunOfTheAxis, FollowsATwinOfTheSameLaw) {
 
 // Dwells under a positioning loop, bristles before sliding and noise, by another integrator: the rotor rests
 // where the friction holds it, so that the error does not grow from dwell to dwell.
-TEST(FreeRunOfTheAxis, StandsInDwells) {
+TEST(FreeRunOfTheAxis, StandsStillInDwells) {
   for (const unsigned seed : {1u, 2u, 3u}) {
     std::mt19937_64 random(seed);
     DwellLoop loop;
@@ -56,7 +56,7 @@ TEST(FreeRunOfTheAxis, StandsInDwells) {
 }
 
 // A wrong force of ΔF moves a sliding axis by ΔF/cs each second.
-TEST(FreeRunOfTheAxis, DriftsByAForceThatTheLawLacks) {
+TEST(FreeRunOfTheAxis, DriftsIfTheLawLacksAForce) {
   std::mt19937_64 random(12);
   SlidingAxis shaken;
   shaken.friction_noise = 1.0;
@@ -96,7 +96,7 @@ TEST(UnexplainedForce, RepeatsWithPositionAndDirection) {
   EXPECT_GT(predicted_by(found, "position and direction"), predicted_by(found, "position") + 0.2);
 }
 
-TEST(UnexplainedForce, ThatIsRandomRepeatsWithNothing) {
+TEST(UnexplainedForce, ARandomForceRepeatsWithNothing) {
   std::mt19937_64 random(15);
   SlidingAxis shaken;
   shaken.friction_noise = 1.0;
@@ -104,7 +104,7 @@ TEST(UnexplainedForce, ThatIsRandomRepeatsWithNothing) {
   for (const RepeatingForce& force : found.forces) EXPECT_LT(force.predicted, 0.15) << force.with;
 }
 
-TEST(UnexplainedForce, NeedsStrokes) {
+TEST(UnexplainedForce, NeedsSeveralStrokes) {
   std::mt19937_64 random(16);
   const SlidingIdentification found = identify(closed_loop_record({}, {}, {{0.1228, 0.6}}, 1, random));
   EXPECT_TRUE(found.forces.empty());
@@ -120,7 +120,7 @@ TEST(UnexplainedForce, NeedsStrokes) {
 }
 
 // After a reversal Dahl's friction is Fc·(1 − 2·exp(−σ0·x/Fc)): nine tenths of 2·Fc are done at ln 10·Fc/σ0.
-TEST(ReversalOfTheFriction, IsThatOfTheBristles) {
+TEST(FrictionReversal, HasTheTravelOfTheBristles) {
   for (const double travel : {60e-6, 150e-6}) {
     std::mt19937_64 random(17);
     SlidingAxis axis;
@@ -135,7 +135,7 @@ TEST(ReversalOfTheFriction, IsThatOfTheBristles) {
   }
 }
 
-TEST(ReversalOfTheFriction, ThatIsAbruptIsNotTold) {
+TEST(FrictionReversal, AnAbruptReversalIsNotReported) {
   std::mt19937_64 random(18);
   const SlidingIdentification found = identify(closed_loop_record({}, {}, emps_lap(), 2, random));
   ASSERT_TRUE(found.reversal.has_value());

@@ -76,7 +76,7 @@ TEST(JointCoverage, GravityIsFoundAndCovered) {
   EXPECT_GE(counts.held, least_expected(counts.estimated)) << counts.estimated;
 }
 
-TEST(JointCoverage, WithoutGravityNoneIsFound) {
+TEST(JointCoverage, NoGravityIsFoundIfThereIsNone) {
   const Counts counts = counts_of(3, false, false);
   EXPECT_EQ(counts.right, 3);
   EXPECT_EQ(counts.wrong, 0);
@@ -84,7 +84,7 @@ TEST(JointCoverage, WithoutGravityNoneIsFound) {
 }
 
 // Over a fifth of a revolution gravity and a torque of six periods may be others that act alike.
-TEST(JointCoverage, TorquesThatLookAlikeAreNotToldApart) {
+TEST(JointCoverage, TorquesThatLookAlikeAreNotDistinguished) {
   std::mt19937_64 random(13 + 22 * 7919);
   const JointMotion motion = random_joint_motion(random, true, true);
   ASSERT_EQ(motion.joint.periods, 6.0);
@@ -97,7 +97,7 @@ TEST(JointCoverage, TorquesThatLookAlikeAreNotToldApart) {
   EXPECT_NEAR(estimate(found, "inertia")->value, motion.joint.inertia, 0.01 * motion.joint.inertia);
 }
 
-TEST(JointCoverage, DISABLED_OfManyJoints) {
+TEST(JointCoverage, DISABLED_IntervalsCoverTheTrueValuesOfManyJoints) {
   constexpr int records = 60;
   Counts all;
   for (const bool with_gravity : {false, true}) {

@@ -81,7 +81,7 @@ void falling_friction(JointMotion& motion) {
   motion.joint.coulomb_drift = 0.1;
 }
 
-TEST(MissingTorque, IsNotFoundWhereTheLawHolds) {
+TEST(MissingTorque, IsNotFoundIfTheLawHolds) {
   for (const std::uint64_t seed : {500u, 501u, 502u}) {
     const auto found = identified_with([](JointMotion&) {}, seed);
     ASSERT_TRUE(found);
@@ -166,7 +166,7 @@ Outcomes outcomes_of(const Change& change, TorqueCause cause, int records) {
   return outcomes;
 }
 
-TEST(MissingTorque, DISABLED_OfManyRecordsIsNamedAndNoneWhereTheLawHolds) {
+TEST(MissingTorque, DISABLED_IsNamedInManyRecordsAndOnlyIfTheLawFails) {
   constexpr int records = 40;
   EXPECT_GE(outcomes_of([](JointMotion&) {}, TorqueCause::lag, records).trusted, records - 1);
   const std::pair<Change, TorqueCause> kinds[] = {

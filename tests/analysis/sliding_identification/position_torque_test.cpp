@@ -90,11 +90,11 @@ TEST(PositionTorque, GravityAndRippleAreFoundAndCovered) {
   expect_gravity_and_ripple_covered(2);
 }
 
-TEST(PositionTorque, DISABLED_GravityAndRippleOfManyAxesAreCovered) {
+TEST(PositionTorque, DISABLED_GravityAndRippleAreCoveredForManyAxes) {
   expect_gravity_and_ripple_covered(40);
 }
 
-TEST(PositionTorque, IsNotFoundWhereThereIsNone) {
+TEST(PositionTorque, IsNotFoundIfThereIsNone) {
   for (int i = 0; i < 1; ++i) {
     std::mt19937_64 random(static_cast<std::uint64_t>(i) + 80);
     SlidingAxis axis = joint(random);
@@ -106,7 +106,7 @@ TEST(PositionTorque, IsNotFoundWhereThereIsNone) {
 }
 
 // A force that repeats with a pitch that nobody gave is no slope, and the answer says so.
-TEST(PositionTorque, WhatIsLeftOfItIsNotTrusted) {
+TEST(PositionTorque, AnUnknownPitchMakesTheResultUntrusted) {
   std::mt19937_64 random(7);
   SlidingAxis axis = joint(random);
   axis.rotary = false;

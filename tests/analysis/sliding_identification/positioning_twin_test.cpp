@@ -28,7 +28,7 @@ const ParameterEstimate& parameter(const SlidingIdentification& found, const std
                        [&](const ParameterEstimate& one) { return one.name == name; });
 }
 
-TEST(PositioningTwin, GivesThePublishedParameters) {
+TEST(PositioningTwin, RecoversThePublishedParameters) {
   std::mt19937_64 random(1);
   const SlidingAxis truth;
   const SlidingIdentification found = identified(closed_loop_record(truth, {}, emps_lap(), 4, random));
@@ -89,7 +89,7 @@ TEST(PositioningTwin, IsFoundOverSeveralRecordsAndOneDirection) {
   EXPECT_EQ(both.records.size(), 2u);
 }
 
-TEST(PositioningTwin, AWrongSignIsSaid) {
+TEST(PositioningTwin, AWrongSignIsReported) {
   std::mt19937_64 random(4);
   records::RawSeries series = closed_loop_record({}, {}, emps_lap(), 1, random);
   for (double& force : series.torque) force = -force;
@@ -105,7 +105,7 @@ TEST(PositioningTwin, AWrongSignIsSaid) {
 }
 
 // From an inertia of e⁻⁸⁰⁰, which underflows to 0, there is no motion to fit.
-TEST(PositioningTwin, AFitThatFailsIsSaid) {
+TEST(PositioningTwin, AFailedFitIsReported) {
   std::mt19937_64 random(7);
   const std::vector<sliding_identification::SlidingRecord> records{
       sliding_identification::sliding_record(closed_loop_record({}, {}, emps_lap(), 1, random))};
@@ -125,7 +125,7 @@ TEST(PositioningTwin, AFitThatFailsIsSaid) {
   }
 }
 
-TEST(PositioningTwin, WhatIsNoSlidingAxisIsSaid) {
+TEST(PositioningTwin, ARecordWithoutSlidingIsReported) {
   std::mt19937_64 random(5);
   records::RawSeries series = closed_loop_record({}, {}, emps_lap(), 1, random);
   for (std::size_t k = 0; k < series.torque.size(); ++k)
@@ -142,7 +142,7 @@ TEST(PositioningTwin, WhatIsNoSlidingAxisIsSaid) {
 }
 
 // What the record shows goes into a manifest, and every number reads back.
-TEST(PositioningTwin, IsReported) {
+TEST(PositioningTwin, ReportNamesItsParameters) {
   std::mt19937_64 random(6);
   SlidingAxis truth;
   truth.breakaway = 28.0;

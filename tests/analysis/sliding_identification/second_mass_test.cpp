@@ -56,7 +56,7 @@ TEST(SecondMass, IsNamedWithItsResonance) {
   }
 }
 
-TEST(SecondMass, IsNotNamedWhereThereIsNone) {
+TEST(SecondMass, IsNotNamedIfThereIsNone) {
   for (int i = 0; i < 3; ++i) {
     std::mt19937_64 random(static_cast<std::uint64_t>(i) + 320);
     const SlidingIdentification found = identified(fine_joint(random), random);
@@ -95,7 +95,7 @@ TEST(SecondMass, DISABLED_IsNotNamedForCoggingOfManyJoints) {
   EXPECT_LE(second_masses_of_cogging_joints(100), 1);
 }
 
-TEST(SecondMass, DISABLED_OfManyJoints) {
+TEST(SecondMass, DISABLED_IsNamedForManyJointsWithFewFalseAlarms) {
   constexpr int joints = 40;
   int false_alarms = 0;
   int named = 0;

@@ -111,23 +111,23 @@ void expect_coverage_in_open_loops(int axes) {
                   axes, "open loop");
 }
 
-TEST(SlidingCoverage, OfClosedLoopRecords) {
+TEST(SlidingCoverage, IntervalsCoverInClosedLoopRecords) {
   expect_coverage_in_closed_loops(12);
 }
 
-TEST(SlidingCoverage, OfClosedLoopRecordsWithUnknownForces) {
+TEST(SlidingCoverage, IntervalsCoverWithUnknownForces) {
   expect_coverage_with_unknown_forces(2);
 }
 
-TEST(SlidingCoverage, OfCoarselyReadRecordsWithNoise) {
+TEST(SlidingCoverage, IntervalsCoverInCoarseNoisyRecords) {
   expect_coverage_of_coarse_readings(12);
 }
 
-TEST(SlidingCoverage, OfOpenLoopRecords) {
+TEST(SlidingCoverage, IntervalsCoverInOpenLoopRecords) {
   expect_coverage_in_open_loops(12);
 }
 
-TEST(SlidingCoverage, DISABLED_OfManyRecords) {
+TEST(SlidingCoverage, DISABLED_IntervalsCoverInManyRecords) {
   expect_coverage_in_closed_loops(60);
   expect_coverage_with_unknown_forces(50);
   expect_coverage_of_coarse_readings(60);

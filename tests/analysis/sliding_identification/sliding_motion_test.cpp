@@ -80,7 +80,7 @@ MotionStart start_of_motion(double position, double velocity) {
   return start;
 }
 
-TEST(SlidingMotion, IsThatOfThePlant) {
+TEST(SlidingMotion, EqualsThePlant) {
   for (const double direction : {-1.0, 1.0}) {
     for (const double rate : {0.0, 500.0}) {
       const SlidingRecord record = wavy_record(direction, rate);
@@ -108,7 +108,7 @@ TEST(SlidingMotion, IsThatOfThePlant) {
   }
 }
 
-TEST(SlidingMotion, DerivativesAreThoseOfTheMotion) {
+TEST(SlidingMotion, DerivativesEqualDifferencesOfTheMotion) {
   const SlidingRecord record = wavy_record(1.0, 0.0);
   const Window window{3, 180, 0, 1.0};
   MotionStart start = start_of_motion(0.1, 0.3);

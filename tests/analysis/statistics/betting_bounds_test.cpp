@@ -26,7 +26,7 @@ int sequences_that_fail(double mean, double cap, const std::function<double(std:
 }
 
 // Each sequence fails with a probability of at most 0.1: more than 33 of 200 do so with 1/300.
-TEST(BettingBounds, HoldAtAllLengthsTogether) {
+TEST(BettingBounds, HoldAtAllSampleSizesAtOnce) {
   std::bernoulli_distribution rarely(0.05);
   EXPECT_LE(sequences_that_fail(0.05, 1.0, [&](auto& g) { return rarely(g) ? 1.0 : 0.0; }), 33);
   std::exponential_distribution<double> exponential(2.0);
@@ -40,7 +40,7 @@ TEST(BettingBounds, HoldAtAllLengthsTogether) {
 }
 
 // Without a cap that holds, the lower bound still does: half of the mean is in values that come once in 1000.
-TEST(BettingBounds, TheLowerBoundNeedsNoCap) {
+TEST(BettingBounds, LowerBoundNeedsNoUpperLimitOfTheValues) {
   std::mt19937_64 numbers(11);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   int failed = 0;
@@ -65,7 +65,7 @@ TEST(BettingBounds, ScaleWithTheValues) {
   EXPECT_NEAR(small_bounds.high / large_bounds.high, 1e-8, 1e-13);
 }
 
-TEST(BettingBounds, OfNothingPositiveBeginAtZero) {
+TEST(BettingBounds, WithoutPositiveValuesBeginAtZero) {
   const ConfidenceInterval none = betting_bounds({}, 0, 0.5, 0.95);
   EXPECT_EQ(none.low, 0.0);
   EXPECT_EQ(none.high, 0.5);

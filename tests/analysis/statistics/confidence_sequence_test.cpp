@@ -16,7 +16,7 @@ double evidence_against(double p, std::int64_t successes, std::int64_t trials) {
          f * std::log1p(-p);
 }
 
-TEST(AnytimeBounds, AreWhereTheMixtureIsTwentyTimesAsLikely) {
+TEST(ConfidenceSequence, BoundsAreWhereTheMixtureIsTwentyTimesAsLikely) {
   for (const std::int64_t trials : {1, 2, 7, 40, 300}) {
     for (std::int64_t successes = 0; successes <= trials; ++successes) {
       const statistics::ConfidenceInterval bounds =
@@ -34,7 +34,7 @@ TEST(AnytimeBounds, AreWhereTheMixtureIsTwentyTimesAsLikely) {
   }
 }
 
-TEST(AnytimeBounds, EndAtZeroAndOne) {
+TEST(ConfidenceSequence, BoundsEndAtZeroAndOne) {
   EXPECT_EQ(statistics::confidence_sequence_bounds(0, 0, 0.95).low, 0.0);
   EXPECT_EQ(statistics::confidence_sequence_bounds(0, 0, 0.95).high, 1.0);
   EXPECT_EQ(statistics::confidence_sequence_bounds(0, 50, 0.95).low, 0.0);
@@ -43,7 +43,7 @@ TEST(AnytimeBounds, EndAtZeroAndOne) {
               1.0 - statistics::confidence_sequence_bounds(50, 50, 0.9).low, 1e-12);
 }
 
-TEST(AnytimeBounds, AreWiderThanThoseOfOneLook) {
+TEST(ConfidenceSequence, BoundsAreWiderThanThoseOfAFixedSampleSize) {
   for (const std::int64_t trials : {20, 1000, 100000, 10000000}) {
     for (const double proportion : {0.0, 0.1, 0.5, 0.99, 1.0}) {
       const auto successes = static_cast<std::int64_t>(proportion * static_cast<double>(trials));
@@ -90,7 +90,7 @@ Looks look_after_every_block(double p, int studies) {
   return looks;
 }
 
-TEST(AnytimeBounds, CoverHoweverOftenOneLooks) {
+TEST(ConfidenceSequence, CoversHoweverOftenItIsEvaluated) {
   constexpr int studies = 400;
   for (const double p : {0.5, 0.8, 0.97, 0.999}) {
     const Looks looks = look_after_every_block(p, studies);
@@ -105,7 +105,7 @@ TEST(AnytimeBounds, CoverHoweverOftenOneLooks) {
 
 // Each look is after a whole round of the machines, whose probabilities of success differ: the bounds are
 // those of their mean.
-TEST(AnytimeBounds, CoverTheMeanOverTheMachinesHoweverOftenOneLooks) {
+TEST(ConfidenceSequence, CoversTheMeanOfMachinesHoweverOftenItIsEvaluated) {
   constexpr int studies = 400;
   std::mt19937_64 engine(18);
   int covered = 0;
@@ -127,7 +127,7 @@ TEST(AnytimeBounds, CoverTheMeanOverTheMachinesHoweverOftenOneLooks) {
   EXPECT_GE(covered, 368);
 }
 
-TEST(ProjectedTrials, AreEnoughAndNotMore) {
+TEST(ProjectedTrials, AreTheSmallestNumberThatDecides) {
   for (const double proportion : {0.0, 0.03, 0.5, 0.9, 1.0}) {
     const auto successes = static_cast<std::int64_t>(1000 * proportion);
     const std::int64_t n = statistics::projected_trials(successes, 1000, 0.01, 0.95, 100, 10000000);

@@ -78,15 +78,15 @@ void expect_bounds_of_one_move(std::int64_t repetitions) {
 }
 
 // Few studies do not show that plain bounds fail here.
-TEST(Coverage, BoundsHoldWhereMachinesDiffer) {
+TEST(Coverage, BoundsHoldIfMachinesDiffer) {
   expect_bounds_where_machines_differ(many);
 }
 
-TEST(Coverage, BoundsHoldWhereMachinesAndTrialsOfSeveralMovesDiffer) {
+TEST(Coverage, BoundsHoldIfMachinesAndTheirTrialsDiffer) {
   expect_bounds_where_machines_and_moves_differ(few);
 }
 
-TEST(Coverage, BoundsHoldWhereTrialsOfSeveralMovesDiffer) {
+TEST(Coverage, BoundsHoldIfTrialsOfSeveralMovesDiffer) {
   expect_bounds_where_moves_differ(few);
 }
 

@@ -16,7 +16,7 @@ Moments moments_of(const std::vector<double>& values) {
   return moments;
 }
 
-TEST(MeanBounds, AreSciPysForSamplesOfAllSizesAndScales) {
+TEST(MeanBounds, MatchSciPyForSamplesOfAllSizesAndScales) {
   // Values from the moments to be judged, then the sample: mean sd low high confidence | x1 x2 …
   const testing::TemporaryFolder folder;
   std::ofstream cases(folder / "cases");
@@ -44,7 +44,7 @@ TEST(MeanBounds, AreSciPysForSamplesOfAllSizesAndScales) {
   EXPECT_EQ(folder.read("out"), "300 samples\n");
 }
 
-TEST(MeanBounds, EncloseTheMeanOfANormalDistributionAsOftenAsTheySay) {
+TEST(MeanBounds, CoverTheMeanOfANormalDistribution) {
   std::mt19937_64 random(72);
   std::normal_distribution<double> normal(3.0, 2.0);
   constexpr int rounds = 20000;
@@ -59,13 +59,13 @@ TEST(MeanBounds, EncloseTheMeanOfANormalDistributionAsOftenAsTheySay) {
   EXPECT_NEAR(enclosed, 0.95 * rounds, 4.0 * sigma);
 }
 
-TEST(MeanBounds, OfEqualValuesAreTheMean) {
+TEST(MeanBounds, EqualTheMeanIfAllValuesAreEqual) {
   const ConfidenceInterval bounds = student_t(moments_of({2.5, 2.5, 2.5}));
   EXPECT_EQ(bounds.low, 2.5);
   EXPECT_EQ(bounds.high, 2.5);
 }
 
-TEST(MeanBounds, OfFewerThanTwoValuesAreNotKnown) {
+TEST(MeanBounds, AreUndefinedForFewerThanTwoValues) {
   for (const Moments& sample : {moments_of({}), moments_of({1.0}), moments_of({1.0, std::nan("")})}) {
     EXPECT_TRUE(std::isnan(sample.sd()));
     EXPECT_TRUE(std::isnan(student_t(sample).low));
@@ -73,7 +73,7 @@ TEST(MeanBounds, OfFewerThanTwoValuesAreNotKnown) {
   }
 }
 
-TEST(MeanBounds, RefuseAConfidenceThatIsNone) {
+TEST(MeanBounds, RefuseAConfidenceOutsideZeroToOne) {
   EXPECT_THROW(student_t(moments_of({1.0, 2.0}), 1.0), Failure);
   EXPECT_THROW(student_t(moments_of({1.0, 2.0}), 0.0), Failure);
 }
@@ -103,7 +103,7 @@ TEST(Trend, CountsThePairsOfAnySeries) {
   }
 }
 
-TEST(Trend, TauIsSciPysWithoutTies) {
+TEST(Trend, TauMatchesSciPyWithoutTies) {
   // SciPy 1.10: kendalltau(range(n), x) of x_i = (37i² + 11i) mod 1009, i = 1 … n, which has no ties.
   const auto tau = [](int n) {
     std::vector<double> series;
@@ -130,7 +130,7 @@ TEST(Trend, IsAsOftenPositiveAsNegativeForARandomOrder) {
   EXPECT_NEAR(rising, falling, 4.0 * std::sqrt(rounds));
 }
 
-TEST(Trend, OneValueHasNone) {
+TEST(Trend, OneValueHasNoTrend) {
   EXPECT_TRUE(std::isnan(kendall_tau(rank_trend({}))));
   const std::vector<double> one{1.0};
   EXPECT_TRUE(std::isnan(kendall_tau(rank_trend(one))));
@@ -193,7 +193,7 @@ double proportion_coverage(ConfidenceInterval (*interval)(std::int64_t, std::int
   return sum;
 }
 
-TEST(Proportion, BoundsEqualSciPys) {
+TEST(Proportion, BoundsMatchSciPy) {
   for (const ScipyBounds& reference : scipy) {
     const ConfidenceInterval exact = clopper_pearson(reference.k, reference.n, reference.confidence);
     const ConfidenceInterval score = wilson(reference.k, reference.n, reference.confidence);
@@ -204,7 +204,7 @@ TEST(Proportion, BoundsEqualSciPys) {
   }
 }
 
-TEST(Proportion, NoneAndAllHaveTheirClosedForms) {
+TEST(Proportion, NoSuccessAndAllSuccessesHaveTheirClosedForms) {
   for (const std::int64_t n : {1, 2, 10, 1000, 1000000}) {
     const double bound = -std::expm1(std::log(0.025) / static_cast<double>(n));  // (1 − p)ⁿ = 0.025
     EXPECT_EQ(clopper_pearson(0, n).low, 0.0);
@@ -229,7 +229,7 @@ TEST(Proportion, BoundsOfLargeStudiesAgreeWithOneAnother) {
   }
 }
 
-TEST(Proportion, NothingIsKnownWithoutTrials) {
+TEST(Proportion, IsUnknownWithoutTrials) {
   EXPECT_TRUE(std::isnan(rate(0, 0)));
   for (const ConfidenceInterval bounds : {clopper_pearson(0, 0), wilson(0, 0)}) {
     EXPECT_EQ(bounds.low, 0.0);
@@ -237,7 +237,7 @@ TEST(Proportion, NothingIsKnownWithoutTrials) {
   }
 }
 
-TEST(Proportion, BoundsOfSuccessesMirrorThoseOfFailures) {
+TEST(Proportion, BoundsForSuccessesMirrorThoseForFailures) {
   for (const std::int64_t n : {7, 100, 12345}) {
     for (std::int64_t k = 0; k <= n; k += 1 + n / 7) {
       EXPECT_NEAR(clopper_pearson(k, n).low, 1.0 - clopper_pearson(n - k, n).high, 1e-12);

@@ -19,7 +19,7 @@ TEST(Normal, TailAndQuantileAreInverse) {
     EXPECT_NEAR(normal_upper_tail(normal_quantile(p)), 1.0 - p, 1e-15);
 }
 
-TEST(Normal, TwoSidedQuantileRefusesWhatIsNoConfidence) {
+TEST(Normal, TwoSidedQuantileRefusesAConfidenceOutsideZeroToOne) {
   EXPECT_NEAR(two_sided_normal_quantile(0.95), 1.959963984540054, 1e-14);
   for (const double confidence : {0.0, 1.0, -0.1, std::nan("")})
     EXPECT_THROW(two_sided_normal_quantile(confidence), Failure);

@@ -51,7 +51,7 @@ Histogram<std::int64_t> tally_of(std::int64_t n) {
   return histogram;
 }
 
-TEST(Quantile, IsNumpysInvertedCdf) {
+TEST(Quantile, MatchesTheInvertedCdfOfNumPy) {
   for (const Reference& reference : references) {
     EXPECT_EQ(quantile(tally_of(reference.n), reference.p).value, static_cast<double>(reference.quantile))
         << reference.n << ", " << reference.p;
@@ -111,7 +111,7 @@ TEST(Quantile, BoundsOfAnExtremeNeedEnoughObservations) {
   EXPECT_EQ(quantile_rank_bounds(72, 0.95).high, 72);  // 0.95^72 = 0.0249: the largest
 }
 
-TEST(Quantile, NothingIsKnownOfAnEmptySample) {
+TEST(Quantile, AnEmptySampleHasNoQuantile) {
   const Quantile none = quantile(Histogram<double>{}, 0.5);
   EXPECT_TRUE(std::isnan(none.value));
   EXPECT_TRUE(std::isnan(none.low));

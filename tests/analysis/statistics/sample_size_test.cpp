@@ -9,7 +9,7 @@
 namespace zerocount::statistics {
 namespace {
 
-TEST(SampleSize, OfWilkssTables) {
+TEST(SampleSize, MatchesTheTablesOfWilks) {
   const std::int64_t of_95[] = {59, 93, 124, 153, 181};
   const std::int64_t of_99[] = {299, 473, 628, 773, 913};
   for (std::int64_t failures = 0; failures < 5; ++failures) {
@@ -20,7 +20,7 @@ TEST(SampleSize, OfWilkssTables) {
   EXPECT_EQ(trials_for_claim(0.5, 0.5, 0), 1);
 }
 
-TEST(SampleSize, WithoutFailuresHasItsClosedForm) {
+TEST(SampleSize, WithoutFailuresHasTheClosedForm) {
   for (const double success : {0.3, 0.9, 0.999, 0.999999}) {
     for (const double confidence : {0.5, 0.9, 0.999})
       EXPECT_EQ(trials_for_claim(success, confidence, 0),
@@ -28,7 +28,7 @@ TEST(SampleSize, WithoutFailuresHasItsClosedForm) {
   }
 }
 
-TEST(SampleSize, IsTheLeastWithWhichTheClaimIsMade) {
+TEST(SampleSize, IsTheSmallestThatAllowsTheClaim) {
   for (const double success : {0.8, 0.99, 0.9995}) {
     for (const std::int64_t failures : {0, 1, 4, 30}) {
       const std::int64_t n = trials_for_claim(success, 0.95, failures);
@@ -38,7 +38,7 @@ TEST(SampleSize, IsTheLeastWithWhichTheClaimIsMade) {
   }
 }
 
-TEST(SampleSize, ChanceIsHowOftenTheClaimIsMade) {
+TEST(SampleSize, PowerIsTheProbabilityOfTheClaim) {
   std::mt19937_64 random(97);
   constexpr int rounds = 4000;
   for (const std::int64_t failures : {0, 3}) {
@@ -55,14 +55,14 @@ TEST(SampleSize, ChanceIsHowOftenTheClaimIsMade) {
   EXPECT_EQ(chance_of_claim(5, 5, 0.1), 1.0);
 }
 
-TEST(SampleSize, AClaimThatIsNotTrueIsMadeNoMoreOftenThanItsConfidenceAllows) {
+TEST(SampleSize, FalseClaimsAreAsRareAsTheConfidenceRequires) {
   for (const double success : {0.9, 0.999}) {
     for (const std::int64_t failures : {0, 2, 10})
       EXPECT_LE(chance_of_claim(trials_for_claim(success, 0.95, failures), failures, success), 0.05);
   }
 }
 
-TEST(SampleSize, PlanWithPowerIsTheFirstThatHasIt) {
+TEST(SampleSize, PlanIsTheSmallestWithThePower) {
   for (const double power : {0.05, 0.5, 0.9}) {
     const ClaimPlan plan = plan_with_power(0.98, 0.95, 0.99, power);
     EXPECT_EQ(plan.trials, trials_for_claim(0.98, 0.95, plan.failures));
@@ -72,7 +72,7 @@ TEST(SampleSize, PlanWithPowerIsTheFirstThatHasIt) {
   }
 }
 
-TEST(SampleSize, HalfwidthHoldsForTheIntervalOfSoManyTrials) {
+TEST(SampleSize, TheIntervalHasThePlannedHalfwidth) {
   for (const double rate : {0.5, 0.9}) {
     for (const double halfwidth : {0.1, 0.01}) {
       const std::int64_t n = trials_for_halfwidth(halfwidth, 0.95, rate);
@@ -93,7 +93,7 @@ TEST(SampleSize, HalfwidthHoldsForTheIntervalOfSoManyTrials) {
 }
 
 // By simulation: studies with this rate, looked at after every block, end at about the stated number.
-TEST(SampleSize, ToDecideByTheOutcomesTakesAsManyTrialsAsStated) {
+TEST(SampleSize, StoppingByTheOutcomesNeedsTheForecastNumberOfTrials) {
   std::mt19937_64 random(165);
   constexpr std::int64_t block = 50;
   for (const double rate : {0.5, 0.9}) {
@@ -120,7 +120,7 @@ TEST(SampleSize, ToDecideByTheOutcomesTakesAsManyTrialsAsStated) {
   }
 }
 
-TEST(SampleSize, WhatNoNumberOfTrialsCanShowIsRefused) {
+TEST(SampleSize, ClaimsThatNoNumberOfTrialsCanShowAreRefused) {
   EXPECT_THROW(plan_with_power(0.99, 0.95, 0.99, 0.8), Failure);
   EXPECT_THROW(plan_with_power(0.99, 0.95, 0.98, 0.8), Failure);
   EXPECT_THROW(trials_for_claim(1.0, 0.95, 0), Failure);
@@ -130,14 +130,14 @@ TEST(SampleSize, WhatNoNumberOfTrialsCanShowIsRefused) {
   EXPECT_THROW(trials_for_halfwidth(0.1, 1.0, 0.5), Failure);
 }
 
-TEST(MachinePlan, WithOneTrialAMachineIsThatOfIndependentTrials) {
+TEST(MachinePlan, WithOneTrialPerMachineEqualsThePlanForIndependentTrials) {
   for (const double sd : {0.01, 0.2}) {
     EXPECT_NEAR(static_cast<double>(machines_for_halfwidth(0.05, 0.95, 0.8, sd, 1)),
                 static_cast<double>(trials_for_halfwidth(0.05, 0.95, 0.8)), 2.0);
   }
 }
 
-TEST(MachinePlan, ManyTrialsLeaveWhatDiffersBetweenMachines) {
+TEST(MachinePlan, WithManyTrialsOnlyDifferencesBetweenMachinesRemain) {
   // ±z·s/√R; Student's t, Clopper–Pearson and the limit by the number of machines take a little more.
   const auto machines = static_cast<double>(machines_for_halfwidth(0.05, 0.95, 0.8, 0.2, 100'000));
   EXPECT_NEAR(machines, std::pow(1.96 * 0.2 / 0.05, 2), 0.12 * machines);
@@ -151,7 +151,7 @@ TEST(MachinePlan, ManyTrialsLeaveWhatDiffersBetweenMachines) {
   EXPECT_THROW(machines_for_halfwidth(0.6, 0.95, 0.9, 0.1, 10), Failure);
 }
 
-TEST(MachinePlan, ToleranceIsShownWithSoManyTrialsAndNotWithFewer) {
+TEST(MachinePlan, IsTheSmallestNumberOfTrialsThatShowsTheTolerance) {
   const auto shown = [](std::int64_t machines, std::int64_t trials) {
     const MachineTrials flawless{trials, trials, trials, trials};
     return machine_tolerance(std::vector<MachineTrials>(static_cast<std::size_t>(machines), flawless), 0.9,

@@ -27,7 +27,7 @@ TEST(BestPoint, HasTheHighestRate) {
   EXPECT_EQ(points_by_merit(study), (std::vector<std::int64_t>{1, 2, 0}));
 }
 
-TEST(BestPoint, OfEqualOnesIsTheSimplest) {
+TEST(BestPoint, TheSimplestOfEqualPointsIsTheBest) {
   StudySummary study = swept_study({point_with(9, 10), point_with(9, 10)});
   study.axes.push_back({"controller.kp", "N m/count", "", study::SweepAxis::Kind::number, {0.1, 0.0}, {}});
   EXPECT_EQ(best_point(study), 1);
@@ -38,7 +38,7 @@ TEST(BestPoint, LeavesOutPointsWithoutTrials) {
             std::vector<std::int64_t>{1});
 }
 
-TEST(BestPoint, OfOnePointIsJudgedAsThatPoint) {
+TEST(BestPoint, ASinglePointHasItsOwnBounds) {
   const measures::PointSummary point = point_with(27, 30);
   EXPECT_EQ(goal::claim_of_chosen(point, 1, false).success_at_least, point.claim.success_at_least);
   const statistics::ConfidenceInterval bounds = goal::bounds_of_chosen(point, 1, false, 0.95);
@@ -47,7 +47,7 @@ TEST(BestPoint, OfOnePointIsJudgedAsThatPoint) {
 }
 
 // Twenty points that are equally good: the best of them looks better than it is.
-TEST(BestPoint, TheBoundsAllowForTheChoice) {
+TEST(BestPoint, BoundsAllowForTheChoice) {
   std::mt19937_64 random(166);
   constexpr double truth = 0.8;
   constexpr int rounds = 300, trials = 60;

@@ -65,7 +65,7 @@ TEST(ChosenPoint, IsTheBestWithItsRunnerUpUnlessOneIsNamed) {
   EXPECT_EQ(named.as_good, (std::vector<std::int64_t>{1, 2}));
 }
 
-TEST(ChosenPoint, AtTheEndOfASweepSaysWhatMayLieBeyond) {
+TEST(ChosenPoint, AtTheEndOfASweepSaysThatBetterValuesMayLieBeyond) {
   StudySummary study = swept_study({independent(90, 100), independent(10, 100), independent(10, 100)});
   ASSERT_EQ(choose_point(study).ends.size(), 1U);
   EXPECT_TRUE(choose_point(study).ends[0].lowest);
@@ -134,7 +134,7 @@ TEST(ShownPoints, AreSortedSelectedAndCountedByTheirValues) {
 }
 
 // Values of a sweep have 17 digits, and people copy those that an answer shows.
-TEST(ShownPoints, AreFoundByANumberAsAnAnswerShowsIt) {
+TEST(ShownPoints, AreFoundByTheNumberThatAnAnswerShows) {
   StudySummary study =
       swept_study({independent(10, 100), independent(90, 100), independent(85, 100), independent(20, 100)});
   using Points = std::vector<std::int64_t>;
@@ -160,7 +160,7 @@ TEST(ShownPoints, AreFoundByANumberAsAnAnswerShowsIt) {
   EXPECT_EQ(selected_points(study, {.where = {"ki = 1"}}), Points{2}) << "an equal value is meant alone";
 }
 
-TEST(ShownPoints, OfNamedCasesAreSelectedAndSortedByTheirNames) {
+TEST(ShownPoints, NamedCasesAreSelectedAndSortedByName) {
   StudySummary study =
       swept_study({independent(10, 100), independent(90, 100), independent(85, 100), independent(20, 100)});
   study.axes.push_back({"case", "", "", study::SweepAxis::Kind::text, {}, {"slow", "a<b", "fast", "slow"}});

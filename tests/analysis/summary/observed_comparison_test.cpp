@@ -63,7 +63,7 @@ struct ObservedTrials {
   std::vector<std::vector<trial::MoveOutcome>> trials;
 };
 
-TEST_EACH_SEED(ObservedTrials, AreComparedWithTrialsAllOfWhoseMovesMeetTheGoals) {
+TEST_EACH_SEED(ObservedTrials, AreComparedWithTrialsWhoseMovesAllMeetTheGoals) {
   const goal::Question question = goal::question_of(study);
   const study::ObservedCounts counts{draws.integer(0, 6), 6};
   const ObservedComparison found = compare_observed(question, summary(), counts);

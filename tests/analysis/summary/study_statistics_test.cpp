@@ -59,7 +59,7 @@ void expect_refused(const study::Study& study, const std::vector<testing::TrialR
   }
 }
 
-TEST(StudyStatistics, OfAFileAreThoseOfItsTrials) {
+TEST(StudyStatistics, FromAFileEqualThoseOfItsTrials) {
   // More trials and more jerks than are read at once, and points that do not end where a block does.
   const study::Study study = testing::plain_study(5, 1700, 2);
   const std::vector<testing::TrialRecord> trials = random_trials(study);
@@ -82,7 +82,7 @@ TEST(StudyStatistics, OfAFileAreThoseOfItsTrials) {
             text_of(study, expected));
 }
 
-TEST(StudyStatistics, OfAFileAreThoseOfItsOutcomesByNumPyAndSciPy) {
+TEST(StudyStatistics, FromAFileAgreeWithNumPyAndSciPy) {
   const study::Study study = testing::plain_study(3, 400, 2);
   const testing::TemporaryFolder folder;
   testing::write_study_file(
@@ -96,7 +96,7 @@ TEST(StudyStatistics, OfAFileAreThoseOfItsOutcomesByNumPyAndSciPy) {
   EXPECT_EQ(folder.read("out"), "3 points\n");
 }
 
-TEST(StudyStatistics, EachPointHasAllOfItsTrialsAndNoOther) {
+TEST(StudyStatistics, EachPointHasExactlyItsTrials) {
   const study::Study study = testing::plain_study(7, 3, 1);
   std::vector<testing::TrialRecord> trials(21);
   for (std::int64_t row = 0; row < 21; ++row) {
@@ -115,7 +115,7 @@ TEST(StudyStatistics, EachPointHasAllOfItsTrialsAndNoOther) {
   }
 }
 
-TEST(StudyStatistics, AFileThatContradictsItselfIsRefusedWithTheTrial) {
+TEST(StudyStatistics, AContradictoryTrialIsRefusedByNumber) {
   const study::Study study = testing::plain_study(2, 10, 1);
   std::vector<testing::TrialRecord> trials = random_trials(study);
   for (testing::TrialRecord& trial : trials) {
@@ -155,7 +155,7 @@ study::Study two_gains() {
       "test");
 }
 
-TEST(Summarise, AddsWhatTheManifestOfTheFileSays) {
+TEST(Summarise, AddsNameLabelsAndAxesFromTheManifest) {
   const study::Study study = two_gains();
   const std::vector<testing::TrialRecord> trials = random_trials(study);
   const testing::TemporaryFolder folder;
@@ -187,7 +187,7 @@ TEST(Summarise, AddsWhatTheManifestOfTheFileSays) {
   EXPECT_EQ(json["points"][0]["axes"]["case"], "low");
 }
 
-TEST(Summarise, TakesWhatTheCriteriaSayFromTheFile) {
+TEST(Summarise, TakesPredictionsFromTheFile) {
   const study::Study study = two_gains();
   const testing::TemporaryFolder folder;
   const std::vector<layout::PointColumn> stored =
@@ -210,7 +210,7 @@ TEST(Summarise, RefusesAFileWhoseManifestHasAnotherNumberOfMoves) {
                           [&] { summarise(reading::AllTrialsFile(folder / "study.h5")); });
 }
 
-TEST(Summarise, RefusesAFileWithoutWhatTheCriteriaSay) {
+TEST(Summarise, RefusesAFileWithMissingOrWrongPredictions) {
   const study::Study study = two_gains();
   const testing::TemporaryFolder folder;
   const auto expect_bad = [&](const std::vector<layout::PointColumn>& columns, const std::string& words) {
@@ -231,7 +231,7 @@ TEST(Summarise, RefusesAFileWithoutWhatTheCriteriaSay) {
   expect_bad(columns, "bad.h5: damaged: /point/predicted_stable_share: the dataset is missing");
 }
 
-TEST(Predictions, OfPointsThatTheCriteriaAreNotAboutComeBackAsSuch) {
+TEST(Predictions, PointsOutsideTheCriteriaReadBackAsNotApplicable) {
   const std::vector<theory::PointPrediction> predictions{{30, 0, 0, 30}, {30, 12, 3, 0}};
   const std::vector<layout::PointColumn> columns = measures::prediction_columns(predictions);
   EXPECT_TRUE(std::isnan(columns[0].values[0]) && std::isnan(columns[1].values[0]));
@@ -242,7 +242,7 @@ TEST(Predictions, OfPointsThatTheCriteriaAreNotAboutComeBackAsSuch) {
   EXPECT_EQ(back[1].stable, 12);
 }
 
-TEST(Predictions, ComeBackFromTheirColumnsExactly) {
+TEST(Predictions, ReadBackFromTheirColumnsExactly) {
   for (const std::int64_t trials : {1LL, 3LL, 7LL, 1000LL, 999983LL, 4000000007LL}) {
     std::vector<theory::PointPrediction> predictions;
     for (std::int64_t k = 0; k < 200; ++k) {

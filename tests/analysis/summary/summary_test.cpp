@@ -84,7 +84,7 @@ std::vector<std::string> table_in(const std::string& text) {
   return {head, lines.end()};
 }
 
-TEST(SummaryJson, HasTheKeysOfTheContract) {
+TEST(SummaryJson, HasTheDocumentedKeys) {
   const nlohmann::ordered_json json = summary_json(two_cases());
   EXPECT_EQ(json["name"], "paper-gains");
   ASSERT_EQ(json["points"].size(), 2U);
@@ -103,7 +103,7 @@ TEST(SummaryJson, HasTheKeysOfTheContract) {
   EXPECT_EQ(point["prediction"]["verdict"], "stable");
 }
 
-TEST(SummaryJson, CountsOfAMoveHaveTheNamesOfThoseOfTheTrials) {
+TEST(SummaryJson, CountsPerMoveAreNamedLikeThosePerTrial) {
   const nlohmann::ordered_json json = summary_json(two_cases());
   for (const auto& point : json["points"]) {
     const auto& move = point["moves"][0];
@@ -113,7 +113,7 @@ TEST(SummaryJson, CountsOfAMoveHaveTheNamesOfThoseOfTheTrials) {
   }
 }
 
-TEST(SummaryJson, WhatIsNotDefinedIsNull) {
+TEST(SummaryJson, UndefinedNumbersAreNull) {
   const nlohmann::ordered_json json = summary_json(two_cases());
   const auto& lost = json["points"][1];
   EXPECT_EQ(lost["success_rate"], 0.0);
@@ -182,7 +182,7 @@ TEST(SummaryCsv, HasALinePerPointAndReadsBackToTheSameDoubles) {
   EXPECT_EQ(cell_at("observed"), "stable in all tests");
 }
 
-TEST(SummaryTable, HasARowPerPointWithItsRateItsBoundsAndWhatIsKnownOfIt) {
+TEST(SummaryTable, HasARowPerPointWithItsRateAndBounds) {
   const std::string text = summary_text(two_cases());
   EXPECT_TRUE(text.starts_with("best of 2 points: low gain: at least 91.1 % of axes succeed")) << text;
   EXPECT_NE(text.find("\npaper-gains: 2 points\ndesign: monte_carlo\n\npoint "), std::string::npos) << text;
@@ -196,13 +196,13 @@ TEST(SummaryTable, HasARowPerPointWithItsRateItsBoundsAndWhatIsKnownOfIt) {
   }
 }
 
-TEST(SummaryTable, SaysWhatIsNotReachedWithinTheHold) {
+TEST(SummaryTable, ShowsATimeBeyondTheHoldAsLongerThanTheHold) {
   StudySummary summary = two_cases();
   summary.points[1].hold = 1.0;
   EXPECT_NE(table_in(summary_text(summary))[3].find("> 1 s"), std::string::npos);
 }
 
-TEST(SummaryTable, NamesTheDesignAndWhatItMeansForTheBounds) {
+TEST(SummaryTable, NamesTheDesignAndItsEffectOnTheBounds) {
   StudySummary summary = two_cases();
   EXPECT_NE(summary_text(summary).find("\ndesign: monte_carlo\n"), std::string::npos);
   EXPECT_EQ(summary_json(summary)["conservative_bounds"], false);
@@ -213,7 +213,7 @@ TEST(SummaryTable, NamesTheDesignAndWhatItMeansForTheBounds) {
   EXPECT_EQ(summary_json(summary)["design"], "sobol");
 }
 
-TEST(SummaryTable, HasMachinesWhereTrialsShareThem) {
+TEST(SummaryTable, HasMachineColumnsIfTrialsShareMachines) {
   StudySummary summary = two_cases();
   EXPECT_FALSE(summary_json(summary)["points"][0].contains("machines"));
   summary.features.machines = true;
@@ -222,7 +222,7 @@ TEST(SummaryTable, HasMachinesWhereTrialsShareThem) {
   const std::string table = summary_text(summary);
   EXPECT_NE(table.find("machines w/o failure"), std::string::npos);
   EXPECT_NE(table.find("50.0 %"), std::string::npos) << table;
-  EXPECT_NE(table.find("design: monte_carlo, 20 machines: bounds are of all machines"), std::string::npos)
+  EXPECT_NE(table.find("design: monte_carlo, 20 machines: bounds hold for all machines"), std::string::npos)
       << table;
   const auto machines = summary_json(summary)["points"][0]["machines"];
   EXPECT_EQ(machines["without_failure"], 0.5);
@@ -243,7 +243,7 @@ TEST(SummaryTable, ShowsTheValuesOfAGridInPlaceOfItsLabels) {
   EXPECT_EQ(point_names(summary)[1], "1 (a kp=0.5 coarse.kp=1)");
 }
 
-TEST(SummaryTable, LeavesManySweptParametersToTheLabels) {
+TEST(SummaryTable, ShowsLabelsIfManyParametersAreSwept) {
   StudySummary summary = two_cases();
   for (const char* name : {"dac.offset", "dac.noise", "dac.bits", "controller.kp"}) {
     summary.axes.push_back({name, "1", "", study::SweepAxis::Kind::number, {0, 1}, {}});
@@ -276,7 +276,7 @@ measures::PointSummary point_with(int in_jerks, int off_target, int oscillating)
 
 // What keeps trials from being stable adds up to those that are not, and none of it is called instability
 // that is not.
-TEST(SummaryTable, SaysWhatKeepsTrialsFromBeingStable) {
+TEST(SummaryTable, SplitsTrialsThatAreNotStableByTheirReason) {
   StudySummary summary = two_cases();
   const auto row_of = [&](int in_jerks, int off_target, int oscillating) {
     summary.points[0] = summary.points[1] = point_with(in_jerks, off_target, oscillating);
@@ -300,7 +300,7 @@ TEST(SummaryTable, SaysWhatKeepsTrialsFromBeingStable) {
   EXPECT_NE(legend.find("oscillates: proportion of trials with a move"), std::string::npos) << legend;
 }
 
-TEST(SummaryTable, HasColumnsForWhatTheStudyUses) {
+TEST(SummaryTable, HasColumnsForTheFeaturesOfTheStudy) {
   StudySummary summary = two_cases();
   const std::string plain = summary_text(summary);
   for (const char* head : {"travel", "|e|", "|true e|", "phase changes", "disagreeing"}) {
@@ -327,7 +327,7 @@ TEST(Summary, SaysThatTheBoundsOfASaltelliDesignAreTooNarrow) {
   EXPECT_NE(summary_text(summary).find("not independent: all bounds here are too narrow"), std::string::npos);
 }
 
-TEST(Summary, SaysHowManyTrialsWereStoppedWhereAStudyCanStopThem) {
+TEST(Summary, CountsStoppedTrialsIfTheStudyCanStopThem) {
   StudySummary summary = two_cases();
   measures::MeasureStatistics& stopped = summary.points[1].of(&trial::MoveOutcome::stopped);
   stopped.trials = stopped.by_move[0] = 5;
@@ -351,7 +351,7 @@ TEST(Summary, SaysHowManyTrialsWereStoppedWhereAStudyCanStopThem) {
   EXPECT_EQ(stored.back().values, (std::vector<double>{0, 5}));
 }
 
-TEST(SummaryTable, HasADashWhereTheCriteriaAreNotAboutAPoint) {
+TEST(SummaryTable, ShowsADashForPointsOutsideTheCriteria) {
   StudySummary summary = two_cases();
   summary.predictions[1] = {7, 0, 0, 7};
   const std::vector<std::string> lines = table_in(summary_text(summary));
@@ -399,7 +399,7 @@ TEST(SummaryOfLevels, TableHasARowPerPointAndLevel) {
   EXPECT_TRUE(lines[9].starts_with("lost: 1 of 1 trials nonfinite")) << lines[9];
 }
 
-TEST(SummaryOfLevels, JsonHasThemInThePoint) {
+TEST(SummaryOfLevels, JsonHasTheLevelsInEachPoint) {
   const nlohmann::ordered_json json = summary_json(load_and_unload());
   const auto& point = json["points"][0];
   EXPECT_TRUE(point["success_rate"].is_null());
@@ -430,7 +430,7 @@ TEST(Summary, PartsOfDifferentLengthAreRefused) {
   EXPECT_THROW(summary_text(summary), Failure);
 }
 
-TEST(PointColumns, AreTheFieldsOfTheReportByPoint) {
+TEST(PointColumns, EqualTheFieldsOfEachPoint) {
   const StudySummary summary = two_cases();
   const std::vector<layout::PointColumn> columns = measures::point_columns(summary.points);
   ASSERT_EQ(columns.size(), measures::statistic_fields().size());
@@ -450,14 +450,14 @@ TEST(PointColumns, AreTheFieldsOfTheReportByPoint) {
   EXPECT_EQ(predictions[1].values, (std::vector<double>{0.0, 2.0 / 7.0}));
 }
 
-TEST(SummaryTable, CallsALimitThatIsOffNone) {
+TEST(SummaryTable, ShowsADisabledLimitAsNone) {
   StudySummary summary = two_cases();
   summary.axes.back() = {"controller.deadband.enter",    "count",     "",
                          study::SweepAxis::Kind::number, {-1.0, 2.0}, {}};
   EXPECT_NE(table_in(summary_text(summary))[2].find(" none "), std::string::npos) << summary_text(summary);
 }
 
-TEST(SummaryTable, ShowsTheCriteriaOnlyWhereTheyApply) {
+TEST(SummaryTable, ShowsTheCriteriaOnlyIfTheyApply) {
   StudySummary summary = two_cases();
   EXPECT_NE(summary_text(summary).find("(6) holds"), std::string::npos);
   summary.predictions = {{.trials = 40, .outside = 40}, {.trials = 7, .outside = 7}};

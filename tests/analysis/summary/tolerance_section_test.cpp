@@ -45,7 +45,7 @@ measures::PointAccumulator trials_of_two_moves(int trials, int lost, std::vector
   return point;
 }
 
-TEST(AssuranceSection, LimitsAreOfTheSlowestMovesAndNeverArrivingIsBeyondThemAll) {
+TEST(ToleranceSection, LimitsAreThoseOfTheSlowestMoveOfEachTrial) {
   for (const int lost : {0, 3, 20}) {
     std::vector<double> slowest;
     const measures::PointSummary point = trials_of_two_moves(400, lost, slowest).statistics();
@@ -64,7 +64,7 @@ TEST(AssuranceSection, LimitsAreOfTheSlowestMovesAndNeverArrivingIsBeyondThemAll
   }
 }
 
-TEST(AssuranceSection, TellsTheSameInEveryForm) {
+TEST(ToleranceSection, IsTheSameInEveryFormat) {
   std::vector<double> slowest;
   const std::vector<measures::PointSummary> points{
       trials_of_two_moves(400, 3, slowest).statistics({.confidence = 0.9}),
@@ -95,7 +95,7 @@ TEST(AssuranceSection, TellsTheSameInEveryForm) {
   EXPECT_NEAR(json["points"][1]["assurance"]["rule_of_three"].get<double>(), std::log(10.0) / 100.0, 1e-12);
 }
 
-TEST(AssuranceSection, BoundsOfMeansAreThoseOfTheBootstrapOfTheirPoint) {
+TEST(ToleranceSection, BoundsOfMeansUseTheBootstrapOfTheirPoint) {
   std::vector<double> slowest;
   const measures::PointAccumulator point = trials_of_two_moves(60, 0, slowest);
   const measures::MeasureStatistics none = point.statistics().of(&trial::MoveOutcome::arrival_time);
@@ -114,7 +114,7 @@ TEST(AssuranceSection, BoundsOfMeansAreThoseOfTheBootstrapOfTheirPoint) {
             std::pair(first.mean_bounds.low, first.mean_bounds.high));
 }
 
-TEST(AssuranceSection, TrialsThatWereStoppedByTheirOutcomesClaimLess) {
+TEST(ToleranceSection, AStudyStoppedByItsOutcomesClaimsLess) {
   std::vector<double> slowest;
   const measures::PointAccumulator point = trials_of_two_moves(400, 3, slowest);
   const measures::PointSummary planned = point.statistics();
@@ -126,7 +126,7 @@ TEST(AssuranceSection, TrialsThatWereStoppedByTheirOutcomesClaimLess) {
     EXPECT_TRUE(std::isnan(limit.within));
 }
 
-TEST(AssuranceSection, TellsOfMachinesWhereTrialsShareThem) {
+TEST(ToleranceSection, StatesMachinesIfTrialsShareThem) {
   measures::PointAccumulator on_machines({.shape = {.machines = 40}}), stopped({.shape = {.machines = 40}});
   for (int trial = 0; trial < 4000; ++trial) {
     const bool failed = trial % 40 == 3;  // one machine always does
@@ -156,7 +156,7 @@ TEST(AssuranceSection, TellsOfMachinesWhereTrialsShareThem) {
   EXPECT_EQ(decided.machines.tolerance.min_machines, 0);
 }
 
-TEST(AssuranceSection, AConfidenceThatIsNoneIsRefused) {
+TEST(ToleranceSection, AConfidenceOfOneIsRefused) {
   std::vector<double> slowest;
   EXPECT_THROW(trials_of_two_moves(5, 0, slowest).statistics({.confidence = 1.0}), Failure);
 }

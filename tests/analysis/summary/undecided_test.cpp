@@ -14,7 +14,7 @@ namespace zerocount::summary {
 namespace {
 
 // An exponential read in whole counts: the estimate is as good as the rounding of its two errors allows.
-TEST(TimeToZero, IsThatOfAnExponentialDecay) {
+TEST(TimeToZero, IsExactForAnExponentialDecay) {
   std::mt19937_64 random(3);
   const auto uniform = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
@@ -41,7 +41,7 @@ TEST(TimeToZero, IsThatOfAnExponentialDecay) {
 
 // The machine of the paper with gains at which no move arrives within the hold: the advice decides most of
 // them.
-TEST(TimeToZero, DecidesMostMovesOfASlowLoop) {
+TEST(TimeToZero, AHoldOfThatLengthDecidesMostMovesOfASlowLoop) {
   for (const double ki : {2.0e-7, 5.0e-7, 1.0e-6}) {
     int off_target = 0, decided = 0;
     for (std::int64_t target = 3; target <= 30; target += 3) {
@@ -65,7 +65,7 @@ TEST(TimeToZero, DecidesMostMovesOfASlowLoop) {
   }
 }
 
-TEST(Undecided, AreToldWithTheHoldThatWouldDecideThem) {
+TEST(UndecidedMoves, AreReportedWithTheHoldThatWouldDecideThem) {
   EXPECT_EQ(measures::undecided_sentence({.moves = 3000}), "");
   EXPECT_EQ(
       measures::undecided_sentence({3000, 2736, 2700, 0, 0, 2.1}),
@@ -77,7 +77,7 @@ TEST(Undecided, AreToldWithTheHoldThatWouldDecideThem) {
       "the error still falling: they have stalled");
 }
 
-TEST(Undecided, AreToldOfMovesThatOnlySeemToOscillate) {
+TEST(UndecidedMoves, IncludeMovesThatOnlySeemToOscillate) {
   EXPECT_EQ(
       measures::undecided_sentence({300, 184, 183, 53, 29, 1.5}),
       "184 of 300 moves ended more than one count off their target without oscillating; the error was still "
@@ -87,7 +87,7 @@ TEST(Undecided, AreToldOfMovesThatOnlySeemToOscillate) {
       "about 1.5 s");
 }
 
-TEST(Undecided, AreToldOfThePointsThatHaveSome) {
+TEST(UndecidedMoves, AreReportedForThePointsThatHaveSome) {
   StudySummary study = swept_study(std::vector<measures::PointSummary>(2));
   study.labels = {"fast", "slow"};
   for (measures::PointSummary& point : study.points) point.trials = 10;

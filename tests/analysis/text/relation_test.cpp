@@ -33,7 +33,7 @@ TEST(Relation, IsReadWithAnySignAndAnyBlanks) {
   }
 }
 
-TEST(Relation, IsDividedAtTheFirstSign) {
+TEST(Relation, IsSplitAtTheFirstSign) {
   const std::optional<Relation> relation = parse_relation("label = a>=b");
   ASSERT_TRUE(relation);
   EXPECT_EQ(relation->name, "label");
@@ -44,7 +44,7 @@ TEST(Relation, IsDividedAtTheFirstSign) {
   EXPECT_EQ(parse_relation(">")->limit, "");
 }
 
-TEST(Relation, HoldsAsItsSignSaysAndNeverOfNaN) {
+TEST(Relation, NeverHoldsForNaN) {
   const double infinity = std::numeric_limits<double>::infinity();
   for (const WrittenSign& sign : written_signs) {
     EXPECT_EQ(holds(sign.sign, 0.1, 0.2), sign.below) << sign.text;

@@ -6,7 +6,7 @@
 namespace zerocount::text {
 namespace {
 
-TEST(Text, OnlyNoneIsZeroPercentAndOnlyAllIsAHundred) {
+TEST(Text, OnlyExactFractionsAreZeroOrAHundredPercent) {
   EXPECT_EQ(percentage(0, 1000000), "0 %");
   EXPECT_EQ(percentage(1, 1000000), "< 0.1 %");
   EXPECT_EQ(percentage(1, 1000), "0.1 %");
@@ -17,13 +17,13 @@ TEST(Text, OnlyNoneIsZeroPercentAndOnlyAllIsAHundred) {
   EXPECT_EQ(percentage(0, 0), "–");
 }
 
-TEST(Text, NumbersAreShortAndMissingOnesADash) {
+TEST(Text, NumbersAreShortAndMissingOnesAreADash) {
   EXPECT_EQ(short_number(0.1125), "0.1125");
   EXPECT_EQ(short_number(3.0), "3");
   EXPECT_EQ(short_number(std::nan("")), "–");
 }
 
-TEST(Text, WidthIsThatOfTheTerminal) {
+TEST(Text, DisplayWidthCountsTerminalCells) {
   EXPECT_EQ(display_width("abc"), 3U);
   EXPECT_EQ(display_width("β = 2·10⁵"), 9U);
   EXPECT_EQ(display_width("e\u0301"), 1U);  // e with a combining accent
@@ -111,7 +111,7 @@ TEST(AlignedTable, HasTheWidthAndEveryWordOfATable) {
 }
 
 // A long sentence in a cell makes no long lines where the width has no limit, and keeps its words whole.
-TEST(AlignedTable, WrapsLongCellsWhereTheWidthHasNoLimit) {
+TEST(AlignedTable, WrapsLongCellsEvenIfTheWidthIsUnlimited) {
   std::mt19937_64 random(2209);
   for (int round = 0; round < 100; ++round) {
     std::vector<TextColumn> columns{{"name", false, {}}, {"n", true, {}}, {"meaning", false, {}}};
@@ -213,7 +213,7 @@ TEST(FittedText, KeepsALineWithoutABreakAtItsEnd) {
   EXPECT_EQ(fitted("\n\n", 80), "\n\n");
 }
 
-TEST(Percent, OfABoundIsRoundedToTheSafeSide) {
+TEST(Percent, BoundsAreRoundedToTheSafeSide) {
   std::mt19937_64 random(96);
   std::uniform_real_distribution<double> exponent(-6.0, 0.0);
   for (int round = 0; round < 2000; ++round) {
@@ -233,7 +233,7 @@ TEST(Percent, OfABoundIsRoundedToTheSafeSide) {
   EXPECT_EQ(percent_at_most(0.00299), "0.3 %");
 }
 
-TEST(Percent, OfALowerBoundIsNeverAHundredNorOfAnUpperBoundZero) {
+TEST(Percent, ALowerBoundIsNever100AndAnUpperBoundNever0) {
   for (const double missing : {1e-9, 1e-12, 1e-15, 1e-17}) {
     EXPECT_LT(std::stod(percent_at_least(1.0 - missing)), 100.0) << missing;
     EXPECT_GT(std::stod(percent_at_most(missing)), 0.0) << missing;
@@ -243,7 +243,7 @@ TEST(Percent, OfALowerBoundIsNeverAHundredNorOfAnUpperBoundZero) {
   EXPECT_EQ(percent_at_most(1.0), "100 %");
 }
 
-TEST(Percent, OfTwoBoundsIsRoundedOutward) {
+TEST(Percent, IntervalsAreRoundedOutward) {
   EXPECT_EQ(percent_bounds(0.99996, 1.0), "99.9, 100.0");
   EXPECT_EQ(percent_bounds(0.0, 0.00001), "0.0, 0.1");
   EXPECT_EQ(percent_bounds(0.29549, 0.37251), "29.5, 37.3");
@@ -253,7 +253,7 @@ TEST(Percent, OfTwoBoundsIsRoundedOutward) {
   EXPECT_EQ(rounded_up(-0.0004, 3), "0.000");
 }
 
-TEST(Percent, OfANumberThatWasGivenIsThatNumber) {
+TEST(Percent, AGivenNumberIsShownInFull) {
   EXPECT_EQ(percent(0.95), "95 %");
   EXPECT_EQ(percent(0.07), "7 %");
   EXPECT_EQ(percent(0.999), "99.9 %");
@@ -265,7 +265,7 @@ TEST(Percent, OfANumberThatWasGivenIsThatNumber) {
   EXPECT_EQ(percent(0.0), "0 %");
 }
 
-TEST(Quantity, OfALengthReadsBackAndHasOneToThreeDigitsBeforeThePoint) {
+TEST(Quantity, ALengthReadsBackAndHasOneToThreeDigitsBeforeThePoint) {
   const std::map<std::string, double> sizes{
       {"pm", 1e-12}, {"nm", 1e-9}, {"µm", 1e-6}, {"mm", 1e-3}, {"m", 1.0}};
   testing::Draws draws(62);
@@ -281,7 +281,7 @@ TEST(Quantity, OfALengthReadsBackAndHasOneToThreeDigitsBeforeThePoint) {
   }
 }
 
-TEST(Quantity, HasThePrefixesThatTheFieldWritesWithItsUnit) {
+TEST(Quantity, HasTheUsualPrefixesOfItsUnit) {
   EXPECT_EQ(quantity_text(1e-5, "rad"), "10 µrad");
   EXPECT_EQ(quantity_text(16000, "Hz"), "16 kHz");
   EXPECT_EQ(quantity_text(5.9e6, "N/m"), "5.9e6 N/m");
@@ -293,7 +293,7 @@ TEST(Quantity, HasThePrefixesThatTheFieldWritesWithItsUnit) {
   EXPECT_EQ(quantity_text(std::numeric_limits<double>::quiet_NaN(), "s"), "– s");
 }
 
-TEST(Quantity, OfSeveralNumbersHasOnePrefix) {
+TEST(Quantity, SeveralNumbersShareOnePrefix) {
   EXPECT_EQ(range_text(2e-6, 1.2e-3, "m"), "0.002 … 1.2 mm");
   EXPECT_EQ(range_text(310, 930, "N s/m"), "310 … 930 N s/m");
   EXPECT_EQ(range_text(3.0, 3.0, "s"), "3 s");

@@ -79,7 +79,7 @@ double degrees(std::complex<double> value) {
 }
 
 /// The curve equals the open loop at its points and on the straight lines that the figure draws between them.
-TEST(BodeCurve, IsTheOpenLoopAtEveryFrequency) {
+TEST(BodeCurve, EqualsTheOpenLoopAtEveryFrequency) {
   RandomParts random;
   for (int i = 0; i < 60; ++i) {
     const LoopParts parts = random.parts();
@@ -110,7 +110,7 @@ TEST(BodeCurve, IsTheOpenLoopAtEveryFrequency) {
 
 // J·θ¨ + cs·θ˙ = u under kp and ki: −180° of the integrals below the corner of cs/J, −270° above it, −180°
 // again above the corner of ki and kp. About a spring: −90°, then 180° less past its natural frequency.
-TEST(BodeCurve, HasThePhaseThatTheTextbookDraws) {
+TEST(BodeCurve, HasTheTextbookPhase) {
   LoopParts sliding;
   sliding.damping = 1.0;
   sliding.plant.inertia = 1e-2;
@@ -161,7 +161,7 @@ TEST(BodeCurve, DoesNotMissTheResonanceOfALoad) {
   }
 }
 
-TEST(BodeCurve, HasThePhaseOfSmallDampingWhereThereIsNone) {
+TEST(BodeCurve, WithoutDampingHasThePhaseOfSmallDamping) {
   LoopParts parts;
   parts.plant.load = {.inertia = 5e-4, .stiffness = 2000.0, .damping = 1e-7};
   parts.controller.kp = 3e-4;
@@ -181,7 +181,7 @@ TEST(BodeCurve, HasThePhaseOfSmallDampingWhereThereIsNone) {
   EXPECT_NEAR(phase_at(undamped, 400.0) - phase_at(undamped, 100.0), 180.0, 60.0);
 }
 
-TEST(BodeCurve, ThereIsNoneWithoutGain) {
+TEST(BodeCurve, IsEmptyWithoutGain) {
   LoopParts parts;
   parts.controller.ki = 0.0;
   EXPECT_TRUE(bode_curve(parts.frozen(), 1.0).empty());
@@ -206,7 +206,7 @@ const CriterionCurve& curve(const std::vector<CriterionCurve>& curves, const std
   return curves.front();
 }
 
-TEST(CriterionCurves, AreThePapersBoundsForTheSoftestAndTheStiffestTrial) {
+TEST(CriterionCurves, AreTheBoundsOfThePaperForTheSoftestAndStiffestTrial) {
   const study::Study study = manifest::parse_study(
       head + "friction: {k1: {choice: [90, 100, 130]}, k2: {choice: [700, 800]}}\n", "test");
   const CriterionPlane plane{{"controller.ki", 1e-5, 6e-4, true}, {"controller.kp", 0.0, 8e-4}};
@@ -229,7 +229,7 @@ TEST(CriterionCurves, AreFoundInAPlaneWithoutTheGainToo) {
     EXPECT_NEAR(bound(point.y, 0.0, point.x), 3.85e-5, 1e-10);
 }
 
-TEST(CriterionCurves, ThereAreNoneWhereTheCriteriaSayNothing) {
+TEST(CriterionCurves, AreEmptyIfTheCriteriaDoNotApply) {
   const CriterionPlane plane{{"controller.ki", 1e-5, 6e-4, true}, {"controller.kp", 0.0, 8e-4}};
   const study::Study coulomb = manifest::parse_study(head + "friction: {model: coulomb}\n", "test");
   EXPECT_TRUE(criterion_curves(coulomb, 0, plane).empty());
@@ -280,7 +280,7 @@ study::Study machine_with_gap(const std::string& load, const std::string& cascad
 
 // The bound of the integral gain and the loops are of all states of the load: what is stable in contact is
 // not said to be stable where the motor alone is not.
-TEST(PointTheory, IncludesTheMotorAloneInItsGap) {
+TEST(PointTheory, IncludesTheMotorAloneInsideTheGap) {
   const std::string cascade = "structure: cascade, cascade: {kv: 40, kp: 0.12, ki: 1}";
   const PointTheory theory = examine(machine_with_gap("encoder: motor", cascade), 0);
   ASSERT_EQ(theory.loops.size(), 2U);
@@ -297,7 +297,7 @@ TEST(PointTheory, IncludesTheMotorAloneInItsGap) {
 
 // About a spring an underdamped loop rings for long in the linear theory, and its moves arrive: hysteresis
 // ends the ringing. Without friction nothing does.
-TEST(PointTheory, TellsThatMovesMayEndBeforeTheyArriveWhereNothingEndsARinging) {
+TEST(PointTheory, WarnsOfSlowRingingOnlyIfNoHysteresisEndsIt) {
   const auto approach_of = [](const std::string& friction) {
     const study::Study study =
         manifest::parse_study("zerocount: 1\nname: ring\nseed: 1\ntrials: 1\nfriction: {" + friction +
@@ -316,7 +316,7 @@ TEST(PointTheory, TellsThatMovesMayEndBeforeTheyArriveWhereNothingEndsARinging) 
 
 // A double integrator under integral action alone: each gain makes it grow. There is no margin, and the
 // reason is told.
-TEST(PointTheory, TellsThatNoGainStabilisesALoop) {
+TEST(PointTheory, ReportsALoopThatNoGainStabilises) {
   const study::Study study = manifest::parse_study(
       "zerocount: 1\nname: free\nseed: 1\ntrials: 1\nfriction: {model: none}\nplant: {presliding_damping: "
       "1.0e-3}\n"
@@ -334,7 +334,7 @@ TEST(PointTheory, TellsThatNoGainStabilisesALoop) {
 }
 
 // A rotor that stays the same from point to point is searched once.
-TEST(PointTheory, RotorsKnownFromThePointBeforeChangeNothing) {
+TEST(PointTheory, ReusingTheRotorsOfThePreviousPointChangesNothing) {
   const study::Study study = manifest::parse_study(
       "zerocount: 1\nname: axis\nseed: 1\nmachines: 5\ntrials: 5\ncommand: {targets: [1], hold: 1}\nsweep:\n "
       " "

@@ -335,7 +335,7 @@ trial::TrialParameters unit_mass(FrictionModel law) {
 }
 
 // 0.0639 m and 24.4 s; a relay, whose bristle does not yield, is 5 % larger.
-TEST(HuntingPrediction, OfThePublishedLoopIsThatOfItsFigure) {
+TEST(HuntingPrediction, MatchesThePublishedFigure) {
   for (const auto& [law, tolerance] :
        {std::pair(FrictionModel::lugre, 0.005), {FrictionModel::coulomb, 0.06}}) {
     const HuntingPrediction told = predict_hunting(unit_mass(law)).value();
@@ -362,7 +362,7 @@ trial::TrialParameters soft_bristle() {
   return p;
 }
 
-TEST(HuntingPrediction, IsNoneOfASoftBristleThatComesToRest) {
+TEST(HuntingPrediction, ASoftBristleComesToRest) {
   trial::TrialParameters p = soft_bristle();
   for (const std::int64_t step : {1092, -1092, 30, 300, 10'000}) {
     p.command.targets = {step};
@@ -371,7 +371,7 @@ TEST(HuntingPrediction, IsNoneOfASoftBristleThatComesToRest) {
 }
 
 // What moves the axis from outside is not hunting.
-TEST(HuntingPrediction, LeavesOutNoiseAndVibration) {
+TEST(HuntingPrediction, IgnoresNoiseAndVibration) {
   trial::TrialParameters p = soft_bristle();
   p.encoder.fine_errors.noise = 20.0;
   p.dac.noise = 0.1;
@@ -400,7 +400,7 @@ trial::TrialParameters load_with_stiction() {
 }
 
 // It begins with 6.89 mrad and 1.128 s, and comes to its cycle within 8 s.
-TEST(HuntingPrediction, IsThatOfALoadWithFriction) {
+TEST(HuntingPrediction, ALoadWithFrictionHunts) {
   const trial::TrialParameters p = load_with_stiction();
   const HuntingPrediction told = predict_hunting(p).value();
   ASSERT_EQ(told.state, Hunting::hunts);
@@ -410,7 +410,7 @@ TEST(HuntingPrediction, IsThatOfALoadWithFriction) {
 }
 
 // The integral of the velocity loop is at rest where the velocity command is rounded to zero.
-TEST(HuntingPrediction, IsNoneOfAnAxisThatStandsInADeadZone) {
+TEST(HuntingPrediction, AnAxisInADeadZoneComesToRest) {
   trial::TrialParameters p;
   p.friction.model = FrictionModel::coulomb;
   p.plant = {.inertia = 0.03, .sliding_damping = 0.05};
@@ -452,7 +452,7 @@ TEST(HuntingPrediction, BeginsWhenTheReferenceIsAtRest) {
   EXPECT_NEAR(told.period, 26.2e-3, 0.3e-3);
 }
 
-TEST(HuntingPrediction, IsNotMadeWithoutFrictionAndGapOrALoop) {
+TEST(HuntingPrediction, NeedsALoopAndFrictionOrAGap) {
   trial::TrialParameters p = unit_mass(FrictionModel::none);
   EXPECT_FALSE(predict_hunting(p));
   p.friction.model = FrictionModel::coulomb;

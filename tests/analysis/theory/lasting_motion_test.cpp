@@ -41,7 +41,7 @@ TEST(LastingMotion, ReadsNoPeriodFromASmallRipple) {
   EXPECT_NEAR(cycle->period, 800.0, 10.0);
 }
 
-TEST(LastingMotion, IsNoCycleWhereItDecaysGrowsOrDrifts) {
+TEST(LastingMotion, MotionThatDecaysGrowsOrDriftsIsNotACycle) {
   testing::RandomBlocks draw(2);
   for (int i = 0; i < 50; ++i) {
     const double period = draw.log_uniform(10.0, 500.0);
@@ -64,7 +64,7 @@ TEST(LastingMotion, IsACycleOnceItsTransientHasDecayed) {
   EXPECT_FALSE(lasting_cycle(series([&](double k) { return amplitude(k, 3000.0) * wave(k, 100.0); })));
 }
 
-TEST(LastingMotion, StandsWithinTwoCounts) {
+TEST(LastingMotion, MotionWithinTwoCountsIsStandstill) {
   EXPECT_TRUE(stands(series([](double k) { return k < length / 4.0 ? 1e3 : 11.0 + 0.9 * wave(k, 40.0); })));
   EXPECT_FALSE(stands(series([](double k) { return 11.0 + 1.1 * wave(k, 40.0); })));
 }

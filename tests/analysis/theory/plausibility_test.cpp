@@ -67,7 +67,7 @@ TEST_F(GoalPlausibility, AToleranceIsAtLeastHalfACount) {
 }
 
 // (1 - 2 Q((b + 1/2)/noise))^n, n the samples from `within` on.
-TEST_F(GoalPlausibility, ABandHoldsTheNoiseOfAnAxisThatStandsStill) {
+TEST_F(GoalPlausibility, ABandIsWiderThanTheNoiseAtStandstill) {
   int told = 0;
   for (int i = 0; i < rounds; ++i) {
     const int band = std::uniform_int_distribution(0, 3)(random());
@@ -90,7 +90,7 @@ TEST_F(GoalPlausibility, ABandHoldsTheNoiseOfAnAxisThatStandsStill) {
 }
 
 // The bound is one: no trial of a loop, stable and ideal but for its noise, does better by more than chance.
-TEST_F(GoalPlausibility, MovesMeetABandNoOftenerThanTold) {
+TEST_F(GoalPlausibility, NoMoreMovesMeetABandThanPredicted) {
   constexpr int trials = 400;
   for (const double noise : {0.14, 0.15, 0.16}) {
     const study::Study study = manifest::parse_study(
@@ -178,7 +178,7 @@ double rate_within_tolerance(const trial::TrialParameters& p, double noise, doub
   return best;
 }
 
-TEST_F(GoalPlausibility, AToleranceHoldsTheMotionByNoiseAtAllSamples) {
+TEST_F(GoalPlausibility, AToleranceIsWiderThanTheMotionByNoise) {
   for (int i = 0; i < rounds; ++i) {
     const double noise = log_uniform(2, 20);
     const std::string encoder = fmt::format("resolution: 1.0e-8, fine_errors: {{noise: {:.17g}}}", noise);
@@ -195,7 +195,7 @@ TEST_F(GoalPlausibility, AToleranceHoldsTheMotionByNoiseAtAllSamples) {
 }
 
 // No trial does better than told, whatever the law: of an air bearing too, which has no loop at rest.
-TEST_F(GoalPlausibility, MovesMeetAToleranceNoOftenerThanTold) {
+TEST_F(GoalPlausibility, NoMoreMovesMeetAToleranceThanPredicted) {
   constexpr int trials = 60;
   for (const double tolerance : {1.0e-11, 2.0e-8, 2.5e-8, 3.0e-8}) {
     const study::Study study = manifest::parse_study(
@@ -225,7 +225,7 @@ TEST_F(GoalPlausibility, MovesMeetAToleranceNoOftenerThanTold) {
 }
 
 // A target in SI units may lie half a count beside the middle of its count.
-TEST_F(GoalPlausibility, ZeroCountsHoldACountWhereTargetsAreRounded) {
+TEST_F(GoalPlausibility, ZeroCountsIncludeACountIfTargetsAreRounded) {
   const auto told = [](const std::string& target, const std::string& goal) {
     return doubtful_goals(manifest::parse_study(
         fmt::format(
@@ -296,7 +296,7 @@ bool meets(const study::Study& study, std::int64_t trial = 0) {
 constexpr std::array<const char*, 7> words_of_laws{"none", "coulomb", "presliding", "spring",
                                                    "dahl", "lugre",   "gms"};
 
-TEST(MovePlausibility, NoTrialMakesAMoveForWhichTheTorqueIsTooSmall) {
+TEST(MovePlausibility, NoTrialMakesAMoveThatNeedsMoreTorque) {
   testing::RandomBlocks draw(11);
   int told = 0;
   int made = 0;
@@ -349,7 +349,7 @@ TEST(MovePlausibility, TheTimeCountsInertiaLoadAndRange) {
   EXPECT_FALSE(told("inertia: 0.7, load: {inertia: 0.3, stiffness: 1.0e+5, damping: 5}", 10.0, 0.101));
 }
 
-TEST(MovePlausibility, ATorqueAboveTheRangeIsToldWithAndWithoutAGoal) {
+TEST(MovePlausibility, ADisturbanceAboveTheRangeIsReportedWithAndWithoutAGoal) {
   const std::string command = "command: {targets: [1000], hold: 0.3}\n";
   const std::string goal = "goal: {tolerance: 1.0e-6, within: 0.2, moves: 0.9}\n";
   for (const double torque : {-9.0, 9.0}) {
@@ -393,7 +393,7 @@ TEST(MovePlausibility, ARippleIsJudgedAtTheTargetUnderEachCondition) {
 }
 
 // The torque is named by what bounds it.
-TEST(MovePlausibility, TheTorqueLimitHasItsOwnName) {
+TEST(MovePlausibility, TheTorqueLimitIsNamedByWhatBoundsIt) {
   const auto told = [](const std::string& drive, const std::string& disturbance) {
     return fmt::format(
         "{}", fmt::join(doubtful_goals(slide(drive + "disturbance: {torque: " + disturbance +
@@ -451,7 +451,7 @@ bool load_meets(const study::Study& study) {
 
 // Against runs, both ways: what is told is of no move that meets the goal; and a cause that makes a move
 // miss, well beyond its limit, is told.
-TEST(MovePlausibility, WhatKeepsALoadFromItsGoalIsToldWhereTheSimulatedMoveMisses) {
+TEST(MovePlausibility, CausesThatKeepALoadFromItsGoalAreReportedIfTheMoveMisses) {
   const CauseOfMisses causes[] = {
       {"half of the gap", ", gap: {0:.6g}, friction: {{model: coulomb, breakaway: 1.0e-3}}", "", 2e-4},
       {"kinematic error", ", error: [{{amplitude: {0:.6g}, periods: 100, phase: 1}}]", "",
@@ -488,7 +488,7 @@ TEST(MovePlausibility, WhatKeepsALoadFromItsGoalIsToldWhereTheSimulatedMoveMisse
   }
 }
 
-TEST(MovePlausibility, AnEncoderOfTheLoadSeesWhatKeepsItAway) {
+TEST(MovePlausibility, AnEncoderAtTheLoadNeedsNoWarningOfKinematicError) {
   const CauseOfMisses error{"kinematic error", ", error: [{{amplitude: {0:.6g}, periods: 20, phase: 1}}]", "",
                             0.0};
   EXPECT_TRUE(is_told(cascade_with_load(error, 1e-3, "0.05"), error.told));
@@ -496,7 +496,7 @@ TEST(MovePlausibility, AnEncoderOfTheLoadSeesWhatKeepsItAway) {
 }
 
 // A load with a constant torque on it is doubted exactly where its simulated move misses.
-TEST(MovePlausibility, ALoadBehindTheEncoderIsWoundUp) {
+TEST(MovePlausibility, ALoadBehindTheEncoderWindsUpTheCoupling) {
   for (const double torque : {0.5, 2.0, 4.0})
     for (const double stiffness : {1.0e+4, 4.0e+4}) {
       const auto with = [&](const std::string& encoder, const std::string& friction) {
@@ -529,7 +529,7 @@ TEST(MovePlausibility, ALoadBehindTheEncoderIsWoundUp) {
     }
 }
 
-TEST(MovePlausibility, AGoalLeavesTheProfileItsTime) {
+TEST(MovePlausibility, AGoalMustLeaveTimeForTheProfile) {
   testing::RandomBlocks draw(12);
   int told = 0;
   for (int i = 0; i < 40; ++i) {
@@ -572,7 +572,7 @@ TEST(MovePlausibility, TheHoldLastsUntilTheTimeAfterTheProfile) {
   }
 }
 
-TEST(MovePlausibility, ABandIsLessThanHalfAStep) {
+TEST(MovePlausibility, ABandMustBeLessThanHalfAStep) {
   const auto told = [](const std::string& goal) {
     return is_told(
         slide("dac: {bits: 24, range: 500}\ncommand: {units: si, targets: [0, 1.0e-3, 1.02e-3], hold: "
@@ -659,7 +659,7 @@ TEST(LoopPlausibility, APhaseMarginIsAtLeastTwentyDegrees) {
   EXPECT_GT(sound, 5);
 }
 
-TEST(LoopPlausibility, TheWorstPointIsTold) {
+TEST(LoopPlausibility, TheWorstPointIsReported) {
   const study::Study study =
       study_with("5", "kp: 6.21e-4", "sweep: {grid: {controller.ki: [2.0e-5, 9.45e-5, 3.0e-4, 5.0e-5]}}\n");
   const std::vector<std::string> lines = doubtful_loops(study);
@@ -670,7 +670,7 @@ TEST(LoopPlausibility, TheWorstPointIsTold) {
 }
 
 // The paper's: between criteria (6) and (7) some histories are stable; beyond (7) none.
-TEST(LoopPlausibility, IntegralControlAloneIsDoubtedBeyondCriterionSeven) {
+TEST(LoopPlausibility, PureIntegralControlBeyondCriterion7GetsAWarning) {
   for (const double ki : {1e-5, 3.85e-5, 9.45e-5, 2.08e-4})
     EXPECT_TRUE(doubtful_loops(study_with("30", fmt::format("ki: {}", ki))).empty()) << ki;
   EXPECT_TRUE(is_told(doubtful_loops(study_with("30", "ki: 4.0e-4")), "at k1 + k2 the phase margin"));
@@ -700,7 +700,7 @@ TEST(LoopPlausibility, AMoveBeyondThePreslidingRangeNeedsALoopThatIsStableWhileI
   }
 }
 
-TEST(LoopPlausibility, ADelayOfASampleMoreIsEndured) {
+TEST(LoopPlausibility, TheLoopMustStayStableWithOneMoreSampleOfDelay) {
   // Far above the resonance the crossover is so fast that one sample costs more than the margin.
   const study::Study study = study_with("5", "kd: 1.28e-2, ki: 3.85e-5");
   const std::vector<std::string> lines = doubtful_loops(study);
@@ -708,7 +708,7 @@ TEST(LoopPlausibility, ADelayOfASampleMoreIsEndured) {
 }
 
 // In its gap the motor moves without its load, by a loop that the gains for both masses make unstable.
-TEST(LoopPlausibility, AMotorAloneInItsGapIsToldWhereItsLoopIsUnstable) {
+TEST(LoopPlausibility, AnUnstableLoopOfTheMotorInsideTheGapIsReported) {
   const auto told = [](const std::string& gap) {
     return fmt::format(
         "{}",
@@ -730,7 +730,7 @@ TEST(LoopPlausibility, AMotorAloneInItsGapIsToldWhereItsLoopIsUnstable) {
   EXPECT_TRUE(says(told(", gap: 1.0e-3"), "and the loop is unstable"));
 }
 
-TEST(LoopPlausibility, AnOpenLoopHasNone) {
+TEST(LoopPlausibility, AnOpenLoopGetsNoWarning) {
   EXPECT_TRUE(
       doubtful_loops(manifest::parse_study(
                          "zerocount: 1\nname: open\nseed: 1\ntrials: 1\ncommand: {torque: {levels: [0.1]}}\n",

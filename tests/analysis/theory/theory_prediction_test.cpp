@@ -22,7 +22,7 @@ trial::TrialParameters paper_machine(double ki) {
   return parameters;
 }
 
-TEST(TheoryPrediction, GainsOfThePaper) {
+TEST(TheoryPrediction, MatchesTheGainsOfThePaper) {
   const TrialPrediction below = predict(paper_machine(3.85e-5));
   EXPECT_TRUE(below.stable);
   EXPECT_FALSE(below.unstable);
@@ -41,7 +41,7 @@ TEST(TheoryPrediction, ProportionalGainMakesAnIntegralGainStable) {
   EXPECT_TRUE(predict(parameters).stable);
 }
 
-TEST(TheoryPrediction, WithoutIntegralOrOnABoundNothingIsPromised) {
+TEST(TheoryPrediction, WithoutAnIntegralOrAtABoundNothingIsPredicted) {
   EXPECT_FALSE(predict(paper_machine(0.0)).stable);
   EXPECT_FALSE(predict(paper_machine(0.0)).unstable);
   EXPECT_TRUE(predict(paper_machine(-1e-6)).unstable);
@@ -50,7 +50,7 @@ TEST(TheoryPrediction, WithoutIntegralOrOnABoundNothingIsPromised) {
   EXPECT_FALSE(predict(paper_machine(bounds.unstable_above)).unstable);
 }
 
-TEST(TheoryPrediction, ATrialIsGovernedByTheStiffnessWhereItStarts) {
+TEST(TheoryPrediction, UsesTheStiffnessWhereTheTrialStarts) {
   // k1 = 110 + 50·cos θ: 160 at 0, 60 at π. The bound of (6) is in proportion to k1.
   trial::TrialParameters parameters = paper_machine(3.85e-5);
   const friction::Profile profile{friction::Marginal::normal, 110.0, 50.0, {0.0, 1.0}, {0.0, 0.0}};
@@ -64,7 +64,7 @@ TEST(TheoryPrediction, ATrialIsGovernedByTheStiffnessWhereItStarts) {
   EXPECT_NEAR(soft.bounds.stable_below / stiff.bounds.stable_below, 60.0 / 160.0, 1e-12);
 }
 
-TEST(TheoryPrediction, TheCriteriaAreNotAboutOpenLoopsAndFrictionWithoutASpring) {
+TEST(TheoryPrediction, DoesNotApplyToOpenLoopsAndFrictionWithoutASpring) {
   trial::TrialParameters coulomb = paper_machine(3e-5), air = coulomb, open_loop = coulomb, spring = coulomb;
   coulomb.friction.model = friction::FrictionModel::coulomb;
   air.friction.model = friction::FrictionModel::none;
@@ -84,7 +84,7 @@ TEST(TheoryPrediction, TheCriteriaAreNotAboutOpenLoopsAndFrictionWithoutASpring)
   EXPECT_EQ(predicted_trials(point), 4) << "a proportion is of all trials";
 }
 
-TEST(TheoryPrediction, VerdictIsThatOfAllTrialsOrUndecidedWithItsShares) {
+TEST(TheoryPrediction, VerdictIsUndecidedWithProportionsIfTrialsDiffer) {
   PointPrediction stable, unstable, mixed, rare;
   for (int i = 0; i < 10; ++i) {
     stable.add(predict(paper_machine(3e-5)));
@@ -123,7 +123,7 @@ trial::TrialParameters rich_trial() {
   return p;
 }
 
-TEST(TrialLoops, AreThoseOfSpringAndSliding) {
+TEST(TrialLoops, CoverTheSpringAndTheSlidingAxis) {
   EXPECT_EQ(names_of(trial_loops(rich_trial())),
             (std::vector<std::string>{"at k1", "at k1 + k2", "while sliding"}));
   trial::TrialParameters two_phases = rich_trial();
@@ -193,7 +193,7 @@ std::vector<double> stiffnesses_of(friction::FrictionModel model) {
   return stiffnesses;
 }
 
-TEST(TrialLoops, AreThoseOfTheLaw) {
+TEST(TrialLoops, HaveTheStiffnessesOfTheFrictionLaw) {
   using friction::FrictionModel;
   EXPECT_EQ(stiffnesses_of(FrictionModel::spring), (std::vector<double>{97.0, 737.0, 0.0}));
   EXPECT_EQ(stiffnesses_of(FrictionModel::dahl), (std::vector<double>{900.0, 0.0}));
@@ -244,7 +244,7 @@ std::vector<std::string> names_with(friction::LoadFrictionModel model, double ga
   return names_of(trial_loops(p));
 }
 
-TEST(TrialLoops, AreThoseOfEachStateOfTheLoad) {
+TEST(TrialLoops, CoverEachStateOfTheLoad) {
   using friction::LoadFrictionModel;
   using motion::EncoderPlace;
   using Names = std::vector<std::string>;
@@ -288,7 +288,7 @@ struct StateOfMachine {
 // A machine that stays in a state of its load moves as the loop of that state: its motion dies out where the
 // loop is stable, and grows up to the torque range where it is not. So it does with each encoder in each loop
 // of the cascade.
-TEST(TrialLoops, TellWhetherTheSimulatedMotionInEachStateOfTheLoadDiesOut) {
+TEST(TrialLoops, PredictWhetherTheMotionDecaysInEachStateOfTheLoad) {
   using friction::LoadFrictionModel;
   const StateOfMachine states[] = {{LoadFrictionModel::none, 100.0, ", the motor alone in the gap"},
                                    {LoadFrictionModel::coulomb, 0.0, ", the load stands"},
@@ -339,7 +339,7 @@ TEST(TrialLoops, TellWhetherTheSimulatedMotionInEachStateOfTheLoadDiesOut) {
   EXPECT_GT(grows, 15);
 }
 
-TEST(TrialLoops, ThereAreNoneOfAPluginOrAnOpenLoop) {
+TEST(TrialLoops, AreEmptyForAPluginOrAnOpenLoop) {
   trial::TrialParameters plugin = rich_trial();
   trial::TrialParameters open = plugin;
   plugin.controller.user.plugin = std::make_shared<const plugin::ControllerPlugin>();

@@ -89,7 +89,7 @@ void add_numbers(JudgedCases& cases, Draws& draws) {
   }
 }
 
-TEST(ComparisonStatistics, AreThoseOfSciPy) {
+TEST(ComparisonStatistics, MatchSciPy) {
   const TemporaryFolder folder;
   JudgedCases cases(folder / "cases");
   Draws draws(20);

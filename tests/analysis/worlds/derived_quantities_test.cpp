@@ -88,7 +88,7 @@ std::vector<WorldInput> random_worlds(testing::Draws& draws, int count, double t
 }
 
 // In made-up worlds of which the quarter with the largest value of one quantity is bad.
-TEST(DerivedQuantities, AreNamedWhereTheyDecide) {
+TEST(DerivedQuantities, AreNamedIfTheyDecide) {
   constexpr int count = 30;  // with a threshold between any two
   constexpr double torque = 0.012;
   for (const DerivedQuantity& quantity : derived_quantities()) {
@@ -161,7 +161,7 @@ study::Study study_with(const std::string& more) {
 }
 
 // What differs between machines has its median: λ 8 here. What no unknown changes is not listed.
-TEST(DerivedQuantities, AreThoseOfTheMedianMachineOfEachWorld) {
+TEST(DerivedQuantities, UseTheMedianMachineOfEachWorld) {
   const study::Study study =
       study_with("friction: {lambda: {lognormal: {median: 8, cv: 0.5}}, n: {interval: [1.5, 2.5]}}\n");
   const std::vector<WorldInput> derived = derived_of_worlds(study, 0, holding_torque(0.02));
@@ -178,7 +178,7 @@ TEST(DerivedQuantities, AreThoseOfTheMedianMachineOfEachWorld) {
 }
 
 // The constant disturbance is carried too: here it takes the whole holding torque.
-TEST(DerivedQuantities, TakeTheTorqueThatTheContactCarries) {
+TEST(DerivedQuantities, UseTheTorqueThatTheContactCarries) {
   measures::MeasureStatistics torque = holding_torque(0.004);
   torque.mean = -0.1;
   const study::Study study =
@@ -186,7 +186,7 @@ TEST(DerivedQuantities, TakeTheTorqueThatTheContactCarries) {
   EXPECT_TRUE(says(derived_of_worlds(study, 0, torque).front().meaning, "a torque of 0.005 N m"));
 }
 
-TEST(DerivedQuantities, AreOfLawsThatHaveThem) {
+TEST(DerivedQuantities, AreEmptyForLawsWithoutThem) {
   for (const char* model : {"dahl", "coulomb"}) {
     const study::Study study =
         study_with(std::string("friction: {model: ") + model + ", breakaway: {interval: [0.2, 0.4]}}\n");
@@ -194,7 +194,7 @@ TEST(DerivedQuantities, AreOfLawsThatHaveThem) {
   }
 }
 
-TEST(DerivedQuantities, HaveARecord) {
+TEST(DerivedQuantities, HaveAMeasurementThatDeterminesThem) {
   for (const DerivedQuantity& quantity : derived_quantities()) EXPECT_FALSE(record_of(quantity.name).empty());
 }
 

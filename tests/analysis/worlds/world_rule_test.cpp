@@ -86,14 +86,14 @@ void expect_two_conditions(bool all, std::uint64_t seed) {
   expect_exact(*rule, inputs, bad);
 }
 
-TEST(WorldRule, HasTwoConditionsIfBothMustHold) {
+TEST(WorldRule, JoinsTwoConditionsByAndIfBothMustHold) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     SCOPED_TRACE(fmt::format("seed {}", seed));
     expect_two_conditions(true, seed);
   }
 }
 
-TEST(WorldRule, HasTwoConditionsIfOneIsEnough) {
+TEST(WorldRule, JoinsTwoConditionsByOrIfOneIsEnough) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     SCOPED_TRACE(fmt::format("seed {}", seed));
     expect_two_conditions(false, seed);
@@ -102,7 +102,7 @@ TEST(WorldRule, HasTwoConditionsIfOneIsEnough) {
 
 // In about a quarter of all data sets without a relation some rule names exactly two bad worlds of thirty.
 // That the rates of the other worlds fall towards them is not chance.
-TEST(WorldRule, OfTwoBadWorldsIsFoundByTheTrendOfAllRates) {
+TEST(WorldRule, TwoBadWorldsAreFoundByTheTrendOfAllRates) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     testing::Draws draws(seed);
     const std::vector<WorldInput> inputs = random_inputs(draws, 5, 30);
@@ -270,7 +270,7 @@ TEST(Learning, DoesNotLetAWorldJudgeItself) {
 
 // Few bad worlds that no unknown shows: a measurement "decides" most worlds for good and finds no bad one. To
 // call all worlds good does as well.
-TEST(Learning, DoesNotAdviseWhatFindsNoBadWorld) {
+TEST(Learning, DoesNotAdviseAMeasurementThatFindsNoBadWorld) {
   WorldInput input{"friction.n", "1", {}};
   std::vector<bool> bad;
   for (int world = 0; world < 40; ++world) {
@@ -286,7 +286,7 @@ TEST(Learning, DoesNotAdviseWhatFindsNoBadWorld) {
 
 // A measurement is worth it if its verdicts, with one word for all worlds that it leaves open, are right more
 // often than that word for all worlds.
-TEST(Learning, DoesBetterWhereItIsRightMoreOftenThanAWordForAll) {
+TEST(Learning, BeatsOneAnswerForAllWorldsIfItIsRightMoreOften) {
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
     const Worlds worlds(seed, 30);
     for (const Learned& one : what_to_learn(worlds.inputs, worlds.bad, 0.05, seed)) {
@@ -302,7 +302,7 @@ TEST(Learning, DoesBetterWhereItIsRightMoreOftenThanAWordForAll) {
 }
 
 // Where one world in thirty is bad, an unknown that does not matter decides most worlds too.
-TEST(Learning, IsNotTakenInByChance) {
+TEST(Learning, DoesNotMistakeChanceForAnEffect) {
   int shown = 0;
   constexpr int data_sets = 100;
   for (std::uint64_t seed = 1; seed <= data_sets; ++seed) {
@@ -314,7 +314,7 @@ TEST(Learning, IsNotTakenInByChance) {
   EXPECT_LE(shown, 12);  // 5 and three standard deviations
 }
 
-TEST(Learning, KnowsTheRecordsOfTheFriction) {
+TEST(Learning, NamesTheRecordThatMeasuresEachFrictionParameter) {
   EXPECT_TRUE(record_of("friction.n").starts_with("constant torques"));
   EXPECT_TRUE(record_of("friction.breakaway").starts_with("strokes"));
   EXPECT_TRUE(record_of("encoder.fine").empty());

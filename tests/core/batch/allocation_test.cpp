@@ -40,13 +40,13 @@ std::string hold_of(double samples) {
 /// Each lane needs memory for the rises of the count in the last half of a move, once (see LastHalf).
 const std::int64_t lanes = batch::BatchSettings{}.lanes;
 
-TEST_F(BatchAllocation, IsCounted) {
+TEST_F(BatchAllocation, IsDetectedByTheCounter) {
   const std::int64_t before = allocations_so_far();
   std::vector<int> numbers(100);
   EXPECT_EQ(allocations_so_far() - before, 1) << numbers.size();
 }
 
-TEST_F(BatchAllocation, DoesNotHappenOnceTheOutcomesHaveTheirPlace) {
+TEST_F(BatchAllocation, DoesNotHappenOnceTheOutcomesAreAllocated) {
   for (const char* name : {"bench-transient", "bench-marginal", "bench-creep"}) {
     Batch batch(bench_trials(name, 0, 400, {hold_of(600)}));
     batch::BatchEngine engine;
@@ -58,7 +58,7 @@ TEST_F(BatchAllocation, DoesNotHappenOnceTheOutcomesHaveTheirPlace) {
   }
 }
 
-TEST_F(BatchAllocation, IsOneATrialWhereItsOutcomeHasNoPlace) {
+TEST_F(BatchAllocation, HappensOncePerTrialIfItsOutcomeIsNotAllocated) {
   Batch warm(bench_trials("bench-transient", 0, 400));
   batch::BatchEngine engine;
   allocations_in(engine, warm);
@@ -98,7 +98,7 @@ TEST_F(BatchAllocation, DoesNotComeWithTheJerks) {
   EXPECT_GT(jerks, 100);
 }
 
-TEST_F(BatchAllocation, IsLessThanOneASampleWithSamplesObserved) {
+TEST_F(BatchAllocation, HappensLessThanOncePerObservedSample) {
   Batch batch(bench_trials("bench-creep", 0, 50));
   batch::BatchEngine engine;
   std::int64_t samples = 0;

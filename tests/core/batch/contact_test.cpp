@@ -15,7 +15,7 @@ std::shared_ptr<const friction::Profile> wave(double mean, double variation, dou
                                                                      {0.0, std::sin(phase), -0.4}});
 }
 
-TEST(BatchContact, TakesEveryParameterFromItsProfileWhereItSticks) {
+TEST(BatchContact, TakesItsParametersFromTheProfileWhereItSticks) {
   using P = friction::FrictionParameters;
   double P::*const profiled[] = {&P::k1,     &P::k2,        &P::beta,          &P::alpha,
                                  &P::lambda, &P::breakaway, &P::coulomb_ratio, &P::stribeck_velocity};
@@ -40,7 +40,7 @@ TEST(BatchContact, TakesEveryParameterFromItsProfileWhereItSticks) {
   EXPECT_GT(agreement.trials - agreement.slides, 50);
 }
 
-TEST(BatchContact, DrawsItsParametersAnewWhereItSticks) {
+TEST(BatchContact, DrawsNewParametersWhenItSticks) {
   using P = friction::FrictionParameters;
   double P::*const drawn[] = {&P::k1,
                               &P::k2,
@@ -73,7 +73,7 @@ TEST(BatchContact, DrawsItsParametersAnewWhereItSticks) {
   EXPECT_GT(agreement.slides, 70);
 }
 
-TEST(BatchContact, RemembersWhatWasBeforeTheStart) {
+TEST(BatchContact, StartsWithPreloadHistoryAndHardening) {
   std::vector<trial::TrialParameters> trials;
   for (std::uint64_t i = 0; i < 150; ++i) {
     trials.push_back(trial_for_lanes(i % 3 == 0 ? TrialKind::ringing : TrialKind::calm, 91000 + i));
@@ -89,7 +89,7 @@ TEST(BatchContact, RemembersWhatWasBeforeTheStart) {
   EXPECT_GT(agreement.trials - agreement.slides, 50);
 }
 
-TEST(BatchContact, MayBeMovingOrSlidingAtTheStart) {
+TEST(BatchContact, AgreesIfItMovesOrSlidesAtTheStart) {
   for (const trial::InitialMode mode : {trial::InitialMode::stick, trial::InitialMode::slide}) {
     std::vector<trial::TrialParameters> trials;
     for (std::uint64_t i = 0; i < 120; ++i) {
@@ -105,7 +105,7 @@ TEST(BatchContact, MayBeMovingOrSlidingAtTheStart) {
   }
 }
 
-TEST(BatchContact, MayBeWithoutCreep) {
+TEST(BatchContact, AgreesWithoutCreep) {
   for (const bool by_model : {true, false}) {
     std::vector<trial::TrialParameters> trials;
     for (std::uint64_t i = 0; i < 90; ++i) {
@@ -125,7 +125,7 @@ TEST(BatchContact, MayBeWithoutCreep) {
 
 /// Damping ranges from very weak, where an error lasts for thousands of samples, to overdamped, where an
 /// error decays as slowly as the elongation relaxes.
-TEST(BatchContact, MayBeDampedAtAnyRate) {
+TEST(BatchContact, AgreesForAnyDamping) {
   std::vector<trial::TrialParameters> trials;
   for (std::uint64_t i = 0; i < 180; ++i) {
     constexpr TrialKind kinds[] = {TrialKind::calm, TrialKind::ringing, TrialKind::breaking_away};
@@ -148,7 +148,7 @@ trial::TrialParameters creeping_trial(std::uint64_t index, double alpha) {
 }
 
 /// Creep ranges from none to creep that is finished within some tens of samples.
-TEST(BatchContact, CreepsAtAnyRate) {
+TEST(BatchContact, AgreesAtAnyCreepRate) {
   std::vector<trial::TrialParameters> trials;
   for (std::uint64_t i = 0; i < 200; ++i) {
     trials.push_back(creeping_trial(i, std::exp(-5.0 + 0.036 * static_cast<double>(i))));  // to 9 /s
@@ -158,7 +158,7 @@ TEST(BatchContact, CreepsAtAnyRate) {
 
 /// Creep is faster than the decay of the rotor's oscillation: then nothing is at rest until creep ends, and
 /// rounding has a say in how many of the last reversals are remembered.
-TEST(BatchContact, CreepsFasterThanItSwings) {
+TEST(BatchContact, AgreesIfCreepIsFasterThanTheOscillation) {
   std::vector<trial::TrialParameters> trials;
   for (std::uint64_t i = 0; i < 100; ++i) {
     trials.push_back(creeping_trial(i, std::exp(3.0 + 0.03 * static_cast<double>(i))));  // to 400 /s
@@ -172,7 +172,7 @@ TEST(BatchContact, CreepsFasterThanItSwings) {
 }
 
 /// Without softening the spring is linear; with much of it there is hardly a step without an event.
-TEST(BatchContact, SoftensByAnyAmount) {
+TEST(BatchContact, AgreesForAnySoftening) {
   std::vector<trial::TrialParameters> trials;
   for (std::uint64_t i = 0; i < 150; ++i) {
     trials.push_back(trial_for_lanes(TrialKind::calm, 95000 + i));
@@ -185,7 +185,7 @@ TEST(BatchContact, SoftensByAnyAmount) {
 }
 
 // Where the disturbance exceeds the breakaway of an axis with a second mass, its integral holds it.
-TEST(BatchContact, AnIntegralHoldsWhatTheContactCannot) {
+TEST(BatchContact, TheIntegralHoldsTheLoadBeyondBreakaway) {
   trial::TrialParameters p;
   p.friction.model = friction::FrictionModel::lugre;
   p.friction.uniform.breakaway = 0.05;
@@ -223,7 +223,7 @@ std::vector<trial::TrialParameters> trials_with(BlockKind kind, int count) {
   return trials;
 }
 
-TEST(BatchBlocks, DecideAsThoseOfTheReference) {
+TEST(BatchBlocks, AgreeWithTheReference) {
   std::vector<trial::TrialParameters> all;
   for (int kind = 0; kind < block_kinds; ++kind) {
     const std::vector<trial::TrialParameters> trials = trials_with(static_cast<BlockKind>(kind), 60);
@@ -235,7 +235,7 @@ TEST(BatchBlocks, DecideAsThoseOfTheReference) {
 }
 
 // Trials with blocks beside trials without, in few lanes that all of them go through.
-TEST(BatchBlocks, MixWithTrialsThatHaveNone) {
+TEST(BatchBlocks, AgreeBesideTrialsWithoutBlocks) {
   std::vector<trial::TrialParameters> trials;
   for (int kind = 0; kind < block_kinds; ++kind) {
     for (const trial::TrialParameters& p : trials_with(static_cast<BlockKind>(kind), 8)) trials.push_back(p);
@@ -262,7 +262,7 @@ TEST(BatchBlocks, AMemoryThatFadesIsNotSkipped) {
 
 // The control loop in the lanes: delay, gains, anti-windup, and converters of any word.
 
-TEST(BatchLoop, DelaysTheTorque) {
+TEST(BatchLoop, AgreesForDelayedTorques) {
   for (const int delay : {0, 1, 2, 3, 4, 5, 64}) {
     std::vector<trial::TrialParameters> trials;
     for (std::uint64_t i = 0; i < 30; ++i) {
@@ -281,7 +281,7 @@ TEST(BatchLoop, DelaysTheTorque) {
   }
 }
 
-TEST(BatchLoop, HasProportionalAndDifferentialParts) {
+TEST(BatchLoop, AgreesWithProportionalAndDerivativeGains) {
   std::vector<trial::TrialParameters> trials;
   for (std::uint64_t i = 0; i < 120; ++i) {
     trials.push_back(trial_for_lanes(TrialKind::calm, 81000 + i));
@@ -296,7 +296,7 @@ TEST(BatchLoop, HasProportionalAndDifferentialParts) {
 
 /// Converter words range from so short that torques are clipped to so fine that no code stays the same for
 /// long.
-TEST(BatchLoop, ConvertsByAnyWord) {
+TEST(BatchLoop, AgreesForAnyConverterWordLength) {
   std::vector<trial::TrialParameters> trials;
   int clipped = 0;
   for (std::uint64_t i = 0; i < 120; ++i) {
@@ -347,7 +347,7 @@ TEST(BatchMoves, FollowOneAnother) {
   EXPECT_GT(agreement.trials - agreement.slides, 50);
 }
 
-TEST(BatchMoves, MayBeOfOneSample) {
+TEST(BatchMoves, MayLastOneSample) {
   Choices choices(2);
   std::vector<trial::TrialParameters> trials;
   for (std::uint64_t i = 0; i < 120; ++i) {

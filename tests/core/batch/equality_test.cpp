@@ -33,19 +33,19 @@ INSTANTIATE_TEST_SUITE_P(
     [](const ::testing::TestParamInfo<NamedKind>& kind) { return std::string(kind.param.name); });
 
 /// Random trials as they are: some run in lanes, and others go to the reference by themselves.
-TEST_P(BatchEquality, OfRandomTrials) {
+TEST_P(BatchEquality, RandomTrialsEqualTheReference) {
   std::vector<trial::TrialParameters> trials;
   for (std::uint64_t i = 0; i < 200; ++i) trials.push_back(random_trial(GetParam().kind, 20000 + i));
   expect_agreement(trials, GetParam().name);
 }
 
-TEST_P(BatchEquality, OfRandomTrialsThatRunInLanes) {
+TEST_P(BatchEquality, RandomTrialsInLanesEqualTheReference) {
   std::vector<trial::TrialParameters> trials;
   for (std::uint64_t i = 0; i < 250; ++i) trials.push_back(trial_for_lanes(GetParam().kind, 30000 + i));
   expect_agreement_in_lanes(trials, GetParam().name);
 }
 
-TEST_P(BatchEquality, OfRandomTrialsWithAnyCreepExponent) {
+TEST_P(BatchEquality, TrialsWithAnyCreepExponentEqualTheReference) {
   std::vector<trial::TrialParameters> trials;
   for (std::uint64_t i = 0; trials.size() < 150; ++i) {
     const trial::TrialParameters trial = trial_with_any_exponent(GetParam().kind, 50000 + i);
@@ -54,7 +54,7 @@ TEST_P(BatchEquality, OfRandomTrialsWithAnyCreepExponent) {
   expect_agreement_in_lanes(trials, GetParam().name);
 }
 
-TEST_P(BatchEquality, TrialsThatDoNotRunInLanesAreTheReferencesToTheLastBit) {
+TEST_P(BatchEquality, TrialsOutsideLanesEqualTheReferenceBitForBit) {
   std::vector<trial::TrialParameters> trials;
   for (std::uint64_t i = 0; i < 100; ++i) {
     trials.push_back(random_trial(GetParam().kind, 40000 + i));
@@ -72,7 +72,7 @@ TEST_P(BatchEquality, TrialsThatDoNotRunInLanesAreTheReferencesToTheLastBit) {
 }
 
 /// Trials in which something happens at an awkward moment.
-TEST(BatchEqualityInHardTrials, HoldsToo) {
+TEST(BatchEqualityInHardTrials, TrialsWithCoincidingEventsEqualTheReference) {
   const std::vector<trial::TrialParameters> trials = {
       trial_for_lanes(TrialKind::arriving, 30208),  // a reversal in the sample that begins with another
       trial_for_lanes(TrialKind::arriving,
@@ -112,20 +112,20 @@ INSTANTIATE_TEST_SUITE_P(Bench, WorkloadEquality,
                            return name;
                          });
 
-TEST_P(WorkloadEquality, SampleBySample) {
+TEST_P(WorkloadEquality, AgreesSampleBySample) {
   expect_agreement_in_lanes(trials(), GetParam().name);
 }
 
 /// Two of 100 000 trials whose ringing reverses less than a nanosecond before a sampling instant. The tiny
 /// remaining step must not make the following steps as short.
-TEST(AReversalRightBeforeASample, IsFollowedAsByTheReference) {
+TEST(ReversalJustBeforeASample, EqualsTheReference) {
   for (const std::int64_t index : {26759, 41027})
     expect_agreement_in_lanes(bench_trials("bench-creep", index, 1, {"trials=100000"}), "bench-creep");
 }
 
 /// Behind couplings of all stiffnesses, over waits of a second: creep decelerates both masses, which the rest
 /// rule must know. Where one engine came to rest later, θ differed by 3e-7 count.
-TEST(ASecondMass, ComesToRestWithTheRotorAsInTheReference) {
+TEST(SecondMassInLanes, ComesToRestAsInTheReference) {
   std::vector<trial::TrialParameters> trials = bench_trials("manifests/resonance", 0, 60);
   for (std::size_t i = 0; i < trials.size(); ++i) {
     motion::LoadParameters& load = trials[i].plant.load;
@@ -139,7 +139,7 @@ TEST(ASecondMass, ComesToRestWithTheRotorAsInTheReference) {
 
 /// The counts before the first sample are extrapolated with the initial velocity, for the difference of
 /// counts, its filter and the observer.
-TEST(ATrialThatStartsInMotion, IsFollowedAsByTheReference) {
+TEST(StartInMotion, EqualsTheReference) {
   std::vector<trial::TrialParameters> trials;
   for (std::uint64_t i = 0; i < 200; ++i) {
     trial::TrialParameters p = trial_for_lanes(TrialKind::calm, 90000 + i);
@@ -158,7 +158,7 @@ TEST(ATrialThatStartsInMotion, IsFollowedAsByTheReference) {
 
 /// The integral holds the part of the load that the contact cannot carry, through delay, amplifier, late
 /// samples and blocks.
-TEST(AHeldStart, RunsInLanesAsInTheReference) {
+TEST(StartUnderHoldingTorque, RunsInLanesAsInTheReference) {
   std::vector<trial::TrialParameters> trials;
   for (std::uint64_t i = 0; i < 120; ++i) {
     trial::TrialParameters p = trial_for_lanes(TrialKind::loaded, 91000 + i);

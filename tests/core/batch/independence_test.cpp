@@ -52,7 +52,7 @@ class BatchIndependence : public ::testing::Test {
   static inline std::vector<BatchedTrial> expected;
 };
 
-TEST_F(BatchIndependence, OfTheNumberOfLanesAndTheInstructionSet) {
+TEST_F(BatchIndependence, ResultsDoNotDependOnLanesOrInstructionSet) {
   for (const batch::InstructionSet instructions : available_instruction_sets()) {
     for (const int lanes : {1, 2, 7, 16, 33, 128}) {
       expect_same(run_batch(trials, {lanes, instructions}),
@@ -61,7 +61,7 @@ TEST_F(BatchIndependence, OfTheNumberOfLanesAndTheInstructionSet) {
   }
 }
 
-TEST_F(BatchIndependence, OfTheOrder) {
+TEST_F(BatchIndependence, ResultsDoNotDependOnTheOrderOfTrials) {
   std::mt19937 random(5);
   for (int round = 0; round < 3; ++round) {
     std::vector<std::size_t> order(trials.size());
@@ -77,7 +77,7 @@ TEST_F(BatchIndependence, OfTheOrder) {
   }
 }
 
-TEST_F(BatchIndependence, OfThereBeingOthers) {
+TEST_F(BatchIndependence, ATrialAloneEqualsTheTrialInABatch) {
   for (const batch::InstructionSet instructions : available_instruction_sets()) {
     std::vector<BatchedTrial> alone;
     alone.reserve(trials.size());
@@ -88,7 +88,7 @@ TEST_F(BatchIndependence, OfThereBeingOthers) {
 }
 
 /// Beside the same trial in all other lanes, and beside machines that are nothing like it.
-TEST_F(BatchIndependence, OfWhoTheOthersAre) {
+TEST_F(BatchIndependence, ResultsDoNotDependOnTheOtherTrials) {
   for (std::size_t i = 0; i < trials.size(); i += 11) {
     std::vector<trial::TrialParameters> twins(40, trials[i]);
     for (const BatchedTrial& twin : run_batch(twins))
@@ -103,7 +103,7 @@ TEST_F(BatchIndependence, OfWhoTheOthersAre) {
   }
 }
 
-TEST_F(BatchIndependence, OfWhetherSamplesAreObserved) {
+TEST_F(BatchIndependence, ObservingSamplesChangesNoResult) {
   for (const batch::InstructionSet instructions : available_instruction_sets())
     expect_same(run_batch(trials, {.instructions = instructions}, Observed::jerks), "samples not observed");
   batch::BatchEngine engine;
@@ -116,7 +116,7 @@ TEST_F(BatchIndependence, OfWhetherSamplesAreObserved) {
     ASSERT_EQ(difference_in_bits({expected[i].outcome, {}, {}}, {outcomes[i], {}, {}}), "") << "trial " << i;
 }
 
-TEST_F(BatchIndependence, OfWhatTheEngineRanBefore) {
+TEST_F(BatchIndependence, EarlierRunsOfTheEngineChangeNoResult) {
   batch::BatchEngine engine({.lanes = 24});
   std::vector<trial::TrialParameters> wild;
   for (std::uint64_t i = 0; i < 100; ++i) wild.push_back(trial_for_lanes(kinds[i % 9], 61000 + i));
@@ -126,7 +126,7 @@ TEST_F(BatchIndependence, OfWhatTheEngineRanBefore) {
   expect_same(run_batch(engine, trials), "after themselves and none");
 }
 
-TEST(BatchObserversAre, ToldOfEachSampleInTheOrderOfTheTrial) {
+TEST(BatchObservers, SeeEachSampleInTheOrderOfTheTrial) {
   const std::vector<trial::TrialParameters> trials = different_trials();
   const std::vector<BatchedTrial> results = run_batch(trials);
   for (std::size_t i = 0; i < trials.size(); ++i) {
@@ -153,7 +153,7 @@ trial::TrialParameters plain_trial() {
   return bench_trials("bench-transient", 0, 1).front();
 }
 
-TEST(RunsInLanes, IsFalseOfWhatLanesDoNotKnowWhichThenIsTheReferences) {
+TEST(RunsInLanes, UnsupportedTrialsRunOnTheReference) {
   const Change changes[] = {
       {"no moves", [](trial::TrialParameters& p) { p.command.targets = {}; }},
       {"no samples", [](trial::TrialParameters& p) { p.command.hold = 1e-5; }},
@@ -187,7 +187,7 @@ TEST(RunsInLanes, IsFalseOfWhatLanesDoNotKnowWhichThenIsTheReferences) {
     EXPECT_EQ(difference_in_bits(batched[i], run_by_reference(trials[i])), "") << changes[i].what;
 }
 
-TEST(InstructionSets, PortableIsAlwaysThereAndTheWidestIsOneOfThem) {
+TEST(InstructionSets, ThePortableOneIsAlwaysAvailable) {
   const std::vector<batch::InstructionSet> sets = available_instruction_sets();
   ASSERT_FALSE(sets.empty());
   EXPECT_EQ(sets.front(), batch::InstructionSet::portable);
@@ -206,7 +206,7 @@ TEST(InstructionSets, HaveDifferentNames) {
 
 // verdict.stop in the lanes: trials end at the same sample as in the reference, and like it.
 
-TEST(BatchEarlyDecision, EndsATrialWhereTheReferenceDoes) {
+TEST(BatchEarlyDecision, StopsATrialAtTheSampleOfTheReference) {
   for (const double limit : {2.0, 20.0, 300.0, 1000.0}) {
     std::vector<trial::TrialParameters> trials;
     int stopped = 0, later = 0;
@@ -226,7 +226,7 @@ TEST(BatchEarlyDecision, EndsATrialWhereTheReferenceDoes) {
 }
 
 /// Trials that end give their lanes to others, which must not notice.
-TEST(BatchEarlyDecision, LeavesNothingBehindForTheNextTrialOfTheLane) {
+TEST(BatchEarlyDecision, LeavesNoStateForTheNextTrialOfTheLane) {
   std::vector<trial::TrialParameters> trials =
       bench_trials("bench-marginal", 0, 150, {"verdict.stop=true", "verdict.limit=30"});
   const std::vector<trial::TrialParameters> calm = bench_trials("bench-transient", 0, 150);
@@ -272,7 +272,7 @@ std::vector<LostTrial> lost_trials() {
   return trials;
 }
 
-TEST(BatchLosesAMotion, WhereTheReferenceDoesAndLikeIt) {
+TEST(BatchNonfiniteMotion, IsDetectedAsByTheReference) {
   int lost = 0;
   for (const LostTrial& trial : lost_trials()) {
     SCOPED_TRACE(trial.name);
@@ -290,7 +290,7 @@ TEST(BatchLosesAMotion, WhereTheReferenceDoesAndLikeIt) {
   EXPECT_GE(lost, 5);
 }
 
-TEST(BatchLosesAMotion, WithoutTheOthersNoticing) {
+TEST(BatchNonfiniteMotion, ChangesNoOtherTrial) {
   const std::vector<trial::TrialParameters> sound = bench_trials("bench-marginal", 0, 40);
   const std::vector<BatchedTrial> expected = run_batch(sound);
   std::vector<trial::TrialParameters> mixed = sound;

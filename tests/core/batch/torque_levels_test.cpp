@@ -117,7 +117,7 @@ TEST(TorqueLevels, LoadOtherLawsAsInTheReference) {
   }
 }
 
-TEST(TorqueLevels, DependOnNoOtherTrialAndOnNoInstructionSet) {
+TEST(TorqueLevels, DoNotDependOnOtherTrialsOrInstructionSet) {
   std::vector<trial::TrialParameters> trials = level_trials(TrialKind::calm, 20);
   for (std::uint64_t i = 0; i < 20; ++i) trials.push_back(trial_for_lanes(TrialKind::calm, 96500 + i));
   expect_independent(trials);

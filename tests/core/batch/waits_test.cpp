@@ -36,7 +36,7 @@ void expect_same_unobserved(const std::vector<trial::TrialParameters>& trials) {
   }
 }
 
-TEST(AWait, IsPassedWithLateSamples) {
+TEST(WaitInLanes, AgreesWithLateSamples) {
   const auto trials = changed_trials("bench-creep", 32, 1, [](trial::TrialParameters& p, RandomBlocks& draw) {
     p.controller.jitter = draw.uniform(0.0, 0.99) / p.controller.sample_rate;
     if (draw.chance(0.3)) p.amplifier.bandwidth = draw.log_uniform(300.0, 1000.0);
@@ -45,7 +45,7 @@ TEST(AWait, IsPassedWithLateSamples) {
   expect_same_unobserved(trials);
 }
 
-TEST(AWait, IsPassedWithANoisyEncoder) {
+TEST(WaitInLanes, AgreesWithANoisyEncoder) {
   const auto trials = changed_trials("bench-creep", 32, 2, [](trial::TrialParameters& p, RandomBlocks& draw) {
     p.encoder.fine_errors.noise = draw.log_uniform(0.003, 0.3);
     if (draw.chance(0.3)) p.encoder.fine_errors.noise_bandwidth = draw.log_uniform(10.0, 1000.0);
@@ -72,7 +72,7 @@ void expect_agreement_but_in_depth(const std::vector<trial::TrialParameters>& tr
   EXPECT_LT(agreement.theta, 1e-7);
 }
 
-TEST(AWait, IsPassedUnderRipples) {
+TEST(WaitInLanes, AgreesUnderRipples) {
   const auto trials = changed_trials("bench-creep", 32, 3, [](trial::TrialParameters& p, RandomBlocks& draw) {
     do {
       p.disturbance.ripple.push_back({draw.log_uniform(1e-5, 1e-2),
@@ -86,7 +86,7 @@ TEST(AWait, IsPassedUnderRipples) {
   expect_same_unobserved(trials);
 }
 
-TEST(AWait, IsPassedUnderLinesOfAVibration) {
+TEST(WaitInLanes, AgreesUnderVibration) {
   const auto trials = changed_trials("bench-creep", 24, 4, [](trial::TrialParameters& p, RandomBlocks& draw) {
     do {
       p.disturbance.vibration.push_back(
@@ -106,7 +106,7 @@ double rounds_by_samples(const trial::TrialParameters& p) {
   return static_cast<double>(engine.rounds()) / static_cast<double>(trial::samples_of_move(p, 0));
 }
 
-TEST(AWait, UnderCoulombsFrictionTakesNoRoundPerSample) {
+TEST(WaitInLanes, UnderCoulombFrictionNeedsHardlyAnyRoundPerSample) {
   trial::TrialParameters plain;
   plain.friction.model = friction::FrictionModel::coulomb;
   plain.command.targets = {0};
@@ -120,7 +120,7 @@ TEST(AWait, UnderCoulombsFrictionTakesNoRoundPerSample) {
     }
 }
 
-TEST(AWait, OfAContactTakesFewRoundsPerSample) {
+TEST(WaitInLanes, WithAContactNeedsFewRoundsPerSample) {
   const auto mean_of = [](const TrialChange& change) {
     double sum = 0.0;
     const auto trials = changed_trials("bench-creep", 10, 6, change);
@@ -146,7 +146,7 @@ TEST(AWait, OfAContactTakesFewRoundsPerSample) {
 }
 
 /// Four of five trials slide, most of them fast.
-TEST(ASecondMass, SlidesAsInTheReference) {
+TEST(SecondMassInLanes, SlidesAsInTheReference) {
   for (const bool bristles : {false, true}) {
     const auto trials =
         changed_trials("bench-marginal", 120, 5, [&](trial::TrialParameters& p, RandomBlocks& draw) {
@@ -251,7 +251,7 @@ trial::TrialParameters vibrated_trial(RandomBlocks& draw, double peak, int lines
 }
 
 // The amplitudes of the lines bound the torque, that of a single one is its peak.
-TEST(LanesThatStand, AreReleasedByAVibrationWhosePeakIsBeyondTheLevelAlone) {
+TEST(LanesThatStand, AreReleasedOnlyByAVibrationWhosePeakExceedsBreakaway) {
   RandomBlocks draw(44);
   std::vector<trial::TrialParameters> trials;
   std::vector<double> peaks;
@@ -271,7 +271,7 @@ TEST(LanesThatStand, AreReleasedByAVibrationWhosePeakIsBeyondTheLevelAlone) {
   }
 }
 
-TEST(LanesThatStand, GoOnAsTheReferenceDoesUnderEveryTorque) {
+TEST(LanesThatStand, AgreeWithTheReferenceUnderEveryTorque) {
   std::vector<trial::TrialParameters> trials;
   for (std::uint64_t i = 0; i < 1000; ++i) trials.push_back(standing_trial(i));
   const std::vector<BatchedTrial> batched = run_batch(trials);

@@ -22,7 +22,7 @@ double closed_form(double torque, double velocity, double stiffness, double t) {
                                        (velocity - decay * end) / frequency * std::sin(frequency * t));
 }
 
-TEST(ALawOfTheTests, MovesByItsClosedForm) {
+TEST(AddedFrictionLaw, MovesByItsClosedForm) {
   const FrictionAlongRotor friction{{.k1 = 110.0}, {}};
   for (const double velocity : {0.0, 0.3, -2.0}) {
     plant::PlantWith<SpringDamper> plant(rotor, friction, {.velocity = velocity}, tolerance);
@@ -35,7 +35,7 @@ TEST(ALawOfTheTests, MovesByItsClosedForm) {
   }
 }
 
-TEST(ALawOfTheTests, HasItsEventsLocatedInTime) {
+TEST(AddedFrictionLaw, ItsEventsAreLocatedInTime) {
   const FrictionAlongRotor friction{{.k1 = 110.0}, {}};
   const double decay = rotor.presliding_damping / (2.0 * rotor.inertia);
   const double half_period = std::numbers::pi / std::sqrt(110.0 / rotor.inertia - decay * decay);
@@ -47,7 +47,7 @@ TEST(ALawOfTheTests, HasItsEventsLocatedInTime) {
 }
 
 // A torque that moves comes to the law by its series.
-TEST(ALawOfTheTests, FollowsATorqueThatSettles) {
+TEST(AddedFrictionLaw, FollowsATorqueThatSettles) {
   const FrictionAlongRotor friction{{.k1 = 110.0}, {}};
   plant::PlantWith<SpringDamper> whole(rotor, friction, {}, tolerance);
   plant::PlantWith<SpringDamper> pieces(rotor, friction, {}, tolerance);

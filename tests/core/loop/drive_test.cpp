@@ -21,14 +21,14 @@ std::span<const TorquePiece> sent_exactly(Drive& drive, double torque) {
   return drive.pieces();
 }
 
-TEST(Drive, BeyondTheHighestBandwidthThereIsNone) {
+TEST(Drive, BandwidthIsLimited) {
   AmplifierParameters fast;
   fast.bandwidth = 1e300;
   Drive drive({}, fast, 0, 5e-4, {});
   EXPECT_EQ(sent_exactly(drive, 0.1).front().course.rate, 2.0 * std::numbers::pi * 1e12);
 }
 
-TEST(Drive, AmplifierLetsASineOfItsBandwidthThroughAtMinusThreeDecibels) {
+TEST(Drive, AmplifierAttenuatesASineAtItsBandwidthByThreeDecibels) {
   // Sampled finely enough for the steps not to matter; measured over whole periods after the transient.
   constexpr double bandwidth = 50.0;
   constexpr int samples_per_period = 20000;
@@ -71,7 +71,7 @@ TEST(Dac, RoundsHalvesToEven) {
   EXPECT_EQ(convert(dac, 0.2500001).code, 1);
 }
 
-TEST(Dac, ClipsAndSaysSo) {
+TEST(Dac, ReportsClipping) {
   const DacParameters dac{12, 0.5};
   EXPECT_EQ(convert(dac, 2047 * 0.5).code, 2047);
   EXPECT_FALSE(convert(dac, 2047 * 0.5).clipped);
@@ -102,7 +102,7 @@ TEST(Dac, ErrorsDoNotChangeTheCode) {
   }
 }
 
-TEST(Dac, EachErrorIsOne) {
+TEST(Dac, EachErrorParameterCountsAsAnError) {
   EXPECT_TRUE(has_errors({.offset = 1e-9}));
   EXPECT_TRUE(has_errors({.gain_error = -1e-9}));
   EXPECT_TRUE(has_errors({.nonlinearity = 1e-9}));

@@ -17,7 +17,7 @@ TEST(Encoder, StartsAtCountZeroForEveryPhase) {
     EXPECT_EQ(read_count(fine_encoder({}, phase), 0.0), 0);
 }
 
-TEST(Encoder, ChangesCountAtTheEdgeAndNotBefore) {
+TEST(Encoder, ChangesItsCountExactlyAtTheEdge) {
   const Encoder encoder = fine_encoder({}, 0.25);
   for (const std::int64_t n : {-3, -1, 0, 1, 2, 1000}) {
     const double edge = (static_cast<double>(n) - 0.25) * encoder.resolution;
@@ -85,7 +85,7 @@ struct MeasurementProperties : WithRandomEncoders {
   }
 };
 
-TEST_EACH_SEED(MeasurementProperties, IdealEncodersReadAsTheyAlwaysDid) {
+TEST_EACH_SEED(MeasurementProperties, ZeroErrorsReadLikeIdealEncoders) {
   const loop::EncoderParameters encoders = random_encoders();
   const double phase = random_phase();
   const loop::Encoder fine = loop::fine_encoder(encoders, phase);
@@ -112,7 +112,7 @@ TEST_EACH_SEED(MeasurementProperties, IdealEncodersReadAsTheyAlwaysDid) {
 }
 
 // Beyond all sense, but not beyond the numbers: a count stays one that others can be taken from.
-TEST(Measurement, OfAbsurdErrorsStaysAWholeNumber) {
+TEST(Measurement, AbsurdErrorsStillGiveWholeCounts) {
   for (const double absurd : {1e30, 1e300, 1e308}) {
     loop::EncoderParameters encoders;
     encoders.fine_errors.eccentricity = absurd;
@@ -146,7 +146,7 @@ TEST_EACH_SEED(EncoderDisagreementProperties, IdealCountsAgreeAtEveryAngle) {
   }
 }
 
-TEST(CountsAgree, TellsApartEdgesThatCoincide) {
+TEST(CountsAgree, DistinguishesCountsAtCoincidingEdges) {
   // The same encoder twice: one count of difference is impossible everywhere.
   const loop::Encoder encoder = loop::fine_encoder({}, 0.3);
   for (std::int64_t count = -5000000; count < 5000000; count += 99991) {

@@ -21,7 +21,7 @@ std::vector<double> longest_travels(const std::string& lines) {
   return travels;
 }
 
-TEST(ReferenceJudge, NoOtherMotionWithinTheLimitsGoesFartherInTheTime) {
+TEST(ReferenceJudge, NoMotionWithinTheLimitsIsFaster) {
   // Travels of 1 rad; limits around those with which each is just reached, so that all cases occur.
   constexpr std::int64_t counts = 1'000'000'000;
   constexpr double resolution = 1e-9;

@@ -93,7 +93,7 @@ class Sampler {
   std::mt19937_64 random_;
 };
 
-TEST(Reference, StepIsTheTargetAtOnce) {
+TEST(Reference, AStepIsImmediatelyAtTheTarget) {
   const Reference step({.shape = ReferenceShape::step}, -5, 20, paper_resolution);
   EXPECT_EQ(step.duration(), 0.0);
   for (const double t : {0.0, 1e-9, 1.0, 1e9}) EXPECT_EQ(step.at(t), 20);
@@ -134,7 +134,7 @@ TEST(Reference, SineOscillatesAboutTheTargetWithoutEnd) {
   }
 }
 
-TEST(Reference, EveryCountIsTheNearestToTheSegmentsIntegratedOneByOne) {
+TEST(Reference, EveryCountIsNearestToTheIntegratedSegments) {
   Sampler draw(1);
   std::int64_t compared = 0;
   for (int i = 0; i < 2000; ++i) {
@@ -159,7 +159,7 @@ TEST(Reference, EveryCountIsTheNearestToTheSegmentsIntegratedOneByOne) {
   EXPECT_GT(compared, 99000);
 }
 
-TEST(Reference, EveryMoveEndsExactlyAndNeverTurnsBack) {
+TEST(Reference, EveryMoveEndsExactlyAndIsMonotone) {
   Sampler draw(5);
   for (int i = 0; i < 1000; ++i) {
     const std::int64_t from = draw.integer(-100, 100);
@@ -184,7 +184,7 @@ TEST(Reference, EveryMoveEndsExactlyAndNeverTurnsBack) {
   }
 }
 
-TEST(Reference, MiddleOfAnOddTravelIsPassedWithoutTurningBack) {
+TEST(Reference, OddTravelsAreMonotoneAtTheMiddle) {
   Sampler draw(7);
   for (int i = 0; i < 500; ++i) {
     const std::int64_t to = 2 * draw.integer(0, 5) + 1;
@@ -203,7 +203,7 @@ TEST(Reference, MiddleOfAnOddTravelIsPassedWithoutTurningBack) {
 
 // The motion of the reference integrated twice, with the trapezoidal rule between samples, leads to its
 // target.
-TEST(Reference, ItsVelocityAndAccelerationAreTheRatesOfItsPath) {
+TEST(Reference, VelocityAndAccelerationAreDerivativesOfThePath) {
   Sampler sampler(44);
   for (int i = 0; i < 100; ++i) {
     ReferenceProfile profile;
@@ -236,7 +236,7 @@ TEST(Reference, ItsVelocityAndAccelerationAreTheRatesOfItsPath) {
 }
 
 // A trapezoidal move that reaches no limit of the velocity: the acceleration is that just after a switch.
-TEST(Reference, AccelerationOfASwitchIsThatAfterIt) {
+TEST(Reference, AccelerationAtASwitchIsTheOneAfterIt) {
   const ReferenceProfile profile{ReferenceShape::trapezoidal, 0.02, 0.5, 1.0};
   const Reference reference(profile, 0, 1000, 2e-6);  // 0.04 s up, 0.06 s cruise, 0.04 s down
   ASSERT_NEAR(reference.duration(), 0.14, 1e-12);
@@ -253,7 +253,7 @@ TEST(Reference, AccelerationOfASwitchIsThatAfterIt) {
   EXPECT_NEAR(Reference(profile, 0, -1000, 2e-6).motion_at(0.12).velocity, -0.01, 1e-15);
 }
 
-TEST(Reference, LimitsThatAreNoneInPracticeLeaveTheOthers) {
+TEST(Reference, VeryLargeLimitsHaveNoEffect) {
   constexpr double none = 1e308;
   const auto duration = [](ReferenceShape shape, double v, double a, double j) {
     return Reference({shape, v, a, j}, 0, 4000, 1e-3).duration();
@@ -266,7 +266,7 @@ TEST(Reference, LimitsThatAreNoneInPracticeLeaveTheOthers) {
   EXPECT_NEAR(duration(ReferenceShape::s_curve, none, none, none), 0.0, 1e-100);
 }
 
-TEST(Reference, EveryLimitMakesAMoveBetweenItsEnds) {
+TEST(Reference, AnyLimitsGiveAMoveBetweenItsEnds) {
   Sampler draw(8);
   for (int i = 0; i < 10000; ++i) {
     const auto limit = [&draw] { return draw.power_of_ten(-307, 308); };
@@ -283,7 +283,7 @@ TEST(Reference, EveryLimitMakesAMoveBetweenItsEnds) {
   }
 }
 
-TEST(Reference, HugeTravelIsCountedToItsEnd) {
+TEST(Reference, HugeTravelsEndExactly) {
   constexpr std::int64_t huge = 1'000'000'000'000;
   for (const std::int64_t to : {huge, -huge}) {
     const Reference reference({ReferenceShape::s_curve, 2.0, 100.0, 1e4}, -to, to, paper_resolution);

@@ -20,7 +20,7 @@ TEST(TorqueCourse, IsConstantWithoutRateOrDistance) {
   EXPECT_EQ(course_after({0.2, 0.3, 0.0}, 1.0).now, 0.2);
 }
 
-TEST(TorqueCourse, ContinuesAsItself) {
+TEST(TorqueCourse, ContinuesConsistentlyInPieces) {
   for (const double t : {0.0, 1e-9, 1e-4, 1e-3, 1e-2}) {
     const TorqueCourse rest = course_after(rising, t);
     EXPECT_NEAR(rest.now, exact(rising, t), 1e-16);
@@ -39,7 +39,7 @@ TEST(TorqueCourse, KnowsWhenATorqueIsReached) {
   EXPECT_EQ(time_until(constant_torque(0.1), 0.1), 0.0);
 }
 
-TEST(TorqueCourse, SeriesIsThatOfTheExponential) {
+TEST(TorqueCourse, SeriesMatchesTheExponential) {
   const numerics::Series series = torque_series(rising);
   for (const double t : {1e-5, 1e-4, 2e-4})
     EXPECT_NEAR(numerics::value_at(series, t), exact(rising, t), 1e-15);

@@ -28,7 +28,7 @@ double distance(double value, long double expected) {
   return static_cast<double>(std::abs(value - expected)) / unit;
 }
 
-TEST(ElementaryFunctions, AreWithinAFewUnitsOfTheLastPlace) {
+TEST(ElementaryFunctions, AreAccurateToTwoUlp) {
   Draws draws(1801);
   for (const Function& function : functions) {
     for (int round = 0; round < 3000; ++round) {
@@ -39,7 +39,7 @@ TEST(ElementaryFunctions, AreWithinAFewUnitsOfTheLastPlace) {
 }
 
 // Densely, and where the table, the series and the functions for large arguments meet.
-TEST(ElementaryFunctions, ExponentialsAreWithinOneUnitOfTheLastPlace) {
+TEST(ElementaryFunctions, ExponentialsAreAccurateToOneUlp) {
   Draws draws(1804);
   for (const double most : {1e-9, 0.0027, 0.0054, 0.02, 0.025, 0.1, 0.7, 3.0, 40.0, 699.0}) {
     for (int round = 0; round < 20000; ++round) {
@@ -52,7 +52,7 @@ TEST(ElementaryFunctions, ExponentialsAreWithinOneUnitOfTheLastPlace) {
   EXPECT_EQ(numerics::exp(0.0), 1.0);
 }
 
-TEST(ElementaryFunctions, LogarithmsAndPowersAreWithinOneUnitOfTheLastPlace) {
+TEST(ElementaryFunctions, LogarithmsAndPowersAreAccurateToOneUlp) {
   Draws draws(1805);
   for (const double range : {1e-12, 1e-6, 1e-3, 0.01, 0.4, 3.0, 40.0, 690.0}) {
     for (int round = 0; round < 20000; ++round) {
@@ -66,7 +66,7 @@ TEST(ElementaryFunctions, LogarithmsAndPowersAreWithinOneUnitOfTheLastPlace) {
   }
 }
 
-TEST(ElementaryFunctions, SineAndCosineAreWithinOneUnitOfTheLastPlace) {
+TEST(ElementaryFunctions, SineAndCosineAreAccurateToOneUlp) {
   Draws draws(1806);
   const auto expect_both = [](double x) {
     const long double wide = x;
@@ -80,7 +80,7 @@ TEST(ElementaryFunctions, SineAndCosineAreWithinOneUnitOfTheLastPlace) {
   for (int quarter = -60000; quarter < 60000; quarter += 7) expect_both(quarter * 0.5 * std::numbers::pi);
 }
 
-TEST(ElementaryFunctions, OfTwoArgumentsAreTooAndPowersOfWholeNumbersAreExact) {
+TEST(ElementaryFunctions, PowAndHypotAreAccurateToTwoUlp) {
   Draws draws(1802);
   for (int round = 0; round < 3000; ++round) {
     const double x = draws.uniform(1e-3, 30.0), y = draws.uniform(-20.0, 20.0);
@@ -92,7 +92,7 @@ TEST(ElementaryFunctions, OfTwoArgumentsAreTooAndPowersOfWholeNumbersAreExact) {
   EXPECT_EQ(numerics::pow(3.0, -1.0), 1.0 / 3.0);
 }
 
-TEST(ElementaryFunctions, HaveTheirLimits) {
+TEST(ElementaryFunctions, AreCorrectAtTheirLimits) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   EXPECT_EQ(numerics::exp(0.0), 1.0);
   EXPECT_EQ(numerics::exp(-1e4), 0.0);

@@ -16,7 +16,7 @@ std::vector<double> polynomial_with_roots(const std::vector<double>& roots) {
   return c;
 }
 
-TEST(FirstSignChange, IsTheSmallestSimpleRootInside) {
+TEST(FirstSignChange, IsTheSmallestSimpleRootInTheStep) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> place(-2.0, 3.0);
   for (int trial = 0; trial < 2000; ++trial) {
@@ -38,7 +38,7 @@ TEST(FirstSignChange, IsTheSmallestSimpleRootInside) {
   }
 }
 
-TEST(FirstSignChange, SeesAnExcursionOfAMillionthOfTheStep) {
+TEST(FirstSignChange, FindsAnExcursionOfAMillionthOfTheStep) {
   for (const double width : {1e-2, 1e-4, 1e-6}) {
     const std::vector<double> c = polynomial_with_roots({0.37, 0.37 + width, 2.0, -1.0});
     const std::optional<double> found = first_sign_change(c, 1.0);
@@ -107,7 +107,7 @@ namespace zerocount::testing {
 namespace {
 
 // Both searches find the first number of any threshold, and the doubling one asks for none above twice it.
-TEST(Bisection, FindsTheFirstNumber) {
+TEST(Bisection, FindsTheFirstNumberThatSatisfiesTheCondition) {
   std::mt19937_64 random(71);
   std::uniform_int_distribution<std::int64_t> number(0, 1000);
   for (int round = 0; round < 2000; ++round) {

@@ -28,7 +28,7 @@ friction::FrictionAlongRotor linear_spring() {
 }
 
 // (θ, ω, θ − θL, ω − ωL) under torques held over a sample: the plant that the margins of `check` use, too.
-TEST(PlantWithALoad, MovesOnALinearSpringAsTheMatrixExponentialSays) {
+TEST(PlantWithALoad, MatchesTheMatrixExponentialOnALinearSpring) {
   std::mt19937_64 random(15);
   std::normal_distribution<double> torque(0.0, 0.02);
   for (const double stiffness : {50.0, 2000.0, 5e4}) {
@@ -72,7 +72,7 @@ TEST(PlantWithALoad, ComesToRestWithItsRotor) {
 }
 
 // The stiffer the coupling, the nearer the motion to that of one mass, through breakaways and re-sticks.
-TEST(PlantWithALoad, IsOneMassWhereTheCouplingIsStiff) {
+TEST(PlantWithALoad, IsOneMassIfTheCouplingIsStiff) {
   motion::PlantParameters one;
   one.inertia = 8.54e-4;
   const auto difference = [&](double stiffness) {
@@ -183,7 +183,7 @@ TEST(CouplingWithAGap, WindsUpUnderAConstantTorque) {
   }
 }
 
-TEST(CouplingWithAGap, StartsWhereErrorAndGapPutTheLoad) {
+TEST(CouplingWithAGap, StartsAtTheLoadPositionGivenByErrorAndGap) {
   trial::TrialParameters p;
   p.plant = with_gap(3e-4);
   p.initial.gap = 0.25;

@@ -268,7 +268,7 @@ INSTANTIATE_TEST_SUITE_P(Drives, EnergyBalance,
 
 // The energy of the hysteretic spring is that of its stop elements. What is neither there, nor in the rotor
 // or the damper, is lost to hysteresis and creep, and that only grows.
-TEST(HystereticEnergy, IsLostAndNeverComesBack) {
+TEST(HystereticEnergy, IsNeverRecovered) {
   std::mt19937 random(41);
   std::normal_distribution<double> torque(0.0, 0.06);
   for (const double alpha : {0.0, 20.0}) {

@@ -42,7 +42,7 @@ TEST(Plant, OppositeTorqueGivesTheOppositeMotionBitForBit) {
   EXPECT_GT(plant.breakaways(), 10);
 }
 
-TEST(PlantThroughBreakawayAndReStick, StartsANewContactWithTheTorqueOfTheOld) {
+TEST(PlantThroughBreakawayAndReStick, TheNewContactStartsWithTheTorqueOfTheOldOne) {
   PreslidingPlant plant({}, {{}, {}}, {}, machine_tolerance);
   while (!plant.sliding()) hold(plant, 0.4, 1e-6);
   const double torque = plant.spring().torque();
@@ -77,7 +77,7 @@ TEST(PlantOnAProfile, TakesTheParametersWhereItSticks) {
   EXPECT_NE(plant.contact().k1, before);
 }
 
-TEST(Plant, GivesUpLoudlyOnAMotionItCannotFollow) {
+TEST(Plant, ThrowsOnAMotionItCannotFollow) {
   motion::PlantParameters rotor;
   rotor.inertia = 1e-200;
   PreslidingPlant plant(rotor, {{}, {}}, {}, machine_tolerance);
@@ -122,7 +122,7 @@ using namespace testing;
 constexpr double damping = 0.2;    // N m s/rad, of PlantParameters
 constexpr double breakaway = 0.3;  // N m, of FrictionParameters
 
-TEST(PlantWithVelocity, BreaksAwayAtOnceWhereTheDamperOvercomesTheHook) {
+TEST(PlantWithVelocity, BreaksAwayImmediatelyIfTheDamperTorqueExceedsBreakaway) {
   for (const double side : {1.0, -1.0}) {
     PreslidingPlant holding({}, {}, {.velocity = side * 0.99 * breakaway / damping}, machine_tolerance);
     hold(holding, 0.0, 1e-7);
@@ -137,7 +137,7 @@ TEST(PlantWithVelocity, BreaksAwayAtOnceWhereTheDamperOvercomesTheHook) {
 
 // The spring of a preloaded contact carries nothing but rounding, of either sign. A contact that begins with
 // that remembers no more than one that begins with nothing.
-TEST(PlantWithVelocity, BreaksAwayFromAPreloadAsFromNone) {
+TEST(PlantWithVelocity, BreakawayDoesNotDependOnThePreload) {
   for (const double preload : {0.11, -0.11, 0.17, -0.17, 0.23}) {
     PreslidingPlant one({}, {}, {.velocity = 1.2 * breakaway / damping}, machine_tolerance);
     PreslidingPlant other({}, {}, {.preload = preload, .velocity = 1.2 * breakaway / damping},
@@ -223,7 +223,7 @@ TEST(PlantWithHistory, StandsAtZeroWithoutTorque) {
   }
 }
 
-TEST(PlantWithHistory, IsThePreloadedOneWhereThePreloadIsItsOnlyLevel) {
+TEST(PlantWithHistory, AHistoryOfOneLevelEqualsAPreload) {
   PreslidingPlant preloaded({}, {}, {.preload = -0.12}, machine_tolerance);
   motion::PlantStart start;
   start.history = {-0.12};
@@ -237,7 +237,7 @@ TEST(PlantWithHistory, IsThePreloadedOneWhereThePreloadIsItsOnlyLevel) {
   }
 }
 
-TEST(PlantWithHistory, ForgetsWhatALargerTorqueHasWipedOut) {
+TEST(PlantWithHistory, ForgetsReversalsWipedOutByALargerTorque) {
   motion::PlantStart plain;
   plain.history = {0.2, -0.1, 0.06};
   motion::PlantStart full;
@@ -292,7 +292,7 @@ TEST(PlantWithHistory, MirrorsBitForBit) {
   }
 }
 
-TEST(PlantOnASpringAlone, IsThePreslidingOneWithoutCreepBitForBit) {
+TEST(PlantOnASpringAlone, EqualsThePreslidingPlantWithoutCreepBitForBit) {
   friction::FrictionAlongRotor spring;
   spring.model = friction::FrictionModel::spring;
   friction::FrictionAlongRotor presliding;
@@ -337,7 +337,7 @@ class RandomTorques {
 };
 
 // 10¹² Hz, the highest bandwidth that the drive has: the torque is there in a picosecond.
-TEST(PlantUnderAnAmplifier, CanBeFollowedUpToTheHighestBandwidth) {
+TEST(PlantUnderAnAmplifier, IsIntegratedUpToTheHighestBandwidth) {
   const double rate = 2.0 * std::numbers::pi * 1e12;
   for (const friction::FrictionModel model :
        {friction::FrictionModel::presliding, friction::FrictionModel::spring,
@@ -373,7 +373,7 @@ TEST(PlantUnderAnAmplifier, OppositeTorqueGivesTheOppositeMotionBitForBit) {
 
 // Loaded from virgin by a torque so slow that every sample changes it by less than the rest rule notices: the
 // spring carries u − c·ω − J·dω/dt all the same, within the ε·(k1 + k2)/k1 that the rule promises.
-TEST(PlantUnderAnAmplifier, FollowsATorqueTooSlowToBeNoticedAtOnce) {
+TEST(PlantUnderAnAmplifier, FollowsAVerySlowTorque) {
   const friction::FrictionParameters friction;
   const motion::PlantParameters rotor;
   const double promised = machine_tolerance.elongation * (friction.k1 + friction.k2) / friction.k1;

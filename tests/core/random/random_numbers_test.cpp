@@ -17,7 +17,7 @@ TEST(RandomBitsAt, PacksTrialNumberAndStreamIntoTheCounter) {
             random_bits({key, 7}, 0xfe12'3456'789a'bcde, 0xdcba'9876u));
 }
 
-TEST(RandomBitsAt, DependsOnEveryBitOfTrialNumberAndStreamAndOnNothingTwice) {
+TEST(RandomBitsAt, DependsOnEveryBitOfTrialNumberAndStream) {
   // All coordinates with at most two bits set: were two of them packed into the same counter, two of the
   // numbers would be equal.
   struct Coordinates {
@@ -88,7 +88,7 @@ TEST(StandardNormal, IsTheInverseOfTheNormalDistribution) {
 }
 
 /// At the ends of the three rational functions, too: u = 0.075 and e⁻²⁵.
-TEST(StandardNormal, IsTheSameForNoiseTo1e15) {
+TEST(StandardNormal, TheFastFormForNoiseAgreesTo1e15) {
   std::mt19937_64 random(16);
   for (int i = 0; i < 200000; ++i) {
     const std::uint64_t near_edge =
@@ -138,7 +138,7 @@ TEST(BinomialNumber, IsTheSmallestWithEnoughProbability) {
   EXPECT_GT(compared, 5000);
 }
 
-TEST(BinomialNumber, OfManyAtASmallProbabilityIsPoisson) {
+TEST(BinomialNumber, ApproachesPoissonForManyTrialsOfSmallProbability) {
   // Le Cam: the two laws differ by less than n·p², here at most 1e-12.
   constexpr double mean = 3.0;
   for (const double n : {1e13, 7e15}) {

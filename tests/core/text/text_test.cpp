@@ -18,7 +18,7 @@ TEST(CsvField, IsQuotedWhereItMustBe) {
   EXPECT_EQ(text::csv_field("two\nlines"), "\"two\nlines\"");
 }
 
-TEST(CsvField, IsNoCommandOfASpreadsheet) {
+TEST(CsvField, IsNeverASpreadsheetFormula) {
   EXPECT_EQ(text::csv_field("=cmd|' /C calc'!A0"), "'=cmd|' /C calc'!A0");
   EXPECT_EQ(text::csv_field("@SUM(1,2)"), "\"'@SUM(1,2)\"");
   EXPECT_EQ(text::csv_field("-2+3+cmd|' /C calc'!A0"), "'-2+3+cmd|' /C calc'!A0");
@@ -36,7 +36,7 @@ TEST(CsvField, IsNoCommandOfASpreadsheet) {
 namespace zerocount {
 namespace {
 
-TEST(NumberText, IsANumberOnlyAsAWhole) {
+TEST(NumberText, MustBeANumberAsAWhole) {
   EXPECT_EQ(text::parse_number<double>("3.16e-5"), 3.16e-5);
   EXPECT_EQ(text::parse_number<std::int64_t>("-7"), -7);
   for (const char* const other : {"", "3,16", "3.1 ", " 3", "+3", "3e", "x", "1e999"})
@@ -103,12 +103,12 @@ TEST(ShellWord, IsReadAsOneWordByEveryShell) {
   }
 }
 
-TEST(ShellWord, IsLeftAsItIsWhereItNeedsNoQuotes) {
+TEST(ShellWord, IsUnchangedIfItNeedsNoQuotes) {
   EXPECT_EQ(shell_word("studies/axis-1.yaml"), "studies/axis-1.yaml");
   EXPECT_EQ(shell_word(""), "''");
 }
 
-TEST(ShellPath, IsNoOption) {
+TEST(ShellPath, IsNeverTakenForAnOption) {
   EXPECT_EQ(shell_path("-o.yaml"), "./-o.yaml");
   EXPECT_EQ(shell_path("-"), "-");
   EXPECT_EQ(shell_path("a b/-o.yaml"), "'a b/-o.yaml'");
@@ -122,7 +122,7 @@ TEST(ShellPath, IsNoOption) {
 namespace zerocount::testing {
 namespace {
 
-TEST(Utf8, TextOfAnyScriptStaysAsItIs) {
+TEST(Utf8, TextOfAnyScriptIsUnchanged) {
   for (const std::string text : {"", "k1 = 110 N m/rad", "Δx ≥ 1 µm", "日本語 🙂", "two\nlines"}) {
     EXPECT_EQ(text::printable_lines(text), text);
     EXPECT_EQ(text::is_printable(text), text.find('\n') == std::string::npos) << text;
@@ -139,7 +139,7 @@ TEST(Utf8, ControlCharactersAreReplaced) {
 }
 
 // Overlong forms, surrogates, values beyond U+10FFFF, and sequences that are cut short (RFC 3629).
-TEST(Utf8, BytesThatAreNotUtf8AreReplacedOneByOne) {
+TEST(Utf8, InvalidBytesAreReplacedOneByOne) {
   for (const std::string text : {"\xFF", "\x80", "\xC3"}) EXPECT_EQ(text::printable_lines(text), "\uFFFD");
   for (const std::string text : {"\xC0\xAF", "\xE2\x82"})
     EXPECT_EQ(text::printable_lines(text), "\uFFFD\uFFFD");

@@ -18,7 +18,7 @@ namespace {
 
 // About a stiff contact an integral takes the time constant (k + kP)/kI, far beyond any hold. That is slow,
 // and not marginal, as long as the motion changes by a thousandth within the hold.
-TEST(LoopStability, OfASlowPoleIsStable) {
+TEST(LoopStability, ASlowPoleIsStable) {
   testing::RandomBlocks draw(31);
   for (int i = 0; i < 50; ++i) {
     const motion::PlantParameters plant{.inertia = draw.log_uniform(1e-4, 1.0)};
@@ -36,7 +36,7 @@ TEST(LoopStability, OfASlowPoleIsStable) {
   }
 }
 
-TEST(LoopStability, IsJudgedByWhatChangesWithinTheHold) {
+TEST(LoopStability, IsJudgedByTheGrowthWithinTheHold) {
   Eigen::VectorXcd poles(2);
   const double T = 1e-3;
   const auto stability = [&](double rate, double hold) {  // rate of growth, 1/s
@@ -53,7 +53,7 @@ TEST(LoopStability, IsJudgedByWhatChangesWithinTheHold) {
 }
 
 // A free mass without control: a double eigenvalue of 1, which rounds.
-TEST(LoopStability, OfAFreeMassIsMarginal) {
+TEST(LoopStability, AFreeMassIsMarginal) {
   testing::RandomBlocks draw(32);
   for (int i = 0; i < 50; ++i) {
     const motion::PlantParameters plant{.inertia = draw.log_uniform(1e-5, 10.0)};
@@ -85,7 +85,7 @@ class RandomLoops {
 
 // With kp alone and no damping, |L| = kp·T²/(2·J·Δx)·cos φ/(2·sin² φ) with φ = ωT/2, which is 1 where
 // 2·sin² φ = g·cos φ with g = kp·T²/(2·J·Δx), a quadratic equation in cos φ; the phase is −180° − φ.
-TEST(SlidingCrossover, OfAnUndampedMassUnderProportionalControlIsAClosedForm) {
+TEST(SlidingCrossover, MatchesTheClosedFormOfAnUndampedMassUnderProportionalControl) {
   RandomLoops random;
   for (int i = 0; i < 50; ++i) {
     motion::PlantParameters plant = random.plant();
@@ -120,7 +120,7 @@ std::complex<double> open_loop(double frequency, const motion::PlantParameters& 
   return (c.kp + c.ki * (z + 1.0) / (z - 1.0) + c.kd * (1.0 - 1.0 / z)) * std::pow(z, -c.delay) * G * gain;
 }
 
-TEST(SlidingCrossover, IsWhereTheClosedFormHasTheGain1) {
+TEST(SlidingCrossover, IsWhereTheClosedFormHasUnityGain) {
   RandomLoops random;
   int found = 0;
   for (int i = 0; i < 200; ++i) {
@@ -151,7 +151,7 @@ TEST(SlidingCrossover, IsWhereTheClosedFormHasTheGain1) {
 }
 
 // A PD control that samples fast compared to its bandwidth: the textbook's continuous loop.
-TEST(SlidingCrossover, TendsToTheContinuousLoopsWhereSamplingIsFast) {
+TEST(SlidingCrossover, ApproachesTheContinuousLoopForFastSampling) {
   const motion::PlantParameters plant{.inertia = 1e-3, .presliding_damping = 0.2, .sliding_damping = 0.02};
   const loop::EncoderParameters encoder;
   loop::ControllerParameters controller;
@@ -183,7 +183,7 @@ TEST(SlidingCrossover, FallsWithADelayAndAnAmplifierThatLags) {
   EXPECT_LT(lags.phase_margin, fast.phase_margin - 1.0);
 }
 
-TEST(SlidingCrossover, IsNotThereWithoutGain) {
+TEST(SlidingCrossover, IsAbsentWithoutGain) {
   loop::ControllerParameters controller;
   controller.ki = 0.0;
   EXPECT_TRUE(std::isnan(sliding_crossover({}, {}, controller).frequency));
@@ -193,7 +193,7 @@ TEST(SlidingCrossover, IsNotThereWithoutGain) {
 
 // The paper's machine has a pure integral in its fine phase: two integrators in a row, which nothing can hold
 // while it slides; the coarse phase is there for that.
-TEST(SlidingLoop, OfThePapersMachineIsStableInTheCoarsePhaseAlone) {
+TEST(SlidingLoop, MachineOfThePaperIsStableOnlyInTheCoarsePhase) {
   loop::ControllerParameters controller;
   controller.coarse.coarse_beyond = 300.0;
   const loop::ControllerParameters fine = loop::controller_in_phase(controller, loop::ControlPhase::fine);
@@ -204,7 +204,7 @@ TEST(SlidingLoop, OfThePapersMachineIsStableInTheCoarsePhaseAlone) {
   EXPECT_GT(sliding_crossover({}, {}, coarse).phase_margin, 0.0);
 }
 
-TEST(SlidingLoop, HasNoDerivativeInTheFineOfTwoPhases) {
+TEST(SlidingLoop, HasNoDerivativeInTheFinePhase) {
   loop::ControllerParameters controller;
   controller.kd = 1e-3;
   EXPECT_EQ(loop::controller_in_phase(controller, loop::ControlPhase::fine).kd, 1e-3);
@@ -266,7 +266,7 @@ void expect_growth(const loop::ControllerParameters& parameters) {
   }
 }
 
-TEST(LinearLoop, GrowsAsTheLoopDoesInTime) {
+TEST(LinearLoop, GrowthMatchesTheSimulatedLoop) {
   const loop::ControllerParameters parameters{.kp = 1e-4, .ki = 1.4e-4, .kd = 1e-4};
   expect_growth<loop::BlockChain<loop::Pid>>(parameters);
   expect_growth<loop::BlockChain<loop::Pid, LowPass>>(parameters);
@@ -274,7 +274,7 @@ TEST(LinearLoop, GrowsAsTheLoopDoesInTime) {
   expect_growth<loop::BlockChain<loop::Pid, LowPass, TorqueFeedback>>(parameters);
 }
 
-TEST(LinearLoop, GrowsAsTheLoopDoesInTimeWithEveryBlock) {
+TEST(LinearLoop, GrowthMatchesTheSimulatedLoopWithEveryBlock) {
   loop::ControllerParameters parameters{.kp = 1e-4, .ki = 1.4e-4, .kd = 2e-4};
   parameters.blocks.integrator_leak = 0.05;
   parameters.blocks.derivative_cutoff = 200.0;

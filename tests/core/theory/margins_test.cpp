@@ -82,7 +82,7 @@ StabilityMargins scanned_margins(const FrozenLoop& loop) {
   return margins;
 }
 
-TEST(Margins, AreThoseOfAFineScanWithAndWithoutDamping) {
+TEST(Margins, MatchAFineScanWithAndWithoutDamping) {
   testing::RandomBlocks draw(13);
   int with_phase = 0;
   for (int i = 0; i < 40; ++i) {
@@ -191,7 +191,7 @@ TEST(Margins, PeakOfTheSensitivityBoundsTheOtherMargins) {
 }
 
 // An undamped mass under kp alone, its crossover by the closed form of SlidingCrossover's test.
-TEST(Margins, PhaseMarginOfAMassUnderProportionalControlIsAClosedForm) {
+TEST(Margins, PhaseMarginMatchesTheClosedFormOfAMassUnderProportionalControl) {
   for (const double g : {1e-4, 1e-2, 0.5}) {
     const motion::PlantParameters plant;
     loop::ControllerParameters controller;
@@ -205,7 +205,7 @@ TEST(Margins, PhaseMarginOfAMassUnderProportionalControlIsAClosedForm) {
   }
 }
 
-TEST(Margins, AreNotThereWithoutGain) {
+TEST(Margins, AreAbsentWithoutGain) {
   loop::ControllerParameters controller;
   controller.ki = 0.0;
   const StabilityMargins margins = margins_about(110.0, 0.2, {}, {}, controller);
@@ -214,7 +214,7 @@ TEST(Margins, AreNotThereWithoutGain) {
 }
 
 // A peak so narrow that no grid of frequencies meets it by chance, in a loop whose gain is below 1 elsewhere.
-TEST(Margins, SeeANarrowResonance) {
+TEST(Margins, FindANarrowResonance) {
   loop::ControllerParameters controller;
   controller.ki = 0.0;
   controller.kp = 1e-5;

@@ -93,7 +93,7 @@ double simulated_growth(double stiffness, const motion::PlantParameters& plant,
   return std::pow(late / early, 1.0 / (5 * window));
 }
 
-TEST(SampledStability, BoundOfThePapersMachineIsBelowTheContinuousOne) {
+TEST(SampledStability, BoundOfTheMachineOfThePaperIsBelowTheContinuousOne) {
   const loop::ControllerParameters controller;
   const double sampled = sampled_critical_integral_gain(110.0, machine, paper_encoder, controller);
   EXPECT_NEAR(sampled, 3.57e-5, 0.5e-7);
@@ -146,7 +146,7 @@ TEST(SampledStability, LinearLoopDecaysBelowTheBoundAndGrowsAboveIt) {
 }
 
 // The bound comes from the frequency response; the poles are those of the loop's map.
-TEST(SampledCriticalIntegralGain, BringsAPoleToTheUnitCircleAndNoSmallerGainDoes) {
+TEST(SampledCriticalIntegralGain, IsTheSmallestGainWithAPoleOnTheUnitCircle) {
   std::mt19937_64 random(23);
   std::uniform_real_distribution<double> part(0.0, 1.0);
   int judged = 0;
@@ -196,13 +196,13 @@ TEST(SampledStability, DelayLowersTheBound) {
   }
 }
 
-TEST(SampledStability, TheDrivesGainIsPartOfTheLoops) {
+TEST(SampledStability, LoopGainIncludesTheGainOfTheDrive) {
   const loop::ControllerParameters controller;
   EXPECT_NEAR(sampled_critical_integral_gain(110.0, machine, paper_encoder, controller, {1.5, 0.0}),
               sampled_critical_integral_gain(110.0, machine, paper_encoder, controller) / 1.5, 1e-12);
 }
 
-TEST(SampledStability, NoIntegralGainIsStableWhereTheLoopWithoutIntegralIsNot) {
+TEST(SampledStability, NoIntegralGainIsStableIfTheLoopWithoutIntegralIsUnstable) {
   loop::ControllerParameters controller;
   controller.kp = 1.0;  // N m/count: far beyond what half a sample of delay allows
   EXPECT_EQ(sampled_critical_integral_gain(110.0, machine, paper_encoder, controller), 0.0);
@@ -210,7 +210,7 @@ TEST(SampledStability, NoIntegralGainIsStableWhereTheLoopWithoutIntegralIsNot) {
 
 // A slow integral control: T·(k·Δx + kp)/(2·ki), to the first order in T/τ and in what the rotor itself
 // takes.
-TEST(SlowestTimeConstant, OfASlowIntegralIsInProportionToTheStiffness) {
+TEST(SlowestTimeConstant, IsProportionalToTheStiffnessForASlowIntegral) {
   for (const double stiffness : {110.0, 860.0}) {
     for (const double kp : {0.0, 6.21e-4}) {
       loop::ControllerParameters controller;
@@ -224,7 +224,7 @@ TEST(SlowestTimeConstant, OfASlowIntegralIsInProportionToTheStiffness) {
   }
 }
 
-TEST(SlowestTimeConstant, IsThatOfTheDecayInTime) {
+TEST(SlowestTimeConstant, MatchesTheSimulatedDecay) {
   for (const double ki : {3e-7, 1e-6, 5e-6}) {
     loop::ControllerParameters controller;
     controller.ki = ki;
@@ -250,7 +250,7 @@ TEST(SlowestTimeConstant, IsThatOfTheDecayInTime) {
 
 // A mass with damping under proportional control rings with 2·J/c, and creeps with c/k where c is large: the
 // textbook's continuous loop, to which fast sampling is near.
-TEST(SlowestTimeConstant, IsThatOfAModeThatOscillatesToo) {
+TEST(SlowestTimeConstant, IncludesOscillatingModes) {
   constexpr double stiffness = 1.0;  // N m/rad, of kp
   for (const double damping : {2e-3, 0.0131, 0.02, 0.1}) {
     const motion::PlantParameters mass{.inertia = 2e-4, .presliding_damping = damping};
@@ -278,7 +278,7 @@ TEST(SlowestTimeConstant, IsInfiniteBeyondTheBound) {
   EXPECT_TRUE(std::isfinite(slowest_time_constant(110.0, machine, paper_encoder, controller)));
 }
 
-TEST(SampledCriticalIntegralGain, OfAFreeRotorWithoutKpIsZero) {
+TEST(SampledCriticalIntegralGain, IsZeroForAFreeRotorWithoutProportionalGain) {
   for (const double damping : {0.0, 1e-4, 0.05, 3.0}) {  // the search has no gain to begin with
     const motion::PlantParameters free{.inertia = 5.54e-4, .presliding_damping = damping};
     EXPECT_EQ(sampled_critical_integral_gain(0.0, free, paper_encoder, {.kd = 1e-3}), 0.0) << damping;

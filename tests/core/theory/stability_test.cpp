@@ -79,7 +79,7 @@ TEST(Gains, SampledControllerApproachesTheContinuousOneOnAMovingError) {
   EXPECT_NEAR(sampled, continuous, 1e-4);
 }
 
-TEST(Criteria, BoundsOfThePapersMachine) {
+TEST(Criteria, BoundsMatchThePaper) {
   const IntegralGainBounds bounds = integral_gain_bounds(plant, contact, encoder, integral_only);
   expect_as_printed(bounds.stable_below, 3.85e-5, 1e-7);
   expect_as_printed(bounds.unstable_above, 3.01e-4, 1e-6);
@@ -115,18 +115,18 @@ TEST(Criteria, CriticalGainPutsThePolesOfTheContinuousLoopOnTheImaginaryAxis) {
   }
 }
 
-TEST(Rules, DacStepOfThePapersMachine) {
+TEST(Rules, DacStepMatchesThePaper) {
   expect_as_printed(dac_resolution_bound(contact.k1, encoder), 4.27e-4, 1e-6);
   EXPECT_LT(loop::DacParameters{}.resolution, dac_resolution_bound(contact.k1, encoder));
 }
 
 // The coarse encoder has 18.75 times the count.
-TEST(Rules, DacStepWithTheCoarseEncoderFedBack) {
+TEST(Rules, DacStepUsesTheCoarseEncoderIfItIsFedBack) {
   EXPECT_DOUBLE_EQ(dac_resolution_bound(contact.k1, encoder, loop::EncoderChoice::coarse),
                    18.75 * dac_resolution_bound(contact.k1, encoder));
 }
 
-TEST(Rules, NaturalFrequencyAndSampleRateOfThePapersMachine) {
+TEST(Rules, NaturalFrequencyAndSampleRateMatchThePaper) {
   expect_as_printed(natural_frequency(contact.k1 + contact.k2, plant), 198.0, 1.0);
   EXPECT_NEAR(advised_sample_rate(plant, contact), 1983.0, 1.0);
   EXPECT_GT(integral_only.sample_rate, advised_sample_rate(plant, contact));
@@ -193,7 +193,7 @@ TEST(SlowApproach, HasTheTimeConstantOfTheSampledLoop) {
   }
 }
 
-TEST(SlowApproach, IsAnExponentialWhereTheSpringDoesNotSoften) {
+TEST(SlowApproach, IsAnExponentialForALinearSpring) {
   const trial::TrialParameters p = slow_machine(1.0e-6);
   friction::FrictionParameters contact;
   const auto exponential = [&](double stiffness, double step) {
@@ -215,7 +215,7 @@ TEST(SlowApproach, IsAnExponentialWhereTheSpringDoesNotSoften) {
 }
 
 // Moves of the paper's machine that reverse the motion, as the formula supposes.
-TEST(SlowApproach, TellsWhenTrialsArrive) {
+TEST(SlowApproach, PredictsTheArrivalTimeOfTrials) {
   for (const double ki : {2.0e-7, 1.0e-6}) {
     for (const std::int64_t step : {2, 5, 12, 30}) {
       trial::TrialParameters p = slow_machine(ki);
@@ -230,7 +230,7 @@ TEST(SlowApproach, TellsWhenTrialsArrive) {
   }
 }
 
-TEST(ChatterTime, IsThatOfTheIntegralThatTakesOverFromTheProportionalGain) {
+TEST(ChatterTime, IsTheTimeInWhichTheIntegralReplacesTheProportionalTorque) {
   const trial::TrialParameters p = slow_machine(1.0e-6, 1.0e-3);
   const friction::FrictionParameters& contact = p.friction.uniform;
   const double decay = 1.0e-3 / (2.0 * 1.0e-6 * 2000.0);
@@ -257,7 +257,7 @@ TEST(ShortestMove, WithoutDampingIsTwoParabolas) {
   }
 }
 
-TEST(ShortestMove, WithDampingIsThatOfAnIntegrationWhichBrakesInTime) {
+TEST(ShortestMove, WithDampingMatchesANumericalIntegration) {
   testing::RandomBlocks draw(4);
   for (int i = 0; i < 20; ++i) {
     const DrivenAxis axis{1.0, draw.log_uniform(0.05, 20.0), draw.log_uniform(0.3, 3.0),

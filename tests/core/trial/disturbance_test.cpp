@@ -112,7 +112,7 @@ TEST(DisturbanceSpectrum, TorqueHasTheRmsOfTheDensity) {
   EXPECT_NEAR(std::sqrt(sum / samples), std::sqrt(total), 0.02 * std::sqrt(total));
 }
 
-TEST(DisturbanceRipple, TurnsWithTheRotorFromItsPosition) {
+TEST(DisturbanceRipple, DependsOnTheAngleOfTheRotor) {
   trial::DisturbanceParameters parameters;
   parameters.ripple = {{0.01, 36.0, 0.0, 0.4}, {0.02, 0.0, 1e-3, 0.1}, {0.0, 5.0, 0.0, 0.0}};
   const double position = 1.234;
@@ -228,7 +228,7 @@ class LiteralControl {
   bool frozen_{false};
 };
 
-TEST(Compensators, DecideByTheirEquations) {
+TEST(Compensators, FollowTheirEquations) {
   int held = 0;
   int missed = 0;
   int clipped = 0;

@@ -15,7 +15,7 @@
 namespace zerocount::testing {
 namespace {
 
-TEST(Divergence, IsAnErrorLargerThanTheFirstByMoreThanTheLimit) {
+TEST(Divergence, IsAnErrorThatExceedsTheFirstByMoreThanTheLimit) {
   const trial::VerdictParameters verdict{.stop = true, .limit = 100.0};
   for (const std::int64_t first : {0, 1, -1, 30, -30, 5000, -5000}) {
     for (const int sign : {1, -1}) {
@@ -29,7 +29,7 @@ TEST(Divergence, IsAnErrorLargerThanTheFirstByMoreThanTheLimit) {
   EXPECT_TRUE(trial::diverged({.stop = true, .limit = 100.5}, 0, 101));
 }
 
-TEST(Divergence, IsNotLookedForUnlessAskedFor) {
+TEST(Divergence, IsCheckedOnlyIfRequested) {
   EXPECT_FALSE(trial::diverged({.limit = 2.0}, 0, 1000000));
   EXPECT_FALSE(trial::VerdictParameters{}.stop);
 }
@@ -186,7 +186,7 @@ void check(const RecordedTrial& whole, double limit, Seen& seen) {
   seen.arrived += ended.outcome.moves[end->move].arrived;
 }
 
-TEST(EarlyDecision, EndsARandomTrialWhereItDivergesAndChangesNothingBefore) {
+TEST(EarlyDecision, StopsATrialAtDivergenceAndChangesNothingBefore) {
   Seen seen;
   for (const TrialKind kind : {TrialKind::calm, TrialKind::ringing, TrialKind::breaking_away,
                                TrialKind::coulomb, TrialKind::amplified, TrialKind::arriving}) {
@@ -219,7 +219,7 @@ TEST(EarlyDecision, EndsARandomTrialWhereItDivergesAndChangesNothingBefore) {
   EXPECT_GT(seen.moves_not_run, 20);
 }
 
-TEST(EarlyDecision, IsNothingToAnOpenLoop) {
+TEST(EarlyDecision, HasNoEffectOnAnOpenLoop) {
   for (std::uint64_t index = 0; index < 5; ++index) {
     trial::TrialParameters parameters = widened_trial(WidenedKind::open_loop, index);
     const RecordedTrial whole = run_recorded(parameters);
@@ -241,7 +241,7 @@ trial::TrialParameters long_trial() {
   return trial;
 }
 
-TEST(Interruption, EndsATrialAtTheNextSample) {
+TEST(Interruption, StopsATrialAtTheNextSample) {
   std::stop_source source;
   std::int64_t samples = 0;
   trial::TrialObservers observers;
@@ -253,7 +253,7 @@ TEST(Interruption, EndsATrialAtTheNextSample) {
   EXPECT_EQ(samples, 100);
 }
 
-TEST(Interruption, EndsABatchAndLeavesTheEngineAsItWas) {
+TEST(Interruption, StopsABatchAndLeavesTheEngineUsable) {
   const trial::TrialParameters trial = long_trial();
   const std::vector<const trial::TrialParameters*> trials(300, &trial);
   std::vector<trial::TrialOutcome> outcomes(trials.size());
@@ -277,7 +277,7 @@ TEST(Interruption, EndsABatchAndLeavesTheEngineAsItWas) {
   }
 }
 
-TEST(Interruption, AContactThatCreepsWithoutEndIsGivenUp) {
+TEST(Interruption, StopsAContactThatCreepsWithoutEnd) {
   trial::TrialParameters trial = long_trial();
   trial.friction.uniform.lambda = 1e-12;
   EXPECT_EQ(trial::run_trial(trial).moves.front().outcome, trial::Outcome::nonfinite);

@@ -113,7 +113,7 @@ void expect_near(double value, Real expected, const char* name) {
   }
 }
 
-TEST(MotionMeasures, AreThoseOfTheirDefinitions) {
+TEST(MotionMeasures, MatchTheirDefinitions) {
   int rests = 0, profiles = 0, sines = 0, spikes = 0, made = 0;
   for (int number = 0; number < 150; ++number) {
     SCOPED_TRACE(number);
@@ -179,7 +179,7 @@ TEST(MotionMeasures, AreThoseOfTheirDefinitions) {
 }
 
 // They are measured beside the others, and change none of these.
-TEST(MotionMeasures, ChangeNothingElse) {
+TEST(MotionMeasures, DoNotChangeOtherMeasures) {
   for (int number = 0; number < 40; ++number) {
     trial::TrialParameters p = random_trial(number);
     const trial::TrialOutcome with = trial::run_trial(p);
@@ -254,7 +254,7 @@ trial::TrialParameters small_steps(std::uint64_t trial) {
   return p;
 }
 
-TEST(TrueError, OfIdealEncodersIsWithinHalfACountOfTheFinalError) {
+TEST(TrueError, IsWithinHalfACountOfTheFinalErrorForIdealEncoders) {
   std::int64_t zero = 0;
   std::int64_t others = 0;
   for (const TrialKind kind : {TrialKind::calm, TrialKind::ringing, TrialKind::breaking_away,
@@ -276,7 +276,7 @@ TEST(TrueError, OfIdealEncodersIsWithinHalfACountOfTheFinalError) {
   EXPECT_GT(others, 100);
 }
 
-TEST(TrueError, IsOfTheRotorUnderEveryErrorOfItsEncoder) {
+TEST(TrueError, IsTheErrorOfTheRotorDespiteEncoderErrors) {
   for (std::uint64_t index = 0; index < 60; ++index) {
     SCOPED_TRACE(index);
     trial::TrialParameters p = random_trial(static_cast<TrialKind>(index % 3), 4000 + index);
@@ -289,7 +289,7 @@ TEST(TrueError, IsOfTheRotorUnderEveryErrorOfItsEncoder) {
   }
 }
 
-TEST(TrueError, IsNoneWithoutATarget) {
+TEST(TrueError, IsUndefinedWithoutATarget) {
   trial::TrialParameters p;
   p.command.torque.levels = {0.05, 0.0};
   p.command.hold = 0.1;
@@ -299,7 +299,7 @@ TEST(TrueError, IsNoneWithoutATarget) {
   }
 }
 
-TEST(TrueError, IsNoneWhereTheMotionWasLost) {
+TEST(TrueError, IsUndefinedIfTheMotionBecameNonfinite) {
   trial::TrialParameters p = small_steps(0);
   p.initial.mode = trial::InitialMode::slide;
   p.initial.velocity = 1e18;

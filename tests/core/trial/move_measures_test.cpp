@@ -24,7 +24,7 @@ std::vector<std::int64_t> random_errors(std::mt19937_64& random) {
   return errors;
 }
 
-TEST(MoveMeasures, OfAnyErrorsAreThoseOfTheirDefinitions) {
+TEST(MoveMeasures, MatchTheirDefinitionsForAnyErrors) {
   std::mt19937_64 random(5);
   std::vector<int> seen(6);
   for (int i = 0; i < 20'000; ++i) {
@@ -60,7 +60,7 @@ TEST(MoveMeasures, OfAnyErrorsAreThoseOfTheirDefinitions) {
   }
 }
 
-TEST(OutcomeOfMove, IsNonfiniteWhereTheMotionWasLost) {
+TEST(OutcomeOfMove, IsNonfiniteIfTheMotionBecameNonfinite) {
   MoveMeasures measures({sample_time, 4, 3, 4}, 0);
   measures.add({1, 1, 0.0, false, 0.0, 0.0});
   measures.finish(false, 0, false);
@@ -68,7 +68,7 @@ TEST(OutcomeOfMove, IsNonfiniteWhereTheMotionWasLost) {
   EXPECT_FALSE(measures.outcome().stable);
 }
 
-TEST(ErrorBands, OfAMoveThatWasStoppedOrLostAreUnknown) {
+TEST(ErrorBands, AreUnknownIfTheMoveWasStoppedOrNonfinite) {
   for (const bool stopped : {true, false}) {
     MoveMeasures measures({sample_time, 4, 1, 4}, 0);
     measures.add({1, 1, 0.0, false, 0.0, 0.0});
@@ -82,7 +82,7 @@ TEST(ErrorBands, OfAMoveThatWasStoppedOrLostAreUnknown) {
   }
 }
 
-TEST(Torques, ArePeakAndLast) {
+TEST(Torques, AreThePeakAndTheLastTorque) {
   MoveMeasures measures({sample_time, 3, 1, 1}, 0);
   measures.add({0, 0, 0.1, false, 1.0, 0.5});
   measures.add({0, 0, -0.4, true, 2.0, 0.6});
@@ -120,7 +120,7 @@ TEST(OpenLoop, IsMeasuredButNotJudged) {
   EXPECT_EQ(outcome.reversal_depth, 3);
 }
 
-TEST(OpenLoop, IsNonfiniteWhereTheMotionWasLost) {
+TEST(OpenLoop, IsNonfiniteIfTheMotionBecameNonfinite) {
   MoveMeasures measures({.sample_time = sample_time, .samples = 6, .judged = false}, 0);
   measures.add({0, 0, 0.0, false, 0.0, 0.0});
   measures.finish(false, 0, false);
@@ -128,7 +128,7 @@ TEST(OpenLoop, IsNonfiniteWhereTheMotionWasLost) {
 }
 
 // A cosine of known amplitude and period, read by an encoder: what the measures are for.
-TEST(Oscillation, OfASineHasItsAmplitudeAndPeriod) {
+TEST(Oscillation, HasTheAmplitudeAndPeriodOfASine) {
   std::mt19937_64 random(71);
   const auto uniform = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
@@ -154,7 +154,7 @@ TEST(Oscillation, OfASineHasItsAmplitudeAndPeriod) {
   }
 }
 
-TEST(Oscillation, IsNotMeasuredOfAMoveThatWasEndedEarly) {
+TEST(Oscillation, IsNotMeasuredIfTheMoveWasStopped) {
   MoveMeasures measures({sample_time, 6, 3, 4}, 0);
   for (const std::int64_t count : {0, 9, 0, 9, 0, 9}) measures.add({4, count, 0.0, false, 0.0, 0.0});
   measures.stop();
@@ -165,7 +165,7 @@ TEST(Oscillation, IsNotMeasuredOfAMoveThatWasEndedEarly) {
 }
 
 // Whatever the errors do, the memory has a limit; then it is the latest rises that count.
-TEST(Oscillation, OfManyRisesIsThatOfTheLastOnes) {
+TEST(Oscillation, UsesTheLastRisesIfThereAreMany) {
   LastHalf half;
   const auto rises = static_cast<std::int64_t>(LastHalf::max_rises);
   std::int64_t k = 0;
@@ -183,7 +183,7 @@ TEST(Oscillation, OfManyRisesIsThatOfTheLastOnes) {
                    static_cast<double>(500 * 6 + (rises - 501) * 4) / static_cast<double>(rises - 1));
 }
 
-TEST(WorstOutcome, IsByTheOrderOfSeverity) {
+TEST(WorstOutcome, IsTheMostSevere) {
   constexpr Outcome order[] = {Outcome::zero_count, Outcome::one_count, Outcome::off_target,
                                Outcome::oscillating, Outcome::nonfinite};
   const auto worst_of = [](Outcome a, Outcome b) {

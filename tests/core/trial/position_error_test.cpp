@@ -52,7 +52,7 @@ struct TrialsWithTolerances {
   std::vector<double> targets;  ///< [move] rad
 };
 
-TEST_EACH_SEED(TrialsWithTolerances, SettleWhereTheErrorIsWithinForGood) {
+TEST_EACH_SEED(TrialsWithTolerances, SettleWhenTheErrorStaysWithinTheTolerance) {
   std::vector<trial::SampleRecord> records;
   trial::TrialObservers observers;
   observers.sample = [&](const trial::SampleRecord& r) { records.push_back(r); };
@@ -100,7 +100,7 @@ TEST_EACH_SEED(TrialsWithTolerances, SettleWhereTheErrorIsWithinForGood) {
   }
 }
 
-TEST_EACH_SEED(TrialsWithTolerances, AreMeasuredAlikeInLanes) {
+TEST_EACH_SEED(TrialsWithTolerances, HaveTheSameTimesInLanes) {
   const trial::TrialOutcome one = trial::run_trial(p);
   const trial::TrialOutcome other = run_batch({p}).front().outcome;
   for (std::size_t move = 0; move < one.moves.size(); ++move) {

@@ -74,14 +74,14 @@ TEST_EACH_SEED(StartedAxis, NeedsNoTorqueAtItsFirstSample) {
   EXPECT_LT(std::abs(torques().front()), 1.01 * torque_of_a_count());
 }
 
-TEST_EACH_SEED(StartedAxis, NeedsAJumpWhereItDoesNotMoveBefore) {
+TEST_EACH_SEED(StartedAxis, NeedsATorqueStepIfItStartsFromRest) {
   const double velocity = std::exchange(p.initial.velocity, 0.0);
   const double jump = p.controller.blocks.cascade.kp * std::abs(velocity);
   EXPECT_GT(std::abs(torques().front()), 0.9 * jump);
 }
 
 /// A ramp, after which a cascade with feed-forward holds the axis at the record's end.
-TEST(ARecordedReference, LeavesTheAxisAtRestAtItsEnd) {
+TEST(RecordedReference, LeavesTheAxisAtRestAtItsEnd) {
   trial::TrialParameters p;
   p.friction.model = friction::FrictionModel::none;
   p.dac = {.bits = 32, .resolution = 1e-9};

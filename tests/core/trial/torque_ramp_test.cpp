@@ -83,12 +83,12 @@ TEST(TorqueRecord, HoldsEachValueUntilTheNext) {
   EXPECT_EQ(torque_at(record, 1e9), 2.0);
 }
 
-TEST(TorqueRecord, ItsLastRowLastsAsLongAsTheOneBefore) {
+TEST(TorqueRecord, LastRowLastsAsLongAsTheOneBefore) {
   EXPECT_EQ(record_duration(TorqueRecord{{0.0, 0.5, 0.75}, {0.0, 0.0, 0.0}}), 1.0);
 }
 
 // 3·0.1 is above 0.3, and 7·0.001 below a time that is written as 0.007.
-TEST(TorqueRecord, RoundingShiftsNoSample) {
+TEST(TorqueRecord, RoundingOfTimesShiftsNoSample) {
   for (const double rate : {10.0, 1000.0, 2048.0, 3000.0}) {
     TorqueRecord record;
     for (int k = 0; k < 5000; ++k) {
@@ -100,7 +100,7 @@ TEST(TorqueRecord, RoundingShiftsNoSample) {
 }
 
 // Under each of its samples the trial is that of torque levels of one sample each.
-TEST(TorqueRecord, IsATrialOfLevelsOfASample) {
+TEST(TorqueRecord, EqualsATrialWithOneLevelPerSample) {
   TrialParameters levels;
   levels.friction.model = friction::FrictionModel::presliding;
   levels.command.torque.through = TorquePath::exact;
@@ -147,7 +147,7 @@ TEST(RandomHistory, IsEmptyWithoutReversals) {
   EXPECT_TRUE(draw_history({0, largest}, randomness_of(1)).empty());
 }
 
-TEST(RandomHistory, TurnsAtEveryLevelAndStaysWithinTheTorque) {
+TEST(RandomHistory, ReversesAtEveryLevelAndStaysWithinTheTorque) {
   for (std::uint64_t trial = 0; trial < 2000; ++trial) {
     const std::vector<double> levels = draw_history({12, largest}, randomness_of(trial));
     ASSERT_EQ(levels.size(), 12u);
@@ -162,7 +162,7 @@ TEST(RandomHistory, TurnsAtEveryLevelAndStaysWithinTheTorque) {
   }
 }
 
-TEST(RandomHistory, FirstDirectionIsEvenAndEveryLevelUniform) {
+TEST(RandomHistory, FirstDirectionsAreBalancedAndLevelsUniform) {
   constexpr int trials = 20000;
   constexpr std::size_t reversals = 5;
   int upwards = 0;

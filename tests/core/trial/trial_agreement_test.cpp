@@ -112,7 +112,7 @@ TEST(TrialAgreement, StandsStillOnAnEdgeUntilTheFirstTorque) {
 // The spring by itself (α = 0), at every exponent of the creep that is off. From a preload the loops close
 // where σ = 0, the one point where |σ|ⁿ is not smooth.
 // Its contact is run through σ = 0 by a slide against the spring, while it creeps with n = 2.7.
-TEST(TrialAgreement, HoldsWhereCreepEndsAtZeroTorque) {
+TEST(TrialAgreement, HoldsIfCreepEndsAtZeroTorque) {
   expect_agreement(random_trial(TrialKind::unlike_the_paper, 510), "through zero torque");
 }
 
@@ -202,7 +202,7 @@ void for_each_free_trial(Check check) {
   }
 }
 
-TEST(FreeTrial, MovesAsItsEquationSays) {
+TEST(FreeTrial, FollowsItsEquationOfMotion) {
   for_each_free_trial([](const FreeTrial& trial) {
     const trial::TrialParameters& p = trial.parameters;
     const auto drive = literal_drive(p, trial.samples);
@@ -229,7 +229,7 @@ TEST(FreeTrial, MovesAsItsEquationSays) {
   });
 }
 
-TEST(FreeTrial, TellsOfNoContact) {
+TEST(FreeTrial, HasNoContactState) {
   for_each_free_trial([](const FreeTrial& trial) {
     for (const trial::SampleRecord& sample : trial.samples) {
       ASSERT_EQ(sample.mode, trial::HookMode::slide);

@@ -59,7 +59,7 @@ TEST(WidenedTrial, ReadsItsEncodersAtTheAngleOfTheRotor) {
   });
 }
 
-TEST(WidenedTrial, IsInThePhaseThatItsCountsAskFor) {
+TEST(WidenedTrial, IsInThePhaseThatItsCountsRequire) {
   for_each_trial([](const RecordedTrial& trial) {
     const std::vector<LiteralDecision> decisions = literal_decisions(trial.parameters, trial.samples);
     for (std::size_t k = 0; k < trial.samples.size(); ++k) {
@@ -69,7 +69,7 @@ TEST(WidenedTrial, IsInThePhaseThatItsCountsAskFor) {
   });
 }
 
-TEST(WidenedTrial, DecidesTheTorqueOfItsLawOrLevel) {
+TEST(WidenedTrial, CommandsTheTorqueOfItsLawOrLevel) {
   for_each_trial([](const RecordedTrial& trial) {
     const loop::DacParameters& dac = trial.parameters.dac;
     const long double most = std::ldexp(1.0L, dac.bits - 1);
@@ -109,7 +109,7 @@ std::int64_t deepest_sample(const RecordedTrial& trial, const MoveSpan& span) {
   return depth;
 }
 
-TEST(WidenedMeasures, AreThoseOfTheSamplesOfEachMove) {
+TEST(WidenedMeasures, MatchTheSamplesOfEachMove) {
   for_each_trial([](const RecordedTrial& trial) {
     const std::vector<long double> wanted = wanted_torques(trial);
     for_each_move(trial, [&](std::size_t move, const MoveSpan& span) {
@@ -126,7 +126,7 @@ TEST(WidenedMeasures, AreThoseOfTheSamplesOfEachMove) {
   });
 }
 
-TEST(WidenedMeasures, TellOfTheJerksOfEachMove) {
+TEST(WidenedMeasures, CountTheJerksOfEachMove) {
   for_each_trial([](const RecordedTrial& trial) {
     const std::vector<long double> wanted = wanted_torques(trial);
     std::vector<trial::Jerk> expected;
@@ -182,7 +182,7 @@ std::map<std::string, std::int64_t> sights() {
   return seen;
 }
 
-TEST(WidenedMeasures, SeeAllThatThereIsToMeasure) {
+TEST(WidenedMeasures, RandomTrialsExerciseEveryMeasure) {
   for (const auto& [sight, times] : sights()) EXPECT_GE(times, 3) << sight;
 }
 
@@ -215,7 +215,7 @@ IntegratedMotion integrate(const RecordedTrial& trial) {
   return integrated;
 }
 
-TEST(WidenedMotion, IsThatOfThePlantUnderTheTorqueOfTheDrive) {
+TEST(WidenedMotion, AgreesWithAnotherIntegrator) {
   Agreement total;
   std::size_t number = 0;
   for_each_trial([&](const RecordedTrial& trial) {

@@ -19,7 +19,7 @@ study::Study five_factor_study(const std::string& design, const std::string& tri
                   {"design=" + design, "trials=" + trials});
 }
 
-TEST(Saltelli, ARowIsAThenBThenAWithEachFactorFromB) {
+TEST(Saltelli, ARowHoldsAThenBThenAWithEachFactorFromB) {
   const std::vector<std::vector<std::uint64_t>> row_seven{
       {7, 7, 7},
       {second_sample + 7, second_sample + 7, second_sample + 7},
@@ -44,7 +44,7 @@ TEST(Saltelli, AIsTheMonteCarloTrialOfTheSameNumber) {
   }
 }
 
-TEST(Saltelli, EachOtherTrialOfARowChangesItsFactorAlone) {
+TEST(Saltelli, EachOtherTrialOfARowChangesOnlyItsFactor) {
   const study::Study study = five_factor_study("saltelli", "7000");
   ASSERT_EQ(study.factors, (std::vector<std::string>{"friction.k1", "friction.k2", "controller.delay",
                                                      "command.targets.0", "within_trial"}));
@@ -73,14 +73,14 @@ TEST(Saltelli, EachOtherTrialOfARowChangesItsFactorAlone) {
   EXPECT_EQ(differing[4], 1000);
 }
 
-TEST(Saltelli, MoreTrialsLeaveTheFirstOnesAlone) {
+TEST(Saltelli, MoreTrialsKeepTheFirstOnes) {
   const study::Study few = five_factor_study("saltelli", "7");
   const study::Study many = five_factor_study("saltelli", "7000000");
   for (std::int64_t i = 0; i < 7; ++i)
     EXPECT_EQ(study::study_trial(few, 0, i).inputs, study::study_trial(many, 0, i).inputs);
 }
 
-TEST(Saltelli, AllPointsHaveTheSameRowsWhateverIsDrawnAtThem) {
+TEST(Saltelli, AllPointsHaveTheSameRows) {
   const study::Study study =
       study_of(minimal_manifest(
                    "friction: {k1: {uniform: [100, 120]}}\n"
@@ -97,7 +97,7 @@ TEST(Saltelli, AllPointsHaveTheSameRowsWhateverIsDrawnAtThem) {
   }
 }
 
-TEST(Saltelli, AProfileIsNoFactorAndThePlaceOnItIs) {
+TEST(Saltelli, APositionOnAProfileIsAFactorButTheProfileIsNot) {
   const study::Study study =
       study_of(minimal_manifest("friction: {k1: {profile: {mean: 110, cv: 0.1, correlation_length: 0.2}}}\n"
                                 "initial: {position: {uniform: [0, 6]}}\n"),
@@ -121,14 +121,14 @@ TEST(Saltelli, OtherDesignsListNoFactors) {
   EXPECT_TRUE(five_factor_study("monte_carlo", "7").factors.empty());
 }
 
-TEST(Saltelli, TrialsThatAreNoWholeRowsAreToldTheNearestNumbers) {
+TEST(Saltelli, AnIncompleteRowIsRefusedWithTheNearestNumbersOfTrials) {
   const std::string text = minimal_manifest("friction: {k1: {uniform: [100, 120]}}\ndesign: saltelli\n");
   EXPECT_TRUE(has_faults(refusal_of(text, {}), "4:9: trials | 9 or 12"));
   EXPECT_TRUE(says(refusal_of(text, {"trials=2"}), "expected a multiple of 3, such as 3"));
   EXPECT_EQ(refusal_of(text, {"trials=12"}), "");
 }
 
-TEST(Saltelli, ADesignWithoutAnythingDrawnIsRefused) {
+TEST(Saltelli, ADesignWithoutRandomParametersIsRefused) {
   EXPECT_TRUE(
       has_faults(refusal_of(minimal_manifest("design: saltelli\n"), {}), "6:9: design | nothing is drawn"));
 }
@@ -137,7 +137,7 @@ random::RandomStream stream_of(std::uint64_t seed) {
   return {random_key(seed, "friction.k1"), 0};
 }
 
-TEST(LatinHypercube, StrataAreAPermutationForEveryNumberOfTrials) {
+TEST(LatinHypercube, StrataAreAPermutationForAnyNumberOfTrials) {
   for (std::uint64_t count = 1; count <= 300; ++count) {
     std::vector<bool> seen(count, false);
     for (std::uint64_t i = 0; i < count; ++i) {

@@ -16,7 +16,7 @@ std::vector<SobolDirections> all_directions() {
   return sobol_directions(dimensions);
 }
 
-TEST(Sobol, IsTheSequenceOfBoostAfterTheOrigin) {
+TEST(Sobol, MatchesTheSequenceOfBoostAfterTheOrigin) {
   const auto directions = all_directions();
   boost::random::sobol engine(dimension_count);
   for (std::size_t d = 0; d < dimension_count; ++d) EXPECT_EQ(sobol_bits(0, directions[d]), 0u);
@@ -35,7 +35,7 @@ TEST(Sobol, ReachesFarPointsDirectly) {
   }
 }
 
-TEST(Sobol, ADimensionDoesNotDependOnTheOthersAskedFor) {
+TEST(Sobol, ADimensionDoesNotDependOnTheOtherDimensions) {
   const auto directions = all_directions();
   const std::vector<std::size_t> few{2, 69, 0};
   const auto alone = sobol_directions(few);
@@ -93,7 +93,7 @@ std::vector<parameters::Parameter> all_rows_of(const parameters::Parameter& para
 
 // Lists of moves share their dimensions, of which a study has one, and so do the keys of a filter that belong
 // to different forms.
-TEST(Sobol, RowsOfListsHaveDimensionsThatNoOtherHas) {
+TEST(Sobol, ElementsOfListsHaveTheirOwnDimensions) {
   std::map<std::size_t, std::string> owner;
   for (const parameters::Parameter& parameter : parameters::parameter_table()) {
     std::string group(parameter.name);
@@ -130,7 +130,7 @@ TEST(Sobol, KeysOfOneFilterHaveDifferentDimensions) {
   }
 }
 
-TEST(Sobol, EveryParameterHasItsOwnDimensionAndTheListsOfMovesShareTheirs) {
+TEST(Sobol, EveryParameterHasItsOwnDimensionExceptListsOfMoves) {
   std::set<std::size_t> dimensions;
   for (const parameters::Parameter& parameter : parameters::parameter_table()) {
     if (!parameters::has_value(parameter)) {
@@ -152,7 +152,7 @@ TEST(Sobol, EveryParameterHasItsOwnDimensionAndTheListsOfMovesShareTheirs) {
 }
 
 // That a study drawn with them once gets the same trials for ever.
-TEST(Sobol, TheDimensionsAreFixed) {
+TEST(Sobol, DimensionsOfParametersNeverChange) {
   const std::map<std::string_view, std::size_t> fixed{
       {"friction.k1", 0},
       {"friction.k2", 1},

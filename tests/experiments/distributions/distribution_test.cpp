@@ -34,7 +34,7 @@ void expect_moments(const Distribution& distribution, double mean, double sd) {
   EXPECT_NEAR(moments.sd, sd, 2e-3 * sd);
 }
 
-TEST(Distribution, MomentsAreThoseOfTheTextbook) {
+TEST(Distribution, MomentsMatchTheTextbook) {
   expect_moments(Uniform{600, 900}, 750, 300 / std::sqrt(12));
   const double log_ratio = std::log(20.0);
   const double log_mean = 1.9 / log_ratio;
@@ -125,7 +125,7 @@ TEST(Distribution, OnlyIntegersAndChoicesOfThemAreWhole) {
 }
 
 // A manifest keeps its trials: these bits are those of every version and processor.
-TEST(Distribution, HasTheSameBitsForEver) {
+TEST(Distribution, DrawsNeverChangeByABit) {
   EXPECT_EQ(quantile(Normal{0, 1}, 0x1.8a65fb35a9954p-1), 0x1.7acfb2d51491dp-1);
   EXPECT_EQ(quantile(Normal{0, 1}, 1e-6), -0x1.30381a9799f7ep+2);
   EXPECT_EQ(quantile(Normal{0, 1}, 0.999), 0x1.8b8cbb720447p+1);
@@ -148,7 +148,7 @@ std::vector<Distribution> random_distributions(std::mt19937_64& numbers) {
           Choice{{high, low, high + 1.0}}};
 }
 
-TEST(Distribution, QuantilesOfTheUniformNumberOfAValueIsTheValue) {
+TEST(Distribution, QuantileInvertsTheDistributionFunction) {
   std::mt19937_64 numbers(3);
   std::uniform_real_distribution<double> uniform(0.001, 0.999);
   for (int repetition = 0; repetition < 200; ++repetition) {
@@ -168,7 +168,7 @@ TEST(Distribution, QuantilesOfTheUniformNumberOfAValueIsTheValue) {
   }
 }
 
-TEST(Distribution, ScaledDrawsTheMultipleWithTheSameUniformNumber) {
+TEST(Distribution, ScalingMultipliesTheDrawOfTheSameUniformNumber) {
   std::mt19937_64 numbers(4);
   std::uniform_real_distribution<double> uniform(0.001, 0.999);
   for (int repetition = 0; repetition < 100; ++repetition) {
@@ -195,7 +195,7 @@ std::optional<double> centre_of(const Distribution& distribution) {
   return std::nullopt;
 }
 
-TEST(Distribution, WidenedDrawsSoMuchFartherFromTheCentre) {
+TEST(Distribution, WideningScalesTheDistanceFromTheCentre) {
   std::mt19937_64 numbers(5);
   std::uniform_real_distribution<double> uniform(0.001, 0.999);
   for (int repetition = 0; repetition < 100; ++repetition) {
@@ -262,7 +262,7 @@ TEST(RandomField, CorrelationFallsToOneOverEAtTheCorrelationLength) {
     EXPECT_NEAR(correlation_of(field_spectrum(length), length), 1 / std::numbers::e, 1e-10);
 }
 
-TEST(RandomField, TheSeriesIsNoLongerThanItMustBe) {
+TEST(RandomField, SeriesHasNoNegligibleTerms) {
   EXPECT_LE(field_spectrum(0.2).size(), 53u);
   EXPECT_LE(field_spectrum(min_correlation_length).size(), 10500u);
   for (const double length : {0.01, 0.2, 1.0}) {
@@ -308,7 +308,7 @@ Ensemble ensemble_of(const ProfileDescription& description, double place, double
 
 // With n seeds the standard errors are sd/√n of the mean, sd/√(2n) of the standard deviation and (1 − ρ²)/√n
 // of the correlation of normals; 5 of them are exceeded once in 1.7 million.
-TEST(RandomField, NormalEnsembleHasTheMeanSpreadAndCorrelationAskedFor) {
+TEST(RandomField, NormalEnsembleHasTheGivenMeanSpreadAndCorrelation) {
   const ProfileDescription description{110, 0.1, 0.2, friction::Marginal::normal};
   for (const double place : {0.0, 2.0}) {
     const Ensemble e = ensemble_of(description, place, place + 0.2);

@@ -94,7 +94,7 @@ TEST(Guides, FrictionBeyondTheConstantResistanceIsProportionalToTheLoad) {
   }
 }
 
-TEST(Guides, EveryManifestStatesItsPremisesAndIsUnderstoodWithoutWarningsAtAnyUsualLoad) {
+TEST(Guides, EveryManifestGivesNoWarningAtAnyUsualLoad) {
   std::mt19937 generator(2);
   for (const Guide& guide : guide_table()) {
     for (int i = 0; i < 10; ++i) {
@@ -114,7 +114,7 @@ TEST(Guides, EveryManifestStatesItsPremisesAndIsUnderstoodWithoutWarningsAtAnyUs
 }
 
 // Whatever spring was measured, the study has it: its machines break away after the travel with that force.
-TEST(Guides, AManifestHasTheMeasuredSpringInEachOfItsMachines) {
+TEST(Guides, EveryMachineHasTheMeasuredSpring) {
   std::mt19937 generator(4);
   for (const Guide& guide : guide_table()) {
     for (int i = 0; has_load(guide) && i < 20; ++i) {
@@ -160,12 +160,12 @@ TEST(Guides, AManifestStatesTheOriginAboveEachOfItsNumbers) {
   }
 }
 
-TEST(Guides, AnUnknownNameIsToldTheNames) {
+TEST(Guides, AnUnknownNameIsRefusedWithTheKnownNames) {
   const std::string message = refusal_by([] { guide_named("bal-rail"); });
   for (const Guide& guide : guide_table()) EXPECT_TRUE(says(message, guide.name));
 }
 
-TEST(Guides, TheirRangeStandsForTheMissingDefaultsOfALinearAxis) {
+TEST(Guides, TheirRangesReplaceTheMissingDefaultsOfALinearAxis) {
   double low = HUGE_VAL;
   double high = 0.0;
   for (const Guide& guide : loaded_guides()) {

@@ -26,7 +26,7 @@ std::string suggestion(const std::string& message) {
   return start == std::string::npos ? "" : message.substr(start + 8, message.find("]}", start) - start - 6);
 }
 
-TEST(ExpectedValue, HasTheUnitAndADistributionThatFits) {
+TEST(ExpectedValue, MessageNamesTheUnitAndASuitableDistribution) {
   int understood = 0;
   for (const parameters::Parameter& parameter : parameters::parameter_table()) {
     if (!parameters::has_value(parameter) || parameters::has_labels(parameter) || parameter.only_on ||
@@ -47,7 +47,7 @@ TEST(ExpectedValue, HasTheUnitAndADistributionThatFits) {
   EXPECT_GT(understood, 20);
 }
 
-TEST(ExpectedValue, OutOfRangeHasThemToo) {
+TEST(ExpectedValue, AnOutOfRangeMessageNamesUnitAndDistributionToo) {
   EXPECT_TRUE(
       has_faults(refusal_of(minimal_manifest("plant: {inertia: 0}\n")),
                  "6:18: plant.inertia | greater than 0, in kg m^2, or a distribution, such as {uniform: "
@@ -61,7 +61,7 @@ TEST(ExpectedValue, OutOfRangeHasThemToo) {
 }
 
 // Random normal distributions: what is suggested in place of each is understood.
-TEST(ExpectedValue, OfAPlainNormalIsABoundedOne) {
+TEST(ExpectedValue, AnUnboundedNormalIsAnsweredWithABoundedDistribution) {
   std::mt19937_64 random(3);
   for (int i = 0; i < 200; ++i) {
     const double mean = std::exp(std::uniform_real_distribution(-5.0, 8.0)(random));
@@ -84,7 +84,7 @@ TEST(ExpectedValue, OfAPlainNormalIsABoundedOne) {
                          "6:26: friction.k1.uniform | only, in N m/rad"));
 }
 
-TEST(ExpectedValue, OfAnotherUsualNameIsTheParameter) {
+TEST(ExpectedValue, AnotherCommonNameIsAnsweredWithTheParameter) {
   for (const char* const axis : {"rotary", "linear"}) {
     const std::string head = fmt::format("axis: {}\n", axis);
     EXPECT_TRUE(

@@ -16,7 +16,7 @@ Names column_names(const study::Study& study) {
   return names;
 }
 
-TEST(Study, UnderstandsEverySection) {
+TEST(Study, ReadsEverySection) {
   const study::Study study = study_of(full_manifest());
   EXPECT_EQ(study.name, "everything");
   EXPECT_EQ(study.description, "Every section once");
@@ -33,7 +33,7 @@ TEST(Study, UnderstandsEverySection) {
   EXPECT_TRUE(study.warnings.empty());
 }
 
-TEST(Study, WhatIsLeftOutTakesTheDefaults) {
+TEST(Study, MissingKeysTakeTheirDefaults) {
   const study::Study study = study_of(minimal_manifest());
   const trial::TrialParameters parameters = study::study_trial(study, 0, 0).parameters;
   const trial::TrialParameters defaults;
@@ -46,7 +46,7 @@ TEST(Study, WhatIsLeftOutTakesTheDefaults) {
   EXPECT_TRUE(study::study_trial(study, 0, 0).inputs.empty());
 }
 
-TEST(Study, InputColumnsAreWhatDiffersInTheOrderOfTheTable) {
+TEST(Study, InputColumnsAreTheParametersThatDifferInTableOrder) {
   EXPECT_EQ(column_names(study_of(full_manifest())),
             (Names{"plant.inertia", "friction.k1", "friction.k2", "friction.beta", "friction.alpha",
                    "friction.breakaway", "controller.kp", "controller.ki", "controller.delay",
@@ -72,7 +72,7 @@ TEST(Study, InputsAreTheParametersOfTheTrial) {
   }
 }
 
-TEST(Study, ProfilesAreSharedByAllTrialsAndNamed) {
+TEST(Study, AllTrialsShareANamedProfile) {
   const study::Study study = study_of(full_manifest());
   ASSERT_EQ(study.profiles.size(), 1u);
   EXPECT_EQ(study.profiles[0].name, "friction.k1");
@@ -98,7 +98,7 @@ TEST(Study, ProfilesThatDifferBetweenPointsAreNamedByTheFirst) {
             study.profiles[1].profile);
 }
 
-TEST(Study, UnderstandsWhatCanBeSwitchedOn) {
+TEST(Study, ReadsOptionalFeatures) {
   const study::Study study = study_of(extended_manifest());
   EXPECT_FALSE(study.open_loop);
   EXPECT_EQ(study.moves, 16);
@@ -112,7 +112,7 @@ TEST(Study, UnderstandsWhatCanBeSwitchedOn) {
                    "initial.velocity", "initial.integral", "initial.mode"}));
 }
 
-TEST(Study, EnumerationsAmongTheInputsAreTheNumbersOfTheirWords) {
+TEST(Study, EnumeratedInputsAreStoredAsNumbers) {
   const study::Study study = study_of(extended_manifest());
   const std::size_t shape = column_of(study, "command.profile.shape");
   EXPECT_TRUE(
@@ -125,7 +125,7 @@ TEST(Study, SeedsOfAll64BitsAreKept) {
   EXPECT_EQ(study_of(minimal_manifest(), {"seed=18446744073709551615"}).seed, 18446744073709551615u);
 }
 
-TEST(Study, TrialsThatAreNotThereAreRefused) {
+TEST(Study, TrialsThatDoNotExistAreRefused) {
   const study::Study study = study_of(minimal_manifest());
   EXPECT_THROW(study::study_trial(study, 1, 0), Failure);
   EXPECT_THROW(study::study_trial(study, -1, 0), Failure);
@@ -133,10 +133,10 @@ TEST(Study, TrialsThatAreNotThereAreRefused) {
   EXPECT_THROW(study::study_trial(study, 0, -1), Failure);
 }
 
-class AllTrialsFile : public ::testing::Test {
+class ManifestFile : public ::testing::Test {
  protected:
-  AllTrialsFile() { std::filesystem::create_directories(folder); }
-  ~AllTrialsFile() override { std::filesystem::remove_all(folder); }
+  ManifestFile() { std::filesystem::create_directories(folder); }
+  ~ManifestFile() override { std::filesystem::remove_all(folder); }
 
   std::string failure_of(const std::filesystem::path& path, ExitCode code) {
     return refusal_by([&] { load_study(path); }, code);
@@ -146,7 +146,7 @@ class AllTrialsFile : public ::testing::Test {
       std::filesystem::temp_directory_path() / ("zerocount_study_test_" + std::to_string(::getpid()));
 };
 
-TEST_F(AllTrialsFile, IsReadAndNamedInMessages) {
+TEST_F(ManifestFile, IsReadAndNamedInMessages) {
   const auto path = folder / "good.yaml";
   std::ofstream(path) << minimal_manifest();
   EXPECT_EQ(load_study(path).manifest.text, minimal_manifest());
@@ -155,19 +155,19 @@ TEST_F(AllTrialsFile, IsReadAndNamedInMessages) {
   EXPECT_TRUE(failure_of(bad, ExitCode::bad_input).starts_with(bad.string() + ":6:8: plant: "));
 }
 
-TEST_F(AllTrialsFile, ThatIsMissingOrADirectoryIsBadInput) {
+TEST_F(ManifestFile, AMissingFileOrADirectoryIsBadInput) {
   EXPECT_TRUE(says(failure_of(folder / "none.yaml", ExitCode::bad_input), "no such file"));
   EXPECT_TRUE(says(failure_of(folder, ExitCode::bad_input), "this is a directory"));
 }
 
-TEST_F(AllTrialsFile, OfTwoMegabytesIsTooLarge) {
+TEST_F(ManifestFile, TwoMegabytesAreTooLarge) {
   const auto path = folder / "huge.yaml";
   std::ofstream(path) << std::string(2'000'000, 'x');
   EXPECT_EQ(failure_of(path, ExitCode::bad_input),
             path.string() + ":1:1: manifest: the file is too large; expected at most 1048576 bytes");
 }
 
-TEST_F(AllTrialsFile, ThatIsADeviceIsRefused) {
+TEST_F(ManifestFile, ADeviceIsRefused) {
   EXPECT_TRUE(says(failure_of("/dev/zero", ExitCode::bad_input), "not a regular file"));
 }
 

@@ -13,14 +13,14 @@ void PrintTo(const Case& tested, std::ostream* out) {
   *out << tested.line;
 }
 
-class SixthLine : public ::testing::TestWithParam<Case> {};
+class FaultOnTheSixthLine : public ::testing::TestWithParam<Case> {};
 
-TEST_P(SixthLine, IsReported) {
+TEST_P(FaultOnTheSixthLine, IsReported) {
   EXPECT_TRUE(has_faults(refusal_of(minimal_manifest(GetParam().line)), GetParam().faults));
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    UnknownKeys, SixthLine,
+    UnknownKeys, FaultOnTheSixthLine,
     ::testing::Values(Case{"plant: {inertai: 1}", "6:9: plant.inertai | inertia"},
                       Case{"friction: {kp: 1}", "6:12: friction.kp | controller.kp"},
                       Case{"frictoin: {k1: 1}", "6:1: frictoin | friction"},
@@ -35,7 +35,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Case{"observed: {b: text}", "6:12: observed.b | nearest known: all"}));
 
 INSTANTIATE_TEST_SUITE_P(
-    WrongTypes, SixthLine,
+    WrongTypes, FaultOnTheSixthLine,
     ::testing::Values(Case{"plant: 3", "6:8: plant | '3'"},
                       Case{"plant: {inertia: heavy}", "6:18: plant.inertia | is not a number"},
                       Case{"plant: {inertia: \"1\"}", "6:18: plant.inertia | quoted text"},
@@ -59,7 +59,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Case{"retain: {trials: 1}", "6:18: retain.trials | '1'"}));
 
 INSTANTIATE_TEST_SUITE_P(
-    YamlTraps, SixthLine,
+    YamlTraps, FaultOnTheSixthLine,
     ::testing::Values(Case{"independent_points: yes", "6:21: independent_points | truth value"},
                       Case{"controller: {kp: no}", "6:18: controller.kp | truth value"},
                       Case{"controller: {kp: 010}", "6:18: controller.kp | octal"},
@@ -88,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Case{"dac: {bits: 99999999999999999999}", "6:13: dac.bits | from 1 to 32"}));
 
 INSTANTIATE_TEST_SUITE_P(
-    OutOfRange, SixthLine,
+    OutOfRange, FaultOnTheSixthLine,
     ::testing::Values(
         Case{"plant: {inertia: 0}", "6:18: plant.inertia | greater than 0"},
         Case{"plant: {presliding_damping: -1}", "6:29: plant.presliding_damping | at least 0"},
@@ -119,7 +119,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"machines: 20", "4:9: trials | cannot be divided equally"}));
 
 INSTANTIATE_TEST_SUITE_P(
-    Distributions, SixthLine,
+    Distributions, FaultOnTheSixthLine,
     ::testing::Values(
         Case{"friction: {k1: {normal: {mean: 110, sd: 1}}}", "6:25: friction.k1.normal | (0, inf)"},
         Case{"friction: {k1: {uniform: [0, 1]}}", "6:26: friction.k1.uniform | (0, inf)"},
@@ -160,7 +160,7 @@ INSTANTIATE_TEST_SUITE_P(
              "6:27: controller.anti_windup | '{choice: [0, 1]}'"}));
 
 INSTANTIATE_TEST_SUITE_P(
-    BetweenParameters, SixthLine,
+    BetweenParameters, FaultOnTheSixthLine,
     ::testing::Values(
         Case{"verdict: {dwell: 2}", "6:18: verdict.dwell | longer than the hold"},
         Case{"verdict: {window: 1.0e-5}", "6:19: verdict.window | less than one sample"},
@@ -171,7 +171,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"initial: {preload: {normal: {mean: 0, sd: 0.01}}}", "6:20: initial.preload | breakaway of"},
         Case{"controller: {sample_rate: 1.0e13}", "6:27: command.hold | 1000000000000 samples"}));
 
-TEST(ManifestErrors, EveryRequiredKeyIsMissed) {
+TEST(ManifestErrors, AMissingRequiredKeyIsReported) {
   EXPECT_TRUE(has_faults(refusal_of("description: x\n"),
                          "1:1: zerocount | missing\n"
                          "1:1: name | missing\n"
@@ -186,12 +186,12 @@ TEST(ManifestErrors, MergeKeysAreRefused) {
   EXPECT_TRUE(has_faults(refusal_of(minimal_manifest("<<: {name: x}")), "6:1: manifest | merge keys"));
 }
 
-TEST(ManifestErrors, ANewerManifestSaysSo) {
+TEST(ManifestErrors, ANewerFormatVersionIsReported) {
   EXPECT_TRUE(has_faults(refusal_of("zerocount: 2\nname: x\nseed: 1\ntrials: 1\ncommand: {targets: [1]}\n"),
                          "1:12: zerocount | newer"));
 }
 
-TEST(ManifestErrors, ValuesThatCannotBeReadAreLikeNoOther) {
+TEST(ManifestErrors, UnreadableValuesAreNotCalledDuplicates) {
   const std::string message = refusal_of(
       "zerocount: 1\nname: m\nseed: 1\ntrials: 1\ncommand: {targets: [1]}\n"
       "sweep: {grid: {friction.k1: [-1, -2, 5]}}\n");
@@ -216,7 +216,7 @@ TEST(ManifestErrors, TargetsAreWholeNumbers) {
       "5:39: command.targets.2.uniform | not whole numbers"));
 }
 
-TEST(ManifestErrors, AllErrorsAreToldInTheOrderOfTheFile) {
+TEST(ManifestErrors, AllErrorsAreReportedInTheOrderOfTheFile) {
   EXPECT_TRUE(has_faults(refusal_of(minimal_manifest("verdict: {dwell: 2}\n"
                                                      "plant: {inertia: no, inertia: 1}\n"
                                                      "dac: {bits: 0}\n"
@@ -231,7 +231,7 @@ TEST(ManifestErrors, AllErrorsAreToldInTheOrderOfTheFile) {
 }
 
 // A key that is missing may be there under a wrong name, or where it cannot be read.
-TEST(ManifestErrors, TheCauseComesBeforeWhatItEntails) {
+TEST(ManifestErrors, TheCauseIsReportedBeforeItsConsequences) {
   EXPECT_TRUE(has_faults(refusal_of("zerocount: 1\nname: x\nseed: 1\ntrials: 1\ncomand: {targets: [1]}\n"),
                          "5:1: comand | command\n1:1: command | missing"));
   const std::string linear =
@@ -252,7 +252,7 @@ TEST(ManifestErrors, TheCauseComesBeforeWhatItEntails) {
                          "1:1: controller.ki | missing"));
 }
 
-TEST(ManifestErrors, ALengthOfACountInAnotherUnitIsNamedItself) {
+TEST(ManifestErrors, AnEncoderResolutionInTheWrongUnitIsNamed) {
   EXPECT_TRUE(has_faults(
       refusal_of("zerocount: 1\nname: x\naxis: linear\nseed: 1\ntrials: 1\n"
                  "command: {targets: [400], hold: 1, profile: {shape: trapezoidal}}\n"

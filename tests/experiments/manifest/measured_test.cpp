@@ -28,7 +28,7 @@ double input(const study::Study& study, std::int64_t point, std::int64_t index, 
 }
 
 // A trial is a function of its parameters, so these equal bits are equal outcomes.
-TEST(MeasuredCreep, ActsAsTheConstantsOfTheLawThatFollow) {
+TEST(MeasuredCreep, EqualsTheDerivedConstantsOfTheLaw) {
   std::mt19937_64 random(7);
   const auto uniform = [&random](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
@@ -51,7 +51,7 @@ TEST(MeasuredCreep, ActsAsTheConstantsOfTheLawThatFollow) {
   }
 }
 
-TEST(MeasuredCreep, IsDrawnAtEveryLevelAndRecordedWithWhatFollows) {
+TEST(MeasuredCreep, IsDrawnAtEveryLevelAndRecordedWithTheDerivedConstants) {
   for (const std::string level : {"study", "world", "machine", "trial"}) {
     const study::Study study =
         study_of(with_creep("torque: 0.015, extension: {lognormal: {median: 1.0e-5, cv: 0.5}, per: " + level +
@@ -100,7 +100,7 @@ TEST(MeasuredCreep, DiffersFromContactToContact) {
   EXPECT_EQ(contact_of(study, 0, 3, 0).lambda, input(study, 0, 3, "friction.lambda"));
 }
 
-TEST(MeasuredCreep, IsSweptOverriddenCorrelatedAndOnALinearAxisToo) {
+TEST(MeasuredCreep, CanBeSweptOverriddenAndCorrelated) {
   const std::string creep = "torque: 2, extension: 1.0e-5, rate: 0.5, exponent: 2";
   const study::Study swept = study_of(with_creep(
       creep, "sweep: {grid: {friction.measured.creep.exponent: [1, 2, 3], friction.k1: [100, 110]}}\n"));
@@ -129,7 +129,7 @@ TEST(MeasuredCreep, IsSweptOverriddenCorrelatedAndOnALinearAxisToo) {
   EXPECT_NEAR(contact_of(linear, 0, 0).lambda, 4e5, 1e-7);
 }
 
-TEST(MeasuredCreep, StandsInPlaceOfTheConstantsAsAWhole) {
+TEST(MeasuredCreep, ReplacesAllConstantsAtOnce) {
   EXPECT_TRUE(has_faults(refusal_of(with_creep("torque: 1, rate: 0.5, exponent: 2")),
                          "6:39: friction.measured.creep.extension | missing | rad"));
   EXPECT_TRUE(has_faults(refusal_of(minimal_manifest("friction: {lambda: 5, measured: {creep: {torque: 1, "
@@ -191,7 +191,7 @@ void expect_as_measured(const study::Study& study, std::int64_t index, bool seca
   EXPECT_EQ(drawn(study, index, "breakaway"), contact.breakaway);
 }
 
-TEST(MeasuredSpringOfStudy, IsDrawnAtEveryLevelByEitherGroup) {
+TEST(MeasuredSpringOfStudy, IsDrawnAtEveryLevelFromEitherSetOfValues) {
   for (const std::string level : {"world", "machine", "trial"}) {
     const auto spread = [&](double low, double high) {
       return fmt::format("{{uniform: [{}, {}], per: {}}}", low, high, level);
@@ -249,7 +249,7 @@ TEST(MeasuredSpringOfStudy, IsCheckedByTheDrawsOfItsMachines) {
                          "6:83: friction.measured.final_stiffness | trial | of 200 trials"));
 }
 
-TEST(MeasuredSpringOfStudy, HasTheLowEndOfWhatItFollowsFrom) {
+TEST(MeasuredSpringOfStudy, HasTheLowEndOfTheMeasuredValue) {
   const study::Study study = study_of(with_spring(
       "initial_stiffness: 860, final_stiffness: {lognormal: {median: 110, cv: 0.01}}, breakaway: 0.3, "
       "breakaway_travel: 2.0e-3"));
@@ -259,7 +259,7 @@ TEST(MeasuredSpringOfStudy, HasTheLowEndOfWhatItFollowsFrom) {
   EXPECT_EQ(study::low_end(study, 0, "friction.k1").value, study::low_end(constant, 0, "friction.k1").value);
 }
 
-TEST(MeasuredSpringOfStudy, RefusesWhatNoMachineHasWithItsNumbers) {
+TEST(MeasuredSpringOfStudy, RefusesImpossibleValuesWithTheirNumbers) {
   const auto refusal = [](const std::string& values, const std::string& more = "") {
     return refusal_of(with_spring(values, more));
   };
@@ -293,7 +293,7 @@ TEST(MeasuredSpringOfStudy, RefusesWhatNoMachineHasWithItsNumbers) {
       "6:64: friction.measured.final_stiffness | = 200 N m/rad"));
 }
 
-TEST(MeasuredSpringOfStudy, StandsInPlaceOfTheConstantsAsAWhole) {
+TEST(MeasuredSpringOfStudy, ReplacesAllConstantsAtOnce) {
   const auto refusal = [](const std::string& values, const std::string& more = "") {
     return refusal_of(with_spring(values, more));
   };

@@ -18,7 +18,7 @@ bool is_refused(const std::string& text, const std::vector<std::string>& overrid
 }
 
 // The two positions are the same count exactly where rounding says so, whatever their signs.
-TEST(UnseenMotions, AreTargetsThatDifferAndRoundToTheSameCount) {
+TEST(UnseenMotions, DifferentTargetsThatRoundToTheSameCountAreRefused) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> position(-3.0, 3.0);
   int refused = 0;
@@ -56,7 +56,7 @@ TEST(UnseenMotions, NameTheDesignPointAndTheTarget) {
   EXPECT_FALSE(says(all, "at point"));
 }
 
-TEST(UnseenMotions, AreErrorsWithProfilesSinesAndSequencesToo) {
+TEST(UnseenMotions, ProfilesSinesAndSequencesAreRefusedToo) {
   const std::string limits = "velocity_limit: 1, acceleration_limit: 1";
   EXPECT_TRUE(is_refused(commanded(
       "{units: si, targets: [1.0e-4], profile: {shape: trapezoidal, " + limits + "}}", fine_and_coarse)));
@@ -70,7 +70,7 @@ TEST(UnseenMotions, AreErrorsWithProfilesSinesAndSequencesToo) {
   EXPECT_FALSE(is_refused(commanded("{units: si, targets: [0]}", "encoder: {fine: 3600}\n")));
 }
 
-TEST(UnseenMotions, ComeFromOverridesToo) {
+TEST(UnseenMotions, OverridesAreCheckedToo) {
   const std::string text = commanded("{units: si, targets: [1.0e-4]}", "encoder: {fine: 1620000}\n");
   EXPECT_FALSE(is_refused(text));
   EXPECT_TRUE(is_refused(text, {"encoder.fine=3600"}));
@@ -78,7 +78,7 @@ TEST(UnseenMotions, ComeFromOverridesToo) {
 }
 
 // Of drawn targets only a part is lost, which the study may be about.
-TEST(UnseenMotions, InSomeTrialsAreAWarningWithTheirProportion) {
+TEST(UnseenMotions, AWarningStatesTheProportionOfTrials) {
   const double count = 2.0 * std::numbers::pi / 3600;
   const auto drawn = [&](double counts) {
     return commanded(fmt::format("{{units: si, targets: [{{uniform: [0, {}]}}]}}", counts * count),
@@ -93,7 +93,7 @@ TEST(UnseenMotions, InSomeTrialsAreAWarningWithTheirProportion) {
   EXPECT_TRUE(is_refused(drawn(0.5), {"trials=4000"}));
 }
 
-TEST(UnseenMotions, OfAStudyRecordedEarlierAreAWarning) {
+TEST(UnseenMotions, ARecordedStudyGivesOnlyAWarning) {
   const study::Study study = manifest::recorded_study(
       commanded("{units: si, targets: [1.0e-4]}", "encoder: {fine: 3600}\n"), "old.h5:/manifest", {});
   ASSERT_FALSE(study.warnings.empty());

@@ -47,7 +47,7 @@ std::vector<double> inputs_named(const study::Study& study, const std::vector<st
   return values;
 }
 
-TEST(Worlds, ShareTheirValuesAmongAllTrialsAndPoints) {
+TEST(Worlds, AllTrialsAndPointsOfAWorldShareItsValues) {
   for (const std::string& design : designs_with_worlds) {
     for (const int machines : {0, 30}) {
       for (const std::string independent : {"false", "true"}) {
@@ -72,7 +72,7 @@ TEST(Worlds, ShareTheirValuesAmongAllTrialsAndPoints) {
   }
 }
 
-TEST(Worlds, ListWhatDiffersBetweenThem) {
+TEST(Worlds, ListTheParametersThatDifferBetweenThem) {
   const study::Study study = study_with_worlds(machines_in_worlds(), "monte_carlo", 10, 30, 60);
   std::vector<std::string> names;
   for (const study::InputColumn& column : study.columns.shared[study::Grouping::world]) {
@@ -93,7 +93,7 @@ double lognormal_probability(double value, double median, double cv) {
 }
 
 // An interval has strata of equal width.
-TEST(Worlds, HaveAStratumOfEveryValueEachWhateverTheDesign) {
+TEST(Worlds, EachWorldHasItsOwnStratumInEveryDesign) {
   for (const std::string& design : designs_with_worlds) {
     for (const int worlds : {2, 7, 30, 64}) {
       for (int seed = 1; seed <= 5; ++seed) {
@@ -119,7 +119,7 @@ TEST(Worlds, HaveAStratumOfEveryValueEachWhateverTheDesign) {
 }
 
 // The order of a Sobol sequence has to change, so that its trials do not depend on the world.
-TEST(Worlds, ChangeNoOtherDraws) {
+TEST(Worlds, DoNotChangeOtherDraws) {
   for (const std::string design : {"monte_carlo", "latin_hypercube"}) {
     for (const int machines : {0, 30}) {
       for (const std::string independent : {"false", "true"}) {
@@ -215,7 +215,7 @@ struct WorldsRefusal {
 
 class RefusedWorlds : public ::testing::TestWithParam<WorldsRefusal> {};
 
-TEST_P(RefusedWorlds, SayWhy) {
+TEST_P(RefusedWorlds, MessageGivesTheReason) {
   EXPECT_TRUE(has_faults(refusal_of(minimal_manifest(GetParam().lines)), GetParam().faults));
 }
 

@@ -43,13 +43,13 @@ TEST(Overrides, TheLastOneWins) {
   EXPECT_EQ(study_of(minimal_manifest(), {"trials=2", "trials=3"}).trials, 3);
 }
 
-TEST(Overrides, MendAManifest) {
+TEST(Overrides, CanCorrectAManifest) {
   EXPECT_EQ(study_of("zerocount: 1\nname: x\nseed: 1\ntrials: none\ncommand: {targets: [1]}\n", {"trials=5"})
                 .trials,
             5);
 }
 
-TEST(Overrides, LeaveTheTextAndChangeTheHash) {
+TEST(Overrides, KeepTheTextAndChangeTheHash) {
   const study::Study plain = study_of(minimal_manifest());
   const study::Study other = study_of(minimal_manifest(), {"trials=11"});
   EXPECT_EQ(other.manifest.text, minimal_manifest());
@@ -78,7 +78,7 @@ TEST(Overrides, MistakesNameTheOverride) {
                          "--set verdict.dwell=3: verdict.dwell | longer than the hold"));
 }
 
-TEST(Overrides, ThatTheSweepGivesAtEveryPointAreReported) {
+TEST(Overrides, AnOverrideOfASweptKeyIsReported) {
   const auto report = [](const std::string& sweep, const std::string& change) -> std::string {
     yaml::Problems problems;
     std::deque<std::string> sources;
@@ -101,7 +101,7 @@ TEST(Overrides, ThatTheSweepGivesAtEveryPointAreReported) {
   EXPECT_EQ(report(some, "controller.ki=3e-5"), "");
 }
 
-TEST(Overrides, AllMistakesAreToldAfterThoseOfTheFile) {
+TEST(Overrides, MistakesAreReportedAfterThoseOfTheFile) {
   EXPECT_TRUE(has_faults(override_failure({"trials=0", "seed=x"}, minimal_manifest("plant: 1\n")),
                          "6:8: plant | '1'\n"
                          "--set seed=x: seed | is not a number\n"
@@ -124,7 +124,7 @@ std::string essence_of(const std::string& text, const std::vector<std::string>& 
 }
 
 // Whatever the manifest, the edited text is the study with the override, or there is none.
-TEST(EditedText, MeansTheSameAsTheOverride) {
+TEST(EditedText, EqualsTheOverride) {
   const std::vector<std::pair<std::string, std::string>> overrides{
       {"seed", "77"},
       {"trials", "12"},
@@ -154,7 +154,7 @@ TEST(EditedText, MeansTheSameAsTheOverride) {
   EXPECT_GT(edits, 50);
 }
 
-TEST(EditedText, KeepsAllElse) {
+TEST(EditedText, KeepsTheRestOfTheText) {
   EXPECT_EQ(with_override("a: 1  # one\nb: {c: 2, d: 3}\n", "b.c", "7"), "a: 1  # one\nb: {c: 7, d: 3}\n");
   EXPECT_EQ(with_override("a: {b: {uniform: [0, 1]}, c: 2}  # two\n", "a.b", "5"),
             "a: {b: 5, c: 2}  # two\n");
@@ -202,7 +202,7 @@ TEST(ManifestValues, AreComparedInAllDigits) {
   EXPECT_NE(differences("name: 1 a\n", "name: 1.0 a\n"), "");
 }
 
-TEST(ManifestValues, HaveTheOrderOfWhatIsNumberedByIt) {
+TEST(ManifestValues, OrderMattersIfItNumbersPointsOrConditions) {
   EXPECT_EQ(differences("sweep: {grid: {x: [1, 2], y: [3, 4]}}\n", "sweep: {grid: {y: [3, 4], x: [1, 2]}}\n"),
             "sweep.grid, order of keys is x, y there and y, x here");
   EXPECT_NE(differences("conditions: {a: {}, b: {}}\n", "conditions: {b: {}, a: {}}\n"), "");
@@ -214,7 +214,7 @@ TEST(ManifestValues, HaveTheOrderOfWhatIsNumberedByIt) {
 
 // The results of one case stood under the name of another after an extension, where only the other number of
 // trials was said.
-TEST(ManifestValues, HaveTheirOrderWhateverElseDiffers) {
+TEST(ManifestValues, OrderIsComparedEvenIfOtherValuesDiffer) {
   for (const std::string map : {"sweep: {cases: {A, B}}", "sweep: {grid: {A, B}}", "conditions: {A, B}",
                                 "goals: {A, B}", "tune: {free: {A, B}}"}) {
     const auto text = [&map](int trials, const std::string& first, const std::string& second) {
@@ -232,7 +232,7 @@ TEST(ManifestValues, HaveTheirOrderWhateverElseDiffers) {
   }
 }
 
-TEST(ManifestValues, OfAManifestInAnotherOrderMakeTheSameHash) {
+TEST(ManifestValues, TheOrderOfKeysDoesNotChangeTheHash) {
   std::vector<std::string> lines;
   for (std::size_t at = 0; at < minimal_manifest().size();) {
     const std::size_t end = minimal_manifest().find('\n', at) + 1;

@@ -100,7 +100,7 @@ TEST(MachineSizes, AManifestOfEachIsAcceptedWithoutAWarning) {
   }
 }
 
-TEST(MachineSizes, AbsurdNumbersAreToldOnEachAndImpossibleOnesRefused) {
+TEST(MachineSizes, AbsurdNumbersGiveAWarningAndImpossibleOnesAreRefused) {
   for (const Machine& machine : machines) {
     const std::vector<std::string> warnings = study_of(manifest_of(machine, 1e5)).warnings;
     ASSERT_EQ(warnings.size(), 1U) << machine.name;
@@ -121,7 +121,7 @@ TEST(MachineSizes, AbsurdNumbersAreToldOnEachAndImpossibleOnesRefused) {
 namespace zerocount::parameters {
 namespace {
 
-TEST(StudyUnits, ForceAndPositionStandForTorqueAndAngle) {
+TEST(StudyUnits, ALinearAxisHasForceAndPosition) {
   const std::array<std::array<std::string, 2>, 15> units{{{"rad", "m"},
                                                           {"N m", "N"},
                                                           {"(N m)", "(N)"},
@@ -144,7 +144,7 @@ TEST(StudyUnits, ForceAndPositionStandForTorqueAndAngle) {
   }
 }
 
-TEST(StudyUnits, NoUnitOrMeaningOfALinearAxisSpeaksOfRotation) {
+TEST(StudyUnits, TextsOfALinearAxisNeverMentionRotation) {
   for (const GainUnits gains : {GainUnits::count, GainUnits::si}) {
     const StudyUnits units{AxisKind::linear, gains};
     for (const Parameter& parameter : parameter_table()) {
@@ -166,7 +166,7 @@ TEST(StudyUnits, PlaceholdersBecomeTheWordsOfTheAxis) {
 }
 
 // What is in other units than the default's has to be given.
-TEST(StudyUnits, ADefaultHoldsInItsOwnUnitsAlone) {
+TEST(StudyUnits, ADefaultAppliesOnlyInItsOwnUnits) {
   const auto holds = [](const char* name, const StudyUnits& units) {
     return default_holds(parameter_table()[find_parameter(name).value()], units);
   };

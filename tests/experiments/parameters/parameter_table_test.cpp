@@ -11,7 +11,7 @@ namespace {
 
 // A results file has its manifest, but not the defaults: a default that changes needs a higher version of the
 // results files (layout::format_version); then put the new digest here.
-TEST(ParameterTable, DefaultsAreThoseOfThisVersionOfResultsFiles) {
+TEST(ParameterTable, DefaultsMatchTheVersionOfTheResultsFormat) {
   std::string defaults;
   for (const Parameter& parameter : parameter_table()) {
     if (!exists_on(parameter, AxisKind::rotary)) continue;
@@ -52,7 +52,7 @@ TEST(ParameterTable, DefaultsAreInsideTheirRanges) {
   }
 }
 
-TEST(ParameterTable, OnlyListsTheirElementsALinearEncoderAndMeasuredValuesHaveNoDefault) {
+TEST(ParameterTable, OnlyListsLinearEncodersAndMeasuredValuesHaveNoDefault) {
   std::set<std::string_view> without;
   for (const Parameter& parameter : parameter_table()) {
     if (has_default(parameter)) continue;
@@ -63,7 +63,7 @@ TEST(ParameterTable, OnlyListsTheirElementsALinearEncoderAndMeasuredValuesHaveNo
                                                  "encoder.coarse_resolution"}));
 }
 
-TEST(ParameterTable, EachRowWritesItsOwnFieldAndNoOther) {
+TEST(ParameterTable, EachRowSetsOnlyItsOwnField) {
   const auto table = parameter_table();
   for (std::size_t row = 0; row < table.size(); ++row) {
     if (!has_default(table[row]) || !has_value(table[row])) continue;
@@ -82,7 +82,7 @@ TEST(ParameterTable, EachRowWritesItsOwnFieldAndNoOther) {
   }
 }
 
-TEST(ParameterTable, OnlyNumbersOfFrictionMayVaryAlongTheRotorAndGoToTheSameField) {
+TEST(ParameterTable, OnlyFrictionNumbersMayVaryAlongTheRotor) {
   for (const Parameter& parameter : parameter_table()) {
     const bool friction = parameter.name.rfind("friction.", 0) == 0 && !has_labels(parameter) &&
                           has_value(parameter) && !is_measured(parameter.name);
@@ -115,7 +115,7 @@ TEST(ParameterTable, NoNameIsAlsoASection) {
   EXPECT_FALSE(keys::is_section("controller.coars"));
 }
 
-TEST(ParameterTable, ASectionHasInItWhatItsNameLeadsTo) {
+TEST(ParameterTable, ASectionContainsTheKeysBelowItsName) {
   EXPECT_TRUE(keys::is_within("controller.coarse.kp", "controller.coarse"));
   EXPECT_TRUE(keys::is_within("controller.coarse.kp", "controller"));
   EXPECT_TRUE(keys::is_within("controller.coarse", "controller.coarse"));

@@ -42,7 +42,7 @@ double input_of(const study::Study& study, const study::StudyTrial& trial, std::
   return 0.0;
 }
 
-TEST(RandomCoordinates, AreWhatIsDrawnForMachinesAndTrials) {
+TEST(RandomCoordinates, AreTheParametersDrawnForMachinesAndTrials) {
   const study::Study study = study_of(on_machines);
   std::vector<std::string> names;
   std::vector<std::string> of_machine;
@@ -158,7 +158,7 @@ TEST(RandomCoordinates, RowsOfJointDrawsAreOneCoordinate) {
 }
 
 // The number of a trial decides what the coordinates do not: noise, later contacts, the rest of the rotor.
-TEST(RandomCoordinates, TheNumberDecidesTheOtherRandomNumbers) {
+TEST(RandomCoordinates, TheTrialNumberDecidesTheOtherRandomNumbers) {
   const study::Study study = study_of(on_machines);
   const std::vector<RandomCoordinate> coordinates = random_coordinates(study, 0);
   const std::vector<double> z(coordinates.size(), 0.3);
@@ -229,7 +229,7 @@ TEST(RandomVariables, HaveTheDistributionsUnitsAndCorrelationsOfTheManifest) {
   EXPECT_EQ(found.correlations[k1][place_of(found, "initial.position")], 0.0);
 }
 
-TEST(RandomVariables, ATrialWithTheirValuesHasThem) {
+TEST(RandomVariables, ATrialAtGivenValuesHasThem) {
   const study::Study study = a_study();
   const RandomVariables found = random_variables(study, 0);
   std::mt19937_64 numbers(7);
@@ -300,7 +300,7 @@ class DiscreteDraws : public ::testing::Test {
   std::vector<DiscreteDraw> draws_ = discrete_draws(study_, 0, coordinates_);
 };
 
-TEST_F(DiscreteDraws, AreThoseOfChoicesAndIntegers) {
+TEST_F(DiscreteDraws, AreTheChoicesAndIntegers) {
   ASSERT_EQ(draws_.size(), 3U);
   for (const DiscreteDraw& draw : draws_) {
     double squares = 0.0;
@@ -312,7 +312,7 @@ TEST_F(DiscreteDraws, AreThoseOfChoicesAndIntegers) {
   }
 }
 
-TEST_F(DiscreteDraws, HaveTheValueOfTheTrial) {
+TEST_F(DiscreteDraws, GiveTheValueOfTheTrial) {
   std::mt19937_64 numbers(3);
   for (int i = 0; i < 300; ++i) {
     const std::vector<double> z = normals_of(numbers, coordinates_.size());
@@ -322,7 +322,7 @@ TEST_F(DiscreteDraws, HaveTheValueOfTheTrial) {
 }
 
 // Points moved to the rows in turn are as those that are drawn: every coordinate keeps its distribution.
-TEST_F(DiscreteDraws, AreMovedToAnyRow) {
+TEST_F(DiscreteDraws, CanBeSetToAnyRow) {
   std::mt19937_64 numbers(4);
   std::uniform_real_distribution<double> uniform(1e-9, 1.0 - 1e-9);
   for (const DiscreteDraw& draw : draws_) {
@@ -348,7 +348,7 @@ TEST_F(DiscreteDraws, AreMovedToAnyRow) {
   }
 }
 
-TEST(DiscreteDrawsOfSamples, AreTheirRows) {
+TEST(DiscreteDrawsOfSamples, ARowOfSamplesIsOneDraw) {
   const DiscreteDraw draw{.name = "samples", .direction = {{0, 1.0}}, .rows = 20};
   EXPECT_EQ(draw.values(), 20);
   EXPECT_EQ(value_text(draw, 17), "row 17");

@@ -21,7 +21,7 @@ void PrintTo(const IdleCase& tested, std::ostream* out) {
 
 class EffectRules : public testing::TestWithParam<IdleCase> {};
 
-TEST_P(EffectRules, AreChecked) {
+TEST_P(EffectRules, KeysWithoutEffectAreReported) {
   EXPECT_TRUE(
       has_faults(refusal_of(manifest_commanding(GetParam().command, GetParam().more)), GetParam().faults));
 }
@@ -155,7 +155,7 @@ std::vector<std::string> warnings(const std::string& more) {
 }
 
 // A model is compared with others by changing one word; what it does not use may stay.
-TEST(IdleKeys, WhatAFrictionModelDoesNotUseIsAWarningAtMost) {
+TEST(IdleKeys, AKeyUnusedByTheFrictionModelIsOnlyAWarning) {
   using Warnings = std::vector<std::string>;
   EXPECT_TRUE(has_faults(warnings("friction: {model: coulomb, k1: 100, breakaway: 0.2}\n"),
                          "6:32: friction.k1 | (presliding, spring)"));
@@ -211,7 +211,7 @@ void PrintTo(const VanishedTerm& tested, std::ostream* out) {
 class VanishedTerms : public testing::TestWithParam<VanishedTerm> {};
 
 // A manifest that switches a term off by its size may keep the rest of it, and is told.
-TEST_P(VanishedTerms, AreWarningsForWhatBelongsToThem) {
+TEST_P(VanishedTerms, KeysOfATermWithZeroSizeGiveAWarning) {
   EXPECT_TRUE(has_faults(warnings(GetParam().more), GetParam().warning));
 }
 
@@ -258,7 +258,7 @@ INSTANTIATE_TEST_SUITE_P(
                                  ""}));
 
 // The rules name what there is.
-TEST(IdleKeys, SpeakOfParametersAndSectionsAlone) {
+TEST(IdleKeys, MessagesNameOnlyParametersAndSections) {
   for (const bool open_loop : {false, true}) {
     study::StudyPlan plan;
     plan.open_loop = open_loop;
@@ -292,7 +292,7 @@ void PrintTo(const UnfitCase& tested, std::ostream* out) {
 
 class ValueRules : public testing::TestWithParam<UnfitCase> {};
 
-TEST_P(ValueRules, AreChecked) {
+TEST_P(ValueRules, ContradictoryValuesAreReported) {
   EXPECT_TRUE(
       has_faults(refusal_of(manifest_commanding(GetParam().command, GetParam().more)), GetParam().faults));
 }
@@ -408,7 +408,7 @@ INSTANTIATE_TEST_SUITE_P(EarlyDecision, ValueRules,
                                                    "verdict: {stop: false}", ""},
                                          UnfitCase{"{targets: [5, 10]}", "verdict: {stop: true}", ""}));
 
-TEST(EarlyDecision, IsAWarningWhereACoarsePhaseMayUndoIt) {
+TEST(EarlyDecision, GivesAWarningIfACoarsePhaseMayUndoIt) {
   const auto warnings = [](const std::string& more) { return study_of(minimal_manifest(more)).warnings; };
   const std::string coarse = "controller: {coarse: {coarse_beyond: 300}}\n";
   EXPECT_TRUE(has_faults(warnings(coarse + "verdict: {stop: true}\n"), "7:17: verdict.stop | coarse phase"));
@@ -498,7 +498,7 @@ INSTANTIATE_TEST_SUITE_P(
                   "profile: {shape: trapezoidal}}",
                   "", "5:90: command.hold | 0.0264222 s | at least 0.0764222 s"}));
 
-TEST(FittingValues, ATorqueBeyondTheConverterIsClippedAndSaysSo) {
+TEST(FittingValues, ATorqueBeyondTheConverterIsClippedWithAWarning) {
   const auto warnings = [](const std::string& torque, const std::string& more = "") {
     return study_of(manifest_commanding("{torque: " + torque + "}", more)).warnings;
   };
@@ -517,7 +517,7 @@ TEST(FittingValues, ATorqueBeyondTheConverterIsClippedAndSaysSo) {
 }
 
 // With a second mass the integral holds what the contact cannot.
-TEST(FittingValues, AnAxisHoldsWhatItsContactOrTheIntegralCarries) {
+TEST(FittingValues, AHeldLoadMustBeCarriedByTheContactOrTheIntegral) {
   const auto refusal = [](const std::string& more) {
     return refusal_of(manifest_commanding("{targets: [0], hold: 1}", more + "initial: {holding: true}\n"));
   };
@@ -537,7 +537,7 @@ TEST(FittingValues, AnAxisHoldsWhatItsContactOrTheIntegralCarries) {
                          "8:20: initial.holding | lies where | initial.gap of 0"));
 }
 
-TEST(FittingValues, TheSamplesOfASequenceAreThoseOfAllItsMoves) {
+TEST(FittingValues, ASequenceCountsTheSamplesOfAllItsMoves) {
   EXPECT_TRUE(
       has_faults(refusal_of(manifest_commanding("{sequence: {targets: [1, 2], overrun: 1, cycles: 10000}}",
                                                 "controller: {sample_rate: 2.0e7}")),

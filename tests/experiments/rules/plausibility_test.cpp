@@ -34,7 +34,7 @@ double travel_to(double torque, double k1, double beta) {
   return low;
 }
 
-TEST_F(Plausibility, ANaturalFrequencyLiesBetweenTwoHertzAndHalfTheSampleRate) {
+TEST_F(Plausibility, WarnsOfANaturalFrequencyBelowTwoHertzOrAboveNyquist) {
   int low = 0;
   int high = 0;
   for (int i = 0; i < rounds; ++i) {
@@ -56,7 +56,7 @@ TEST_F(Plausibility, ANaturalFrequencyLiesBetweenTwoHertzAndHalfTheSampleRate) {
   EXPECT_GT(high, rounds / 20);
 }
 
-TEST_F(Plausibility, TheSpringSoftensBeforeItSlides) {
+TEST_F(Plausibility, WarnsIfTheSpringDoesNotSoftenBeforeItSlides) {
   for (int i = 0; i < rounds; ++i) {
     const double beta = log_uniform(1e-2, 1e6);
     const double breakaway = log_uniform(0.05, 3);
@@ -77,7 +77,7 @@ TEST_F(Plausibility, TheSpringSoftensBeforeItSlides) {
 }
 
 // Of breakaway 0.3 N m after 2 mrad, 150 N m/rad.
-TEST_F(Plausibility, AMeasuredSpringIsNeitherALineNorAStep) {
+TEST_F(Plausibility, WarnsIfAMeasuredSpringIsALineOrAStep) {
   const auto warnings = [](double initial, double inertia) {
     return warnings_of(fmt::format(
         "friction: {{measured: {{initial_stiffness: {:.17g}, final_stiffness: 100, breakaway: 0.3, "
@@ -105,7 +105,7 @@ TEST_F(Plausibility, AMeasuredSpringIsNeitherALineNorAStep) {
   }
 }
 
-TEST_F(Plausibility, ADelayIsANumberOfSamples) {
+TEST_F(Plausibility, WarnsOfADelayThatIsNotInSamples) {
   for (int i = 0; i < rounds; ++i) {
     const double delay = log_uniform(1e-6, 100);
     const std::vector<std::string> warnings =
@@ -123,7 +123,7 @@ TEST_F(Plausibility, ADelayIsANumberOfSamples) {
   EXPECT_TRUE(warnings_of("controller: {delay: 0}\n").empty());
 }
 
-TEST_F(Plausibility, TheSpringYieldsByMoreThanAFewCounts) {
+TEST_F(Plausibility, WarnsIfTheSpringYieldsByAFewCountsOnly) {
   for (int i = 0; i < rounds; ++i) {
     const double breakaway = log_uniform(1e-3, 10);
     const double k1 = log_uniform(50, 500);
@@ -141,7 +141,7 @@ TEST_F(Plausibility, TheSpringYieldsByMoreThanAFewCounts) {
   }
 }
 
-TEST_F(Plausibility, OneCountIsWithinTheRangeOfTheConverter) {
+TEST_F(Plausibility, WarnsIfOneCountExceedsTheRangeOfTheConverter) {
   for (int i = 0; i < rounds; ++i) {
     const double gain = log_uniform(1e-3, 1e3);
     const double range = log_uniform(1e-2, 1e2);
@@ -160,7 +160,7 @@ TEST_F(Plausibility, OneCountIsWithinTheRangeOfTheConverter) {
 }
 
 // kp·Δx, ki·Δx·T/2 and kd·Δx/T.
-TEST_F(Plausibility, OneCountIsWithinTheRangeInSiUnitsToo) {
+TEST_F(Plausibility, WarnsIfOneCountExceedsTheRangeWithGainsInSiUnits) {
   const double count = 2.0 * std::numbers::pi / 1620000.0;
   const double T = 1.0 / 2000.0;
   const double range = 0.5;
@@ -178,7 +178,7 @@ TEST_F(Plausibility, OneCountIsWithinTheRangeInSiUnitsToo) {
 }
 
 // Tails are not typical, and neither is one point of many, unless it is absurd itself.
-TEST_F(Plausibility, TheMedianOfADistributionIsJudgedAndEveryPoint) {
+TEST_F(Plausibility, ChecksTheMedianAtEveryPoint) {
   EXPECT_TRUE(warnings_of("plant: {inertia: {lognormal: {median: 5.0e-4, cv: 2}}}\n").empty());
   EXPECT_TRUE(has_faults(warnings_of("plant: {inertia: {lognormal: {median: 8, cv: 0.1}}}\n"),
                          "6:18: plant.inertia | 1.65 Hz"));
@@ -190,7 +190,7 @@ TEST_F(Plausibility, TheMedianOfADistributionIsJudgedAndEveryPoint) {
                          "6:40: plant.inertia | 8 kg m^2"));
 }
 
-TEST_F(Plausibility, ALawIsJudgedByItsOwnNumbers) {
+TEST_F(Plausibility, ChecksOnlyTheParametersOfTheLaw) {
   EXPECT_TRUE(warnings_of("plant: {inertia: 8}\nfriction: {model: coulomb}\n").empty());
   EXPECT_TRUE(has_faults(warnings_of("plant: {inertia: 8}\nfriction: {model: lugre}\n"),
                          "6:18: plant.inertia | sigma0"));
@@ -231,7 +231,7 @@ constexpr std::array<Effect, 8> effects{
      {"no disturbance", "disturbance.torque", 0.01}}};
 
 // Any mixture of keys that are left out, 0, a number, drawn, swept or of a condition.
-TEST(Premises, AKeyStatesItsEffectWhateverGivesIt) {
+TEST(Premises, AKeyStatesItsEffectHoweverItIsGiven) {
   std::mt19937_64 random(9);
   std::map<int, int> seen;
   for (int i = 0; i < 60; ++i) {
@@ -289,7 +289,7 @@ std::map<std::string_view, ValueSource> sources_of(const study::Study& study) {
 }
 
 // Any mixture of keys that are left out, set, drawn, swept or of a condition.
-TEST(ValueSources, AValueIsGivenWhereverTheManifestHasIt) {
+TEST(ValueSources, AValueCountsAsGivenWhereverItStandsInTheManifest) {
   std::mt19937_64 random(5);
   const std::map<std::string, double> keys{{"plant.inertia", 1e-3},   {"friction.k1", 100.0},
                                            {"friction.beta", 9e4},    {"encoder.fine", 8e5},
@@ -324,7 +324,7 @@ TEST(ValueSources, AValueIsGivenWhereverTheManifestHasIt) {
   }
 }
 
-TEST(ValueSources, WhatFollowsFromMeasuredValuesIsNotAssumed) {
+TEST(ValueSources, ValuesDerivedFromMeasurementsAreNotCalledAssumed) {
   const auto sources = sources_of(study_of(
       minimal_manifest("friction: {measured: {initial_stiffness: 900, final_stiffness: 100, breakaway: 0.3, "
                        "breakaway_travel: 1.0e-3}}\n")));

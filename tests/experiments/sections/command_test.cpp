@@ -73,7 +73,7 @@ TEST(Command, TorqueLevelsAreSwept) {
             (std::vector<double>{0.2, 0.1}));
 }
 
-TEST(Command, OnlyTheFormInUseIsSwept) {
+TEST(Command, OnlyTheFormInUseCanBeSwept) {
   EXPECT_TRUE(has_faults(refused("{torque: {levels: [0.1]}}", "sweep: {grid: {command.targets.0: [1]}}"),
                          "6:16: sweep.grid.command.targets.0 | the study has no"));
   EXPECT_TRUE(
@@ -166,7 +166,7 @@ TEST(Command, TheTargetsOfASequenceAscendInEveryTrial) {
                          "5:49: command.sequence.overrun | 1000000000010"));
 }
 
-TEST(Command, ListsShareTheSobolDimensionsAndNothingElse) {
+TEST(Command, ListsShareTheSobolDimensionsButNotTheDraws) {
   // Value i of any list has the same point of the sequence, shifted by its own name.
   const study::Study targets =
       study_of(manifest_commanding("{targets: [{integers: [0, 999999]}]}", "design: sobol\n"));

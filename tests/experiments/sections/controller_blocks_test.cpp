@@ -27,7 +27,7 @@ TEST(ControllerBlocks, AreOffByDefault) {
   }
 }
 
-TEST(ControllerBlocks, OfEachPhaseAreItsOwn) {
+TEST(ControllerBlocks, EachPhaseHasItsOwnBlocks) {
   const loop::ControllerParameters controller = controller_of(
       "controller: {deadband: 1, observer: {bandwidth: 20, inertia: 5.0e-4}, coarse: {coarse_beyond: 300,\n"
       "  structure: cascade, cascade: {kv: 20, kp: 0.5, ki: 3}, deadband: {enter: 2, leave: 3}, "
@@ -44,7 +44,7 @@ TEST(ControllerBlocks, OfEachPhaseAreItsOwn) {
   EXPECT_EQ(controller.coarse.blocks.integrator_leak, 0.5);
 }
 
-TEST(ControllerBlocks, LimitsThatAreOffAreWrittenNone) {
+TEST(ControllerBlocks, NoneSwitchesALimitOff) {
   const loop::ControllerParameters controller = controller_of(
       "controller: {deadband: none, integrator_zone: none, integrator_leak: none, derivative_cutoff: none, "
       "coarse: {coarse_beyond: none}}");
@@ -80,7 +80,7 @@ TEST(ControllerBlocks, DeadbandIsSweptAndDrawnInItsShortForm) {
                          "7:45: sweep.grid.controller.deadband.enter | is swept twice"));
 }
 
-TEST(ControllerBlocks, AWrongKeyOfTheDeadbandIsToldItsKeys) {
+TEST(ControllerBlocks, AWrongKeyOfTheDeadbandIsRefusedWithItsKeys) {
   EXPECT_TRUE(has_faults(refusal_of(minimal_manifest("controller: {deadband: {entr: 1}}")),
                          "6:25: controller.deadband.entr | enter"));
 }
@@ -150,7 +150,7 @@ TEST(PluginParameters, AreDrawnForMachinesAndInEveryDesign) {
   for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(static_cast<std::size_t>((gains[i] - 1) / 4 * 8), i);
 }
 
-TEST(PluginParameters, AnotherLibraryMakesAnotherStudy) {
+TEST(PluginParameters, AnotherLibraryChangesTheHashOfTheStudy) {
   const auto sha_of = [](const char* sha256) {
     return manifest::parse_study(minimal_manifest("controller: {plugin: own.so}\n"), "m.yaml", {},
                                  {.plugin = known_plugin(std::make_shared<const plugin::ControllerPlugin>(
@@ -180,7 +180,7 @@ TEST(PluginParameters, ErrorsNameThePlace) {
                          "6:22: controller.plugin | this command does not"));
 }
 
-TEST(PluginParameters, APluginClosesTheLoop) {
+TEST(PluginParameters, APluginCountsAsAController) {
   const std::string text = manifest_commanding("{torque: {levels: [0.1]}}", "controller: {plugin: own.so}\n");
   EXPECT_TRUE(
       has_faults(refusal_by([&] { manifest::parse_study(text, "m.yaml", {}, {.plugin = two_parameters()}); }),
@@ -206,7 +206,7 @@ double drawn_uniform(const study::Study& study, const std::string& name, std::in
       random::random_bits(stream, static_cast<std::uint64_t>(trial), random::Draw::trial));
 }
 
-TEST(Lists, FiltersAreThoseOfTheManifestInItsOrder) {
+TEST(Lists, FiltersKeepTheOrderOfTheManifest) {
   const study::Study study = study_of(minimal_manifest(filters));
   const trial::TrialParameters trial = study::study_trial(study, 0, 0).parameters;
   const std::vector<loop::Filter>& chain = trial.controller.blocks.filters;
@@ -246,12 +246,12 @@ TEST(Lists, ElementsHaveTheirStiffnessAndWeight) {
 }
 
 // One warning for a list, not one for each of its values.
-TEST(Lists, ElementsWithoutTheirModelAreWarnedOf) {
+TEST(Lists, ElementsWithoutTheirModelGiveAWarning) {
   EXPECT_EQ(study_of(minimal_manifest(elements)).warnings.size(), 2u);
   EXPECT_TRUE(study_of(minimal_manifest(elements), {"friction.model=gms"}).warnings.empty());
 }
 
-TEST(Lists, ValuesAreDrawnByTheirNames) {
+TEST(Lists, DrawsDependOnTheNameOfTheElement) {
   const study::Study study = study_of(minimal_manifest(filters));
   ASSERT_EQ(study.columns.inputs.size(), 2u);
   EXPECT_EQ(study.columns.inputs[0].name, "controller.filters.0.damping");
@@ -263,14 +263,14 @@ TEST(Lists, ValuesAreDrawnByTheirNames) {
   EXPECT_EQ(trial.parameters.controller.blocks.filters[3].b[2], trial.inputs[1]);
 }
 
-TEST(Lists, WithMachinesTheirValuesBelongToTheMachine) {
+TEST(Lists, WithMachinesElementsAreDrawnPerMachine) {
   const study::Study study = study_of(minimal_manifest(filters), {"machines=5", "trials=10"});
   ASSERT_EQ(study.columns.shared[study::Grouping::machine].size(), 2u);
   EXPECT_EQ(study::study_trial(study, 0, 2).inputs, study::study_trial(study, 0, 7).inputs);
   EXPECT_NE(study::study_trial(study, 0, 2).inputs, study::study_trial(study, 0, 3).inputs);
 }
 
-TEST(Lists, EveryDesignSpreadsTheirValues) {
+TEST(Lists, EveryDesignStratifiesElements) {
   for (const char* design : {"design=latin_hypercube", "design=sobol"}) {
     const study::Study study = study_of(minimal_manifest(filters), {design, "trials=16"});
     std::set<int> strata;
@@ -283,7 +283,7 @@ TEST(Lists, EveryDesignSpreadsTheirValues) {
             (std::vector<std::string>{"controller.filters.0.damping", "controller.filters.3.b.2"}));
 }
 
-TEST(Lists, ValuesAreSweptOneByOneOrAsAList) {
+TEST(Lists, ElementsAreSweptOneByOneOrAsAList) {
   const study::Study study = study_of(
       minimal_manifest(filters + elements +
                        "sweep:\n"
@@ -304,7 +304,7 @@ TEST(Lists, ValuesAreSweptOneByOneOrAsAList) {
   EXPECT_EQ(first.friction.gms_elements[0].weight, 0.4);
 }
 
-TEST(Lists, OverridesUseTheNamesOfTheParameters) {
+TEST(Lists, OverridesNameElements) {
   const study::Study study =
       study_of(minimal_manifest(filters + elements),
                {"controller.filters.0.frequency=130", "controller.filters.1.lowpass.damping=0.9",
@@ -319,7 +319,7 @@ TEST(Lists, OverridesUseTheNamesOfTheParameters) {
 }
 
 // A list changes nothing else: not the draws, not the order of the columns.
-TEST(Lists, OtherDrawsStayAsTheyAre) {
+TEST(Lists, ListsDoNotChangeOtherDraws) {
   const std::string drawn = "plant: {inertia: {uniform: [1.0e-4, 2.0e-4]}}\n";
   const std::string start = "initial: {encoder_phase: {uniform: [0, 1]}}\n";
   const study::Study without = study_of(minimal_manifest(drawn + start), {"design=sobol"});
@@ -331,7 +331,7 @@ TEST(Lists, OtherDrawsStayAsTheyAre) {
   }
 }
 
-TEST(Lists, AListingOfTheStudyHasThem) {
+TEST(Lists, ParameterListingIncludesElements) {
   std::set<std::string> names;
   for (const manifest::ListedParameter& row :
        manifest::listed_parameters(study_of(minimal_manifest(filters + elements))))

@@ -34,12 +34,12 @@ TEST(Goal, HasADefaultForBandAndConfidence) {
   EXPECT_TRUE(study_of(minimal_manifest()).goals.empty());
 }
 
-TEST(Goal, CountsFromTheEndOfTheProfile) {
+TEST(Goal, TimeCountsFromTheEndOfTheProfile) {
   const study::Study study = study_of(minimal_manifest("goal: {after_profile: 0.1, moves: 0.9}"));
   EXPECT_DOUBLE_EQ(study.goals[0].within.from_start(0.25), 0.35);
 }
 
-TEST(Goal, IsOfTheMassThatClosesTheLoopUnlessItSaysWhich) {
+TEST(Goal, IsAboutTheMassThatClosesTheLoopUnlessGiven) {
   using enum motion::EncoderPlace;
   for (const bool at_load : {false, true}) {
     for (const char* const of : {"", ", of: motor", ", of: load"}) {
@@ -60,7 +60,7 @@ TEST(Goal, IsOfTheMassThatClosesTheLoopUnlessItSaysWhich) {
   EXPECT_FALSE(study_of(minimal_manifest("goal: {tolerance: 1.0e-6, within: 0.1, moves: 0.9}")).goals[0].of);
 }
 
-TEST(Goal, AddsItsBandInOrder) {
+TEST(Goal, AddsItsBandToTheSortedBands) {
   const std::string goal = "goal: {band: 2, within: 0.1, moves: 0.9}\n";
   EXPECT_EQ(bands_of(study_of(minimal_manifest(goal))), (std::vector<std::int64_t>{0, 1, 2}));
   EXPECT_EQ(bands_of(study_of(minimal_manifest(goal + "verdict: {bands: [1, 5]}"))),
@@ -87,7 +87,7 @@ TEST(Goals, HaveNamesMovesAndLimits) {
   EXPECT_TRUE(study.features.position_error);
 }
 
-TEST(Goals, LimitSettlingWithinTolerancesOfTheirOwn) {
+TEST(Goals, MayHaveDifferentTolerances) {
   const study::Study study =
       study_of(minimal_manifest("goal: {tolerance: 2.0e-6, within: 0.1, moves: 0.9, limits: "
                                 "{\"tolerance_settling_time[1.0e-5]\": 0.05, "
@@ -98,7 +98,7 @@ TEST(Goals, LimitSettlingWithinTolerancesOfTheirOwn) {
   EXPECT_EQ(study.goals[0].limits[1].measure, "tolerance_settling_time[1e-06]");
 }
 
-TEST(Goals, MeasureThePositionOnlyWhereItIsAskedFor) {
+TEST(Goals, MeasureThePositionOnlyIfRequired) {
   const auto measures_position = [](const char* goal) {
     const study::Study study = study_of(minimal_manifest(goal));
     return study::study_trial(study, 0, 0).parameters.verdict.position_error;
@@ -128,7 +128,7 @@ const char* nine_tolerances() {
 
 class RefusedGoal : public testing::TestWithParam<GoalRefusal> {};
 
-TEST_P(RefusedGoal, SaysWhy) {
+TEST_P(RefusedGoal, MessageGivesTheReason) {
   EXPECT_TRUE(has_faults(refusal_of(minimal_manifest(GetParam().lines)), GetParam().faults));
 }
 
@@ -186,7 +186,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 // `stop` in a manifest: what is read, and what is refused.
 
-TEST(Stop, MakesTrialsTheSizeOfABlock) {
+TEST(Stop, MakesTrialsTheBlockSize) {
   const study::Study study = study_of(minimal_manifest(
       "stop: {success_rate_halfwidth: 0.02, confidence: 0.9, min_trials: 20, max_trials: 500}"));
   const std::int64_t stated = study_of(minimal_manifest()).trials;
@@ -198,7 +198,7 @@ TEST(Stop, MakesTrialsTheSizeOfABlock) {
   EXPECT_EQ(study.trials, 500);
 }
 
-TEST(Stop, HasADefaultForTheConfidenceAndNoLeastNumber) {
+TEST(Stop, HasADefaultConfidenceAndNoMinimum) {
   const study::Study study =
       study_of(minimal_manifest("stop: {success_rate_halfwidth: 0.02, max_trials: 500}"));
   ASSERT_TRUE(study.stop);
@@ -207,7 +207,7 @@ TEST(Stop, HasADefaultForTheConfidenceAndNoLeastNumber) {
   EXPECT_FALSE(study_of(minimal_manifest()).stop);
 }
 
-TEST(Stop, LeavesTheDrawsOfATrialAsTheyAre) {
+TEST(Stop, DoesNotChangeTheDraws) {
   const std::string random = "friction: {k1: {uniform: [90, 130]}}\n";
   const study::Study plain = study_of(minimal_manifest(random));
   const study::Study stopping =
@@ -228,7 +228,7 @@ struct StopRefusal {
 
 class RefusedStop : public testing::TestWithParam<StopRefusal> {};
 
-TEST_P(RefusedStop, SaysWhy) {
+TEST_P(RefusedStop, MessageGivesTheReason) {
   EXPECT_TRUE(has_faults(refusal_of(minimal_manifest(GetParam().line)), GetParam().faults));
 }
 

@@ -19,7 +19,7 @@ std::string stage_with(const std::string& more) {
   return minimal_manifest(stage + more);
 }
 
-TEST(LinearAxis, HasItsUnitsAndTheLengthOfACount) {
+TEST(LinearAxis, HasLinearUnitsAndALengthPerCount) {
   const study::Study study =
       study_of(stage_with("encoder: {resolution: {choice: [1.0e-9, 2.0e-9]}}\n"
                           "controller: {kp: {uniform: [0, 1]}, ki: 1.0e-4}\n"
@@ -36,7 +36,7 @@ TEST(LinearAxis, HasItsUnitsAndTheLengthOfACount) {
   EXPECT_EQ(loop::fine_per_coarse(trial.parameters.encoder), 1.0);
 }
 
-TEST(LinearAxis, IsAskedForAllThatTheRotaryMachinesDefaultsSayNothingOf) {
+TEST(LinearAxis, MustGiveTheKeysWhoseDefaultsHaveRotaryUnits) {
   const std::string refusal = refusal_of(minimal_manifest("axis: linear\ncontroller: {units: si}\n"));
   EXPECT_TRUE(says(refusal,
                    "plant.inertia: the key is missing, and its default, 0.000554 kg m^2, has another unit; "
@@ -71,7 +71,7 @@ struct Refused {
   std::string message;  ///< a part of it
 };
 
-TEST(LinearAxis, AndARotaryOneHaveEachTheirOwnKeys) {
+TEST(LinearAxis, KeysOfTheOtherKindOfAxisAreRefused) {
   const std::string loop = "controller: {ki: 1.0e-4}\n";
   const std::vector<Refused> cases{
       {stage_with(loop + "encoder: {resolution: 1.0e-9, fine: 1000}\n"),
@@ -97,7 +97,7 @@ TEST(LinearAxis, AndARotaryOneHaveEachTheirOwnKeys) {
   }
 }
 
-TEST(LinearAxis, HasProfilesWithThePeriodOfItsTravel) {
+TEST(LinearAxis, ProfilesHaveThePeriodOfTheTravel) {
   const std::string loop = "controller: {ki: 1.0e-4}\nencoder: {resolution: 1.0e-9}\n";
   const std::string profile = "{profile: {mean: 2.0e+7, cv: 0.1, correlation_length: 0.01}}";
   const auto refusal = [&](const std::string& more) {
@@ -140,7 +140,7 @@ study::Study rotary_twin(const std::string& linear, std::int64_t counts) {
   return study_of(text);
 }
 
-TEST(LinearAxis, IsItsRotaryTwinBitForBit) {
+TEST(LinearAxis, EqualsAnEquivalentRotaryAxisBitForBit) {
   const std::int64_t counts = 6283185307;  // so that a count is about the nanometre of the stage
   const double resolution = 2.0 * std::numbers::pi / static_cast<double>(counts);
   const study::Study linear = manifest::load_study(

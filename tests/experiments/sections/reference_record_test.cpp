@@ -19,7 +19,7 @@ std::string refusal(const std::string& manifest, const std::string& table = "") 
   return refusal_by([&] { followed_study(manifest, table); });
 }
 
-TEST(ReferenceOfAFile, IsOneMoveAsLongAsTheRecord) {
+TEST(ReferenceFromAFile, IsOneMoveAsLongAsTheRecord) {
   const study::Study study = followed_study(followed("{file: r.csv, column: axis 2}"),
                                             "time [ms];axis 2 [mrad]\n100;0\n200;2\n500;-1\n");
   EXPECT_FALSE(study.open_loop);
@@ -41,7 +41,7 @@ TEST(ReferenceOfAFile, IsOneMoveAsLongAsTheRecord) {
   EXPECT_EQ(again.study_sha256, study.study_sha256) << "the study is whole without the file";
 }
 
-TEST(ReferenceOfAFile, LastsUntilItsLastRowAndOneSampleUnlessAHoldIsGiven) {
+TEST(ReferenceFromAFile, LastsUntilItsLastRowAndOneSampleUnlessAHoldIsGiven) {
   const auto hold_of = [](const std::string& more) {
     const study::Study study = followed_study(followed("{file: [[0, 0], [2, 0.001], [5, 0]]}", more));
     return study::study_trial(study, 0, 0).parameters.command.hold;
@@ -52,7 +52,7 @@ TEST(ReferenceOfAFile, LastsUntilItsLastRowAndOneSampleUnlessAHoldIsGiven) {
 }
 
 // A record at the controller's rate has as many samples as rows, whichever rate that is.
-TEST(ReferenceOfAFile, LastsOneSampleOfEachSampleRateOfTheStudyLonger) {
+TEST(ReferenceFromAFile, LastsOneSampleLongerAtEachSampleRate) {
   const study::Study study = followed_study(followed("{file: [[0, 0], [2, 0.001], [5, 0]]}") +
                                             "sweep: {grid: {controller.sample_rate: [500, 2000, 7000]}}\n");
   for (std::int64_t point = 0; point < 3; ++point) {
@@ -62,7 +62,7 @@ TEST(ReferenceOfAFile, LastsOneSampleOfEachSampleRateOfTheStudyLonger) {
   EXPECT_TRUE(study.warnings.empty()) << study.warnings.front();
 }
 
-TEST(ReferenceOfAFile, IsCutByAShorterHoldWithAWarning) {
+TEST(ReferenceFromAFile, IsCutByAShorterHoldWithAWarning) {
   const auto warnings_of = [](const std::string& hold) {
     return followed_study(followed("{file: [[0, 0], [2, 0.001], [5, 0]]}", ", hold: " + hold)).warnings;
   };
@@ -85,7 +85,7 @@ std::string record_without(int lost, const Row& row) {
   return text;
 }
 
-TEST(ReferenceOfAFile, GapInItsTimesIsSaidWithLineAndTimes) {
+TEST(ReferenceFromAFile, AGapInItsTimesIsReportedWithItsLine) {
   const auto table_row = [](double t, double x) { return fmt::format("{:.3f},{:.9f}\n", 2.0 + t, x); };
   const std::string table = "# axis 1\nt,reference\n" + record_without(400, table_row);
   const study::Study study = followed_study(followed("{file: r.csv}"), table);
@@ -107,7 +107,7 @@ TEST(ReferenceOfAFile, GapInItsTimesIsSaidWithLineAndTimes) {
   EXPECT_TRUE(says(of_list.front(), "followed.yaml:5:", "between 0.699 and 0.75 s"));
 }
 
-TEST(ReferenceOfAFile, RowsMayBeLeftOutWhereItStands) {
+TEST(ReferenceFromAFile, RowsMayBeLeftOutAtStandstill) {
   std::string table = "t,reference\n";
   for (int k = 0; k <= 300; ++k) table += fmt::format("{},{}\n", 0.001 * k, 1e-5 * k);
   for (int k = 0; k <= 300; ++k) table += fmt::format("{},{}\n", 1.0 + 0.001 * k, 3e-3 - 1e-5 * k);
@@ -115,7 +115,7 @@ TEST(ReferenceOfAFile, RowsMayBeLeftOutWhereItStands) {
 }
 
 // A torque is held across the gap.
-TEST(TorqueOfAFile, GapInItsTimesIsSaid) {
+TEST(TorqueFromAFile, AGapInItsTimesIsReported) {
   const std::string manifest =
       "zerocount: 1\nname: driven\nseed: 1\ntrials: 1\ncommand: {torque: {file: u.csv, through: exact}}\n";
   const auto row = [](double t, double u) { return fmt::format("{:.3f},{:.9f}\n", t, u); };
@@ -126,7 +126,7 @@ TEST(TorqueOfAFile, GapInItsTimesIsSaid) {
                    "the value before it is held"));
 }
 
-TEST(ReferenceOfAFile, IsAMovingReferenceWhoseHoldMayBeSwept) {
+TEST(ReferenceFromAFile, ItsHoldMayBeSwept) {
   const std::string moving =
       "controller: {feedforward: {velocity: 0.1}}\nsweep: {grid: {command.hold: [0.4, 0.2]}}\n";
   const study::Study study =
@@ -134,7 +134,7 @@ TEST(ReferenceOfAFile, IsAMovingReferenceWhoseHoldMayBeSwept) {
   EXPECT_EQ(study::study_trial(study, 1, 0).parameters.command.hold, 0.2);
 }
 
-TEST(ReferenceOfAFile, FaultsHaveTheirPlace) {
+TEST(ReferenceFromAFile, MistakesAreReportedWithTheirPlace) {
   const std::string table = "t,reference\n0,0\n0.1,0.01\n";
   EXPECT_TRUE(says(refusal(followed("{file: r.csv}"), "t,position\n0,1\n1,2\n"),
                    "r.csv:1:1: command.reference.file: the table has no column reference; expected a header "

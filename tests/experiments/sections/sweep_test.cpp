@@ -16,7 +16,7 @@ std::string failure_of(const std::string& sweep) {
   return refusal_by([&] { swept(sweep); });
 }
 
-TEST(Sweep, WithoutOneThereIsOnePoint) {
+TEST(Sweep, AStudyWithoutASweepHasOnePoint) {
   const study::Study study = study_of(minimal_manifest());
   EXPECT_EQ(study.points.labels, Labels{"all"});
   EXPECT_TRUE(study.points.axes.empty());
@@ -64,7 +64,7 @@ TEST(Sweep, ACaseCannotHaveTheNameOfANumberOfAPoint) {
     EXPECT_EQ(swept("{cases: {" + name + ": {controller.ki: 1.0e-5}}}").points.labels.size(), 1U) << name;
 }
 
-TEST(Sweep, CasesAndGridTogetherAreTheirProductWithTheCasesSlowest) {
+TEST(Sweep, CasesAndGridMultiplyWithTheCasesSlowest) {
   const study::Study study =
       swept("{grid: {controller.kp: [0, 1.0e-4]}, cases: {a: {dac.bits: 10}, b: {dac.bits: 14}}}");
   EXPECT_EQ(study.points.labels, (Labels{"a, controller.kp=0", "a, controller.kp=0.0001",
@@ -93,7 +93,7 @@ TEST(Sweep, LinspaceAndLogspaceIncludeTheirEnds) {
   EXPECT_EQ(logarithmic.points.axes[0].numbers, (Numbers{0.01, 0.1, 1, 10, 100}));
 }
 
-TEST(Sweep, WholeNumbersMayBeSpacedWhereTheyStayWhole) {
+TEST(Sweep, WholeNumbersMayBeSpacedIfTheyStayWhole) {
   EXPECT_EQ(swept("{grid: {command.targets.0: {linspace: [1, 10, 10]}}}").points.axes[0].numbers.size(), 10u);
   EXPECT_TRUE(has_faults(failure_of("{grid: {command.targets.0: {linspace: [1, 2, 3]}}}"),
                          "6:46: sweep.grid.command.targets.0.linspace | is not allowed"));
@@ -189,7 +189,7 @@ TEST(Sweep, CrossChecksNameTheSweptValue) {
                          "6:34: verdict.window | longer than the hold"));
 }
 
-TEST(Sweep, TooManyPointsAreRefusedAtOnce) {
+TEST(Sweep, TooManyPointsAreRefusedImmediately) {
   const auto start = std::chrono::steady_clock::now();
   EXPECT_TRUE(has_faults(
       failure_of("{grid: {controller.ki: {linspace: [0, 1, 1000]}, controller.kp: {linspace: [0, 1, 1000]}, "
@@ -225,7 +225,7 @@ TEST(Sweep, ObservationsOfACaseHoldAtAllItsPoints) {
 
 // Sections inside one another, as far as the names of parameters go.
 
-TEST(Sections, GoAsDeepAsTheNamesOfParameters) {
+TEST(Sections, NestAsDeepAsParameterNames) {
   const study::Study study = study_of(extended_manifest());
   const trial::TrialParameters p = study::study_trial(study, 0, 0).parameters;
   EXPECT_EQ(p.encoder.fine_errors.eccentricity, 1e-5);
@@ -248,7 +248,7 @@ TEST(Sections, GoAsDeepAsTheNamesOfParameters) {
   EXPECT_EQ(p.initial.history.torque, 0.2);
 }
 
-TEST(Sections, OfAnyDepthAreSweptByTheirDottedNames) {
+TEST(Sections, NestedKeysAreSweptByTheirDottedNames) {
   const study::Study study = study_of(extended_manifest());
   ASSERT_EQ(study::point_count(study), 16);
   EXPECT_EQ(study.points.labels[11],
@@ -265,7 +265,7 @@ TEST(Sections, OfAnyDepthAreSweptByTheirDottedNames) {
   EXPECT_EQ(study.points.axes.back().texts[11], "s_curve");
 }
 
-TEST(Sections, AreMadeByOverrides) {
+TEST(Sections, AreCreatedByOverrides) {
   const study::Study study =
       study_of(minimal_manifest(), {"controller.coarse.coarse_beyond=1000", "controller.coarse.kd=2.0e-3",
                                     "dac.bits=14", "encoder.fine_errors.noise={uniform: [0, 1]}",
@@ -289,14 +289,14 @@ TEST(Sections, AreMapsInsideMaps) {
             0u);
 }
 
-TEST(Sections, UnknownKeysAreToldTheNearestOfTheirMap) {
+TEST(Sections, UnknownKeysAreRefusedWithTheNearestKeyOfTheirSection) {
   EXPECT_TRUE(has_faults(refusal_of(minimal_manifest("controller: {coarse: {fine_witin: 1}}")),
                          "6:23: controller.coarse.fine_witin | fine_within"));
   EXPECT_TRUE(
       has_faults(refusal_of(minimal_manifest("initial: {histroy: {}}")), "6:11: initial.histroy | history"));
 }
 
-TEST(Sections, KeysOfAnotherMapAreToldWhereTheyBelong) {
+TEST(Sections, KeysOfAnotherSectionAreRefusedWithTheirPlace) {
   EXPECT_TRUE(has_faults(refusal_of(minimal_manifest("friction: {velocity_limit: 1}")),
                          "6:12: friction.velocity_limit | command.profile.velocity_limit"));
   EXPECT_TRUE(has_faults(refusal_of(minimal_manifest("encoder: {history: {}}")),
@@ -304,21 +304,21 @@ TEST(Sections, KeysOfAnotherMapAreToldWhereTheyBelong) {
 }
 
 // initial.mode has this very name; but a letter is sooner forgotten than a section confused.
-TEST(Sections, KeysNearThoseOfTheirMapAreNotLookedForElsewhere) {
+TEST(Sections, AMisspeltKeyIsSoughtInItsOwnSectionFirst) {
   EXPECT_TRUE(
       has_faults(refusal_of(minimal_manifest("friction: {mode: coulomb}")), "6:12: friction.mode | model"));
   EXPECT_TRUE(has_faults(refusal_of(minimal_manifest(), {"friction.mode=x"}),
                          "--set friction.mode=x: friction.mode | model"));
 }
 
-TEST(Sections, SweepsAndOverridesAreToldTheNearestDottedName) {
+TEST(Sections, WrongNamesInSweepsAndOverridesAreRefusedWithTheNearest) {
   EXPECT_TRUE(has_faults(refusal_of(minimal_manifest("sweep: {grid: {controller.coarse.kdd: [1]}}")),
                          "6:16: sweep.grid.controller.coarse.kdd | controller.coarse.kd"));
   EXPECT_TRUE(has_faults(refusal_of(minimal_manifest(), {"initial.history.revesals=1"}),
                          "--set initial.history.revesals=1: initial.history.revesals | reversals"));
 }
 
-TEST(Sections, WordsAreThoseOfTheTable) {
+TEST(Sections, UnknownEnumerationWordsAreRefused) {
   EXPECT_TRUE(has_faults(refusal_of(minimal_manifest("friction: {model: coulumb}")),
                          "6:19: friction.model | 'coulumb'"));
   EXPECT_TRUE(has_faults(refusal_of(minimal_manifest("initial: {mode: {choice: [0, 1]}}")),
@@ -327,7 +327,7 @@ TEST(Sections, WordsAreThoseOfTheTable) {
 
 // `correlation` in a manifest: what is read, and what is refused.
 
-TEST(Correlations, AreThoseOfTheList) {
+TEST(Correlations, AreReadFromTheList) {
   const study::Study study =
       study_of(minimal_manifest("friction: {k1: {uniform: [90, 130]}, k2: {uniform: [600, 900]}}\n"
                                 "correlation: [[friction.k2, friction.k1, 0.25]]\n"));
@@ -351,7 +351,7 @@ struct CorrelationRefusal {
 
 class RefusedCorrelations : public testing::TestWithParam<CorrelationRefusal> {};
 
-TEST_P(RefusedCorrelations, SayWhy) {
+TEST_P(RefusedCorrelations, MessageGivesTheReason) {
   EXPECT_TRUE(has_faults(refusal_of(minimal_manifest(GetParam().lines)), GetParam().message));
 }
 
@@ -397,7 +397,7 @@ TEST(Correlations, AreRefusedWithTheDesignSaltelli) {
       "7:14: correlation | another design"));
 }
 
-TEST(Correlations, AreNotBlamedForAValueThatCannotBeRead) {
+TEST(Correlations, AnUnreadableValueIsNotReportedAsACorrelationError) {
   EXPECT_FALSE(says(refusal_of(minimal_manifest("friction: {k1: {uniform: [130, 90]}, k2: {uniform: [600, "
                                                 "900]}}\ncorrelation: [[friction.k1, friction.k2, 0.5]]\n")),
                     "correlation"));

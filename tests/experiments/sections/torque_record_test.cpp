@@ -25,7 +25,7 @@ std::string refusal_of_replay(const std::string& manifest, const Files& files = 
 const Files table{
     {"record.csv", "time [ms];torque [mN m];count\n# started by hand\n\n100;250;1\n101;-125.5;2\n104;0;5\n"}};
 
-TEST(TorqueOfAFile, IsThatOfTheListInSiUnits) {
+TEST(TorqueFromAFile, EqualsTheListInSiUnits) {
   const study::Study study = replayed_study(replay("{file: record.csv, through: exact}"), table);
   EXPECT_TRUE(study.open_loop);
   EXPECT_EQ(study.moves, 1);
@@ -45,7 +45,7 @@ TEST(TorqueOfAFile, IsThatOfTheListInSiUnits) {
   EXPECT_EQ(again.study_sha256, study.study_sha256) << "the study is whole without the file";
 }
 
-TEST(TorqueOfAFile, MayBeShortenedAndHasTheUnitsOfTheAxis) {
+TEST(TorqueFromAFile, CanBeShortenedAndHasTheUnitsOfTheAxis) {
   const Files force{{"f.csv", "t,force [kN]\n0,1\n0.5,2\n"}};
   const std::string axis =
       "axis: linear\nplant: {inertia: 95, sliding_damping: 200}\nfriction: {model: coulomb, breakaway: 20, "
@@ -62,7 +62,7 @@ TEST(TorqueOfAFile, MayBeShortenedAndHasTheUnitsOfTheAxis) {
       torque, "f.csv:1:1: command.torque.file: the column force has the unit 'N m'; expected N, mN or kN"));
 }
 
-TEST(TorqueOfAFile, FaultsHaveTheirPlace) {
+TEST(TorqueFromAFile, MistakesAreReportedWithTheirPlace) {
   struct Case {
     std::string text;
     std::string expected;
@@ -99,7 +99,7 @@ TEST(TorqueOfAFile, FaultsHaveTheirPlace) {
       says(refusal_of_replay(replay("{file: [[0.5, 1], [1, 2]]}")), "found the time 0.5 s; expected 0"));
 }
 
-TEST(TorqueOfAFile, OneFaultIsOneMessage) {
+TEST(TorqueFromAFile, OneMistakeGivesOneMessage) {
   for (const std::string file : {"[[0, 1]]", "[[0, 1], [1, .inf]]", "[[0, 1, 2], [1, 2, 3]]", "[[0, 1], 2]",
                                  "7", "{}", "[]", "[[0, 1], [0, 1]]"}) {
     const std::string found = refusal_of_replay(replay("{file: " + file + "}"));
@@ -108,7 +108,7 @@ TEST(TorqueOfAFile, OneFaultIsOneMessage) {
   }
 }
 
-TEST(TorqueOfAFile, BeyondTheConverterHasItsWarning) {
+TEST(TorqueFromAFile, ATorqueBeyondTheConverterGivesAWarning) {
   for (const std::string file : {"record.csv", "[[0, 1], [0.1, 1.0e6]]"}) {
     const study::Study study = replayed_study(replay("{file: " + file + "}", ", hold: 0.1"),
                                               {{"record.csv", "t,torque\n0,1\n0.1,1e6\n"}});
@@ -119,7 +119,7 @@ TEST(TorqueOfAFile, BeyondTheConverterHasItsWarning) {
   }
 }
 
-TEST(TorqueOfAFile, SaysWhatIsExpectedInIt) {
+TEST(TorqueFromAFile, AMissingFileIsDescribedAsATableOfTorques) {
   Companions companions;
   std::string expected;
   companions.samples = [&](const std::string&, std::string_view what) {
@@ -153,7 +153,7 @@ const trial::SpectrumParameters& spectrum_of(const study::Study& study, trial::T
   return *parameters.disturbance.spectra.at(0);
 }
 
-TEST(Spectrum, OfAFileIsThatOfTheListWithItsPoints) {
+TEST(Spectrum, AFileEqualsTheListOfItsPoints) {
   const std::map<std::string, std::string> files{
       {"floor.csv", "frequency;density\n# a comment\n1; 1e-10\n\n10;2.5e-9\n 100;1e-12 \r\n"}};
   trial::TrialParameters parameters;
@@ -173,14 +173,14 @@ TEST(Spectrum, OfAFileIsThatOfTheListWithItsPoints) {
   EXPECT_NE(other.study_sha256, study.study_sha256);
 }
 
-TEST(Spectrum, OfABadFileIsAnErrorWithItsLine) {
+TEST(Spectrum, ABadFileIsRefusedWithItsLine) {
   EXPECT_TRUE(says(error_with("floor.csv", {{"floor.csv", "f, S\n1, 1e-10\n2; x\n"}}), "floor.csv:3:1"));
   EXPECT_TRUE(says(error_with("floor.csv", {{"floor.csv", "# nothing\n"}}), "floor.csv:1:1"));
   EXPECT_TRUE(
       says(error_with("floor.csv", {{"floor.csv", "10, 1\n1, 1\n"}}), "disturbance.vibration.1.spectrum"));
 }
 
-TEST(Spectrum, OfAbsurdSizeIsAnError) {
+TEST(Spectrum, AbsurdSizesAreRefused) {
   EXPECT_TRUE(says(error_with("[[1, 1.0e+300], [2, 1]]"), "floor.yaml:9"));
   EXPECT_TRUE(says(error_with("[[1, 1], [1.0e+300, 1]]"), "floor.yaml:9"));
   EXPECT_TRUE(says(error_with("[[2, 1], [1, 1]]"), "spectrum.1.0: 1 is not above 2"));
@@ -260,7 +260,7 @@ TEST_P(EvenDesigns, UseEveryRowEquallyOften) {
 
 INSTANTIATE_TEST_SUITE_P(Samples, EvenDesigns, testing::Values("latin_hypercube", "sobol"));
 
-TEST(Samples, BelongToTheMachinesWithMachines) {
+TEST(Samples, AreDrawnPerMachineIfThereAreMachines) {
   const RandomTable table(30, 8);
   const study::Study study =
       manifest::parse_study(minimal_manifest("samples: p.csv\n"), "m.yaml", {"trials=40", "machines=10"},
@@ -280,7 +280,7 @@ TEST(Samples, CanBeDrawnForEveryTrialWithMachines) {
   EXPECT_GT(counts_of(study).size(), 30U);
 }
 
-TEST(Samples, HaveTheFormOfOtherPrograms) {
+TEST(Samples, AreReadInTheFormatsOfOtherPrograms) {
   const study::Study study = study_with_samples(
       "\xEF\xBB\xBF# k1 and k2\r\n\"friction.k1\", friction.k2\r\n\r\n 90 ,7.0e2\r\n", "samples: p.csv\n");
   EXPECT_EQ(inputs_of(study, 0), (Draw{90.0, 700.0}));
@@ -288,7 +288,7 @@ TEST(Samples, HaveTheFormOfOtherPrograms) {
             "friction.k1, friction.k2: a row of p.csv (1 draw) for each trial");
 }
 
-TEST(Samples, ArePartOfTheStudysHash) {
+TEST(Samples, ChangeTheHashOfTheStudy) {
   const auto hash = [](const char* table) {
     return study_with_samples(table, "samples: p.csv\n").study_sha256;
   };
@@ -304,7 +304,7 @@ struct SamplesRefusal {
 
 class RefusedSamples : public testing::TestWithParam<SamplesRefusal> {};
 
-TEST_P(RefusedSamples, SayWhy) {
+TEST_P(RefusedSamples, MessageGivesTheReason) {
   EXPECT_TRUE(has_faults(refusal_with(GetParam().table, GetParam().lines), GetParam().message));
 }
 

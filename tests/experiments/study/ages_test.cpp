@@ -170,7 +170,7 @@ TEST(Groupings, DivideTheTrialsEquallyAndIndependently) {
 }
 
 // The definition: trial i is at age ⌊i/(R·C)⌋ mod A, with the draws of j = i mod R + R·⌊i/(R·C·A)⌋.
-TEST(Ages, AreBorneInTurnsOnTheDrawsOfTheStudyWithoutThem) {
+TEST(Ages, TrialsTakeThemInRotationWithTheDrawsOfAStudyWithoutAges) {
   RandomShapes random;
   for (int n = 0; n < 60; ++n) {
     const Shape shape = random.shape();
@@ -247,7 +247,7 @@ TEST(Ages, ActInTheParametersOfTrials) {
 }
 
 // Measured values age, and what follows from them follows at the age.
-TEST(Ages, LetParametersFollowFromMeasuredValuesAtTheAge) {
+TEST(Ages, DerivedParametersUseTheMeasuredValuesAtTheAge) {
   const std::string aged =
       "friction: {measured: {initial_stiffness: 900, final_stiffness: {value: 100, aging: {linear: -0.2, "
       "scale: "
@@ -268,7 +268,7 @@ TEST(Ages, LetParametersFollowFromMeasuredValuesAtTheAge) {
   EXPECT_EQ(old.parameters.friction.uniform.beta, same.parameters.friction.uniform.beta);
 }
 
-TEST(Ages, ChangeWhatIsDrawnForEachContact) {
+TEST(Ages, ScaleTheDrawsOfEachContact) {
   const std::string head = "zerocount: 1\nname: c\nseed: 1\nmachines: 2\n" + command_of_ages;
   const Study study =
       study_of(head +
@@ -324,7 +324,7 @@ TEST(Ages, AreKeptByOverridesOfTheCommandLine) {
   EXPECT_NEAR(at_ten("friction.k2.aging={linear: 0, scale: 1}"), 700, 1e-10);
 }
 
-TEST(Ages, LeaveAStudyOfItsOwnAtEachTurn) {
+TEST(Ages, TheStudyUnderOneSettingHasItsTrials) {
   RandomShapes random;
   for (int n = 0; n < 10; ++n) {
     const Shape shape = random.shape();
@@ -363,7 +363,7 @@ std::string refusal_with(const std::string& more, const std::string& ages = "age
                     command_of_ages);
 }
 
-TEST(Ages, FaultsAreReportedWithTheirPlaceAndWhatWouldDo) {
+TEST(Ages, MistakesAreReportedWithTheirPlaceAndRemedy) {
   const std::string k2 = "friction: {k2: {value: 700, aging: {linear: -0.05, scale: 10}}}\n";
   ASSERT_EQ(refusal_with(k2), "");
   const std::vector<std::pair<std::string, std::string>> faults{
@@ -417,7 +417,7 @@ TEST(Ages, FaultsAreReportedWithTheirPlaceAndWhatWouldDo) {
        "friction.coulomb_ratio: its values at 10 cycles, 1.2"},
       {refusal_with(k2 + "design: saltelli\n"), "the trials of all ages share factors"},
       {refusal_with(k2 + "stop: {success_rate_halfwidth: 0.1, max_trials: 48}\n"),
-       "sequential stopping does not tell ages apart"},
+       "sequential stopping does not distinguish ages"},
       {refusal_with(k2 + "goal: {within: 0.002, moves: 0.9}\ntune: {free: {friction.k2: [500, 700]}}\n"),
        "friction.k2 changes with age"},
       {refusal_with(k2 + "goal: {within: 0.002, moves: 0.9}\ntune: {free: {friction.k2.aging: [-0.1, 0]}}\n"),
@@ -436,14 +436,14 @@ TEST(Ages, FaultsAreReportedWithTheirPlaceAndWhatWouldDo) {
 }
 
 // A normal rate that can be drawn leaves no value out of range is allowed, as what is drawn has ends.
-TEST(Ages, AreHeldAgainstTheEndsOfWhatIsDrawn) {
+TEST(Ages, RangeChecksUseTheEndsOfTheDistributions) {
   EXPECT_EQ(
       refusal_with("friction: {k2: {lognormal: {median: 700, cv: 0.2}, aging: {linear: {normal: {mean: -0.1, "
                    "sd: 0.05}}, scale: 10}}}\n"),
       "");
 }
 
-TEST(Ages, WithoutAnythingThatChangesAreWarnedOf) {
+TEST(Ages, AgesThatChangeNothingGiveAWarning) {
   const Study study = study_of(
       "zerocount: 1\nname: f\nseed: 3\nmachines: 2\ntrials: 12\nages: {at: [0, 10]}\n" + command_of_ages);
   ASSERT_FALSE(study.warnings.empty());

@@ -97,7 +97,7 @@ void expect_equal_runs(const StudyTrial& a, const StudyTrial& b) {
 }
 
 // The definition: trial i is trial j of the study in which the overrides stand in the manifest.
-TEST(Conditions, ATrialIsThatOfTheStudyWithTheOverrides) {
+TEST(Conditions, ATrialEqualsThatOfTheStudyWithTheOverrides) {
   std::uint64_t state = 1;
   int seed = 0;
   for (const std::string design : {"monte_carlo", "latin_hypercube", "sobol"}) {
@@ -172,7 +172,7 @@ std::map<std::string, double> values_of(const std::vector<InputColumn>& columns,
 }
 
 // What is overridden stands once for each condition, and all else once.
-TEST(Conditions, TellWhatEachMachineAndWorldHasUnderThem) {
+TEST(Conditions, MachinesAndWorldsListOverriddenValuesPerCondition) {
   const std::string machine =
       "friction: {k1: {uniform: [90, 130]}, k2: {uniform: [600, 900]}, lambda: 5}\n"
       "encoder: {fine: 1000000}\n"
@@ -215,7 +215,7 @@ TEST(Conditions, TellWhatEachMachineAndWorldHasUnderThem) {
   }
 }
 
-TEST(Conditions, HaveWhatTheyOverrideInTheColumnsOfTrials) {
+TEST(Conditions, OverriddenParametersAreInputColumnsOfTrials) {
   const Study study = study_of(
       manifest_with("conditions: {a: {}, b: {plant.inertia: 7.0e-4, friction.k2: 100}}\n"), {"machines=4"});
   const std::size_t inertia = column_of(study, "plant.inertia");
@@ -226,7 +226,7 @@ TEST(Conditions, HaveWhatTheyOverrideInTheColumnsOfTrials) {
   }
 }
 
-TEST(Conditions, AreExtendedByMoreTrials) {
+TEST(Conditions, MoreTrialsExtendEveryCondition) {
   for (const std::string design : {"monte_carlo", "sobol"}) {
     const std::string text = manifest_with("conditions: {a: {}, b: {friction.k2: {uniform: [1, 2]}}}\n");
     const Study few = study_of(text, {"machines=4", "design=" + design});
@@ -236,7 +236,7 @@ TEST(Conditions, AreExtendedByMoreTrials) {
   }
 }
 
-TEST(Conditions, ChangeTheStudysHashByNameValueAndOrder) {
+TEST(Conditions, NameValueAndOrderChangeTheHashOfTheStudy) {
   const auto hash = [](const std::string& conditions) {
     return study_of(manifest_with("conditions: " + conditions + "\n")).study_sha256;
   };
@@ -247,7 +247,7 @@ TEST(Conditions, ChangeTheStudysHashByNameValueAndOrder) {
   EXPECT_EQ(hashes.size(), 5U);
 }
 
-TEST(Conditions, FaultsAreReportedWithTheirPlaceAndWhatWouldDo) {
+TEST(Conditions, MistakesAreReportedWithTheirPlaceAndRemedy) {
   const auto of = [](const std::string& conditions, const std::vector<std::string>& overrides = {}) {
     return refusal_of(manifest_with("conditions: " + conditions + "\n"), overrides);
   };
@@ -276,7 +276,7 @@ TEST(Conditions, FaultsAreReportedWithTheirPlaceAndWhatWouldDo) {
        "7 trials cannot be divided equally among 2 conditions; expected a multiple of 2, such as 6 or 8"},
       {of("{a: {}, b: {}}", {"design=saltelli"}), "the trials of all conditions share factors"},
       {of("{a: {}, b: {}}", {"stop={success_rate_halfwidth: 0.1, max_trials: 48}"}),
-       "sequential stopping does not tell conditions apart"},
+       "sequential stopping does not distinguish conditions"},
       {of("{a: {plant.inertia: 7.0e-4}}",
           {"goal={within: 0.002, moves: 0.9}", "tune={free: {plant.inertia: [1.0e-4, 1.0e-3]}}"}),
        "plant.inertia is tuned at --set tune"}};

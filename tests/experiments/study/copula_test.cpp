@@ -74,7 +74,7 @@ TEST(Copula, HasTheStatedCorrelationsAndKeepsTheDistributions) {
   }
 }
 
-TEST(Copula, IsThatOfMachinesWhereTheParametersAreDrawnPerMachine) {
+TEST(Copula, CorrelatesMachinesIfTheParametersAreDrawnPerMachine) {
   constexpr std::int64_t machines = 4000;
   const Study study = study_of(minimal_manifest(three_uniform + two_pairs), {"machines=4000", "trials=8000"});
   const std::vector<std::vector<double>> u = uniforms(study, machines);
@@ -86,7 +86,7 @@ TEST(Copula, IsThatOfMachinesWhereTheParametersAreDrawnPerMachine) {
   }
 }
 
-TEST(Copula, LeavesTheFirstParameterAndTheUncorrelatedOnesAsTheyAre) {
+TEST(Copula, DoesNotChangeTheFirstAndTheUncorrelatedParameters) {
   const std::string with_lambda = three_uniform + "initial: {position: {uniform: [0, 6]}}\n";
   const Study plain = study_of(minimal_manifest(with_lambda));
   const Study correlated = study_of(minimal_manifest(with_lambda + two_pairs));
@@ -107,7 +107,7 @@ TEST(Copula, DoesNotDependOnTheOrderOfItsEntries) {
     EXPECT_EQ(study_trial(one, 0, i).inputs, study_trial(other, 0, i).inputs);
 }
 
-TEST(Copula, FactorGivesItsMatrixAndExistsForPositiveDefiniteOnesOnly) {
+TEST(Copula, CholeskyFactorExistsOnlyForPositiveDefiniteMatrices) {
   std::mt19937_64 numbers(2026);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   int definite = 0;
@@ -146,7 +146,7 @@ trial::TrialOutcome run(const trial::TrialParameters& parameters, std::vector<tr
       {.sample = [&](const trial::SampleRecord& record) { records.push_back(record); }, .jerk = {}});
 }
 
-TEST(ALawOfTheTests, RunsATrialInClosedLoopFromAManifest) {
+TEST(AddedFrictionLaw, RunsATrialInClosedLoopFromAManifest) {
   const trial::TrialParameters p =
       first_trial("controller: {ki: 2.0e-5}\nfriction: {k1: 200}\ndac: {bits: 16}\n");
   std::vector<trial::SampleRecord> records;
@@ -163,7 +163,7 @@ TEST(ALawOfTheTests, RunsATrialInClosedLoopFromAManifest) {
   EXPECT_LT(move.arrival_time, 6.0 * tau);
 }
 
-TEST(ALawOfTheTests, IsUnstableBeyondTheBoundOfItsStiffness) {
+TEST(AddedFrictionLaw, IsUnstableBeyondTheBoundOfItsStiffness) {
   for (const double factor : {0.5, 1.5}) {
     trial::TrialParameters p = first_trial("friction: {k1: 200}\n");
     p.controller.ki =
@@ -173,7 +173,7 @@ TEST(ALawOfTheTests, IsUnstableBeyondTheBoundOfItsStiffness) {
   }
 }
 
-TEST(ALawOfTheTests, LeavesTheOthersAlone) {
+TEST(AddedFrictionLaw, DoesNotChangeOtherLaws) {
   for (const std::string model : {"spring", "coulomb", "none"}) {
     const trial::TrialParameters p = first_trial("friction: {model: " + model + "}\n");
     std::vector<trial::SampleRecord> records;
@@ -207,14 +207,14 @@ class LowEndOfRandomDistributions : public ::testing::Test {
 const boost::math::normal_distribution<double> standard_normal;
 const double normal_tail = boost::math::quantile(standard_normal, 0.001);  // −3.09
 
-TEST_F(LowEndOfRandomDistributions, OfANumberIsTheNumber) {
+TEST_F(LowEndOfRandomDistributions, ANumberIsItsOwnLowEnd) {
   for (int round = 0; round < rounds; ++round) {
     const double k1 = uniform(1.0, 1000.0);
     expect(low_end_of(fmt::format("{}", k1)), LowEnd::Kind::number, k1);
   }
 }
 
-TEST_F(LowEndOfRandomDistributions, OfABoundedDistributionIsTheEndOfItsSupport) {
+TEST_F(LowEndOfRandomDistributions, ABoundedDistributionEndsAtItsSupport) {
   for (int round = 0; round < rounds; ++round) {
     const double low = uniform(1.0, 500.0), middle = low + uniform(0.0, 100.0);
     const double high = middle + uniform(1.0, 100.0);
@@ -231,7 +231,7 @@ TEST_F(LowEndOfRandomDistributions, OfABoundedDistributionIsTheEndOfItsSupport) 
 }
 
 // One in a thousand is lower. ln X of a lognormal is normal with the standard deviation √ln(1 + cv²).
-TEST_F(LowEndOfRandomDistributions, OfALognormalIsItsQuantile) {
+TEST_F(LowEndOfRandomDistributions, ALognormalHasItsQuantile) {
   for (int round = 0; round < rounds; ++round) {
     const double median = uniform(1.0, 500.0), cv = uniform(0.01, 2.0);
     expect(low_end_of(fmt::format("{{lognormal: {{median: {}, cv: {}}}}}", median, cv)), LowEnd::Kind::tail,
@@ -240,7 +240,7 @@ TEST_F(LowEndOfRandomDistributions, OfALognormalIsItsQuantile) {
 }
 
 // With the parent's distribution function Φ, P(X ≤ x) = (Φ(x) − Φ(low))/(Φ(high) − Φ(low)) = 0.001.
-TEST_F(LowEndOfRandomDistributions, OfATruncatedNormalIsItsQuantile) {
+TEST_F(LowEndOfRandomDistributions, ATruncatedNormalHasItsQuantile) {
   for (int round = 0; round < rounds; ++round) {
     const double mean = uniform(50.0, 200.0), sd = uniform(5.0, 100.0);
     const double low = mean - uniform(0.1, 2.0) * std::min(sd, 0.45 * mean);
@@ -255,7 +255,7 @@ TEST_F(LowEndOfRandomDistributions, OfATruncatedNormalIsItsQuantile) {
 }
 
 // A plain normal distribution is for values that may have either sign.
-TEST_F(LowEndOfRandomDistributions, OfANormalIsItsQuantile) {
+TEST_F(LowEndOfRandomDistributions, ANormalHasItsQuantile) {
   for (int round = 0; round < rounds; ++round) {
     const double mean = uniform(-10.0, 10.0), sd = uniform(0.1, 5.0);
     const Study study = study_of(
@@ -282,7 +282,7 @@ TEST_F(LowEndOfRandomDistributions, HardlyAnyTrialIsLower) {
   }
 }
 
-TEST(LowEnd, IsThatOfTheDesignPoint) {
+TEST(LowEnd, DependsOnTheDesignPoint) {
   const Study study = study_of(
       minimal_manifest("friction: {k1: {uniform: [90, 120]}}\n"
                        "sweep: {cases: {plain: {}, soft: {friction.k1: 40}, loose: {friction.k1: {lognormal: "
@@ -293,7 +293,7 @@ TEST(LowEnd, IsThatOfTheDesignPoint) {
   EXPECT_EQ(low_end(study, 2, "friction.k1").kind, LowEnd::Kind::tail);
 }
 
-TEST(LowEnd, OfAProfileIsLeftToEachTrial) {
+TEST(LowEnd, AProfileHasNoCommonLowEnd) {
   const Study study = study_of(minimal_manifest(
       "friction: {k1: {profile: {mean: 110, cv: 0.1, correlation_length: 0.2, marginal: lognormal}}}\n"));
   EXPECT_EQ(low_end(study, 0, "friction.k1").kind, LowEnd::Kind::profile);

@@ -43,7 +43,7 @@ std::vector<double> rotor_of(const Study& study, std::int64_t index, std::int64_
   return study_trial(study, point, index).parameters.friction.profiled.at(0).profile->cosine;
 }
 
-TEST(Machines, TrialsOfAMachineShareTheMachineAndNothingElse) {
+TEST(Machines, TrialsOfAMachineShareOnlyTheMachine) {
   for (const std::string& design : designs_with_machines) {
     const Study study = machine_study(design, 30, 150);
     for (const std::string& name : of_a_machine) {
@@ -66,7 +66,7 @@ TEST(Machines, TrialsOfAMachineShareTheMachineAndNothingElse) {
   }
 }
 
-TEST(Machines, WhatAMachineHasIsListedOnceForIt) {
+TEST(Machines, ParametersOfAMachineAreListedOncePerMachine) {
   const Study study = machine_study("monte_carlo", 30, 150);
   std::vector<std::string> names;
   for (const InputColumn& column : study.columns.shared[Grouping::machine]) names.push_back(column.name);
@@ -95,7 +95,7 @@ TEST(Machines, MoreTrialsKeepTheMachinesAndTheFirstTrials) {
     EXPECT_EQ(group_inputs(few, Grouping::machine, machine), group_inputs(many, Grouping::machine, machine));
 }
 
-TEST(Machines, AllPointsShareThemIndependentOrNot) {
+TEST(Machines, AllPointsShareTheMachinesEvenIfIndependent) {
   for (const std::string& design : designs_with_machines) {
     for (const std::string independent : {"false", "true"}) {
       const Study study = machine_study(design, 30, 60, "independent_points=" + independent);
@@ -112,7 +112,7 @@ TEST(Machines, AllPointsShareThemIndependentOrNot) {
 }
 
 // What belongs to the machine and what a trial does with it, section by section.
-TEST(Machines, TheMachineIsOfTheMachineAndTheRestOfTheTrial) {
+TEST(Machines, SectionsDecideWhichParametersBelongToTheMachine) {
   const std::set<std::string> of_machine{"plant", "friction", "encoder", "dac", "amplifier", "controller"};
   for (const parameters::Parameter& parameter : parameters::parameter_table()) {
     const std::string section(parameter.name.substr(0, parameter.name.find('.')));
@@ -147,7 +147,7 @@ TEST(Machines, StratifiedDesignsSpreadMachinesAndTrialsEachAmongThemselves) {
 }
 
 // In the order of a Sobol sequence, the trials of one of 64 machines would all be in one 64th of the range.
-TEST(Machines, WhatATrialDrawsTellsNothingOfItsMachine) {
+TEST(Machines, DrawsOfATrialDoNotDependOnItsMachine) {
   for (const std::string& design : designs_with_machines) {
     const Study study = machine_study(design, 64, 64 * 64);
     for (std::int64_t machine = 0; machine < 64; machine += 7) {
@@ -174,7 +174,7 @@ TEST(Machines, SobolPlacesAreAPermutationWithinEveryRoundOfTheMachines) {
   EXPECT_GT(orders.size(), 10U);
 }
 
-TEST(Machines, AContactDrawsByItsNumberAndTheTrialAlone) {
+TEST(Machines, ContactDrawsDependOnlyOnContactAndTrial) {
   const Study study = machine_study("monte_carlo", 30, 60);
   std::set<double> values;
   for (std::int64_t i = 0; i < 60; ++i) {
@@ -193,7 +193,7 @@ TEST(Machines, AContactDrawsByItsNumberAndTheTrialAlone) {
 }
 
 // Trials that do not slide are the same whether a parameter is drawn for the trial or for each contact.
-TEST(Machines, TheFirstContactHasWhatTheTrialWouldHave) {
+TEST(Machines, TheFirstContactHasTheDrawsOfTheTrial) {
   for (const std::string design : {"monte_carlo", "latin_hypercube", "sobol", "saltelli"}) {
     const auto with_per = [&](const std::string& per) {
       return study_of(minimal_manifest("friction: {k1: {uniform: [100, 120], per: " + per +
@@ -207,7 +207,7 @@ TEST(Machines, TheFirstContactHasWhatTheTrialWouldHave) {
   }
 }
 
-TEST(Machines, AStudyWithoutThemCanDrawOnceForAllItsTrials) {
+TEST(Machines, AStudyWithoutMachinesCanDrawOnceForAllTrials) {
   const Study study = study_of(minimal_manifest(
       "friction: {k1: {profile: {mean: {uniform: [100, 120]}, cv: 0.1, correlation_length: 1}}, "
       "k2: {uniform: [600, 900], per: study}, beta: {uniform: [1.0e5, 2.0e5]}}\n"));
@@ -223,7 +223,7 @@ TEST(Machines, AStudyWithoutThemCanDrawOnceForAllItsTrials) {
 }
 
 // Rotors for which there is no room are made again, and are the same.
-TEST(Rotors, AreThoseOfTheirNumberKeptOrNot) {
+TEST(Rotors, DependOnlyOnTheirNumber) {
   const distributions::ProfileDescription description{110, 0.1, distributions::min_correlation_length,
                                                       friction::Marginal::lognormal};
   const Rotors rotors(description, std::nullopt, 7, "friction.k1", 1'000'000);
@@ -235,7 +235,7 @@ TEST(Rotors, AreThoseOfTheirNumberKeptOrNot) {
   EXPECT_EQ(rotors.rotor(999'999)->sine, rotors.rotor(999'999)->sine);
 }
 
-TEST(Rotors, NoneLeavesTheBoundsKnownBefore) {
+TEST(Rotors, StayWithinTheBoundsKnownInAdvance) {
   for (const friction::Marginal marginal : {friction::Marginal::lognormal, friction::Marginal::normal}) {
     const Rotors rotors({1, 0.2, 0.5, marginal},
                         DrawnMean{distributions::Lognormal{100, 0.3}, Design::monte_carlo, {}}, 7,
@@ -248,7 +248,7 @@ TEST(Rotors, NoneLeavesTheBoundsKnownBefore) {
 
 // The profiles of thousands of machines are made once for all variants of a study, and only where they are
 // equal.
-TEST(Machines, OfAVariantHaveTheProfilesOfTheStudyIfTheyAreEqual) {
+TEST(Machines, AVariantSharesEqualProfilesWithTheStudy) {
   const std::string text = minimal_manifest(machines_and_moves);
   const Study study = study_of(text, {"machines=4", "trials=8"});
   const auto shares = [&](const std::vector<std::string>& overrides) {

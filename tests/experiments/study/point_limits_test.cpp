@@ -26,7 +26,7 @@ Study swept_study() {
       "plant.inertia: [1, 2]}\n"));
 }
 
-TEST(PointLimits, EveryCombinationIsVisited) {
+TEST(PointVisits, EveryCombinationIsVisited) {
   const Study study = swept_study();
   const std::vector<std::string_view> names{"controller.kp", "dac.bits", "controller.ki", "plant.inertia",
                                             "controller.kd"};
@@ -49,7 +49,7 @@ TEST(PointLimits, EveryCombinationIsVisited) {
   }
 }
 
-TEST(PointLimits, WhatDoesNotMatterIsLeftOut) {
+TEST(PointVisits, ParametersThatAreNotNamedAreSkipped) {
   const Study study = swept_study();
   const auto visits = [&](std::vector<std::string_view> names) {
     std::size_t count = 0;
@@ -65,7 +65,7 @@ TEST(PointLimits, WhatDoesNotMatterIsLeftOut) {
   EXPECT_EQ(visits({}), 1u);
 }
 
-TEST(PointLimits, AVisitMayEndEarly) {
+TEST(PointVisits, AVisitMayEndEarly) {
   const Study study = swept_study();
   std::size_t count = 0;
   visit_points(*study.plan, slots_of(study.plan->list), [&](std::size_t) { return ++count < 2; });
@@ -78,7 +78,7 @@ ValueLimits limits_of_velocity(const std::string& velocity) {
   return limits_at(*study.plan, slots_named(study.plan->table, name), 0).front();
 }
 
-TEST(PointLimits, AreTheSupportAndKnowWhetherItHasZero) {
+TEST(PointRanges, AreTheSupportAndKnowWhetherItContainsZero) {
   EXPECT_EQ(limits_of_velocity("0.5").low, 0.5);
   EXPECT_FALSE(limits_of_velocity("0.5").can_be_zero);
   EXPECT_TRUE(limits_of_velocity("0").can_be_zero);
@@ -93,7 +93,7 @@ TEST(PointLimits, AreTheSupportAndKnowWhetherItHasZero) {
 }
 
 // A list of values need not be in their order.
-TEST(PointLimits, AChoiceHasItsLowestAndHighestValueAndItsMedian) {
+TEST(PointRanges, AChoiceHasItsLowestHighestAndMedianValue) {
   const Study study = study_of(minimal_manifest("friction: {k1: {choice: [500, 50, 90, 600, 70]}}\n"));
   const std::size_t slot =
       slots_named(study.plan->table, std::vector<std::string_view>{"friction.k1"}).front();
@@ -114,7 +114,7 @@ const std::vector<std::string> labels{"controller.kp=0, controller.ki=5000",
                                       "controller.kp=0, controller.ki=1e+04", "a b, controller.coarse.kp=1",
                                       "2 c", "1"};
 
-TEST(PointLabel, IsTheNumberTheLabelOrWhatTablesShow) {
+TEST(PointLabel, NamesAPointByNumberLabelOrTableText) {
   for (const char* const name : {"controller.kp=0, controller.ki=5000", "0", "kp=0 ki=5000", "kp=0, ki=5000",
                                  "0 (kp=0 ki=5000)", "controller.kp=0 controller.ki=5000"})
     EXPECT_EQ(study::point_named(name, labels), 0) << name;

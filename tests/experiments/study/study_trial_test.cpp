@@ -34,7 +34,7 @@ TEST(StudyTrial, DoesNotDependOnTheOrderOrTheThread) {
   }
 }
 
-TEST(StudyTrial, AddingARandomParameterChangesNoOthersDraws) {
+TEST(StudyTrial, AddingARandomParameterChangesNoOtherDraws) {
   for (const std::string& design : designs) {
     const std::string text = minimal_manifest("friction: {k2: {uniform: [1, 2]}}\n");
     const Study before = study_of(text, {"design=" + design, "command.targets=[{integers: [1, 1000]}]"});
@@ -48,7 +48,7 @@ TEST(StudyTrial, AddingARandomParameterChangesNoOthersDraws) {
   }
 }
 
-TEST(StudyTrial, MoreTrialsLeaveTheFirstOnesAloneExceptInALatinHypercube) {
+TEST(StudyTrial, MoreTrialsKeepTheFirstOnesExceptInALatinHypercube) {
   for (const std::string design : {"monte_carlo", "sobol"}) {
     const Study few = study_of(full_manifest(), {"design=" + design, "trials=10"});
     const Study many = study_of(full_manifest(), {"design=" + design, "trials=1000000"});
@@ -136,7 +136,7 @@ TEST(TrialRandomness, IsKeyedBySeedAndName) {
   EXPECT_EQ(r.dac_noise, designs::random_key(77, "dac.noise/samples"));
 }
 
-TEST(TrialRandomness, SharesNoKeyWithAnyDrawOfTheStudy) {
+TEST(TrialRandomness, SharesNoKeyWithDrawsOfTheStudy) {
   std::set<random::RandomKey> keys;
   std::size_t count = 0;
   for (const random::RandomKey& key :
@@ -185,7 +185,7 @@ struct Example {
 };
 
 // A study has a feature if some trial at some point can use it.
-TEST(StudyFeatures, AreThoseOfAnyTrialAtAnyPoint) {
+TEST(StudyFeatures, CoverEveryTrialAtEveryPoint) {
   const std::string drawn = "friction: {k1: {uniform: [100, 120]}}\n";
   const std::string torque = "{torque: {levels: [0.1]}}";
   std::vector<Example> examples{
@@ -239,7 +239,7 @@ TEST(StudyFeatures, AreThoseOfAnyTrialAtAnyPoint) {
 }
 
 // One seed draws an error in the first trial, another does not: the columns are the same.
-TEST(StudyFeatures, DoNotDependOnWhatIsDrawn) {
+TEST(StudyFeatures, DoNotDependOnTheDraws) {
   for (int seed = 1; seed <= 20; ++seed) {
     const auto features = [seed](const std::string& more) {
       return study_of(minimal_manifest(more), {fmt::format("seed={}", seed)}).features;

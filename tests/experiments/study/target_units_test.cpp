@@ -51,7 +51,7 @@ TEST(TargetUnits, AreTheSameMovesWhileTheEncoderIsSwept) {
 }
 
 // A number of counts, written as the middle of the count in rad, gives the targets of the counts themselves.
-TEST(TargetUnits, OfCountsAreThoseCounts) {
+TEST(TargetUnits, ATargetAtTheMiddleOfACountIsThatCount) {
   std::mt19937_64 random(11);
   for (int i = 0; i < 200; ++i) {
     const int fine = std::uniform_int_distribution<int>(1, 10'000'000)(random);
@@ -66,7 +66,7 @@ TEST(TargetUnits, OfCountsAreThoseCounts) {
   }
 }
 
-TEST(TargetUnits, OfASequenceIncludeItsOverrun) {
+TEST(TargetUnits, SequencesIncludeTheirOverrun) {
   const Study study = study_of(manifest_commanding(
       "{units: si, sequence: {targets: [-0.01, {uniform: [0, 0.001]}, 0.02], overrun: 0.0015, cycles: 1}}",
       "encoder: {fine: {integers: [10000, 2000000]}}\n"));
@@ -110,7 +110,7 @@ TEST(TargetUnits, FitTheHoldAndTheCounts) {
       "5:48: command.sequence.targets.1 | 0.1 rad, not above"));
 }
 
-TEST(TargetUnits, HaveAWordAndAreTheSameAtAllPoints) {
+TEST(TargetUnits, UnknownWordsAndSweepsAreRefused) {
   EXPECT_TRUE(has_faults(refusal_of(manifest_commanding("{units: rad, targets: [1]}")),
                          "5:18: command.units | one of counts, si"));
   EXPECT_EQ(refusal_of(manifest_commanding("{units: counts, targets: [1]}")), "");
@@ -172,7 +172,7 @@ TEST(GainUnits, AreTheSameContinuousControlAtEveryPointOfASweep) {
   }
 }
 
-TEST(GainUnits, PerCountAreThoseOfTheManifest) {
+TEST(GainUnits, GainsPerCountAreTakenUnchanged) {
   const StudyTrial trial = study_trial(
       study_of(minimal_manifest("controller: {units: count, kp: 1.0e-4, ki: 2.0e-5, kd: 3.0e-4}\n")), 0, 0);
   EXPECT_EQ(trial.parameters.controller.kp, 1.0e-4);
@@ -181,7 +181,7 @@ TEST(GainUnits, PerCountAreThoseOfTheManifest) {
 }
 
 // 3.85e-5 N m/count is not 3.85e-5 N m/(rad s).
-TEST(GainUnits, DoNotTakeADefaultPerCountForOneInSi) {
+TEST(GainUnits, DefaultsPerCountAreNotUsedInSiUnits) {
   const char* const missing = "1:1: controller.ki | missing";
   EXPECT_TRUE(has_faults(refusal_of(minimal_manifest("controller: {units: si}\n")), missing));
   EXPECT_TRUE(has_faults(
@@ -194,7 +194,7 @@ TEST(GainUnits, DoNotTakeADefaultPerCountForOneInSi) {
   EXPECT_EQ(refusal_of(manifest_commanding("{torque: {levels: [0.1]}}", "controller: {units: si}\n")), "");
 }
 
-TEST(GainUnits, HaveAWordAndAreTheSameAtAllPoints) {
+TEST(GainUnits, UnknownWordsAndSweepsAreRefused) {
   EXPECT_TRUE(
       has_faults(refusal_of(minimal_manifest("controller: {units: SI}\n")), "6:21: controller.units | 'SI'"));
   EXPECT_TRUE(says(refusal_of(minimal_manifest("sweep: {grid: {controller.units: [count, si]}}\n")),
@@ -218,7 +218,7 @@ TEST(ConverterRange, GivesTheResolutionOfEveryTrial) {
 }
 
 // Random numbers in both forms.
-TEST(ConverterRange, IsAnotherWayToWriteTheSameConverter) {
+TEST(ConverterRange, IsEquivalentToAResolution) {
   std::mt19937_64 random(7);
   for (int i = 0; i < 200; ++i) {
     const int bits = std::uniform_int_distribution<int>(1, 32)(random);
@@ -233,7 +233,7 @@ TEST(ConverterRange, IsAnotherWayToWriteTheSameConverter) {
   }
 }
 
-TEST(ConverterRange, StaysWhileTheWordLengthIsSwept) {
+TEST(ConverterRange, IsKeptWhileTheWordLengthIsSwept) {
   const Study study =
       study_of(minimal_manifest("dac: {range: 0.5}\nsweep: {grid: {dac.bits: [1, 8, 12, 16]}}\n"));
   for (std::int64_t point = 0; point < 4; ++point) {
@@ -242,7 +242,7 @@ TEST(ConverterRange, StaysWhileTheWordLengthIsSwept) {
   }
 }
 
-TEST(ConverterRange, StandsInPlaceOfTheResolution) {
+TEST(ConverterRange, ExcludesAResolution) {
   EXPECT_TRUE(has_faults(refusal_of(minimal_manifest("dac: {resolution: 2.4e-4, range: 0.5}\n")),
                          "6:19: dac.resolution | dac.range | either"));
   EXPECT_TRUE(has_faults(refusal_of(minimal_manifest("dac: {range: 0}\n")),
@@ -258,7 +258,7 @@ TEST(ConverterRange, StandsInPlaceOfTheResolution) {
 }
 
 // Without it the resolution of a linear axis is required, because its default is in N m.
-TEST(ConverterRange, IsEnoughOnALinearAxis) {
+TEST(ConverterRange, SufficesOnALinearAxis) {
   const auto linear = [](const std::string& dac) {
     return manifest_commanding("{torque: {levels: [0], rate: 1}}",
                                "axis: linear\nencoder: {resolution: 1.0e-9}\n"
@@ -328,7 +328,7 @@ TEST_F(SequenceProperties, EachTargetIsReachedOnceInEachCycleFromEachSide) {
   });
 }
 
-TEST_F(SequenceProperties, ATargetIsApproachedFromTheSideThatItsMoveSays) {
+TEST_F(SequenceProperties, ATargetIsApproachedFromTheSideOfItsMove) {
   for_random_sequences([](const RandomSequence& s, const std::vector<SequenceMove>& moves) {
     ASSERT_LT(moves.front().target, 0) << "the first target is approached from somewhere, too";
     for (std::size_t i = 1; i < moves.size(); ++i) {

@@ -156,7 +156,7 @@ void expect_same_draws(const Study& study, TrialDrawer& drawer, StudyTrial& tria
   }
 }
 
-TEST(TrialDrawer, DrawsTheBitsOfSingleTrials) {
+TEST(TrialDrawer, EqualsSingleTrialsBitForBit) {
   testing::Draws draws(20260131);
   for (const std::string design : {"monte_carlo", "latin_hypercube", "sobol", "saltelli"}) {
     for (int round = 0; round < 8; ++round) {
@@ -173,7 +173,7 @@ TEST(TrialDrawer, DrawsTheBitsOfSingleTrials) {
 }
 
 // One trial is the memory of all its draws: no list of the draw before may stay in it.
-TEST(TrialDrawer, DrawsTheBitsOfSingleTrialsWithWhateverAStudyHas) {
+TEST(TrialDrawer, EqualsSingleTrialsBitForBitWithEveryFeature) {
   testing::Draws draws(20260133);
   for (const Study& study :
        {study_of(full_manifest()), study_of(extended_manifest()), study_of(aging_machines),
@@ -303,7 +303,7 @@ const std::vector<RecordedTrial> recorded{
                    -0.0054889743628648395}},
 };
 
-TEST(RecordedTrials, HaveTheSameInputs) {
+TEST(RecordedTrials, InputsNeverChange) {
   for (const RecordedTrial& r : recorded) {
     const Study study = study_of(full_manifest(), {std::string("design=") + r.design,
                                                    std::string("independent_points=") + r.independent});
@@ -317,7 +317,7 @@ std::vector<double> shipped_inputs(const char* name, std::int64_t point, std::in
   return study_trial(manifest::load_study(path), point, index).inputs;
 }
 
-TEST(RecordedTrials, OfTheShippedStudiesAreTheSame) {
+TEST(RecordedTrials, InputsOfShippedStudiesNeverChange) {
   using Inputs = std::vector<double>;
   EXPECT_EQ(shipped_inputs("creep", 1, 7), (Inputs{0.2108899526916283, 23.639586923168828, 1.5340186057656258,
                                                    0.035149372941878476, 0.0001}));

@@ -39,7 +39,7 @@ TEST(TimeGaps, AreFoundWhereRowsAreMissing) {
   }
 }
 
-TEST(TimeGaps, TellTheLostTimeAndTheUsualStep) {
+TEST(TimeGaps, ReportTheLostTimeAndTheUsualStep) {
   std::vector<double> steps(1000, 1e-3);
   steps[499] = 0.051;
   const std::vector<TimeGap> gaps = time_gaps(times_of(steps));
@@ -49,14 +49,14 @@ TEST(TimeGaps, TellTheLostTimeAndTheUsualStep) {
   EXPECT_NEAR(gaps[0].usual, 1e-3, 1e-12);
 }
 
-TEST(TimeGaps, UnevenStepsAreNone) {
+TEST(TimeGaps, UnevenStepsAreNotGaps) {
   std::mt19937 generator(5);
   for (int record = 0; record < 200; ++record)
     EXPECT_TRUE(rows_of(random_steps(500, 0.9, generator)).empty()) << record;
 }
 
 // Rows that follow a rule have no gap: a change of the rate, growing steps, bursts, and few rows.
-TEST(TimeGaps, RegularPatternsHaveNone) {
+TEST(TimeGaps, RegularPatternsAreNotGaps) {
   std::vector<double> rates(300, 1e-3);
   rates.insert(rates.end(), 100, 0.1);
   rates.insert(rates.end(), 100, 2e-3);

@@ -55,7 +55,7 @@ TEST(TextFile, WideTextIsNamedWithAndWithoutItsMark) {
     EXPECT_NE(format_of(contents).find(converter), std::string::npos) << format_of(contents);
 }
 
-TEST(TextFile, TextsStayTexts) {
+TEST(TextFile, TextsAreNotTakenForBinaryFiles) {
   for (const std::string& text :
        {""s, "\n"s, table, "\xEF\xBB\xBF" + table,
         "# 25 \xB0"
@@ -75,7 +75,7 @@ TEST(TextFile, RandomBytesAreBinary) {
   }
 }
 
-TEST(TextFile, IsRefusedWithItsFormatAndTheRemedy) {
+TEST(TextFile, BinaryFilesAreRefusedWithFormatAndRemedy) {
   EXPECT_EQ(refusal_by([] { require_text("log.csv.gz", "\x1F\x8B\x08", "a log of moves"); }),
             "log.csv.gz: this is a file compressed by gzip, which 'gunzip' unpacks; expected a log of moves");
   EXPECT_EQ(refusal_by([] { require_text("log.csv", table, "a log of moves"); }), "");

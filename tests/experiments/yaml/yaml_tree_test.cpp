@@ -49,7 +49,7 @@ TEST(YamlTree, ReportsEveryDuplicateKeyWhereItStands) {
             "m.yaml:3:1: a: duplicate key; expected each key once");
 }
 
-TEST(YamlTree, RefusesWhatIsNotYaml) {
+TEST(YamlTree, RefusesInvalidYaml) {
   EXPECT_TRUE(says(problem_with("b: 1\na: [1, 2\n"), "m.yaml:3:1: manifest: incomplete list"));
   EXPECT_TRUE(says(problem_with("b: 1\na: [1, 2"), "m.yaml:2:1: manifest: incomplete list"));
   EXPECT_TRUE(says(problem_with("a: b: c\n"), "m.yaml:1:5: manifest: unexpected ':'"));
@@ -113,7 +113,7 @@ TEST(YamlTree, AKeyStandsOnOneLine) {
   }
 }
 
-TEST(YamlTree, AnEmptyTextIsNoDocument) {
+TEST(YamlTree, AnEmptyTextHasNoDocument) {
   Problems problems;
   EXPECT_EQ(parse("", problems), nullptr);
   EXPECT_EQ(parse("# nothing\n", problems), nullptr);
@@ -121,7 +121,7 @@ TEST(YamlTree, AnEmptyTextIsNoDocument) {
 }
 
 // Whatever the text: a tree, or a problem with a place; never a crash or an exception of the YAML library.
-TEST(YamlTree, MutilatedTextsNeverEscape) {
+TEST(YamlTree, MutatedTextsThrowOnlyExpectedErrors) {
   const std::string text =
       "a: &x {b: [1, 'two', \"th\\tree\"], c: *x2}\n? d\n: - e\n  - |\n    f\n%g\n--- # h\n";
   std::uint64_t state = 1;
@@ -186,7 +186,7 @@ TEST(LexicalFaults, AQuotationMarkBeforeAnyScalarOfAShippedManifestIsAnErrorOnIt
   EXPECT_GT(tried, 1000u);
 }
 
-TEST(LexicalFaults, TheUnclosedMarkItselfIsNamedAlsoWhereALaterOneEndsTheText) {
+TEST(LexicalFaults, AnUnclosedQuoteIsNamedEvenIfALaterOneClosesIt) {
   const auto unclosed_at = [](const std::string& text, int line, int column) {
     const std::string problem = problem_in(text);
     EXPECT_TRUE(
@@ -221,7 +221,7 @@ TEST(LexicalFaults, AQuotationMarkInATagOrAnAnchorIsAnError) {
   }
 }
 
-TEST(LexicalFaults, AFaultIsReportedWhereItBeginsAndNotWhereTheParserStumbles) {
+TEST(LexicalFaults, AFaultIsReportedWhereItBegins) {
   const auto starts = [](const std::string& text, const std::string& problem) {
     EXPECT_TRUE(problem_in(text).starts_with(problem)) << text << "\n" << problem_in(text);
   };

@@ -114,7 +114,7 @@ void copy(const fs::path& from, const fs::path& to, const Sample& sample) {
   target.close().require_in(to);
 }
 
-TEST(ChunkTransfer, TheLibraryReadsWhatWeEncodeAndWeReadWhatItEncodes) {
+TEST(ChunkTransfer, InteroperatesWithTheHdf5LibraryBothWays) {
   const TemporaryFolder folder;
   Draws draws(20260101);
   for (int i = 0; i < 150; ++i) {

@@ -44,7 +44,7 @@ class ForeignFile : public ::testing::Test {
   std::filesystem::path original = write_sample_file(directory.path(), sample_study(1, 5, 1));
 };
 
-TEST_F(ForeignFile, ThatCrashesTheLibraryIsRefused) {
+TEST_F(ForeignFile, AFileThatCrashesTheLibraryIsRefused) {
   require_readers();
   if (IsSkipped()) return;
   int refused = 0;
@@ -73,7 +73,7 @@ void kill_children(const std::stop_token& stop, pid_t thread) {
   }
 }
 
-TEST_F(ForeignFile, WhoseReaderIsKilledIsNotCalledDamaged) {
+TEST_F(ForeignFile, AKilledReaderDoesNotMeanDamage) {
   require_readers();
   if (IsSkipped()) return;
   const std::jthread killer(kill_children, ::gettid());
@@ -105,7 +105,7 @@ TEST_F(ForeignFile, WhoseReaderIsKilledIsNotCalledDamaged) {
   std::_Exit(EXIT_SUCCESS);
 }
 
-TEST_F(ForeignFile, IsNotOpenedWhereThereCanBeNoReader) {
+TEST_F(ForeignFile, IsNotOpenedIfNoReaderProcessCanStart) {
   EXPECT_EXIT(
       open_without_children(original), ::testing::ExitedWithCode(5),
       "sample.h5: cannot start a child process that reads it first: Resource temporarily unavailable");
@@ -146,7 +146,7 @@ bool reader_ends_with_its_parent(const std::filesystem::path& path) {
 }
 
 // It has the parent's locks.
-TEST_F(ForeignFile, IsReadNoLongerThanTheParentLives) {
+TEST_F(ForeignFile, ReaderEndsWithItsParent) {
   ASSERT_EQ(prctl(PR_SET_CHILD_SUBREAPER, 1), 0);  // the reader becomes a child of this process
   bool ended = false;
   for (int i = 0; i < 50 && !ended; ++i) ended = reader_ends_with_its_parent(original);
@@ -154,7 +154,7 @@ TEST_F(ForeignFile, IsReadNoLongerThanTheParentLives) {
   prctl(PR_SET_CHILD_SUBREAPER, 0);
 }
 
-TEST_F(ForeignFile, ThatIsWholeIsOpened) {
+TEST_F(ForeignFile, AWholeFileIsOpened) {
   EXPECT_TRUE(hdf5::open_foreign(original).contains("trial"));
 }
 

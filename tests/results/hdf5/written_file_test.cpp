@@ -46,7 +46,7 @@ storage::WrittenBytes write_file(const fs::path& path) {
   return file.close();
 }
 
-TEST(WrittenFile, IsFoundAsItWasWrittenAndAddedTo) {
+TEST(WrittenFile, IsVerifiedAfterWritingAndAppending) {
   const TemporaryFolder folder;
   const fs::path path = folder / "file.h5";
   storage::WrittenBytes before = write_file(path);
@@ -61,7 +61,7 @@ TEST(WrittenFile, IsFoundAsItWasWrittenAndAddedTo) {
 
 // Nearly every byte of a file is written: one that is changed is found, whether it is a value, a text, an
 // attribute or a part of the index.
-TEST(WrittenFile, IsRefusedWhereAnyByteDiffers) {
+TEST(WrittenFile, IsRefusedIfAnyByteDiffers) {
   const TemporaryFolder folder;
   const fs::path path = folder / "file.h5";
   const storage::WrittenBytes written = write_file(path);
@@ -86,7 +86,7 @@ TEST(WrittenFile, IsRefusedWhereAnyByteDiffers) {
   expect_failure(ExitCode::machine_failed, words + "its end is missing", [&] { written.require_in(path); });
 }
 
-TEST(WrittenFile, IsRefusedWhereAChunkIsZeros) {
+TEST(WrittenFile, IsRefusedIfAChunkIsAllZeros) {
   const TemporaryFolder folder;
   const fs::path path = folder / "file.h5";
   const storage::WrittenBytes written = write_file(path);
@@ -98,7 +98,7 @@ TEST(WrittenFile, IsRefusedWhereAChunkIsZeros) {
                    [&] { pieces.require_in(path); });
 }
 
-TEST(WrittenFile, IsClosedAfterWhatIsInIt) {
+TEST(WrittenFile, CannotBeClosedBeforeItsObjects) {
   const TemporaryFolder folder;
   hdf5::File file = hdf5::File::create(folder / "file.h5");
   const hdf5::Group group = file.create_group("group");
@@ -112,7 +112,7 @@ void in_another_thread(const Action& action) {
   std::thread(action).join();
 }
 
-TEST(LibraryUse, OfASecondThreadAtTheSameTimeIsRefused) {
+TEST(LibraryUse, ASecondThreadAtTheSameTimeIsRefused) {
   const TemporaryFolder folder;
   hdf5::File file = hdf5::File::create(folder / "file.h5");
   hdf5::Dataset dataset =
@@ -134,7 +134,7 @@ TEST(LibraryUse, OfASecondThreadAtTheSameTimeIsRefused) {
   in_another_thread([&] { EXPECT_EQ(dataset.extent().size(), 1U); });
 }
 
-TEST(LibraryUse, ThatFailsPrintsNothingInAnyThread) {
+TEST(LibraryUse, FailuresPrintNothingInAnyThread) {
   const TemporaryFolder folder;
   hdf5::File file = hdf5::File::create(folder / "file.h5");
   const auto fail = [&] { EXPECT_ANY_THROW(file.create_group("twice")); };

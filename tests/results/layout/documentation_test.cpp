@@ -67,7 +67,7 @@ std::string type_name(hdf5::Element element) {
   return names.at(element);
 }
 
-TEST(Documentation, DescribesEveryGroupAndMeasureOfAFileAndNoOther) {
+TEST(Documentation, DescribesExactlyTheGroupsAndMeasuresOfAFile) {
   const TemporaryFolder directory;
   const TemporaryFolder directory_with_machines;
   const TemporaryFolder directory_with_companions;
@@ -119,7 +119,7 @@ TEST(Documentation, DescribesEveryGroupAndMeasureOfAFileAndNoOther) {
   EXPECT_EQ(found_groups, documented_groups());
 }
 
-TEST(Documentation, DescribesEveryAttributeOfTheRootAndNoOther) {
+TEST(Documentation, DescribesExactlyTheAttributesOfTheRoot) {
   const TemporaryFolder directory;
   const std::filesystem::path file = write_sample_file(directory.path(), sample_study());
   std::set<std::string> described;
@@ -182,7 +182,7 @@ std::vector<std::string> manifests() {
   return all;
 }
 
-TEST(StudyDifferences, NameEveryOrderWhateverElseDiffers) {
+TEST(StudyDifferences, NameADifferentOrderBesideOtherDifferences) {
   std::mt19937 random(81);
   int tried = 0;
   for (const std::string& text : manifests()) {
@@ -208,7 +208,7 @@ TEST(StudyDifferences, NameEveryOrderWhateverElseDiffers) {
   EXPECT_GE(tried, 5 + 20);
 }
 
-TEST(StudyDifferences, RefuseShardsAndPartsAsTheyRefuseExtensions) {
+TEST(StudyDifferences, AreGivenForShardsPartsAndExtensionsAlike) {
   std::mt19937 random(82);
   const std::string text(with_every_order);
   const study::Study study = study_of(text, {});
@@ -221,7 +221,7 @@ TEST(StudyDifferences, RefuseShardsAndPartsAsTheyRefuseExtensions) {
       layout::require_same_study("shard.h5", header, other);
       ADD_FAILURE() << map;
     } catch (const layout::ForeignFile& foreign) {
-      EXPECT_TRUE(says(std::string_view(foreign.what()), "of another study: "));
+      EXPECT_TRUE(says(std::string_view(foreign.what()), "is from another study: "));
       EXPECT_TRUE(says(std::string_view(foreign.what()), differences(study, other))) << foreign.what();
     }
   }

@@ -30,7 +30,7 @@ std::vector<layout::Table> all_tables() {
           layout::profile_table("friction.k1", "N m/rad")};
 }
 
-TEST(Layout, OfALinearAxisSpeaksOfForcesAndPositions) {
+TEST(Layout, ALinearAxisHasForcesAndPositions) {
   const auto expect_linear = [](const layout::Column& column) {
     for (const char* word : {"rad", "N m", "rotor", "torque", "angle", "$"}) {
       EXPECT_FALSE(says(column.unit, word)) << column.name << " " << column.unit;
@@ -51,14 +51,14 @@ TEST(Layout, OfALinearAxisSpeaksOfForcesAndPositions) {
   }
 }
 
-TEST(Layout, TellsWhatWasStoppedLastAndOnlyWhereItCanBe) {
+TEST(Layout, HasAStoppedColumnOnlyIfTrialsCanBeStopped) {
   std::vector<std::string> expected = names(layout::outcome_table().columns);
   EXPECT_EQ(std::count(expected.begin(), expected.end(), "stopped"), 0);
   expected.emplace_back("stopped");
   EXPECT_EQ(names(layout::outcome_table({.stopping = true}).columns), expected);
 }
 
-TEST(Layout, TracesHaveTheColumnsOfTheFeaturesLast) {
+TEST(Layout, TracesEndWithTheColumnsOfOptionalFeatures) {
   const std::vector<std::string> always = names(layout::trace_table({}).columns);
   for (unsigned which = 0; which < 8; ++which) {
     const study::StudyFeatures features{
@@ -150,7 +150,7 @@ TEST(Provenance, NamesVersionCommitCompilerProcessorAndTime) {
       << provenance.created;
 }
 
-TEST(Provenance, IsOfTheSameBuildByVersionAndCommit) {
+TEST(Provenance, EqualVersionAndCommitMeanTheSameBuild) {
   const auto build = [](const char* version, const char* commit) {
     return Provenance{version, commit, "GNU 12.2.0", "some processor", "2002-07-21T12:00:00Z"};
   };
@@ -188,7 +188,7 @@ TEST(NamedMeasures, AreColumnsOfTheFile) {
   expect_column(layout::name_of_tolerance(trial::tolerance_measure, 1e-8));
 }
 
-TEST(NamedMeasures, AreAllMeasuresOfTheFileButHowAMoveEnded) {
+TEST(NamedMeasures, CoverAllMeasuresExceptTheOutcome) {
   const std::set<std::string_view> not_limited{"outcome", "stopped", "controller_failed"};
   for (const layout::Measure& measure : layout::measure_table({})) {
     const std::string_view name = measure.field.column.name;
@@ -218,7 +218,7 @@ TEST(RecordedStudy, HasTheTrialsOfTheFile) {
 }
 
 // Statistics of the trials of a file by another study wrote beyond the end of their vectors.
-TEST(RecordedStudy, OfOtherTrialsThanThoseOfTheFileIsRefused) {
+TEST(RecordedStudy, AStudyWithOtherTrialsThanTheFileIsRefused) {
   layout::FileHeader more = header_of(3, 2);
   more.overrides = {"trials=4"};
   expect_failure(ExitCode::bad_data,

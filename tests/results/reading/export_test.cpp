@@ -92,7 +92,7 @@ TEST_F(Export, OutcomesHaveOneRowPerMoveAndWordsForVerdicts) {
   }
 }
 
-TEST_F(Export, JerksProfilesAndTraceAreWhole) {
+TEST_F(Export, JerksProfilesAndTracesAreComplete) {
   const auto jerks = read_table(out / "jerks.csv");
   EXPECT_EQ(std::ssize(jerks), file.jerk_count() + 1);
   EXPECT_EQ(jerks[0], (std::vector<std::string>{"trial", "move", "onset [s]", "duration [s]",
@@ -127,7 +127,7 @@ TEST_F(Export, NeverOverwrites) {
   expect_failure(ExitCode::bad_input, "points.csv: exists already", [&] { reading::export_csv(file, out); });
 }
 
-TEST(ExportOfAPart, HasItsOwnTrialsOnly) {
+TEST(ExportOfAPart, HasOnlyItsOwnTrials) {
   const TemporaryFolder directory;
   const study::Study study = sample_study();
   const layout::RowRange rows{30, 25};
@@ -150,7 +150,7 @@ TEST(NumberText, ReadsBackToTheSameDouble) {
   }
 }
 
-TEST(NumberText, IsShortAndNamesWhatIsNotANumber) {
+TEST(NumberText, IsShortAndWritesNanAndInf) {
   EXPECT_EQ(reading::number_text(0.1), "0.1");
   EXPECT_EQ(reading::number_text(-0.0), "-0");
   EXPECT_EQ(reading::number_text(3.85e-5), "3.85e-05");

@@ -22,7 +22,7 @@ void read_all(const fs::path& path) {
 }
 
 /// Files with a checksum trailer and checksums that are right, and values that cannot be.
-class SoundValues : public ::testing::Test {
+class StoredValues : public ::testing::Test {
  protected:
   template <class Value>
   static void write_row(hdf5::Dataset column, std::int64_t row, Value value) {
@@ -66,12 +66,12 @@ class SoundValues : public ::testing::Test {
   fs::path original = write_sample_file(directory.path(), study);
 };
 
-TEST_F(SoundValues, TheSampleHasThem) {
+TEST_F(StoredValues, TheSampleFilePasses) {
   EXPECT_NO_THROW(read_all(original));
   EXPECT_NO_THROW(read_all(forged("outcome/jerk_agreement", 3, not_a_number)));
 }
 
-TEST_F(SoundValues, AreAskedOfEveryMeasure) {
+TEST_F(StoredValues, EveryMeasureIsChecked) {
   expect_refused("outcome/outcome", 41, std::int8_t{77}, "trial 41, move 0: it is 77; expected 0 to 5");
   expect_refused("outcome/outcome", 41, std::int8_t{-1}, "trial 41, move 0: it is -1; expected 0 to 5");
   for (const char* flag : {"arrived", "stable"})
@@ -91,13 +91,13 @@ TEST_F(SoundValues, AreAskedOfEveryMeasure) {
   }
 }
 
-TEST_F(SoundValues, AMoveThatArrivedHasASettlingTime) {
+TEST_F(StoredValues, AMoveThatArrivedMustHaveAnArrivalTime) {
   const std::int64_t arrived = trial_with("arrived", 1.0);
   const fs::path path = forged("outcome/arrival_time", arrived, not_a_number);
   expect_failure(ExitCode::bad_data, "/outcome/arrived", [&] { read_all(path); });
 }
 
-TEST_F(SoundValues, AreAskedOfOneMeasureAlone) {
+TEST_F(StoredValues, ASingleMeasureIsChecked) {
   const reading::AllTrialsFile file(forged("outcome/outcome", 41, std::int8_t{77}));
   expect_failure(ExitCode::bad_data, "/outcome/outcome: trial 41, move 0", [&] {
     file.measure("outcome", {40, 2});
@@ -106,12 +106,12 @@ TEST_F(SoundValues, AreAskedOfOneMeasureAlone) {
   EXPECT_NO_THROW(file.measure("arrival_time", file.rows()));
 }
 
-TEST_F(SoundValues, RowsHaveTheNumbersOfTheirPlaces) {
+TEST_F(StoredValues, RowsMustHaveTheNumbersOfTheirPlaces) {
   expect_refused("trial/point", 31, std::int64_t{99}, "row 31: it is 99; expected 1");
   expect_refused("trial/index", 31, std::int64_t{0}, "row 31: it is 0; expected 1");
 }
 
-TEST_F(SoundValues, AreAskedOfJerks) {
+TEST_F(StoredValues, JerksAreChecked) {
   expect_refused("jerk/trial", 0, std::int64_t{-1}, "row 0: it is -1; expected 0 to 59, rising");
   expect_refused("jerk/trial", 5, std::int64_t{60}, "row 5: it is 60");
   expect_refused("jerk/trial", 0, std::int64_t{59}, "row 1: it is ");
@@ -123,7 +123,7 @@ TEST_F(SoundValues, AreAskedOfJerks) {
   expect_refused("jerk/direction", 3, std::int32_t{2}, "row 3: it is 2; expected -1, 0 or 1");
 }
 
-TEST_F(SoundValues, AreAskedOfTheCountsOfMachines) {
+TEST_F(StoredValues, CountsOfMachinesAreChecked) {
   fs::remove(original);
   original = write_sample_file(directory.path(), sample_study_with_machines(2, 40, 2));  // 8 machines
   const auto expect_counts_refused = [&](const std::string& dataset, std::int64_t row, std::int64_t value,
@@ -141,7 +141,7 @@ TEST_F(SoundValues, AreAskedOfTheCountsOfMachines) {
   expect_counts_refused("machine/success", 1, -1, "row 1: impossible counts of machine 0; expected 5 trials");
 }
 
-TEST_F(SoundValues, JerksOfATrialAreInTheirOrder) {
+TEST_F(StoredValues, JerksOfATrialMustBeInOrder) {
   const std::int64_t trial = trial_with("jerk_count", 2.0);
   std::int64_t first = 0;
   {
@@ -153,7 +153,7 @@ TEST_F(SoundValues, JerksOfATrialAreInTheirOrder) {
                  [&] { read_all(path); });
 }
 
-class DamagedFile : public ::testing::Test {
+class UnusableFile : public ::testing::Test {
  protected:
   fs::path copy(const std::string& name) const {
     fs::copy_file(original, directory / name);
@@ -170,12 +170,12 @@ class DamagedFile : public ::testing::Test {
   fs::path original = write_sample_file(directory.path(), study);
 };
 
-TEST_F(DamagedFile, ThatDoesNotExistIsBadInput) {
+TEST_F(UnusableFile, AMissingFileIsBadInput) {
   expect_bad(directory / "nothing.h5", "no such file", ExitCode::bad_input);
   expect_bad(directory.path(), "a directory", ExitCode::bad_input);
 }
 
-TEST_F(DamagedFile, OfAnotherFormatIsSaidToBe) {
+TEST_F(UnusableFile, AnotherFormatIsReported) {
   write_bytes(directory / "text.h5", "zerocount: 1\n");
   expect_bad(directory / "text.h5", "not in the HDF5 format");
   write_bytes(directory / "empty.h5", "");
@@ -188,7 +188,7 @@ TEST_F(DamagedFile, OfAnotherFormatIsSaidToBe) {
   expect_bad(directory / "format.h5", "format.h5: its format is 'else'; expected 'zerocount-study'");
 }
 
-TEST_F(DamagedFile, OfAnotherVersionIsSaidToBe) {
+TEST_F(UnusableFile, AnotherVersionIsReported) {
   replace_attribute(copy("newer.h5"), "format_version", layout::format_version + 1);
   expect_bad(directory / "newer.h5", "wrote it in format version 6, newer than the 5");
   replace_attribute(copy("older.h5"), "format_version", 3);
@@ -196,35 +196,36 @@ TEST_F(DamagedFile, OfAnotherVersionIsSaidToBe) {
              "wrote it in format version 3, and this program reads version 5; run its manifest again");
 }
 
-TEST_F(DamagedFile, ThatWasNeverFinishedIsSaidToBe) {
+TEST_F(UnusableFile, AnUnfinishedFileIsReported) {
   remove_attribute(copy("unfinished.h5"), "finished");
   expect_bad(directory / "unfinished.h5", "never finished");
 }
 
-TEST_F(DamagedFile, ThatIsAShardIsIncomplete) {
+TEST_F(UnusableFile, AShardIsIncomplete) {
   const shards::ShardInfo shard = write_sample_shard(directory.path(), study, layout::all_rows(study));
   expect_failure(ExitCode::bad_data, "incomplete", [&] { reading::AllTrialsFile{shard.path}; });
 }
 
-TEST_F(DamagedFile, WhoseAttributesContradictTheContentsIsFound) {
+TEST_F(UnusableFile, ContradictoryAttributesAreReported) {
   replace_attribute(copy("sha.h5"), "manifest_sha256", std::string("changed"));
   expect_bad(directory / "sha.h5", "the checksum of the manifest is wrong");
   replace_attribute(copy("rows.h5"), "trial_count", 59);
   expect_bad(directory / "rows.h5", "complete");
   replace_attribute(copy("trials.h5"), "trials", -3);
-  expect_bad(directory / "trials.h5", "cannot be of");
+  expect_bad(directory / "trials.h5", "cannot belong to");
   remove_attribute(copy("missing.h5"), "seed");
   expect_bad(directory / "missing.h5", "the attribute 'seed' is missing");
 }
 
-TEST_F(DamagedFile, WithNumbersOfTrialsWhoseProductOverflowsIsFound) {
+TEST_F(UnusableFile, AnOverflowingNumberOfTrialsIsReported) {
   replace_attribute(copy("trials.h5"), "trials", std::int64_t{1} << 62);
-  expect_bad(directory / "trials.h5", "cannot be of 2 design points with 4611686018427387904 trials each");
+  expect_bad(directory / "trials.h5",
+             "cannot belong to 2 design points with 4611686018427387904 trials each");
   replace_attribute(copy("first.h5"), "first_trial", std::numeric_limits<std::int64_t>::max());
-  expect_bad(directory / "first.h5", "cannot be of");
+  expect_bad(directory / "first.h5", "cannot belong to");
 }
 
-TEST_F(DamagedFile, IsToldWithoutItsControlCharacters) {
+TEST_F(UnusableFile, MessagesContainNoControlCharacters) {
   replace_attribute(copy("engine.h5"), "engine", std::string("\x1b[31m"));
   expect_bad(directory / "engine.h5", "its engine is '\uFFFD[31m'");
   replace_attribute(copy("format.h5"), "format", std::string("\xff"));
@@ -232,20 +233,20 @@ TEST_F(DamagedFile, IsToldWithoutItsControlCharacters) {
 }
 
 // Without this check the summary read beyond the end of the list of labels.
-TEST_F(DamagedFile, WithoutALabelOfEachPointIsFound) {
+TEST_F(UnusableFile, AMissingPointLabelIsReported) {
   replace_by_texts(copy("few.h5"), "/point/label", 1);
   expect_failure(ExitCode::bad_data, "/point/label: it should have one value for each of the 2 design points",
                  [&] { reading::AllTrialsFile(directory / "few.h5").point_labels(); });
 }
 
-TEST_F(DamagedFile, WithADatasetThatNoFileCouldHoldIsFound) {
+TEST_F(UnusableFile, AnImpossiblyLargeDatasetIsReported) {
   for (const int bits : {40, 62}) {
     replace_by_texts(copy(fmt::format("{}.h5", bits)), "/overrides", std::uint64_t{1} << bits);
     expect_bad(directory / fmt::format("{}.h5", bits), "/overrides: its size is more than the file can hold");
   }
 }
 
-TEST_F(DamagedFile, ThatAnotherProgramChangedIsRefused) {
+TEST_F(UnusableFile, AFileChangedByAnotherProgramIsRefused) {
   const fs::path path = copy("changed.h5");
   replace_attribute(path, "name", std::string("changed"));
   read_everything(path);  // with a new checksum trailer
@@ -255,7 +256,7 @@ TEST_F(DamagedFile, ThatAnotherProgramChangedIsRefused) {
   expect_bad(path, "changed since it was written, or damaged");
 }
 
-TEST_F(DamagedFile, WithOneFlippedBitOfAColumnFailsItsChecksums) {
+TEST_F(UnusableFile, AFlippedBitFailsTheChecksum) {
   const std::string bytes = read_bytes(original);
   for (const char* column :
        {"/outcome/arrival_time", "/trial/input/friction.k1", "/jerk/onset", "/point/controller.ki",
@@ -272,14 +273,14 @@ TEST_F(DamagedFile, WithOneFlippedBitOfAColumnFailsItsChecksums) {
   }
 }
 
-TEST_F(DamagedFile, WithOneChangedLetterOfALabelIsFound) {
+TEST_F(UnusableFile, AChangedLetterOfALabelIsReported) {
   std::string bytes = read_bytes(original);
   bytes[bytes.find("point 1")] = 'P';
   write_bytes(directory / "label.h5", bytes);
   expect_bad(directory / "label.h5", "changed since it was written, or damaged");
 }
 
-TEST_F(DamagedFile, CutAnywhereIsBadData) {
+TEST_F(UnusableFile, ATruncatedFileIsBadData) {
   const std::string bytes = read_bytes(original);
   std::mt19937 random(3);
   std::vector<std::size_t> lengths{1, 8, 48, bytes.size() - 1};
@@ -290,7 +291,7 @@ TEST_F(DamagedFile, CutAnywhereIsBadData) {
   }
 }
 
-TEST_F(DamagedFile, WithRandomBytesAnywhereIsBadData) {
+TEST_F(UnusableFile, RandomBytesAreBadData) {
   const std::string bytes = read_bytes(original);
   std::mt19937 random(5);
   for (int repetition = 0; repetition < 400; ++repetition) {

@@ -99,7 +99,7 @@ TEST(Merge, StoresTheSameBytesWhetherChunksAreCopiedOrEncoded) {
   EXPECT_FALSE(fs::exists(directory / "damaged.h5"));
 }
 
-TEST(Merge, HasNoColumnForWhatTheStudyDoesNotUse) {
+TEST(Merge, HasNoColumnsForUnusedFeatures) {
   const TemporaryFolder directory;
   study::Study study = sample_study();
   study.features.stopping = false;
@@ -111,7 +111,7 @@ TEST(Merge, HasNoColumnForWhatTheStudyDoesNotUse) {
   EXPECT_EQ(file.measure("stopped", file.rows()), std::vector<double>(moves, 0.0));
 }
 
-TEST(Merge, KeepsWhatIsKnownOfThePoints) {
+TEST(Merge, KeepsLabelsAxesAndStatisticsOfPoints) {
   const TemporaryFolder directory;
   const study::Study study = sample_study();
   const reading::AllTrialsFile file(write_sample_file(directory.path(), study));
@@ -152,7 +152,7 @@ TEST(Merge, KeepsTablesOfStatisticsAndFurtherGroups) {
   EXPECT_EQ(file.root().open_group("further").integer("answer"), 42);
 }
 
-TEST(Merge, RefusesATableOfStatisticsThatIsNotOfItsPoints) {
+TEST(Merge, RefusesStatisticsWithAnotherNumberOfPoints) {
   const TemporaryFolder directory;
   const study::Study study = sample_study(3, 40, 2);
   const auto shards = write_sample_shards(directory / "shards", study, layout::all_rows(study), 50);
@@ -231,7 +231,7 @@ TEST(Merge, GivesTheSameBytesForAnyDivisionIntoShards) {
   }
 }
 
-TEST(Merge, JoinsPartsAsItJoinsShards) {
+TEST(Merge, JoinsPartsLikeShards) {
   const TemporaryFolder directory;
   const study::Study study = sample_study(3, 50, 2);
   const std::vector<shards::ShardInfo> shards =
@@ -265,7 +265,7 @@ TEST(Merge, TakesDirectoriesOfShardsAndFindsTheStudyInThem) {
   expect_sound(merged(directory / "all.h5", study, shards::merge_inputs(inputs, study)));
 }
 
-TEST(Merge, OfAStudyWithoutAxesInputsProfilesJerksOrOverrides) {
+TEST(Merge, WorksWithoutAxesInputsProfilesJerksAndOverrides) {
   const TemporaryFolder directory;
   study::Study study = sample_study(1, 5, 1);
   study.points.axes.clear();
@@ -290,7 +290,7 @@ TEST(Merge, OfAStudyWithoutAxesInputsProfilesJerksOrOverrides) {
   EXPECT_TRUE(file.header().overrides.empty());
 }
 
-TEST(Merge, RefusesGapsOverlapsAndShardsOutside) {
+TEST(Merge, RefusesGapsOverlapsAndShardsOutOfRange) {
   const TemporaryFolder directory;
   const study::Study study = sample_study();
   std::vector<shards::ShardInfo> shards =
@@ -317,7 +317,7 @@ TEST(Merge, RefusesShardsOfAnotherStudyOrFormat) {
   study::Study other = study;
   other.study_sha256 = "another";
   const std::vector<fs::path> inputs{write_sample_file(directory.path(), study)};
-  expect_failure(ExitCode::bad_data, "of another study", [&] { shards::merge_inputs(inputs, other); });
+  expect_failure(ExitCode::bad_data, "is from another study", [&] { shards::merge_inputs(inputs, other); });
   replace_attribute(inputs[0], "format_version", layout::format_version + 1);
   expect_failure(ExitCode::bad_data, fmt::format("newer than the {}", layout::format_version),
                  [&] { shards::merge_inputs(inputs, study); });
@@ -381,7 +381,7 @@ TEST(Merge, ReplacesAnEarlierFileOnlyWhenItIsWhole) {
   EXPECT_EQ(reading::AllTrialsFile(path).rows(), layout::all_rows(study));
 }
 
-TEST(Merge, LeavesNothingWhereTheStatisticsFail) {
+TEST(Merge, LeavesNoFileIfTheStatisticsFail) {
   const TemporaryFolder directory;
   const study::Study study = sample_study();
   const auto shards = write_sample_shards(directory / "shards", study, layout::all_rows(study), 40);

@@ -65,7 +65,7 @@ TEST(Shard, IsRefusedIfAnyByteDiffers) {
 }
 
 /// Without its checksum, as `status` reads it, a damaged head is refused and does not crash.
-TEST(Shard, HasAHeadThatIsReadWithCare) {
+TEST(Shard, MalformedHeadersAreRefused) {
   const TemporaryFolder directory;
   const study::Study study = sample_study();
   const shards::ShardInfo shard = write_sample_shard(directory.path(), study, {0, 20});
@@ -84,7 +84,7 @@ TEST(Shard, HasAHeadThatIsReadWithCare) {
   }
 }
 
-TEST(Shard, WhoseHeadNestsDeeplyIsRefused) {
+TEST(Shard, ADeeplyNestedHeaderIsRefused) {
   const TemporaryFolder directory;
   const std::filesystem::path path = directory.path() / "deep.shard";
   write_bytes(path, "zerocount-shard " + std::to_string(layout::format_version) + " 1000000\n" +
@@ -93,7 +93,7 @@ TEST(Shard, WhoseHeadNestsDeeplyIsRefused) {
 }
 
 /// The columns of a shard by another build may have another meaning.
-TEST(Shard, OfAnotherBuildGivesNoTrials) {
+TEST(Shard, AShardOfAnotherBuildIsNotRead) {
   const TemporaryFolder directory;
   const study::Study study = sample_study();
   const shards::ShardInfo shard = write_sample_shard(directory.path(), study, {0, 20});
@@ -114,7 +114,7 @@ TEST(Shard, HasItsNameOnlyWhenItIsWhole) {
   EXPECT_FALSE(std::filesystem::exists(storage::part_of(shard.path)));
 }
 
-TEST(Shard, RefusesResultsThatAreNotItsRows) {
+TEST(Shard, RefusesResultsOfOtherRows) {
   const TemporaryFolder directory;
   const study::Study study = sample_study();
   std::vector<shards::TrialResult> results = sample_results(study, {0, 5});
@@ -126,12 +126,12 @@ TEST(Shard, RefusesResultsThatAreNotItsRows) {
   EXPECT_THROW(shards::write_shard(directory / "a.h5", study, {0, 0}, {}), std::invalid_argument);
 }
 
-TEST(ShardSurvey, OfNoDirectoryIsEmpty) {
+TEST(ShardSurvey, IsEmptyWithoutADirectory) {
   const shards::ShardSurvey survey = shards::list_shards("/nowhere/at/all.shards", sample_study());
   EXPECT_TRUE(survey.shards.empty() && survey.problems.empty() && survey.unfinished.empty());
 }
 
-TEST(ShardSurvey, TellsGoodShardsFromAllOthersAndWhy) {
+TEST(ShardSurvey, SeparatesGoodShardsFromOthersWithTheReason) {
   const TemporaryFolder directory;
   const study::Study study = sample_study();
   const std::vector<shards::ShardInfo> good = write_sample_shards(directory.path(), study, {0, 30}, 10);
@@ -166,7 +166,7 @@ TEST(ShardSurvey, TellsGoodShardsFromAllOthersAndWhy) {
       {"commit.shard", "(commit 0000000000000000000000000000000000000000), and this is", Kind::foreign},
       {"earlier.shard", "run by zerocount 0.0.9", Kind::foreign},
       {"newer.shard", "a shard in format version 99, and this program reads version 5", Kind::foreign},
-      {"other.shard", "of another study", Kind::foreign},
+      {"other.shard", "is from another study", Kind::foreign},
       {"short.shard", "checksum at its end is missing", Kind::damaged},
       {"text.shard", "not in the HDF5 format", Kind::damaged}};
   ASSERT_EQ(survey.problems.size(), expected.size());
@@ -181,7 +181,7 @@ TEST(ShardSurvey, TellsGoodShardsFromAllOthersAndWhy) {
   EXPECT_FALSE(std::filesystem::exists(survey.unfinished[0]));
 }
 
-TEST(ShardSurvey, LeavesAloneWhatIsNoShardByItsName) {
+TEST(ShardSurvey, IgnoresFilesThatAreNotNamedLikeShards) {
   const TemporaryFolder directory;
   const study::Study study = sample_study();
   const shards::ShardInfo shard = write_sample_shard(directory.path(), study, {0, 5});
@@ -290,7 +290,7 @@ void expect_whole_shards(int rounds) {
   EXPECT_GE(killed, rounds / 2);
 }
 
-TEST(KilledWriter, LeavesOnlyWholeShardsAndTheRestResumes) {
+TEST(KilledWriter, LeavesOnlyWholeShardsAndTheRunResumes) {
   expect_whole_shards(2);
 }
 
@@ -298,7 +298,7 @@ TEST(KilledWriter, DISABLED_LeavesOnlyWholeShardsManyTimes) {
   expect_whole_shards(20);
 }
 
-TEST(KilledWriter, OfAMergeLeavesNoOutputOrAWholeOne) {
+TEST(KilledWriter, AKilledMergeLeavesNoOutputOrAWholeOne) {
   const TemporaryFolder directory;
   const study::Study study = sample_study(3, 40, 2);
   const std::filesystem::path reference = write_sample_file(directory.path(), study, 50);

@@ -16,7 +16,7 @@
 namespace zerocount::testing {
 namespace {
 
-TEST(MachineTables, HaveWhatDiffersBetweenTheMachines) {
+TEST(MachineTables, HaveTheParametersThatDifferBetweenMachines) {
   const TemporaryFolder directory;
   const study::Study study = sample_study_with_machines();
   const reading::AllTrialsFile file(write_sample_file(directory.path(), study));
@@ -46,7 +46,7 @@ TEST(MachineTables, HaveTheRotorOfEveryMachine) {
   }
 }
 
-TEST(MachineTables, AnglesAreEnoughForTheFieldAndNotTooManyForTheDisk) {
+TEST(MachineTables, AnglesResolveTheFieldWithinTheDiskLimit) {
   EXPECT_EQ(layout::profile_angles_of_machine(2, 10), 64);
   EXPECT_EQ(layout::profile_angles_of_machine(52, 10), 512);
   EXPECT_EQ(layout::profile_angles_of_machine(52, 1000), 512);
@@ -80,7 +80,7 @@ TEST(MachineTables, APartHasTheMachinesAndNoCounts) {
       std::nullopt);
 }
 
-TEST(MachineTables, AreNoneWithoutMachines) {
+TEST(MachineTables, AreAbsentWithoutMachines) {
   const TemporaryFolder directory;
   EXPECT_FALSE(reading::AllTrialsFile(write_sample_file(directory.path(), sample_study()))
                    .groups("machine")
@@ -113,7 +113,7 @@ std::vector<std::int64_t> flattened(const std::vector<std::vector<std::int64_t>>
   return values;
 }
 
-TEST(WorldTables, HaveWhatDiffersBetweenTheWorlds) {
+TEST(WorldTables, HaveTheParametersThatDifferBetweenWorlds) {
   const TemporaryFolder directory;
   const study::Study study = sample_study_in_worlds();
   const reading::AllTrialsFile file(write_file_in_worlds(directory.path(), study));
@@ -157,7 +157,7 @@ TEST(WorldTables, DoNotDependOnHowTheRowsAreDividedAmongTheShards) {
   EXPECT_EQ(reading::first_difference(one.root(), other.root()), std::nullopt);
 }
 
-TEST(WorldTables, OfAPartHaveNoCounts) {
+TEST(WorldTables, APartHasNoCounts) {
   const TemporaryFolder directory;
   const study::Study study = sample_study_in_worlds();
   const layout::RowRange rows{0, 60};
@@ -175,7 +175,7 @@ TEST(WorldTables, OfAPartHaveNoCounts) {
                    .has_value());
 }
 
-TEST(WorldTables, AreNoneWithoutWorlds) {
+TEST(WorldTables, AreAbsentWithoutWorlds) {
   const TemporaryFolder directory;
   EXPECT_FALSE(reading::AllTrialsFile(write_sample_file(directory.path(), sample_study()))
                    .groups("world")
@@ -215,7 +215,7 @@ std::filesystem::path with_world_count(const std::filesystem::path& original, co
 }
 
 // World 4 has six trials at each point, and world 5 has five.
-TEST(WorldTables, WithImpossibleCountsAreRefused) {
+TEST(WorldTables, ImpossibleCountsAreRefused) {
   const TemporaryFolder directory;
   const std::filesystem::path original = write_file_in_worlds(directory.path(), sample_study_in_worlds());
   const auto expect_refused = [&](const std::string& dataset, std::size_t world, std::int64_t count) {

@@ -43,7 +43,7 @@ void expect_reads_what_was_written(storage::ByteFile& file, std::mt19937& random
   EXPECT_EQ(read_text(file, 0, expected.size()), expected);
 }
 
-TEST(ByteFile, ReadsWhatWasWritten) {
+TEST(ByteFile, ReadsBackWrittenBytes) {
   const TemporaryFolder folder;
   std::mt19937 random(7);
   storage::ByteFile file(folder / "file", storage::ByteFile::Mode::create);
@@ -57,7 +57,7 @@ TEST(ByteFile, ReadsWhatWasWritten) {
   EXPECT_EQ(std::filesystem::file_size(folder / "file"), 1000U);
 }
 
-TEST(ByteFile, ReadsWhatWasToBeWrittenAfterAWriteHasFailed) {
+TEST(ByteFile, ReadsBackPendingBytesAfterAFailedWrite) {
   std::mt19937 random(8);
   storage::ByteFile file("/dev/full", storage::ByteFile::Mode::change);
   expect_reads_what_was_written(file, random);
@@ -75,7 +75,7 @@ TEST(ByteFile, KeepsTheFirstFailure) {
   EXPECT_EQ(file.failure()->error, EIO);
 }
 
-TEST(ByteFile, SaysWhyItCannotBeOpened) {
+TEST(ByteFile, GivesTheReasonIfItCannotBeOpened) {
   const TemporaryFolder folder;
   expect_failure(ExitCode::machine_failed, "nowhere: cannot read: No such file",
                  [&] { storage::ByteFile(folder / "nowhere", storage::ByteFile::Mode::read); });
@@ -100,7 +100,7 @@ TEST(ChecksumTrailer, IsTheChecksumOfEverythingBeforeIt) {
   }
 }
 
-TEST(ChecksumTrailer, OfAPublishedFileIsThatOfItsBytes) {
+TEST(ChecksumTrailer, APublishedFileHasTheChecksumOfItsBytes) {
   const TemporaryFolder folder;
   std::mt19937 random(23);
   for (const std::size_t size : {1U, 100U, (1U << 18) - 1, 1U << 18, (5U << 18) + 7}) {
@@ -141,7 +141,7 @@ TEST(WrittenBytes, AreAllKnownAfterALaterWrite) {
   }
 }
 
-TEST(ChecksumTrailer, ThatIsMissingOrWrongMeansChangedOrDamaged) {
+TEST(ChecksumTrailer, AMissingOrWrongTrailerMeansChangedOrDamaged) {
   const TemporaryFolder folder;
   const std::filesystem::path path =
       folder.write("file", "some contents, longer than a trailer" + std::string(200, '.'));
@@ -165,7 +165,7 @@ TEST(CreateFile, ReplacesARegularFileButNotItsOtherNames) {
   EXPECT_EQ(fs::file_size(folder / "notes"), 8U);
 }
 
-TEST(CreateFile, LeavesEverythingElseAsItIs) {
+TEST(CreateFile, LeavesDirectoriesLinksAndPipesUnchanged) {
   const TemporaryFolder folder;
   folder.write("notes", "my notes");
   fs::create_symlink(folder / "notes", folder / "link.part");
@@ -199,7 +199,7 @@ TEST(OutputFile, KeepsThePermissionsOfTheFileThatItReplaces) {
   }
 }
 
-TEST(OutputFile, ReplacesNoFileThatIsWriteProtected) {
+TEST(OutputFile, NeverReplacesAWriteProtectedFile) {
   const TemporaryFolder folder;
   folder.write("all.csv", "earlier");
   fs::permissions(folder / "all.csv", fs::perms(0444));
@@ -214,7 +214,7 @@ TEST(OutputFile, ReplacesNoFileThatIsWriteProtected) {
   EXPECT_FALSE(fs::exists(folder / "all.csv.part"));
 }
 
-TEST(OutputFile, ReplacesNoLinkAndNoPipe) {
+TEST(OutputFile, NeverReplacesALinkOrAPipe) {
   const TemporaryFolder folder;
   folder.write("notes", "my notes");
   fs::create_symlink(folder / "notes", folder / "link");
@@ -226,7 +226,7 @@ TEST(OutputFile, ReplacesNoLinkAndNoPipe) {
   EXPECT_EQ(folder.read("notes"), "my notes");
 }
 
-TEST(OutputFile, OfTwoAtOnceTheUnfinishedOneIsNotPublished) {
+TEST(OutputFile, TwoWritersNeverPublishAnUnfinishedFile) {
   const TemporaryFolder folder;
   std::optional<storage::OutputFile> first(folder / "all.csv");
   first->write("all of the first");

@@ -121,7 +121,7 @@ TEST_F(FullOutput, FailsAnExport) {
   EXPECT_EQ(reading::export_csv(reading::AllTrialsFile(path), directory / "csv").size(), 7U);
 }
 
-TEST(UnwritableOutput, IsSaidWithTheReason) {
+TEST(UnwritableOutput, IsReportedWithTheReason) {
   const TemporaryFolder directory;
   const study::Study study = sample_study();
   write_bytes(directory / "file", "not a directory");
@@ -143,7 +143,7 @@ TEST(UnwritableOutput, IsSaidWithTheReason) {
   });
 }
 
-TEST(MakeDirectory, MakesThoseAboveItToo) {
+TEST(MakeDirectory, MakesItsParentsToo) {
   const TemporaryFolder directory;
   storage::make_directory(directory.path() / "a" / "b" / "c");
   storage::make_directory(directory.path() / "a" / "b" / "c");

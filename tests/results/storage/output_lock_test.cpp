@@ -88,7 +88,7 @@ TYPED_TEST(Locks, AreNeverHeldTwiceWhileManyTry) {
   EXPECT_GT(taken, 0);
 }
 
-TEST(OutputLock, SaysWhereItCannotBeMade) {
+TEST(OutputLock, NamesThePathWhereItCannotBeMade) {
   expect_failure(ExitCode::machine_failed,
                  "/nowhere/all.h5.lock: cannot make the lock file: No such file or directory",
                  [] { storage::OutputLock{"/nowhere/all.h5"}; });
@@ -162,7 +162,7 @@ TEST(OwnerLock, IsNeverHeldByTwoProcesses) {
   }
 }
 
-TEST(OwnerLock, TakesOtherFilesForNoOwners) {
+TEST(OwnerLock, OtherFilesAreNotTakenForOwnerFiles) {
   const TemporaryFolder directory;
   const std::vector<std::string> others{"all.h5.owner-", "all.h5.owner-node-m-x-1", "all.h5.owner-1-2-3",
                                         "all.h5.owner"};

@@ -29,7 +29,7 @@ nlohmann::json spans_of(const Timeline& timeline) {
   return spans;
 }
 
-TEST(Timeline, HasASpanOfAllThatWasDone) {
+TEST(Timeline, HasASpanForEveryStage) {
   Timeline timeline;
   work_in_spans(&timeline);
   std::map<std::string, std::int64_t> counts;
@@ -46,7 +46,7 @@ TEST(Timeline, HasASpanOfAllThatWasDone) {
 }
 
 // Viewers draw the spans of a thread in one another: two that overlap by a part would be drawn wrong.
-TEST(Timeline, HasSpansOfAThreadThatAreApartOrInOneAnother) {
+TEST(Timeline, SpansOfAThreadAreNestedOrDisjoint) {
   Timeline timeline;
   work_in_spans(&timeline);
   std::map<int, std::vector<std::pair<std::int64_t, std::int64_t>>> of_threads;
@@ -65,7 +65,7 @@ TEST(Timeline, HasSpansOfAThreadThatAreApartOrInOneAnother) {
   }
 }
 
-TEST(Timeline, IsKnownByItsBeginning) {
+TEST(Timeline, IsRecognisedByItsFirstBytes) {
   EXPECT_TRUE(timeline::is_timeline(Timeline().trace_events()));
   EXPECT_FALSE(timeline::is_timeline("{}"));
   EXPECT_FALSE(timeline::is_timeline(""));

@@ -68,14 +68,14 @@ TEST_F(CommandLine, BadUsageExitsWithTwoAndOneMessage) {
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "a.h5"));
 }
 
-TEST_F(CommandLine, SaysWhatIsWrongWithAnOption) {
+TEST_F(CommandLine, WrongOptionsAreRefusedWithTheReason) {
   EXPECT_TRUE(says(program({"run", "s.yaml", "-o", "a.h5", "--quiet=1"}).err, "'--quiet' takes no value"));
   EXPECT_TRUE(says(program({"run", "s.yaml", "-o"}).err, "needs a value"));
   EXPECT_TRUE(says(program({"run", "s.yaml", "--outptu", "a.h5"}).err,
                    "unknown option '--outptu'; did you mean --output?"));
 }
 
-TEST_F(CommandLine, DataThatCannotBeUsedExitsWithFour) {
+TEST_F(CommandLine, UnusableDataExitsWithFour) {
   folder_.write("text.h5", "this is no HDF5 file, but it is long enough to look at\n");
   EXPECT_EQ(program({"summary", "text.h5"}).code, 4);
   EXPECT_EQ(program({"export", "text.h5", "-o", "csv"}).code, 4);
@@ -103,7 +103,7 @@ TEST_F(CommandLine, CheckPrintsThePlanAndTheCriteria) {
   }
 }
 
-TEST_F(CommandLine, CheckSaysNothingOfBoundsWhereTheTheoryIsNotAboutTheLoop) {
+TEST_F(CommandLine, CheckOmitsBoundsIfTheTheoryDoesNotApply) {
   const std::string head = "zerocount: 1\nname: machine\nseed: 1\ntrials: 10\n";
   folder_.write("open.yaml", head + "command: {torque: {levels: [0.1], through: exact}}\n");
   folder_.write("models.yaml", head + "command: {targets: [5]}\n" +
@@ -123,7 +123,7 @@ TEST_F(CommandLine, CheckSaysNothingOfBoundsWhereTheTheoryIsNotAboutTheLoop) {
 }
 
 // One count of the coarse encoder is 18.75 of the fine one: k1·Δx is 0.008 N m, not 4.27e-4.
-TEST_F(CommandLine, CheckTakesTheCountThatIsFedBackForTheRuleOfTheDac) {
+TEST_F(CommandLine, CheckUsesTheEncoderThatIsFedBackForTheDacRule) {
   folder_.write("coarse.yaml",
                 "zerocount: 1\nname: machine\nseed: 1\ntrials: 1\ncommand: {targets: [5]}\n"
                 "controller: {encoder: coarse}\ndac: {resolution: 5.0e-4}\n");
@@ -135,7 +135,7 @@ TEST_F(CommandLine, CheckTakesTheCountThatIsFedBackForTheRuleOfTheDac) {
 }
 
 // The loop of a published simulation.
-TEST_F(CommandLine, CheckTellsWhetherTheLongestMoveHuntsWhateverTheLaw) {
+TEST_F(CommandLine, CheckPredictsHuntingForEveryFrictionLaw) {
   folder_.write("machine.yaml",
                 "zerocount: 1\nname: machine\naxis: linear\nseed: 1\ntrials: 1\n"
                 "plant: {inertia: 1, presliding_damping: 0, sliding_damping: 0.4}\n"
@@ -153,7 +153,7 @@ TEST_F(CommandLine, CheckTellsWhetherTheLongestMoveHuntsWhateverTheLaw) {
   }
 }
 
-TEST_F(CommandLine, CheckHasARowPerPointAndSaysOnceWhatIsTheSameAtAll) {
+TEST_F(CommandLine, CheckHasARowPerPointAndStatesCommonValuesOnce) {
   folder_.write("sweep.yaml",
                 "zerocount: 1\nname: machine\nseed: 1\ntrials: 3\ncommand: {targets: [5]}\n"
                 "sweep: {grid: {controller.ki: [1.0e-5, 2.0e-5, 3.0e-5]}}\n");
@@ -189,7 +189,7 @@ TEST_F(CommandLine, CheckJudgesTheSampledLoopOfEachTrial) {
   EXPECT_TRUE(std::regex_search(out, std::regex("\nat k1 +unstable in some trials "))) << out;
 }
 
-TEST_F(CommandLine, CheckCallsALoopThatNothingReturnsMarginal) {
+TEST_F(CommandLine, CheckCallsALoopWithoutRestoringTorqueMarginal) {
   folder_.write("machine.yaml",
                 "zerocount: 1\nname: machine\nseed: 1\ntrials: 2\ncommand: {targets: [5]}\n"
                 "controller: {ki: 0}\n");
@@ -199,7 +199,7 @@ TEST_F(CommandLine, CheckCallsALoopThatNothingReturnsMarginal) {
       << out;
 }
 
-TEST_F(CommandLine, CheckTellsTheCriteriaFromTheSampledLoop) {
+TEST_F(CommandLine, CheckSeparatesTheCriteriaFromTheSampledLoop) {
   const std::string head = "zerocount: 1\nname: machine\nseed: 1\ntrials: 10\ncommand: {targets: [5]}\n";
   folder_.write("machine.yaml", head + "friction: {k1: 110}\n");
   const std::string between = program({"check", "machine.yaml", "--set", "controller.ki=3.8e-5"}).out;
@@ -230,7 +230,7 @@ TEST_F(CommandLine, AFullStandardOutputExitsWithFive) {
   EXPECT_TRUE(says(folder_.read("err"), "standard output"));
 }
 
-TEST_F(CommandLine, AStandardErrorThatCannotBeWrittenStopsNothing) {
+TEST_F(CommandLine, AnUnwritableStandardErrorStopsNothing) {
   folder_.write("study.yaml", small_manifest(20));
   for (const std::string to : {"2> /dev/full", "2>&-", "2>&1 | true"}) {
     const std::string command =
@@ -244,7 +244,7 @@ TEST_F(CommandLine, AStandardErrorThatCannotBeWrittenStopsNothing) {
 }
 
 // As any program that writes to a pipe: killed by the signal, without a message.
-TEST_F(CommandLine, AReaderThatHasEnoughEndsTheProgram) {
+TEST_F(CommandLine, AClosedPipeEndsTheProgram) {
   const std::string command =
       "cd " + folder_.path().string() + " && { " ZEROCOUNT_PROGRAM " schema 2> err; echo $? > code; } | true";
   std::system(command.c_str());
@@ -290,7 +290,7 @@ const command_line::OptionSpec& option_of(const command_line::CommandSpec& spec,
 }
 
 // Each command says of which question an option is; elsewhere the option would have no effect.
-TEST(OptionsWithoutEffect, AreErrorsOfEveryVerb) {
+TEST(OptionsWithoutEffect, AreErrorsOfEveryCommand) {
   int conditions = 0;
   for (const commands::Command& command : program::commands()) {
     const command_line::CommandSpec& spec = command.spec;

@@ -115,7 +115,7 @@ void for_pairs(const std::function<void(const CommandSpec&, const OptionSpec&, c
   }
 }
 
-TEST_F(SeparateFiles, NoTwoOutputsAreOneFile) {
+TEST_F(SeparateFiles, TwoOutputsMustBeDifferentFiles) {
   int pairs = 0;
   for_pairs([&](const CommandSpec& spec, const OptionSpec& one, const OptionSpec& other) {
     if (!is_output(one) || !is_output(other)) return;
@@ -130,7 +130,7 @@ TEST_F(SeparateFiles, NoTwoOutputsAreOneFile) {
   EXPECT_GE(pairs, 40);
 }
 
-TEST_F(SeparateFiles, NoOutputIsAnInputOfAnOption) {
+TEST_F(SeparateFiles, AnOutputMustNotBeAnInputOfAnOption) {
   int pairs = 0;
   folder_.write("out.html", "");
   for_pairs([&](const CommandSpec& spec, const OptionSpec& one, const OptionSpec& other) {
@@ -146,7 +146,7 @@ TEST_F(SeparateFiles, NoOutputIsAnInputOfAnOption) {
   EXPECT_GE(pairs, 8);
 }
 
-TEST_F(SeparateFiles, NoOutputIsAnOperand) {
+TEST_F(SeparateFiles, AnOutputMustNotBeAnOperand) {
   folder_.write("out.html", "");
   fs::create_hard_link(folder_.path() / "out.html", folder_.path() / "hard.html");
   int outputs = 0;
@@ -169,7 +169,7 @@ TEST_F(SeparateFiles, NoOutputIsAnOperand) {
 }
 
 // The check sees only what the options declare.
-TEST_F(SeparateFiles, EveryOptionThatNamesAFileSaysSo) {
+TEST_F(SeparateFiles, EveryFileOptionIsDeclaredAsOne) {
   const std::vector<std::string> names{"FILE", "DIR",      "PAGE", "TUNED",  "PICTURE",
                                        "PLOT", "MANIFEST", "DB",   "OUTPUT", "LIBRARY"};
   for (const commands::Command& command : program::commands()) {

@@ -63,7 +63,7 @@ class LivePage : public ProgramTest {
   }
 };
 
-TEST_F(LivePage, IsTheReportAtTheEnd) {
+TEST_F(LivePage, BecomesTheReportAtTheEnd) {
   folder_.write("a.yaml", small_manifest(30));
   run({"run", "a.yaml", "-o", "a.h5", "--watch", "watched.html"});
   run({"report", "a.h5", "-o", "report.html"});
@@ -80,7 +80,7 @@ TEST_F(LivePage, IsTheReportAtTheEnd) {
   EXPECT_EQ(folder_.read("sums.html"), program({"summary", "sums.h5", "--format", "html"}).out);
 }
 
-TEST_F(LivePage, SaysThatARunWasInterrupted) {
+TEST_F(LivePage, ReportsAnInterruptedRun) {
   folder_.write("a.yaml", small_manifest(1'000'000, "goal: {band: 1, within: 0.1, moves: 0.9}\n"));
   const std::string page = interrupted(
       {"run", "a.yaml", "-o", "a.h5", "--engine", "reference", "--watch", "watched.html"}, "goal: ");
@@ -89,7 +89,7 @@ TEST_F(LivePage, SaysThatARunWasInterrupted) {
   EXPECT_FALSE(has(page, reload));
 }
 
-TEST_F(LivePage, SaysThatATuningWasInterrupted) {
+TEST_F(LivePage, ReportsAnInterruptedTuning) {
   folder_.write("a.yaml", tunable);
   const std::string page = interrupted(
       {"tune", "a.yaml", "-o", "a.h5", "--budget", "60s", "--watch", "watched.html"}, "best so far: ");
@@ -99,7 +99,7 @@ TEST_F(LivePage, SaysThatATuningWasInterrupted) {
   EXPECT_FALSE(has(page, reload));
 }
 
-TEST_F(LivePage, OfATuningIsItsReportAtTheEnd) {
+TEST_F(LivePage, BecomesTheReportOfATuningAtTheEnd) {
   folder_.write("a.yaml", tunable);
   run({"tune", "a.yaml", "-o", "a.h5", "--budget", "10000", "--report", "report.html", "--watch",
        "watched.html"});
@@ -111,7 +111,7 @@ TEST_F(LivePage, OfATuningIsItsReportAtTheEnd) {
   EXPECT_FALSE(has(page, reload));
 }
 
-TEST_F(LivePage, SaysWhichErrorEndedTheWork) {
+TEST_F(LivePage, ReportsTheErrorThatEndedTheRun) {
   folder_.write("a.yaml", small_manifest(30));
   run({"run", "a.yaml", "-o", "a.h5"});
   const ProgramResult result =
@@ -122,7 +122,7 @@ TEST_F(LivePage, SaysWhichErrorEndedTheWork) {
   EXPECT_FALSE(has(page, reload));
 }
 
-TEST_F(LivePage, IsRefusedBeforeTheWorkWhereItCannotBeWritten) {
+TEST_F(LivePage, AnUnwritablePathIsRefusedBeforeTheRun) {
   folder_.write("a.yaml", std::string(tunable));
   folder_.write("there.html", "somebody's");
   for (const char* const command : {"run", "tune"}) {

@@ -107,7 +107,7 @@ std::vector<trial::SampleRecord> samples_of(const trial::TrialParameters& p) {
   return samples;
 }
 
-TEST_F(WrittenController, DecidesAsItsSimulation) {
+TEST_F(WrittenController, EqualsTheSimulatedController) {
   RandomBlocks draw(314);
   int trials = 0;
   for (int kind = 0; kind < block_kinds; ++kind) {
@@ -187,7 +187,7 @@ TEST_F(WrittenController, NamesNumbersThatReadBack) {
 
 // Beside an integral of 0.4 N m, of which single precision has steps of 3e-8 N m, increments of 6e-9 N m a
 // count vanish before the error does.
-TEST_F(WrittenController, SaysWhatSinglePrecisionLoses) {
+TEST_F(WrittenController, ReportsTheTrialsThatSinglePrecisionLoses) {
   folder_.write("fine.yaml",
                 "zerocount: 1\nname: fine\nseed: 1\ntrials: 5\n"
                 "friction: {model: spring, k1: 110, breakaway: 2}\nplant: {presliding_damping: 0.05}\n"
@@ -202,7 +202,7 @@ TEST_F(WrittenController, SaysWhatSinglePrecisionLoses) {
       says(result.err, "0 trials meet the goal (5); 5 are judged otherwise\n", "settled: median never (0.3"));
 }
 
-TEST_F(WrittenController, IsWrittenByTheProgramForItsPoint) {
+TEST_F(WrittenController, CommandWritesTheControllerOfAPoint) {
   folder_.write("axis.yaml",
                 "zerocount: 1\nname: axis\nseed: 1\ntrials: 4\ncommand: {targets: [20], hold: 0.3}\n"
                 "controller: {ki: 3.0e-5, hold: {enter: 0, dwell: 0.01}}\n"

@@ -220,7 +220,7 @@ bool has_a_twin(const parameters::Parameter& row) {
          row.name == "dac.resolution" || row.name == "controller.cascade.ki";
 }
 
-TEST_F(Causes, AreNamedForEveryParameterThatHasAnIdealValue) {
+TEST_F(Causes, CoverEveryParameterWithAnIdealValue) {
   std::size_t swept = 0;
   for (const parameters::Parameter& row : parameters::parameter_table()) {
     if (!row.ideal || has_a_twin(row)) continue;
@@ -243,7 +243,7 @@ TEST_F(Causes, AreNamedForEveryParameterThatHasAnIdealValue) {
 
 // What the axis is, what is chosen, and what is asked for. A parameter that is neither here nor has an ideal
 // value may cost moves and would never be named.
-TEST(IdealValues, AreMissingOnlyWhereThereIsNone) {
+TEST(IdealValues, AreMissingOnlyForParametersWithoutAnIdeal) {
   const std::vector<std::string_view> without{"plant.inertia",
                                               "plant.presliding_damping",
                                               "plant.sliding_damping",
@@ -305,7 +305,7 @@ TEST(IdealValues, AreMissingOnlyWhereThereIsNone) {
 }
 
 // A spectrum is no parameter of the table, and neither is friction that varies.
-TEST_F(Causes, AreNamedThatAreNoParameters) {
+TEST_F(Causes, IncludeSpectraAndVaryingFriction) {
   const auto is_shown = [](const Json& answer, std::string_view cause) {
     return std::ranges::any_of(answer["limits"], [&](const Json& one) {
       return one["cause"] == cause && one.value("shown", false);
@@ -318,7 +318,7 @@ TEST_F(Causes, AreNamedThatAreNoParameters) {
 
 // Where nothing that is tried helps no cause is named, and the answer says what was tried and what was not.
 // Nothing that is missed everywhere can get worse: no effect "costs at most 1 %" there.
-TEST_F(Causes, AreNotNamedWhereNothingHelps) {
+TEST_F(Causes, AreNotNamedIfNothingHelps) {
   const Json answer = limits_with({"goal.within=0.005"});
   for (const Json& one : answer["limits"]) EXPECT_FALSE(one.value("shown", false)) << one;
   const std::string headline = answer["headline"];
@@ -333,7 +333,7 @@ TEST_F(Causes, AreNotNamedWhereNothingHelps) {
 }
 
 // The rate before and after is that of one goal.
-TEST_F(Causes, AreComparedWithinOneGoal) {
+TEST_F(Causes, AreRankedWithinOneGoal) {
   std::string two_goals = faultless_axis;
   two_goals.replace(two_goals.find("goal:"), std::string::npos,
                     "goals: {close: {band: 2, within: 0.2, moves: 0.9},\n"
@@ -349,7 +349,7 @@ TEST_F(Causes, AreComparedWithinOneGoal) {
 }
 
 // A budget takes fewer machines, and says so.
-TEST_F(Causes, TakeAsManyTrialsAsTheBudgetAllows) {
+TEST_F(Causes, UseTheBudgetOfTrials) {
   folder_.write("axis.yaml", faultless_axis);
   const Words words{"limits", "axis.yaml", "--set", "trials=5000", "--set", "encoder.fine_errors.noise=2"};
   Words few = words;

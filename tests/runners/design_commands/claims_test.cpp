@@ -56,7 +56,7 @@ constexpr std::string_view three_gains =
     "controller.kd: [0, 3.0e-3]}, margins: off}\n";
 
 // The proof is a plain run: each goal under each condition has the rate of a study of that condition alone.
-TEST_F(Claims, OfATuningAreThoseOfPlainRunsAtTheTunedValues) {
+TEST_F(Claims, TuningAgreesWithPlainRunsAtTheTunedValues) {
   const std::string goals =
       "goals:\n"
       "  large: {on: [0, 1], band: 1, within: 0.012, moves: 0.9, machines: 0.8}\n"
@@ -104,7 +104,7 @@ TEST_F(Claims, OfATuningAreThoseOfPlainRunsAtTheTunedValues) {
 }
 
 // Gains for one condition fail the other; those for both are met wherever some are.
-TEST_F(Claims, TuningForAllConditionsIsNotWorseThanTuningForOne) {
+TEST_F(Claims, TuningForAllConditionsIsNotWorseThanForOne) {
   const std::vector<Condition> apart{
       {"light", "{}", "3.0e-4", "1"},
       {"heavy", "{plant.inertia: 2.4e-3, controller.delay: 2}", "2.4e-3", "2"}};
@@ -135,7 +135,7 @@ TEST_F(Claims, TuningForAllConditionsIsNotWorseThanTuningForOne) {
   EXPECT_LT(worst, 0.9) << "one condition alone is not enough";
 }
 
-TEST_F(Claims, OfLimitsAreThoseOfEachConditionAlone) {
+TEST_F(Claims, LimitsAgreeWithEachConditionAlone) {
   folder_.write("both.yaml", study(two_conditions, 80, std::string(two_goals)));
   const Json both = answer({"limits", "both.yaml"})["limits"];
   std::vector<Json> alone;
@@ -171,7 +171,7 @@ TEST_F(Claims, OfLimitsAreThoseOfEachConditionAlone) {
   EXPECT_EQ(answer({"limits", "both.yaml"})["limits"][0]["rate"], lowest);
 }
 
-TEST_F(Claims, OfTheWorstMachineIsThatOfItsWorstCondition) {
+TEST_F(Claims, WorstMachineIsThatOfItsWorstCondition) {
   const std::string goal = "goal: {band: 1, within: 0.02, moves: 0.9}\n";
   const std::string command = "{targets: [29], hold: 0.05}";
   folder_.write("both.yaml", study(two_conditions, 80, goal, command));
@@ -202,7 +202,7 @@ TEST_F(Claims, OfTheWorstMachineIsThatOfItsWorstCondition) {
 }
 
 // Of several goals it is named which one the worst machine meets the least often, as its manifest shows.
-TEST_F(Claims, OfTheWorstMachineNameTheGoal) {
+TEST_F(Claims, WorstMachineNamesTheGoal) {
   const std::string goals =
       "goals:\n  large: {on: [0, 1], band: 1, within: 0.03, moves: 0.9}\n"
       "  small: {on: [2], band: 40, within: 0.09, moves: 0.8}\n";

@@ -194,7 +194,7 @@ TEST_F(Limits, EachRowEqualsARunOfItsManifest) {
 }
 
 // A change is of one thing: where the study is without it, the row is absent or has the rate of the study.
-TEST_F(Limits, ARowChangesNothingWhereItsEffectIsAbsent) {
+TEST_F(Limits, ARowChangesNothingIfItsEffectIsAbsent) {
   for (const RowAndValues& one : rows_and_values()) {
     const std::string cause = one.cause;
     // A count, a code and a sample are never absent.
@@ -210,7 +210,7 @@ TEST_F(Limits, ARowChangesNothingWhereItsEffectIsAbsent) {
 
 // Every length in counts keeps its length, and what zero counts define keeps ± half an old count, whatever
 // the goal limits.
-TEST_F(Limits, KeepEveryLengthOfTheGoalWithAFinerEncoder) {
+TEST_F(Limits, AFinerEncoderKeepsEveryLengthOfTheGoal) {
   const std::string manifest = R"(zerocount: 1
 name: lengths
 seed: 11
@@ -278,7 +278,7 @@ verdict: {dwell: 0.01, window: 0.05, motion: true, rest_band: 1, bands: [3]}
 }
 
 // What depends on the zero counts of single samples cannot be told by another encoder.
-TEST_F(Limits, RefuseALimitThatOnlyTheEncoderItselfCanTell) {
+TEST_F(Limits, RefuseALimitThatOnlyTheEncoderMeasures) {
   const Json finer = row(limits_of(std::string(in_counts), {"--set", "goal.limits={zero_fraction: 0.5}"}),
                          "an encoder 4 times finer");
   EXPECT_TRUE(finer["rate"].is_null());
@@ -286,7 +286,7 @@ TEST_F(Limits, RefuseALimitThatOnlyTheEncoderItselfCanTell) {
 }
 
 // A rigid axis keeps what acts on the load: its friction, damping, disturbance and inertia.
-TEST_F(Limits, KeepWhatActsOnTheLoadOfARigidAxis) {
+TEST_F(Limits, ARigidAxisKeepsWhatActsOnItsLoad) {
   const std::string manifest = R"(zerocount: 1
 name: two-masses
 seed: 12
@@ -343,7 +343,7 @@ goal: {of: load, tolerance: 1.0e-3, within: 0.12, moves: 0.9}
 }
 
 // One mass has one friction, no gap and no kinematic error: the coupling gets stiffer, and these stay.
-TEST_F(Limits, StiffenACouplingThatOneMassCannotStandFor) {
+TEST_F(Limits, ACouplingThatCannotBeRigidIsStiffened) {
   const std::string manifest = R"(zerocount: 1
 name: two-frictions
 seed: 13
@@ -370,7 +370,7 @@ goal: {of: load, tolerance: 1.0e-3, within: 0.15, moves: 0.9}
 }
 
 // A window of the derivative, a position loop of a host and a bus are times: a row of their own each.
-TEST_F(Limits, KeepTimesThatAreGivenInSamples) {
+TEST_F(Limits, TimesGivenInSamplesAreKept) {
   const std::string manifest = R"(zerocount: 1
 name: window
 seed: 14
@@ -403,7 +403,7 @@ goal: {tolerance: 1.0e-4, within: 0.3, moves: 0.8}
 }
 
 // The feed-forward that an axis needs is that of its own inertia, damping and friction.
-TEST_F(Limits, TryTheFeedForwardAndTheProfileThatTheAxisNeeds) {
+TEST_F(Limits, TryTheIdealFeedForwardAndProfile) {
   const std::string manifest = R"(zerocount: 1
 name: follower
 seed: 15
@@ -439,7 +439,7 @@ goal: {tolerance: 1.0e-3, within: 0.6, moves: 0.9, limits: {following_error_rms:
 }
 
 // Where the coarse encoder closes the loop, it is the one that is refined; nothing else is.
-TEST_F(Limits, RefineTheEncoderThatClosesTheLoop) {
+TEST_F(Limits, OnlyTheEncoderThatClosesTheLoopIsRefined) {
   const std::string manifest = R"(zerocount: 1
 name: coarse
 seed: 3
@@ -457,7 +457,7 @@ goal: {band: 8, within: 0.1, moves: 0.95}
 
 // A cause is there if a trial can have it, whichever trials the seed draws; one that none can have is not. Of
 // causes that are read off the drawn trials, all are there with all three seeds three times in ten thousand.
-TEST_F(Limits, HaveTheSameCausesForEverySeed) {
+TEST_F(Limits, CausesDoNotDependOnTheSeed) {
   const std::string manifest = R"(zerocount: 1
 name: rare-causes
 seed: 1
@@ -491,7 +491,7 @@ goal: {band: 1, within: 0.1, moves: 0.9}
 }
 
 // What a manifest cannot describe is not simulated, and the reason is given.
-TEST_F(Limits, SayWhatTheyDoNotSimulate) {
+TEST_F(Limits, CausesThatAreNotSimulatedGiveTheReason) {
   const std::string late = R"(zerocount: 1
 name: late
 seed: 2
@@ -518,7 +518,7 @@ goal: {band: 1, within: 0.02, moves: 0.9}
 }
 
 // Where nothing is missed no cause can be at fault: none is simulated, and each row says so.
-TEST_F(Limits, SimulateNoCauseWhereNothingIsMissed) {
+TEST_F(Limits, SimulateNoCauseIfNoMoveMisses) {
   const std::string manifest = R"(zerocount: 1
 name: met
 seed: 2
@@ -537,7 +537,7 @@ goal: {band: 2, within: 0.25, moves: 0.9}
 }
 
 // The load of a machine and the integral that carries it are drawn together, and go together.
-TEST_F(Limits, TakeALoadAwayWithWhatHoldsIt) {
+TEST_F(Limits, RemovingALoadRemovesTheIntegralThatHoldsIt) {
   folder_.write("loads.csv", "disturbance.torque,initial.integral\n-100,100\n-110,110\n-90,90\n-20,20\n");
   const std::string manifest = R"(zerocount: 1
 name: z-axis
@@ -567,7 +567,7 @@ goal: {band: 2, within: 0.1, moves: 0.95}
 }
 
 // So do a load on a second mass, and gravity that is a ripple of one period.
-TEST_F(Limits, TakeALoadOfTheSecondMassAwayWithWhatHoldsIt) {
+TEST_F(Limits, RemovingALoadOfTheSecondMassRemovesTheIntegralThatHoldsIt) {
   const std::string manifest = R"(zerocount: 1
 name: tilting-arm
 seed: 16
@@ -605,7 +605,7 @@ goal: {tolerance: 1.0e-5, within: 0.25, moves: 0.9}
 
 class LimitsOfAxis : public Tune {};
 
-TEST_F(LimitsOfAxis, AreOfThePointThatIsAskedFor) {
+TEST_F(LimitsOfAxis, AreThoseOfTheSelectedPoint) {
   write_axis("goal: {band: 0, within: 0.05, moves: 0.98}\nsweep: {grid: {controller.delay: [0, 1]}}\n");
   EXPECT_TRUE(says(program({"limits", "axis.yaml"}).err, "expected one with --point"));
   const auto rate_of = [this](const std::vector<std::string>& words) {
@@ -616,7 +616,7 @@ TEST_F(LimitsOfAxis, AreOfThePointThatIsAskedFor) {
   EXPECT_EQ(rate_of({"limits", "axis.yaml", "--format", "json"}), swept);
 }
 
-TEST_F(LimitsOfAxis, SayWhatTheTheoryObjectsToAndTheLeastBudget) {
+TEST_F(LimitsOfAxis, ReportObjectionsOfTheTheoryAndTheSmallestBudget) {
   write_axis("goal: {band: 0, within: 0.05, moves: 0.98}\n");
   const std::string objection = "by the linear theory (`zerocount check`), ";
   EXPECT_TRUE(says(program({"limits", "axis.yaml", "--set", "controller.ki=1.0e-3"}).out, objection));

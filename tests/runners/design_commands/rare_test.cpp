@@ -57,7 +57,7 @@ class Rare : public ProgramTest {
 };
 
 // Bounds of 95 % hold in both repetitions with a probability of 0.9 at least; here they do.
-TEST_F(Rare, BoundsHoldWhereASpringSaturatesItsConverter) {
+TEST_F(Rare, BoundsHoldIfASpringSaturatesTheConverter) {
   for (const double probability : {1e-4, 1e-8}) {
     folder_.write("spring.yaml", spring(probability));
     const Json answer = answer_to({"rare", "spring.yaml", "-o", "rare.h5", "--force"});
@@ -82,11 +82,11 @@ TEST_F(Rare, FailuresAreReplayed) {
   const std::string trial = text.out.substr(at + 8, text.out.find_first_of(",\n", at) - at - 8);
   EXPECT_EQ(program({"trace", "rare.h5", "--trial", trial, "-o", "failure.csv"}).code, 0);
   expect_refused({"trace", "rare.h5", "--trial", "100000000"}, "--trial");
-  expect_refused({"trace", "rare.h5", "--point", "0"}, "of one point of one manifest");
+  expect_refused({"trace", "rare.h5", "--point", "0"}, "belongs to one point of one manifest");
 }
 
 // With a larger budget the same command goes on; the answer is that of one run.
-TEST_F(Rare, AnUnfinishedEstimateGoesOn) {
+TEST_F(Rare, AnUnfinishedEstimateContinues) {
   folder_.write("spring.yaml", spring(1e-5));
   const std::vector<std::string> narrow{"rare", "spring.yaml", "--ratio", "1.25", "-o"};
   const auto with = [&](std::vector<std::string> more) {
@@ -108,7 +108,7 @@ TEST_F(Rare, AnUnfinishedEstimateGoesOn) {
 
 // The event that is the missed goal has the same trials and the same answer. Other commands say that its file
 // holds no study.
-TEST_F(Rare, AnEventIsAskedByAMeasure) {
+TEST_F(Rare, AnEventIsDefinedByAMeasure) {
   folder_.write("spring.yaml", spring(1e-4));
   const Json goal = answer_to({"rare", "spring.yaml", "-o", "goal.h5"});
   const Json event =
@@ -120,7 +120,7 @@ TEST_F(Rare, AnEventIsAskedByAMeasure) {
 }
 
 // Nothing leads to an event that does not exist.
-TEST_F(Rare, IsUndecidedWhereNothingFails) {
+TEST_F(Rare, IsUndecidedIfNothingFails) {
   folder_.write("spring.yaml", spring(1e-4));
   const Json answer = answer_to(
       {"rare", "spring.yaml", "-o", "rare.h5", "--event", "holding_torque < -1", "--budget", "100000"}, 3);
@@ -155,7 +155,7 @@ TEST_F(Rare, TriesEveryEntryOfAChoice) {
 }
 
 // The answer of a budget in time depends on the machine, and says so.
-TEST_F(Rare, SaysThatABudgetInTimeDependsOnTheMachine) {
+TEST_F(Rare, ReportsThatATimeBudgetDependsOnTheComputer) {
   folder_.write("spring.yaml", spring(1e-6));
   const std::string words = "depend on the machine";
   const ProgramResult in_time = program({"rare", "spring.yaml", "-o", "time.h5", "--budget", "0.01s"});
@@ -197,7 +197,7 @@ TEST_F(Rare, TheWorstLikelyMachineLooksLikeTheFailures) {
 }
 
 // The estimate under a condition is that of the study whose manifest has its overrides, and goes on as such.
-TEST_F(Rare, IsOfOneCondition) {
+TEST_F(Rare, EstimatesTheSelectedCondition) {
   const std::string text = spring(1e-4);
   folder_.write("both.yaml", text + "conditions: {usual: {}, weak: {dac.bits: 11}}\n");
   folder_.write("weak.yaml", text);
@@ -217,13 +217,12 @@ TEST_F(Rare, IsOfOneCondition) {
   }
   // The file knows its condition: it goes on with it, refuses another, and replays its trials.
   answer_to({"rare", "both.yaml", "-o", "rare.h5", "--condition", "weak"});
-  expect_refused({"rare", "both.yaml", "-o", "rare.h5", "--condition", "usual"},
-                 "it is of another condition");
+  expect_refused({"rare", "both.yaml", "-o", "rare.h5", "--condition", "usual"}, "its condition differs");
   EXPECT_EQ(program({"trace", "rare.h5", "--trial", "0", "-o", "trial.csv"}).code, 0);
 }
 
 // A move that no goal is about does not dilute the probability.
-TEST_F(Rare, CountsTheMovesThatTheGoalIsAbout) {
+TEST_F(Rare, CountsOnlyMovesThatTheGoalJudges) {
   const std::string text = spring(1e-3);
   folder_.write("one.yaml", text);
   const double one = answer_to({"rare", "one.yaml", "-o", "one.h5"})["probability"];
@@ -235,7 +234,7 @@ TEST_F(Rare, CountsTheMovesThatTheGoalIsAbout) {
   EXPECT_NEAR(answer["probability"].get<double>(), one, 0.4 * one);
 }
 
-TEST_F(Rare, SaysWhatIsMissing) {
+TEST_F(Rare, MissingInputsAreRefusedWithTheReason) {
   folder_.write("fixed.yaml",
                 "zerocount: 1\nname: fixed\nseed: 1\ntrials: 1\ncommand: {targets: [1], hold: 0.1}\n"
                 "goal: {band: 0, within: 0.1, moves: 0.9}\n");

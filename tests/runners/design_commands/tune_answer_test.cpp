@@ -53,7 +53,7 @@ nlohmann::ordered_json json_of(const TuneAnswer& answer, const study::Study& stu
   return document::json(tune_answer().of({answer, study, "tuned.h5"}));
 }
 
-TEST(TuneAnswer, SaysThatATimeIsNotReachedInASentence) {
+TEST(TuneAnswer, AnUnreachedTimeIsStatedInASentence) {
   const study::Study study = axis();
   const std::string text = text_of(answer_for(study, goal::Status::missed), study);
   EXPECT_THAT(text, HasSubstr("band_settling_time.p95 (s): not within the hold\n"));
@@ -61,7 +61,7 @@ TEST(TuneAnswer, SaysThatATimeIsNotReachedInASentence) {
   for (const char* const hole : {"hold s", "inf", "nan", "–"}) EXPECT_THAT(text, Not(HasSubstr(hole)));
 }
 
-TEST(TuneAnswer, UnreachableSaysByHowMuchTheGoalIsMissed) {
+TEST(TuneAnswer, AnUnreachableGoalIsReportedWithItsShortfall) {
   const study::Study study = axis();
   EXPECT_EQ(
       json_of(answer_for(study, goal::Status::missed), study)["headline"],
@@ -69,7 +69,7 @@ TEST(TuneAnswer, UnreachableSaysByHowMuchTheGoalIsMissed) {
       "85.3 % of the moves meet the goal, and at least 90 % are wanted");
 }
 
-TEST(TuneAnswer, NamesEachMarginWithItsUnitAndWhatIsWanted) {
+TEST(TuneAnswer, NamesEachMarginWithUnitAndRequirement) {
   const study::Study study = axis();
   TuneAnswer answer = answer_for(study, goal::Status::met);
   answer.tuned.margins =
@@ -85,7 +85,7 @@ TEST(TuneAnswer, NamesEachMarginWithItsUnitAndWhatIsWanted) {
     EXPECT_THAT(text, HasSubstr(part));
 }
 
-TEST(TuneAnswer, NamesTheMarginsThatTheNearestPointLacks) {
+TEST(TuneAnswer, NamesTheMarginsThatTheNearestPointMisses) {
   const study::Study study = axis();
   TuneAnswer answer;
   answer.status = goal::Status::missed;
@@ -103,7 +103,7 @@ TEST(TuneAnswer, NamesTheMarginsThatTheNearestPointLacks) {
   EXPECT_THAT(text_of(answer, study), HasSubstr("unstable at all of them; at the nearest by 4.5 dB of gain"));
 }
 
-TEST(TuneAnswer, NamesWhatTheBudgetWasNotEnoughFor) {
+TEST(TuneAnswer, NamesTheExtrasThatTheBudgetLeftOut) {
   const study::Study study = axis();
   TuneAnswer answer = answer_for(study, goal::Status::met);
   answer.budget.trials = 900;
@@ -119,7 +119,7 @@ TEST(TuneAnswer, NamesWhatTheBudgetWasNotEnoughFor) {
   EXPECT_EQ(json_of(answer, study)["left_out"], (nlohmann::ordered_json{"room", "limits"}));
 }
 
-TEST(TuneAnswer, SaysWhatTheMovesOfOneMachineOfTheProofCannotShow) {
+TEST(TuneAnswer, SaysHowManyMovesOneMachineWouldNeed) {
   const study::Study study = manifest::parse_study(R"(zerocount: 1
 name: axis
 seed: 1
@@ -155,7 +155,7 @@ goal::Verdict verdict_on_claims() {
   return whole;
 }
 
-TEST(TuneAnswer, NamesTheGoalAndTheConditionThatAreMetByTheLeast) {
+TEST(TuneAnswer, NamesTheGoalAndConditionWithTheSmallestMargin) {
   const study::Study study = manifest::parse_study(R"(zerocount: 1
 name: axis
 seed: 1
@@ -191,7 +191,7 @@ tune: {free: {controller.ki: {log: [1.0e-5, 1.0e-4]}, controller.kp: [0, 1.0e-3]
 }
 
 // What is printed as soon as it is ready is all of the answer.
-TEST(TuneAnswer, IsTheProvenPartTheExtrasAndTheEffort) {
+TEST(TuneAnswer, JsonHasTheProofTheExtrasAndTheEffort) {
   const study::Study study = axis();
   TuneAnswer answer = answer_for(study, goal::Status::met);
   answer.extras.found = {MoreDelay{.delays = {1.0}}, std::vector{Room{"controller.ki", 1e-5, 2e-5}},
@@ -254,7 +254,7 @@ summary::MoveBehaviour quiet_moves() {
   return row;
 }
 
-TEST(TuneAnswer, SaysWhatAnEngineerWouldRefuseAndWhatExcludesIt) {
+TEST(TuneAnswer, NamesImplausibleBehaviourAndItsRemedy) {
   study::Study study = axis();
   const auto remedies_of = [&](const summary::MoveBehaviour& row, double phase) {
     std::vector<std::string> remedies;
@@ -290,7 +290,7 @@ TEST(TuneAnswer, SaysWhatAnEngineerWouldRefuseAndWhatExcludesIt) {
               HasSubstr("before the proof: a drive engineer would refuse"));
 }
 
-TEST(TuneAnswer, IsUndecidedWhereAnotherFinalistMayMeetTheGoal) {
+TEST(TuneAnswer, IsUndecidedIfAnotherFinalistMayMeetTheGoal) {
   const study::Study study = axis();
   TuneAnswer answer = answer_for(study, goal::Status::undecided);
   answer.proof->verdict.status = goal::Status::missed;
@@ -302,7 +302,7 @@ TEST(TuneAnswer, IsUndecidedWhereAnotherFinalistMayMeetTheGoal) {
               HasSubstr("undecided: at 96 of 100 points that were tried hardly any move meets the goal"));
 }
 
-TEST(TuneAnswer, NamesASimplerControlInTheRangesThatDoesBetter) {
+TEST(TuneAnswer, NamesASimplerControlThatIsBetter) {
   const study::Study study = axis();
   TuneAnswer answer = answer_for(study, goal::Status::met);
   answer.proof->verdict.status = goal::Status::met;

@@ -10,7 +10,7 @@ class TuneBudget : public Tune {};
 
 // As soon as the results file is there it is the whole proof; the answer is printed before any extra; Ctrl-C
 // keeps both, and the same command ends with the answer of a tuning without interruption.
-TEST_F(TuneBudget, GivesTheProvenAnswerBeforeTheExtrasAndKeepsIt) {
+TEST_F(TuneBudget, WritesTheProvenAnswerBeforeTheExtras) {
   write_axis("goal: {band: 1, within: 0.1, moves: 0.98}\n" + std::string(two_gains));
   const std::vector<std::string> command{"tune", "axis.yaml", "-o", "tuned.h5", "--budget", "9000"};
   const std::filesystem::path out = folder_.path() / "out.txt";
@@ -48,7 +48,7 @@ TEST_F(TuneBudget, GivesTheProvenAnswerBeforeTheExtrasAndKeepsIt) {
   }
 }
 
-TEST_F(TuneBudget, MakesTheExtrasThatAreAskedFor) {
+TEST_F(TuneBudget, MakesTheRequestedExtras) {
   write_axis("goal: {band: 1, within: 0.1, moves: 0.98}\n" + std::string(two_gains));
   EXPECT_EQ(tune({"--extras", "rooms"}).code, 2);
   EXPECT_EQ(tune({"--extras", "maps"}).code, 2) << "without a page";
@@ -79,7 +79,7 @@ TEST_F(TuneBudget, MakesTheExtrasThatAreAskedFor) {
   EXPECT_EQ(program(replacing).code, 0);
 }
 
-TEST_F(TuneBudget, NamesTheExtrasThatABudgetLeavesOutWithTheCommandThatMakesThem) {
+TEST_F(TuneBudget, NamesTheCommandForExtrasThatTheBudgetLeftOut) {
   write_axis("goal: {band: 1, within: 0.06, moves: 0.9}\n" + std::string(two_gains));
   const ProgramResult result = program({"tune", "axis.yaml", "-o", "tuned.h5", "--budget", "1500"});
   ASSERT_EQ(result.code, 0) << result.err;
@@ -102,7 +102,7 @@ std::int64_t trials_in(const Json& answer) {
 }
 
 // Of any size, on machines or trials of their own, with worlds, met or missed.
-TEST_F(TuneBudget, HoldsItsBudgetOfTrialsInAllThatItRuns) {
+TEST_F(TuneBudget, NeverExceedsTheBudgetOfTrials) {
   const std::string moves = "goal: {band: 1, within: 0.06, moves: 0.9}\n";
   const std::string machines = "goal: {band: 1, within: 0.06, moves: 0.9, machines: 0.8}\n";
   const std::string missed = "goal: {band: 0, within: 0.004, moves: 0.9}\n";
@@ -129,7 +129,7 @@ TEST_F(TuneBudget, HoldsItsBudgetOfTrialsInAllThatItRuns) {
   }
 }
 
-TEST_F(TuneBudget, HoldsItsBudgetOfTime) {
+TEST_F(TuneBudget, NeverExceedsTheBudgetOfTime) {
   write_axis("goal: {band: 1, within: 0.06, moves: 0.9}\n" + std::string(two_gains));
   const auto start = std::chrono::steady_clock::now();
   const ProgramResult result = tune({}, "2s");
@@ -171,7 +171,7 @@ std::vector<ControlInAnswer> controls_in(const Json& answer) {
 }
 
 // Every pair of controls of which one has all blocks of the other: the rates are of 500 machines at least.
-TEST_F(Tune, DISABLED_AControlWithMoreBlocksIsWorseOnlyByChance) {
+TEST_F(Tune, DISABLED_MoreControlBlocksAreWorseOnlyByChance) {
   int pairs = 0;
   for (const std::string goal :
        {"{band: 1, within: 0.05, moves: 0.95}", "{band: 0, within: 0.1, moves: 0.9}"}) {
@@ -191,7 +191,7 @@ TEST_F(Tune, DISABLED_AControlWithMoreBlocksIsWorseOnlyByChance) {
 }
 
 // The ranges of kp and kd are so wide that only their low ends keep the margins: the integral alone does.
-TEST_F(Tune, IsNotUnreachableWhereASimplerControlMeetsTheGoal) {
+TEST_F(Tune, IsNotUnreachableIfASimplerControlMeetsTheGoal) {
   write_axis(
       "goal: {band: 1, within: 0.2, moves: 0.9}\ntune: {free: {controller.ki: {log: [2.0e-6, 1.0e-4]}, "
       "controller.kp: [0, 2.0e-2], controller.kd: [0, 1.5e-1]}}\n");
@@ -258,7 +258,7 @@ TEST_F(Tune, DISABLED_FindsTheFastestProfileThatTheConverterCanFollow) {
 
 // Every limit in these ranges makes the travel longer than the hold: no point is simulated, and the margins
 // are not to blame.
-TEST_F(Tune, SaysWhyNoPointAtAllIsAllowed) {
+TEST_F(Tune, GivesTheReasonIfNoPointIsAllowed) {
   folder_.write("axis.yaml", std::string(mass_with_profile));
   const ProgramResult result =
       tune({"--set", "tune.free={command.profile.acceleration_limit: {log: [1, 10]}}"});
@@ -273,7 +273,7 @@ TEST_F(Tune, SaysWhyNoPointAtAllIsAllowed) {
 // What `tune` refuses: sections, budgets, and files that are in its way.
 
 // What a budget must be for the search and the proof is what it says.
-TEST_F(Tune, RefusesABudgetThatIsTooSmallWithWhatItNeeds) {
+TEST_F(Tune, ATooSmallBudgetIsRefusedWithTheNeededOne) {
   write_axis("goal: {band: 1, within: 0.06, moves: 0.97}\n" + std::string(two_gains));
   const ProgramResult refused = tune({}, "100");
   EXPECT_EQ(refused.code, 2);
@@ -287,7 +287,7 @@ TEST_F(Tune, RefusesABudgetThatIsTooSmallWithWhatItNeeds) {
   EXPECT_LE(Json::parse(result.out)["spent_trials"], needed);
 }
 
-TEST_F(Tune, KeepsUnfinishedRunsAndTuningsOfOthers) {
+TEST_F(Tune, KeepsUnfinishedRunsAndOtherTunings) {
   write_axis("goal: {band: 1, within: 0.1, moves: 0.98}\n" + std::string(two_gains));
   std::filesystem::create_directory(folder_.path() / "tuned.h5.shards");
   const std::vector<std::string> command{"tune", "axis.yaml", "-o", "tuned.h5", "--budget", "2500"};
@@ -331,7 +331,7 @@ TEST_F(Tune, RefusesWrongSectionsWithTheirPlace) {
 }
 
 // Gains in SI units of a linear axis are far larger than those per count.
-TEST_F(Tune, TakesTheRangesOfGainsInTheirUnits) {
+TEST_F(Tune, RangesOfGainsAreInTheUnitsOfTheManifest) {
   folder_.write("stage.yaml", R"(zerocount: 1
 name: stage
 axis: linear
@@ -351,11 +351,11 @@ tune: {free: {controller.ki: {log: [1.0e+7, 5.0e+9]}, controller.kp: [0, 1.0e+7]
   EXPECT_EQ(result.code, 0) << result.err;
 }
 
-TEST_F(Tune, RefusesACriterionThatIsNoQuantile) {
+TEST_F(Tune, RefusesACriterionThatIsNotAQuantile) {
   write_axis("goal: {within: 0.1, moves: 0.98}\n" + std::string(two_gains) + "  minimise: ki\n");
   for (const ProgramResult& result : {tune(), program({"check", "axis.yaml"})}) {
     EXPECT_EQ(result.code, 2);
-    EXPECT_TRUE(says(result.err, "tune.minimise: 'ki' is no quantile"));
+    EXPECT_TRUE(says(result.err, "tune.minimise: 'ki' is not a quantile"));
   }
 }
 

@@ -92,7 +92,7 @@ TEST_F(Tune, DoesNotDependOnTheNumberOfThreads) {
 }
 
 // The answer after interruptions in the search, and in what follows it, is that of a run without any.
-TEST_F(Tune, GoesOnAfterAnInterruption) {
+TEST_F(Tune, ContinuesAfterAnInterruption) {
   write_axis("goal: {band: 1, within: 0.1, moves: 0.98}\n" + std::string(two_gains));
   const std::vector<std::string> command{"tune",     "axis.yaml", "-o",       "tuned.h5",
                                          "--format", "json",      "--budget", "5000"};
@@ -141,7 +141,7 @@ std::pair<double, double> upper_of(std::vector<double> values) {
 // Each number of what the values do is that of a study which `run` simulates with them: under each condition,
 // of the moves of each goal, in counts, SI units and of the step, with drawn steps, on a converter that
 // clips.
-TEST_F(Tune, SaysWhatTheTunedValuesDo) {
+TEST_F(Tune, BehaviourOfTheTunedValuesMatchesAPlainRun) {
   std::string manifest = std::string(axis);
   const std::string command = "command: {targets: [29], hold: 0.3}";
   manifest.replace(
@@ -223,7 +223,7 @@ TEST_F(Tune, SaysWhatTheTunedValuesDo) {
 }
 
 // The margins that are missing, and by how much, in the text, the JSON and the page.
-TEST_F(Tune, WithoutAPointThatKeepsTheMarginsNamesTheNearest) {
+TEST_F(Tune, NamesTheNearestPointIfNoneKeepsTheMargins) {
   const auto write = [this](const std::string& margins) {
     write_axis(
         "goal: {band: 1, within: 0.05, moves: 0.9}\ntune: {free: {controller.ki: {log: [2.0e-5, 1.0e-4]}, "
@@ -261,7 +261,7 @@ TEST_F(Tune, TheReportOfItsFileHasTheMarginsOfTuning) {
 }
 
 // A rate that is 0 nearly everywhere leads nowhere: it does not show that no values meet the goal.
-TEST_F(Tune, DISABLED_IsUndecidedWhereHardlyAnyMoveMeetsTheGoalAnywhere) {
+TEST_F(Tune, DISABLED_IsUndecidedIfHardlyAnyMoveMeetsTheGoal) {
   write_axis("goal: {band: 0, within: 0.004, moves: 0.98}\n" + std::string(two_gains));
   const ProgramResult result = tune({"--extras", "none"}, "5000");
   EXPECT_EQ(result.code, 3) << result.out << result.err;
@@ -274,7 +274,7 @@ TEST_F(Tune, DISABLED_IsUndecidedWhereHardlyAnyMoveMeetsTheGoalAnywhere) {
 
 // All moves meet this goal with a feed-forward near the inertia, none elsewhere: a search that does not find
 // it knows nothing of it.
-TEST_F(Tune, OfANarrowRangeOfGoodValuesNeverSaysThatItIsUnreachable) {
+TEST_F(Tune, ANarrowRangeOfGoodValuesIsNeverCalledUnreachable) {
   folder_.write("axis.yaml", R"(zerocount: 1
 name: needle
 seed: 1
@@ -298,7 +298,7 @@ tune: {free: {controller.feedforward.acceleration: [0, 1.0e-2]}, margins: off}
 }
 
 // What stands in the way stands in the answer: no torque of this range moves the axis as far.
-TEST_F(Tune, OfAMissedGoalNamesATorqueRangeThatIsUsedUp) {
+TEST_F(Tune, AMissedGoalShowsAnExhaustedTorqueRange) {
   write_axis("dac: {bits: 24, range: 0.004}\ngoal: {band: 1, within: 0.03, moves: 0.98}\n" +
              std::string(two_gains));
   const ProgramResult result = tune({"--extras", "none"}, "5000");
@@ -306,7 +306,7 @@ TEST_F(Tune, OfAMissedGoalNamesATorqueRangeThatIsUsedUp) {
   EXPECT_GT(Json::parse(result.out)["behaviour"][0]["peak_of_range_max"], 0.999);
 }
 
-TEST_F(Tune, OfAGoalBeyondReachSaysSo) {
+TEST_F(Tune, AGoalBeyondReachIsCalledUnreachable) {
   write_axis("goal: {band: 0, within: 0.06, moves: 0.98}\n" + std::string(two_gains));
   const ProgramResult result = tune({}, "5000");
   EXPECT_EQ(result.code, 1) << result.out << result.err;
@@ -319,7 +319,7 @@ TEST_F(Tune, OfAGoalBeyondReachSaysSo) {
 
 // Moves of some counts within 4 ms take more torque than the converter has: 0 % everywhere, and no gains
 // help.
-TEST_F(Tune, DISABLED_OfAMoveThatTheTorqueCannotMakeIsUnreachableWithoutALandscape) {
+TEST_F(Tune, DISABLED_AMoveThatNeedsMoreTorqueIsUnreachable) {
   write_axis("dac: {bits: 12, resolution: 1.0e-7}\ngoal: {band: 0, within: 0.004, moves: 0.98}\n" +
              std::string(two_gains));
   const ProgramResult result = tune({}, "5000");
@@ -343,7 +343,7 @@ TEST_F(Tune, MinimisesTheTorqueNoiseAtRest) {
   EXPECT_LT(noise[1], noise[0]);
 }
 
-TEST_F(Tune, SaysWhenTheGoalIsLost) {
+TEST_F(Tune, NamesTheAgeAtWhichTheGoalIsLost) {
   write_axis("ages: {at: [0, 1.0e+6]}\ngoal: {band: 1, within: 0.08, moves: 0.95}\n" +
              std::string(two_gains));
   const std::string growing =

@@ -45,7 +45,7 @@ class Worst : public ProgramTest {
   }
 };
 
-TEST_F(Worst, IsRepeatedByItsManifest) {
+TEST_F(Worst, ItsManifestReproducesIt) {
   folder_.write(
       "machines.csv",
       "friction.k1,friction.k2,initial.preload\n100,700,0.05\n100,900,-0.05\n140,700,0.1\n90,500,0\n");
@@ -93,7 +93,7 @@ TEST_F(Worst, IsRepeatedByItsManifest) {
 }
 
 // Another design draws another mean; the profile is that of the study.
-TEST_F(Worst, HasTheProfileOfTheStudyInEveryDesign) {
+TEST_F(Worst, KeepsTheProfileOfTheStudyInEveryDesign) {
   for (const char* design : {"monte_carlo", "sobol", "latin_hypercube"}) {
     const Json found = worst(fmt::format(
         "{}goal: {{band: 0, within: 0.045, moves: 0.9}}\ntrials: 8\ndesign: {}\nfriction: {{k1: {{profile: "
@@ -118,7 +118,7 @@ TEST_F(Worst, IsAtLeastAsBadAsTheWorstMachineOfTheStudy) {
   EXPECT_EQ(found["box"]["moves"], found["again"]["moves"]);
 }
 
-TEST_F(Worst, SaysWhereItIsLikelyToo) {
+TEST_F(Worst, NamesTheWorstLikelyMachineToo) {
   folder_.write("axis.yaml",
                 std::string(common_part) +
                     "goal: {band: 0, within: 0.05, moves: 0.9}\ntrials: 20\nsamples: rows.csv\n");
@@ -131,7 +131,7 @@ TEST_F(Worst, SaysWhereItIsLikelyToo) {
 }
 
 // Only the correlation of its values makes a draw a machine: in the corners of the box there is none.
-TEST_F(Worst, IsAMachineWhereMeasuredValuesBelongTogether) {
+TEST_F(Worst, IsAPossibleMachineIfMeasuredValuesDependOnEachOther) {
   const std::string manifest =
       std::string(common_part) +
       "machines: 8\ntrials: 16\ngoal: {band: 1, within: 0.05, moves: 0.9}\n"
@@ -151,7 +151,7 @@ TEST_F(Worst, IsAMachineWhereMeasuredValuesBelongTogether) {
 
 // Rows that are drawn for each trial do not belong to a machine with machines, and a results file has no
 // place of their table.
-TEST_F(Worst, IsToldWhereNoManifestCanBeWritten) {
+TEST_F(Worst, AnswersEvenIfNoManifestDescribesIt) {
   folder_.write("rows.csv", "initial.preload,initial.velocity\n0,0\n0.1,0\n0.05,0\n");
   const std::string manifest =
       "zerocount: 1\nname: rows\nseed: 3\nmachines: 4\ntrials: 8\nsamples: {file: rows.csv, per: trial}\n"
@@ -175,7 +175,7 @@ friction: {k1: {lognormal: {median: 130, cv: 0.2}, aging: {exponential: {normal:
 goal: {band: 1, within: 0.06, moves: 0.9}
 )";
 
-TEST_F(Worst, IsAskedAtOneAge) {
+TEST_F(Worst, IsSoughtAtOneAge) {
   folder_.write("aging.yaml", std::string(common_part) + std::string(aging_axis));
   const ProgramResult all = program({"worst", "aging.yaml", "--format", "json"});
   ASSERT_EQ(all.code, 0) << all.err;
@@ -204,7 +204,7 @@ TEST_F(Worst, RefusesAManifestBeforeTheSearch) {
 class WorstOfAxis : public Tune {};
 
 // Stiffness alone decides, and more of it is worse: the worst machine is at the end of the box.
-TEST_F(WorstOfAxis, IsFoundAtTheEndOfTheBoxWhereItLies) {
+TEST_F(WorstOfAxis, IsFoundAtTheEndOfTheBox) {
   folder_.write("soft.yaml", R"(zerocount: 1
 name: soft
 seed: 3

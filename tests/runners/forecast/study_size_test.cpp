@@ -41,7 +41,7 @@ std::vector<std::string> manifests() {
   return all;
 }
 
-TEST(StudySize, IsAboutWhatTheFilesTake) {
+TEST(StudySize, PredictsTheSizeOfTheFiles) {
   for (const std::string& manifest : manifests()) {
     const TemporaryFolder folder;
     folder.write("study.yaml", manifest);
@@ -59,7 +59,7 @@ TEST(StudySize, IsAboutWhatTheFilesTake) {
 }
 
 // Many more machines than trials are tried beforehand. Shards are written by the clock, and not judged.
-TEST(StudySize, OfSumsIsAboutWhatTheFileTakes) {
+TEST(StudySize, PredictsTheSizeOfKeptStatistics) {
   for (const std::string& manifest :
        {small_manifest(1500, "keep: statistics\n"), small_manifest(800, "machines: 50\nkeep: failures\n"),
         small_manifest(6000, "machines: 3000\nkeep: statistics\n"), small_manifest(5000, "keep: failures\n"),
@@ -94,12 +94,12 @@ void expect_memory_of_run(const std::string& manifest) {
                peak_of_programs(), "memory");
 }
 
-TEST(StudySize, IsAboutTheMemoryThatARunTakes) {
+TEST(StudySize, PredictsTheMemoryOfARun) {
   expect_memory_of_run(small_manifest(12000));
 }
 
 // The sums of as many machines as trials take more than anything else.
-TEST(StudySize, IsAboutTheMemoryThatMachinesTake) {
+TEST(StudySize, PredictsTheMemoryOfMachines) {
   expect_memory_of_run(small_manifest(20000, "machines: 20000\nkeep: statistics\n"));
 }
 
@@ -129,7 +129,7 @@ TEST(StudySize, ARunThatTheDiskCannotHoldIsRefusedBeforeItBegins) {
   EXPECT_TRUE(says(check.out, "GB"));
 }
 
-TEST(StudySize, IsToldWithTwoDigits) {
+TEST(StudySize, IsPrintedWithTwoDigits) {
   EXPECT_EQ(forecast::bytes_text(0.0), "0 B");
   EXPECT_EQ(forecast::bytes_text(999.0), "999 B");
   EXPECT_EQ(forecast::bytes_text(999.6), "1.0 kB");
@@ -175,7 +175,7 @@ std::vector<Value> column_of(const std::function<Value(std::size_t)>& value) {
   return column;
 }
 
-TEST(StoredColumn, OfRandomNumbersIsEstimatedWithinATenth) {
+TEST(StoredColumn, RandomNumbersAreEstimatedWithinTenPercent) {
   std::mt19937_64 random(10);
   const auto uniform = [&] { return std::uniform_real_distribution<double>(0.0, 1.0)(random); };
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -200,7 +200,7 @@ TEST(StoredColumn, OfRandomNumbersIsEstimatedWithinATenth) {
 }
 
 // Inputs of machines, and outcomes of the same trial at the next point.
-TEST(StoredColumn, ThatRepeatsItselfIsEstimatedWithinATenth) {
+TEST(StoredColumn, RepeatedValuesAreEstimatedWithinTenPercent) {
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   std::vector<double> of_machines(500);
@@ -213,7 +213,7 @@ TEST(StoredColumn, ThatRepeatsItselfIsEstimatedWithinATenth) {
   expect_estimate("points", of_points, 20.0);
 }
 
-TEST(StoredColumn, OfAllItsElementsIsExact) {
+TEST(StoredColumn, AFullSampleIsExact) {
   std::mt19937_64 random(12);
   std::vector<double> column(300);
   for (double& value : column) value = std::uniform_real_distribution<double>(0.0, 1.0)(random);

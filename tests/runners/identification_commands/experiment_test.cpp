@@ -49,7 +49,7 @@ class Experiment : public ProgramTest {
   std::string file(const std::string& name) const { return text_of(folder_.path() / name); }
 };
 
-TEST_F(Experiment, DISABLED_ThePageShowsWhatItPrints) {
+TEST_F(Experiment, DISABLED_PageShowsItsOutput) {
   const ProgramResult result = program({"experiment", ZEROCOUNT_MANIFESTS "/material-test.yaml", "--duration",
                                         "4", "-o", "torque.csv", "--record", "record.csv", "--quiet"});
   ASSERT_EQ(result.code, 0) << result.err;
@@ -96,7 +96,7 @@ TEST_F(Experiment, TheTorqueBecomesARecord) {
   EXPECT_NEAR(k1_of("both.csv") / 110.0, 1.0, 0.01);
 }
 
-TEST_F(Experiment, RefusesWhatItDoesNotUnderstand) {
+TEST_F(Experiment, RefusesInvalidOptions) {
   const std::string manifest = ZEROCOUNT_MANIFESTS "/material-test.yaml";
   const auto refusal = [&](std::vector<std::string> words) {
     words.insert(words.begin(), {"experiment", manifest, "--quiet"});

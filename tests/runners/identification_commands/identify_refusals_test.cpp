@@ -106,7 +106,7 @@ std::string turning(double per_count, const std::string& head) {
 }
 
 // A record under two names would narrow the intervals as a second test does.
-TEST_F(IdentifyRefusals, ReadingsCountOnce) {
+TEST_F(IdentifyRefusals, ReadingsGivenTwiceAreRefused) {
   folder_.write("log.csv", turning(1.0, "ms,Nm,pos"));
   folder_.write("other.csv", turning(0.5, "ms,Nm,pos"));
   const std::vector<std::string> columns{"--sliding", "--column", "time=ms[ms]", "--column",
@@ -127,7 +127,7 @@ TEST_F(IdentifyRefusals, ReadingsCountOnce) {
 }
 
 // Without its unit an angle is never taken for rad where counts are meant.
-TEST_F(IdentifyRefusals, WholeNumbersWithoutUnitAreCountsOrAnError) {
+TEST_F(IdentifyRefusals, WholeNumbersWithoutAUnitAreCountsOrAnError) {
   folder_.write("log.csv", turning(1.0, "ms,Nm,pos"));
   folder_.write("rad.csv", turning(1e-3, "ms,Nm,pos"));
   const auto identified = [&](const std::string& file, const std::string& angle,
@@ -157,7 +157,7 @@ TEST_F(IdentifyRefusals, WholeNumbersWithoutUnitAreCountsOrAnError) {
   EXPECT_NE(identified("rad.csv", "angle=pos", {}).code, 2);
 }
 
-TEST_F(IdentifyRefusals, OptionsThatNoRecordHasAnythingOfAreErrors) {
+TEST_F(IdentifyRefusals, OptionsThatAffectNoRecordAreErrors) {
   folder_.write("log.csv", turning(1e-3, "time,torque,theta"));
   for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
            {"--counts-per-revolution", "5000"},

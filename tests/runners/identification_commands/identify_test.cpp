@@ -41,7 +41,7 @@ const nlohmann::json& parameter(const nlohmann::json& json, const std::string& n
                        [&](const nlohmann::json& one) { return one["name"] == name; });
 }
 
-TEST_F(Identify, FindsTheTruthInAResultsFile) {
+TEST_F(Identify, RecoversTheTrueParametersFromAResultsFile) {
   run_study();
   const ProgramResult result =
       program({"identify", "tests.h5", "--point", "0", "--point", "1", "--format", "json", "--quiet"});
@@ -78,7 +78,7 @@ TEST_F(Identify, ACommandedTorqueIsDelayed) {
 }
 
 // Half a sample of the delay is found as a time offset if it is not given.
-TEST_F(Identify, ADelayMayHaveAFraction) {
+TEST_F(Identify, ADelayMayBeAFractionOfASample) {
   folder_.write("tests.yaml", std::string(material_tests) + "controller: {delay: 3}\n");
   trace("steps.csv", "1");
   const auto offset_with = [&](const std::string& delay) {
@@ -94,7 +94,7 @@ TEST_F(Identify, ADelayMayHaveAFraction) {
   EXPECT_NEAR(offset_with("2.5") - whole, 0.5, 0.02);
 }
 
-TEST_F(Identify, DrawsTheFit) {
+TEST_F(Identify, PlotsTheFit) {
   run_study();
   const std::vector<std::string> both{"identify", "tests.h5", "--point", "0", "--point", "1"};
   const auto draw = [&](std::vector<std::string> words, const std::string& place) {
@@ -118,7 +118,7 @@ TEST_F(Identify, DrawsTheFit) {
 }
 
 // From a rotor on a bristle to the law that its record of 0.6 s follows, and to a manifest with it.
-TEST_F(Identify, TellsWhichLawARecordFollows) {
+TEST_F(Identify, NamesTheLawThatARecordFollows) {
   std::string bristle = material_tests;
   bristle.replace(bristle.find("{k1: 130}"), 9, "{model: lugre, sigma0: 300, coulomb_ratio: 1}");
   folder_.write("tests.yaml", bristle);
@@ -153,7 +153,7 @@ TEST_F(Identify, TellsWhichLawARecordFollows) {
 }
 
 // Records of two contacts: the answer is printed, and is not to be trusted.
-TEST_F(Identify, ALackOfFitIsAnExitCode) {
+TEST_F(Identify, ALackOfFitHasAnExitCode) {
   trace("one.csv", "1");
   std::string softer = material_tests;
   softer.replace(softer.find("k1: 130"), 7, "k1: 129");
@@ -215,7 +215,7 @@ TEST_F(Identify, JointDrawsHaveTheNamesOfAManifest) {
 
 // The records of a closed loop have no drive_torque where the drive does nothing but wait. Their holds are
 // short and their branches fast: nothing in them shows one parameter alone.
-TEST_F(Identify, AClosedLoopShowsItsContact) {
+TEST_F(Identify, AClosedLoopRecordIdentifiesTheContact) {
   struct Loop {
     double k1;
     std::string ki;
@@ -245,7 +245,7 @@ retain: {{trials: [0]}}
   }
 }
 
-TEST_F(Identify, TheFragmentIsPartOfAManifest) {
+TEST_F(Identify, FragmentIsAcceptedInAManifest) {
   run_study();
   ASSERT_EQ(program({"identify", "tests.h5", "--point", "0", "--point", "1", "--format", "yaml", "-o",
                      "found.yaml"})
@@ -287,7 +287,7 @@ std::string foreign_log(const std::string& trace) {
 }
 
 // A results file, its trace and a foreign log of it give the same.
-TEST_F(Identify, DISABLED_ATableGivesWhatItsFileGivesAndAForeignLogNeedsItsColumnsNamed) {
+TEST_F(Identify, DISABLED_ResultsFileTraceAndForeignLogGiveTheSame) {
   run_study();
   trace("slow.csv", "0");
   folder_.write("log.txt", foreign_log(folder_.read("slow.csv")));

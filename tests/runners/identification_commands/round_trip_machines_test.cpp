@@ -220,15 +220,15 @@ class RoundTrip : public ProgramTest {
 
 // The interval is that of 95 %. At these gains some machines always succeed, and others in a third of their
 // moves.
-TEST_F(RoundTrip, ThePredictionHoldsWhatMachinesDo) {
+TEST_F(RoundTrip, PredictionsContainTheRatesOfMachines) {
   EXPECT_GE(agreement_of(3).consistent, 2);
 }
 
-TEST_F(RoundTrip, DISABLED_ThePredictionHoldsWhatMachinesWithNoiseDo) {
+TEST_F(RoundTrip, DISABLED_PredictionsContainTheRatesOfNoisyMachines) {
   for (const double noise : {0.03, 0.1}) EXPECT_GE(agreement_of(60, noise).consistent, 54) << noise;
 }
 
-TEST_F(RoundTrip, DISABLED_ThePredictionHoldsWhatManyMachinesDo) {
+TEST_F(RoundTrip, DISABLED_PredictionsContainTheRatesOfManyMachines) {
   EXPECT_GE(agreement_of(20).consistent, 18);
   const Agreement many = agreement_of(100);
   EXPECT_GE(many.consistent, 90);

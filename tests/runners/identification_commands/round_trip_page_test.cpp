@@ -100,7 +100,7 @@ class RoundTripPage : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(RoundTripPage, DISABLED_ItsCommandsPrintWhatItSays) {
+TEST_F(RoundTripPage, DISABLED_CommandsPrintWhatThePageShows) {
   const std::string page = read_bytes(ZEROCOUNT_ROUND_TRIP_PAGE);
   std::string printed;
   for (const Block& block : blocks_of(page)) {

@@ -80,7 +80,7 @@ struct Law {
   }
 };
 
-TEST(CInterface, AnErrorHasTheExitCodeAndThePlaceInTheText) {
+TEST(CInterface, AnErrorHasAnExitCodeAndItsPlace) {
   Session s;
   EXPECT_EQ(s.read(manifest + "dac: {bits: 99}\n"), 2);
   EXPECT_THAT(zerocount_message(), HasSubstr("axis.yaml:8:"));
@@ -107,7 +107,7 @@ TEST(CInterface, PointsAndTrialsOutOfRangeAreRefused) {
   EXPECT_EQ(s.job, nullptr);
 }
 
-TEST(CInterface, AValueThatItsVariableCannotHaveFailsTheJob) {
+TEST(CInterface, AValueOutsideItsDistributionFailsTheJob) {
   Session s;
   ASSERT_EQ(s.read(manifest), 0);
   const std::vector<double> values{100.0, 5.0, 150.0, 5.0};  // k1, target
@@ -118,7 +118,7 @@ TEST(CInterface, AValueThatItsVariableCannotHaveFailsTheJob) {
   EXPECT_EQ(s.finish(), 2) << "it fails again where it is asked again";
 }
 
-TEST(CInterface, OutcomesAreThoseOfTheTrialAtTheseValues) {
+TEST(CInterface, OutcomesEqualThoseOfTheTrialAtTheSameValues) {
   Session s;
   ASSERT_EQ(s.read(manifest, {"friction.k1=100", "command.targets.0={integers: [5, 6]}"}), 0);
   const std::vector<double> values{5.0, 6.0};
@@ -138,7 +138,7 @@ TEST(CInterface, OutcomesAreThoseOfTheTrialAtTheseValues) {
   }
 }
 
-TEST(CInterface, ALawDecidesTheTorqueUntilItCannotGoOn) {
+TEST(CInterface, AControllerCallbackDecidesTheTorqueUntilItFails) {
   Session s;
   ASSERT_EQ(s.read(manifest), 0);
   Law law;

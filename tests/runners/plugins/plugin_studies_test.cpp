@@ -58,7 +58,7 @@ TEST_F(PluginStudy, ItsLibraryIsNeverReplacedByAnOutput) {
   EXPECT_EQ(folder_.read("own.so"), library);
 }
 
-TEST_F(PluginStudy, OtherCommandsDoWithoutTheLibrary) {
+TEST_F(PluginStudy, OtherCommandsWorkWithoutTheLibrary) {
   ASSERT_EQ(run_study().code, 0);
   fs::remove(folder_ / "own.so");
   for (const std::vector<std::string>& words : {std::vector<std::string>{"summary", "out.h5"},
@@ -167,7 +167,7 @@ const std::vector<std::string> studies{
     "dac: {bits: 8}\nencoder: {fine_errors: {noise: 0.3}}\n",
 };
 
-TEST(BuiltInLaw, TracesAreEqualToTheBit) {
+TEST(PluginOfABuiltInLaw, TracesAreBitwiseEqual) {
   std::mt19937_64 random(20020721);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   const TemporaryFolder folder;
@@ -190,7 +190,7 @@ TEST(BuiltInLaw, TracesAreEqualToTheBit) {
   }
 }
 
-TEST(BuiltInLaw, WholeRunsAreEqualToTheBit) {
+TEST(PluginOfABuiltInLaw, WholeRunsAreBitwiseEqual) {
   const TemporaryFolder folder;
   const Gains gains{4e-4, 9.45e-5, 12};
   folder.write("built-in.yaml", manifest(built_in(gains), studies[0]));
@@ -262,7 +262,7 @@ TEST(BadPlugins, AMissingFileIsRefused) {
   EXPECT_TRUE(says(result.err, "controller.plugin: none.so: no such file"));
 }
 
-TEST(BadPlugins, AMissingFileIsNotBlamedOnTheParametersThatAreSwept) {
+TEST(BadPlugins, AMissingFileIsReportedAtItsKeyAndNotAtSweptParameters) {
   const TemporaryFolder folder;
   folder.write("study.yaml",
                plugin_manifest("none.so") + "sweep: {grid: {controller.parameters.ki: [1.0e-5, 2.0e-5]}}\n");
@@ -271,7 +271,7 @@ TEST(BadPlugins, AMissingFileIsNotBlamedOnTheParametersThatAreSwept) {
   EXPECT_FALSE(says(result.err, "unknown key"));
 }
 
-TEST(BadPlugins, AnotherFileIsNoLibrary) {
+TEST(BadPlugins, AFileThatIsNotALibraryIsRefused) {
   const TemporaryFolder folder;
   folder.write("text.so", "no library");
   folder.write("study.yaml", plugin_manifest("text.so"));
@@ -280,7 +280,7 @@ TEST(BadPlugins, AnotherFileIsNoLibrary) {
   EXPECT_TRUE(says(result.err, "text.so is not a shared library"));
 }
 
-TEST(BadPlugins, TheReasonOfARefusedStartIsTold) {
+TEST(BadPlugins, ARefusedStartIsReportedWithTheReason) {
   const TemporaryFolder folder;
   folder.write("study.yaml", plugin_manifest(faulty_controller(16)));
   const ProgramResult result = zerocount_program({"check", "study.yaml"}, folder.path());
@@ -290,7 +290,7 @@ TEST(BadPlugins, TheReasonOfARefusedStartIsTold) {
 
 // A global integral, one that start resets, and a pointer into the state: the second works as long as trials
 // run one after the other, the third as long as the state stays where it is.
-TEST(BadPlugins, StateOutsideTheStateIsFound) {
+TEST(BadPlugins, HiddenStateOfAPluginIsDetected) {
   for (const int fault : {12, 13, 14}) {
     const TemporaryFolder folder;
     folder.write("study.yaml", plugin_manifest(faulty_controller(fault)));
@@ -305,7 +305,7 @@ TEST(BadPlugins, StateOutsideTheStateIsFound) {
   }
 }
 
-TEST(BadPlugins, TorquesThatAreNoNumbersEndTheTrialAndSaySo) {
+TEST(BadPlugins, ANonfiniteTorqueEndsTheTrialWithAMessage) {
   const TemporaryFolder folder;
   folder.write("study.yaml", plugin_manifest(faulty_controller(15)));
   const ProgramResult result = zerocount_program({"run", "study.yaml", "-o", "out.h5"}, folder.path());
@@ -319,7 +319,7 @@ TEST(BadPlugins, TorquesThatAreNoNumbersEndTheTrialAndSaySo) {
   EXPECT_TRUE(says(trace.err, "the controller returned a non-finite torque"));
 }
 
-TEST(BadPlugins, TheModeOfArithmeticIsRestored) {
+TEST(BadPlugins, TheFloatingPointModeIsRestored) {
   const TemporaryFolder folder;
   folder.write("study.yaml", plugin_manifest("none.so"));
   const auto trace = [&](int fault) {

@@ -90,10 +90,10 @@ Repetitions repeated(std::uint64_t seeds, const TrialSpace& space, const Score& 
   return all;
 }
 
-class RareEstimatorOf : public testing::TestWithParam<ClosedForm> {};
+class RareEstimatorByProblem : public testing::TestWithParam<ClosedForm> {};
 
 // Bounds of 95 % fail in at most 2 of 6 repetitions, but for one time in 450.
-TEST_P(RareEstimatorOf, BoundsHoldTheClosedForm) {
+TEST_P(RareEstimatorByProblem, BoundsContainTheClosedForm) {
   const ClosedForm& one = GetParam();
   const Repetitions all = repeated(6, trial_space(one.coordinates, {}), one.score, one.probability, 300'000);
   EXPECT_GE(all.held, 4);
@@ -101,7 +101,7 @@ TEST_P(RareEstimatorOf, BoundsHoldTheClosedForm) {
   EXPECT_NEAR(all.mean / one.probability, 1.0, 0.17);
 }
 
-INSTANTIATE_TEST_SUITE_P(ClosedForms, RareEstimatorOf,
+INSTANTIATE_TEST_SUITE_P(ClosedForms, RareEstimatorByProblem,
                          testing::Values(plane(1e-4), plane(1e-8), two_planes(1e-5), two_planes(1e-8),
                                          circle(1e-4), circle(1e-6), corner(1e-5), corner(1e-8)),
                          [](const auto& info) {
@@ -112,7 +112,7 @@ INSTANTIATE_TEST_SUITE_P(ClosedForms, RareEstimatorOf,
                          });
 
 // The first score says nothing, the second leads to the failure.
-TEST(RareEstimator, TakesTheScoreThatLeads) {
+TEST(RareEstimator, ChoosesTheScoreThatLeadsToFailures) {
   const ClosedForm one = plane(1e-6);
   const Simulation simulate = [&](std::span<Trial> trials) {
     simulation_of(one.score)(trials);
@@ -193,7 +193,7 @@ class RareEstimatorAtValue : public testing::TestWithParam<FailingValue> {};
 
 // One value of 10 000 or 20 000 fails, far from all others. Beside it there is a failure, forty times rarer,
 // to which the score leads, so that an estimate of that one alone would look fine.
-TEST_P(RareEstimatorAtValue, BoundsHold) {
+TEST_P(RareEstimatorAtValue, BoundsContainTheProbability) {
   const FailingValue& one = GetParam();
   const ClosedForm other = plane(1.25e-6);
   const double limit = one.given_value < 1.0 ? -numerics::normal_quantile(one.given_value) : -100.0;
@@ -217,7 +217,7 @@ INSTANTIATE_TEST_SUITE_P(Draws, RareEstimatorAtValue,
                          [](const auto& info) { return info.param.name; });
 
 // Three of 200 rows fail, wherever they stand in the table: neighbours of a row say nothing about it.
-TEST(RareEstimator, RowsOfATableAreDrawnAsTheyAre) {
+TEST(RareEstimator, RowsOfATableKeepTheirProbability) {
   const double limit = -numerics::normal_quantile(1e-4);
   const Score score = [limit](const std::vector<double>& z) {
     const auto row = static_cast<int>(200.0 * numerics::normal_probability(z[1]));
@@ -227,7 +227,7 @@ TEST(RareEstimator, RowsOfATableAreDrawnAsTheyAre) {
   EXPECT_GE(repeated(8, trial_space(3, {rows(1, 200)}), score, probability, 300'000).held, 7);
 }
 
-TEST(RareEstimator, AFailureThatAlwaysHappensHasTheProbabilityOne) {
+TEST(RareEstimator, AFailureThatAlwaysHappensHasProbabilityOne) {
   EstimatorState state;
   const Estimate answer = estimate(state, {.space = trial_space(2, {}), .seed = 1},
                                    simulation_of([](const auto&) { return 1.0; }), goes_on);
@@ -237,7 +237,7 @@ TEST(RareEstimator, AFailureThatAlwaysHappensHasTheProbabilityOne) {
 }
 
 // A failure by chance alone, whatever the coordinates: plain trials are as good as any, and are what is run.
-TEST(RareEstimator, ACommonFailureOfChanceIsCountedByPlainTrials) {
+TEST(RareEstimator, ACommonFailureIsEstimatedByPlainTrials) {
   const Simulation simulate = [](std::span<Trial> trials) {
     for (Trial& trial : trials) {
       const double u = NumberSource({static_cast<std::uint32_t>(trial.number), 5}).uniform();
@@ -254,7 +254,7 @@ TEST(RareEstimator, ACommonFailureOfChanceIsCountedByPlainTrials) {
 
 // Failures that the learned distribution does not foresee make it learn again: here it was learned from one
 // of two planes.
-TEST(RareEstimator, LearnsAgainWhatItDidNotForesee) {
+TEST(RareEstimator, LearnsAgainAfterUnexpectedFailures) {
   const double probability = 0.1;
   const ClosedForm one = two_planes(probability);
   int learned_again = 0;
@@ -278,7 +278,7 @@ TEST(RareEstimator, LearnsAgainWhatItDidNotForesee) {
 }
 
 // A search that the budget ended has found nothing out.
-TEST(RareEstimator, ABudgetThatEndsTheSearchDecidesNothing) {
+TEST(RareEstimator, ABudgetThatEndsTheSearchLeavesItUndecided) {
   const ClosedForm one = plane(1e-6);
   EstimatorState state;
   const Estimate answer = estimate(state, settings_of(one, 1), simulation_of(one.score),
@@ -291,7 +291,7 @@ TEST(RareEstimator, ABudgetThatEndsTheSearchDecidesNothing) {
 
 // A failure that jumps out of nowhere is not found: the answer is the bound of the plain trials, to which the
 // whole budget goes.
-TEST(RareEstimator, IsUndecidedWhereNoScoreLeadsToAFailure) {
+TEST(RareEstimator, IsUndecidedIfNoScoreLeadsToAFailure) {
   const Simulation simulate = [](std::span<Trial> trials) {
     for (Trial& trial : trials) trial.scores = {0.0};
   };
@@ -303,7 +303,7 @@ TEST(RareEstimator, IsUndecidedWhereNoScoreLeadsToAFailure) {
   EXPECT_LT(answer.bounds.high, 9.0 / static_cast<double>(state.plain_trials));  // at all times; 3.7 at one
 }
 
-TEST(RareEstimator, AnInterruptedEstimateEndsAsIfItHadNotBeen) {
+TEST(RareEstimator, AnInterruptedEstimateEndsWithTheSameResult) {
   const ClosedForm one = circle(1e-5);
   const EstimatorSettings settings{.space = trial_space(one.coordinates, {}), .ratio = 1.3, .seed = 5};
   EstimatorState whole;
@@ -336,7 +336,7 @@ WeightedPoints two_clusters(NumberSource& numbers) {
 }
 
 // The mean of a likelihood ratio is 1, and it is at most the inverse of the natural share.
-TEST(NormalMixture, WeightsHaveTheMeanOne) {
+TEST(NormalMixture, ImportanceWeightsHaveTheMeanOne) {
   NumberSource numbers = numbers_of(1);
   const TrialSpace space = trial_space(4, {});
   const Proposal proposal{.natural = 0.1, .components = fitted_mixture(two_clusters(numbers), numbers)};

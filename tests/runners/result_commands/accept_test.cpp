@@ -108,7 +108,7 @@ TEST_F(Accept, JudgesAGoalOnMachinesByTheirNumber) {
 }
 
 // Of 40 simulated machines one has a p-value of 2/41 at least: below 0.05, but not below 0.05 by two goals.
-TEST_F(Accept, CorrectsForTheNumberOfGoals) {
+TEST_F(Accept, BoundsAllowForTheNumberOfGoals) {
   write_log("worse.csv", 60, 6);
   EXPECT_EQ(accepted({"worse.csv"}, 1)["goals"][0]["agreement"], "differs");
   run_study(
@@ -123,7 +123,7 @@ TEST_F(Accept, CorrectsForTheNumberOfGoals) {
 }
 
 // Few moves that meet the goal are shown by nothing, but fewer of them than predicted meet it.
-TEST_F(Accept, RejectsFewerThanPredicted) {
+TEST_F(Accept, RejectsMachinesBelowThePrediction) {
   write_log("worse.csv", 60, 6);
   const Json worse = accepted({"worse.csv"}, 1);
   EXPECT_EQ(worse["goals"][0]["goal_status"], "undecided");
@@ -134,7 +134,7 @@ TEST_F(Accept, RejectsFewerThanPredicted) {
   EXPECT_EQ(worse["goals"][0]["agreement"], "differs");
 }
 
-TEST_F(Accept, RefusesWhatItCannotJudge) {
+TEST_F(Accept, RefusesUnusableLogsAndStudies) {
   const auto message = [&](const std::vector<std::string>& words) {
     std::vector<std::string> all{"accept", "study.h5"};
     all.insert(all.end(), words.begin(), words.end());
@@ -211,7 +211,7 @@ TEST_F(Accept, AsksForTheConditionAndTheAge) {
 }
 
 // The unit of a column may be that of another kind of axis.
-TEST_F(Accept, ChecksUnits) {
+TEST_F(Accept, RefusesUnitsOfAnotherDimension) {
   run_study("machines: 40\ngoal: {band: 1, within: 0.03, moves: 0.9, limits: {holding_torque: 1}}\n");
   folder_.write("force.csv", "band_settling_time[1] [ms],holding_torque [N]\n12,0.1\n");
   const ProgramResult force = program({"accept", "study.h5", "force.csv"});
@@ -258,7 +258,7 @@ goals: {back: {on: [1], band: 1, within: 0.03, moves: 0.9}}
 }
 
 // Machines of an unknown world differ where they are like those of none.
-TEST_F(Accept, ComparesWithEachWorld) {
+TEST_F(Accept, ComparesMachinesWithEachWorld) {
   run_study(
       "machines: 160\nworlds: 4\nplant: {inertia: {uniform: [4.0e-4, 9.0e-4], per: world}}\n"
       "goal: {band: 1, within: 0.03, moves: 0.9}\n");
@@ -274,7 +274,7 @@ TEST_F(Accept, ComparesWithEachWorld) {
 }
 
 // The runs of a machine of the study itself have the values of its summary.
-TEST_F(Accept, HasTheValuesOfTheStandard) {
+TEST_F(Accept, ReportsTheValuesOfTheStandard) {
   folder_.write("iso.yaml", R"(zerocount: 1
 name: iso
 seed: 5

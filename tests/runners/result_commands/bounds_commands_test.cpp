@@ -30,7 +30,7 @@ class BoundsCommands : public ::testing::Test {
 };
 std::unique_ptr<TemporaryFolder> BoundsCommands::folder;
 
-TEST_F(BoundsCommands, SummaryHasTheBoundsOfTheConfidenceAskedFor) {
+TEST_F(BoundsCommands, SummaryHasBoundsOfTheRequestedConfidence) {
   const Json wide = json({"summary", "study.h5", "--confidence", "0.99"});
   const Json usual = json({"summary", "study.h5"});
   EXPECT_EQ(wide["confidence"], 0.99);
@@ -57,7 +57,7 @@ TEST_F(BoundsCommands, SummaryHasTheBoundsOfTheConfidenceAskedFor) {
   EXPECT_FALSE(says(table, "95 % bounds"));
 }
 
-TEST_F(BoundsCommands, TheFileKeepsItsBoundsWhateverASummarySays) {
+TEST_F(BoundsCommands, ASummaryDoesNotChangeTheBoundsInTheFile) {
   json({"summary", "study.h5", "--confidence", "0.5"});
   const reading::AllTrialsFile file(*folder / "study.h5");
   std::vector<double> zero, low;
@@ -123,7 +123,7 @@ TEST_F(BoundsCommands, PlanSaysHowManyTrialsAClaimNeeds) {
   EXPECT_TRUE(says(table, "at least 99.9 % of axes succeed, with 95 % confidence", "2995"));
 }
 
-TEST_F(BoundsCommands, JerksOfChosenPoints) {
+TEST_F(BoundsCommands, JerksAreReportedForChosenPoints) {
   const Json all = json({"jerks", "study.h5", "--creep-trials", "2"});
   ASSERT_EQ(all["points"].size(), 2U);
   EXPECT_EQ(all["points"][0]["trials"], 40);
@@ -135,7 +135,7 @@ TEST_F(BoundsCommands, JerksOfChosenPoints) {
   EXPECT_TRUE(says(table.out, "Rate of jerks since arrival"));
 }
 
-TEST_F(BoundsCommands, WhereNothingArrivedNothingWasMeasured) {
+TEST_F(BoundsCommands, WithoutArrivalsJerksMeasuresNothing) {
   ASSERT_EQ(
       run({"run", "study.yaml", "-o", "never.h5", "--set", "command.targets=[100000]", "--set", "trials=3"})
           .code,
@@ -148,7 +148,7 @@ TEST_F(BoundsCommands, WhereNothingArrivedNothingWasMeasured) {
   EXPECT_EQ(run({"jerks", "loads.h5"}).code, 4);
 }
 
-TEST_F(BoundsCommands, RefuseWhatTheyCannotUse) {
+TEST_F(BoundsCommands, RefuseInvalidOptions) {
   const std::vector<std::vector<std::string>> cases = {
       {"summary", "study.h5", "--confidence", "1"},
       {"summary", "study.h5", "--confidence", "95"},
@@ -189,7 +189,7 @@ class SensitivityCommand : public ProgramTest {
   SensitivityCommand() { folder_.write("study.yaml", small_manifest(180, "design: saltelli\n")); }
 };
 
-TEST_F(SensitivityCommand, SaysWhatDrivesTheTrialsOfASaltelliDesign) {
+TEST_F(SensitivityCommand, NamesTheInfluencesInASaltelliDesign) {
   ASSERT_EQ(program({"run", "study.yaml", "-o", "study.h5", "--quiet", "--set", "friction.beta=2.0e+5"}).code,
             0);
   const ProgramResult table = program({"sensitivity", "study.h5"});
@@ -210,7 +210,7 @@ TEST_F(SensitivityCommand, SaysWhatDrivesTheTrialsOfASaltelliDesign) {
   EXPECT_TRUE(says(program({"sensitivity", "study.h5", "--format", "csv"}).out, "0,low,success,"));
 }
 
-TEST_F(SensitivityCommand, WhereNothingCanBeEstimatedTheExitCodeIsThree) {
+TEST_F(SensitivityCommand, ExitsWithThreeIfNothingCanBeEstimated) {
   folder_.write("sure.yaml",
                 "zerocount: 1\nname: sure\nseed: 1\ntrials: 60\ncommand: {targets: [0], hold: 0.1}\n"
                 "friction: {k1: {uniform: [100, 120]}}\nverdict: {dwell: 0.02, window: 0.02}\n");

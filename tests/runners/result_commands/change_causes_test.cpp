@@ -36,7 +36,7 @@ std::vector<Cause> causes_of_axis(const std::vector<std::string>& overrides = {}
   return causes_of(manifest::parse_study(axis_with_load, "axis.yaml", overrides), 0);
 }
 
-TEST(ChangeCauses, AreOfPlantLoadFrictionControlAndDisturbance) {
+TEST(ChangeCauses, CoverPlantLoadFrictionControlAndDisturbance) {
   const std::vector<std::string> names = names_of(causes_of_axis());
   for (const char* const name :
        {"plant.inertia", "plant.sliding_damping", "plant.load.inertia", "plant.load.stiffness",
@@ -48,7 +48,7 @@ TEST(ChangeCauses, AreOfPlantLoadFrictionControlAndDisturbance) {
 }
 
 // An amount is added to what is 0 or absent, because no factor changes it.
-TEST(ChangeCauses, AddAnAmountWhereTheValueIsZero) {
+TEST(ChangeCauses, AddAnAmountIfTheValueIsZero) {
   const auto of_kind = [](const std::string& name, monitor::ChangeKind kind) {
     return Contains(::testing::AllOf(Field(&Cause::name, name), Field(&Cause::kind, kind)));
   };
@@ -61,7 +61,7 @@ TEST(ChangeCauses, AddAnAmountWhereTheValueIsZero) {
   EXPECT_THAT(causes_of_axis({"controller.delay=2"}), of_kind("controller.delay", factor));
 }
 
-TEST(ChangeCauses, AreNotWhatAMachineInUseKeeps) {
+TEST(ChangeCauses, ExcludePhasesCommandsAndStartValues) {
   for (const std::string& name : names_of(causes_of_axis())) {
     EXPECT_FALSE(name.ends_with("phase")) << name;
     EXPECT_FALSE(name.starts_with("command.") || name.starts_with("initial.") || name.starts_with("verdict."))
@@ -69,7 +69,7 @@ TEST(ChangeCauses, AreNotWhatAMachineInUseKeeps) {
   }
 }
 
-TEST(ChangeCauses, EachHasNoChangeAmongItsChanges) {
+TEST(ChangeCauses, EachIncludesNoChange) {
   for (const Cause& cause : causes_of_axis()) {
     EXPECT_TRUE(std::ranges::is_sorted(cause.changes)) << cause.name;
     EXPECT_THAT(cause.changes, Contains(monitor::unchanged_by(cause.kind))) << cause.name;
@@ -89,7 +89,7 @@ TEST(ChangeCauses, AFactorScalesTheValueOfEveryTrial) {
       << "a ratio is at most 1";
 }
 
-TEST(ChangeCauses, AreNamedByAPathOfWhichPartsMayBeLeftOut) {
+TEST(ChangeCauses, AreFoundByAShortenedPath) {
   EXPECT_TRUE(is_named("controller.kp", "controller"));
   EXPECT_TRUE(is_named("encoder.fine_errors.noise", "encoder.noise"));
   EXPECT_TRUE(is_named("plant.load.gap", "plant.load.gap"));

@@ -35,7 +35,7 @@ class Compare : public ProgramTest {
 };
 
 // Without machines there are no machines to count: the moves are judged.
-TEST_F(Compare, AGoalOnMachinesIsJudgedByMovesWhereTheOtherStudyHasNoMachines) {
+TEST_F(Compare, AGoalOnMachinesIsJudgedByMovesIfTheOtherStudyHasNoMachines) {
   const std::string goal = "goal: {band: 1, within: 0.03, moves: 0.9";
   study("machines", gains("3.5e-5", 60) + goal + ", machines: 0.8}\nmachines: 30\n", {"--force"});
   study("alone", gains("3.5e-5", 60) + goal + "}\n", {"--force"});
@@ -48,7 +48,7 @@ TEST_F(Compare, AGoalOnMachinesIsJudgedByMovesWhereTheOtherStudyHasNoMachines) {
 }
 
 // A gain with which moves come in late fails, although zero counts and jerks would pass it.
-TEST_F(Compare, JudgesAStudyWithAGoalByThatAndNothingElse) {
+TEST_F(Compare, JudgesAStudyWithAGoalOnlyByTheGoal) {
   const std::string goal = "goal: {band: 1, within: 0.022, moves: 0.9}\n";
   study("a", gains("3.5e-5", 300) + goal, {"--force"});
   study("b", gains("2.2e-5", 300) + "goal: {band: 1, within: 0.03, moves: 0.9}\n", {"--force"});
@@ -93,7 +93,7 @@ TEST_F(Compare, JudgesAStudyWithAGoalByThatAndNothingElse) {
 }
 
 // The verdict of the goal is that of judge, the quantile of a band that of the stored statistics.
-TEST_F(Compare, RequiresTheGoalAndTimesOfErrorBands) {
+TEST_F(Compare, RequirementsMayNameTheGoalAndErrorBands) {
   for (const std::string machines : {"", "machines: 100\n"}) {
     using Case = std::pair<std::string, int>;
     for (const auto& [goal, code] :
@@ -147,7 +147,7 @@ TEST_F(Compare, AHigherGainIsARegression) {
   EXPECT_GT(back["counts"]["better"].get<int>(), 0);
 }
 
-TEST_F(Compare, WhereEveryChangeFailsAnImprovementHasTheExitCodeOfARegression) {
+TEST_F(Compare, IfEveryChangeFailsAnImprovementHasTheExitCodeOfARegression) {
   study("a", gains("2.0e-4", 200));
   study("b", gains("1.0e-4", 200));
   EXPECT_EQ(program({"compare", "a.h5", "b.h5"}).code, 0);
@@ -158,7 +158,7 @@ TEST_F(Compare, WhereEveryChangeFailsAnImprovementHasTheExitCodeOfARegression) {
   EXPECT_EQ(program({"compare", "a.h5", "b.h5", "--margins", "gate.yaml"}).code, 1);
 }
 
-TEST_F(Compare, TooFewTrialsAreInconclusiveAndSayHowManyWouldDo) {
+TEST_F(Compare, TooFewTrialsAreInconclusiveWithTheNumberThatWouldDecide) {
   study("a", gains("1.0e-4", 40));
   study("b", gains("1.0e-4", 40, "4"));
   const auto json = compared("a", "b", 3);
@@ -191,12 +191,12 @@ TEST_F(Compare, MarginsAndRequirementsComeFromAFile) {
                    "gate.yaml:1:11: margins.success: unknown key"));
 }
 
-TEST_F(Compare, WritesEveryFormatAtOnce) {
+TEST_F(Compare, WritesSeveralFormatsInOneRun) {
   study("a", gains("1.0e-4", 20));
   const ProgramResult result =
       program({"compare", "a.h5", "a.h5", "--json", "r.json", "--junit", "r.xml", "--markdown", "r.md"});
   EXPECT_EQ(result.code, 0) << result.err;
-  EXPECT_TRUE(says(result.out, "this shows nothing of the program"));
+  EXPECT_TRUE(says(result.out, "this comparison shows nothing about the program"));
   EXPECT_EQ(nlohmann::json::parse(folder_.read("r.json"))["verdict"], "passed");
   EXPECT_TRUE(folder_.read("r.xml").starts_with("<?xml"));
   EXPECT_TRUE(folder_.read("r.md").starts_with("**passed: "));
@@ -240,7 +240,7 @@ std::string gain_alone(const std::string& gain, int trials) {
   return both.substr(0, both.find("sweep:")) + "controller: {ki: " + gain + "}\n";
 }
 
-TEST_F(Compare, TwoPointsOfAFileAreComparedAsTheSamePointsOfTwoFiles) {
+TEST_F(Compare, TwoPointsOfAFileCompareLikePointsOfTwoFiles) {
   study("both", gains("1.0e-4", 200));
   study("low", gain_alone("3.0e-5", 200));
   study("high", gain_alone("1.0e-4", 200));
@@ -255,13 +255,13 @@ TEST_F(Compare, TwoPointsOfAFileAreComparedAsTheSamePointsOfTwoFiles) {
   EXPECT_EQ(points["points"][0]["measures"], files["points"][0]["measures"]);
 }
 
-TEST_F(Compare, PointsWithNumbersOfTheirOwnAreTwoSamples) {
+TEST_F(Compare, IndependentPointsAreTwoSamples) {
   study("both", gains("1.0e-4", 200) + "independent_points: true\n");
   const ProgramResult result = program({"compare", "both.h5", "--points", "0", "1", "--format", "json"});
   EXPECT_EQ(nlohmann::json::parse(result.out)["layer"], "two_samples");
 }
 
-TEST_F(Compare, TheAnswerNamesWhatIsBetterAndWhatIsWorse) {
+TEST_F(Compare, AnswerNamesBetterAndWorseMeasures) {
   study("both", gains("1.0e-4", 200));
   const std::string forward = program({"compare", "both.h5", "--points", "low", "high"}).out;
   const std::string backward = program({"compare", "both.h5", "--points", "high", "low"}).out;

@@ -104,7 +104,7 @@ json under(const json& points, const std::string& condition) {
   return found;
 }
 
-TEST_F(ConditionsOfResults, AreComparedAsTheStudiesOfEach) {
+TEST_F(ConditionsOfResults, CompareLikeSeparateStudies) {
   // The p of all tests are adjusted together, and what follows from them depends on their number.
   const std::set<std::string> of_all_tests{"label",
                                            "condition",
@@ -151,7 +151,7 @@ TEST_F(ConditionsOfResults, AreMatchedByName) {
   EXPECT_EQ(zerocount_program({"compare", "plain-both.h5", "plain-empty.h5"}, folder->path()).code, 4);
 }
 
-TEST_F(ConditionsOfResults, HaveTheMarginsAndRequirementsOfTheirPointAndGoal) {
+TEST_F(ConditionsOfResults, UseTheMarginsAndRequirementsOfTheirPointAndGoal) {
   folder->write("gate.yaml",
                 "margins: {goal_rate: 0.2, \"goal_rate[small]\": 0.3}\nrequire: [goal]\n"
                 "points: {controller.ki=8e-05: {goal_rate: 0.4}}\n");
@@ -229,7 +229,7 @@ TEST_F(ConditionsOfResults, ArePlannedLikeStudiesOfTheirOwn) {
 }
 
 // A measure of which a condition shows too little is named, not left out in silence.
-TEST_F(ConditionsOfResults, AreNamedWhereTheyCannotBePlanned) {
+TEST_F(ConditionsOfResults, AreNamedIfTheyCannotBePlanned) {
   folder->write("never.yaml", manifest_of(kinds_with_conditions[1], 240, "5.54e-4", "",
                                           "conditions: {empty: {}, loaded: {controller.ki: 0}}\n"));
   const json plan = said({"plan", "never.yaml", "--margin", "arrival_time=20%"});
@@ -238,7 +238,7 @@ TEST_F(ConditionsOfResults, AreNamedWhereTheyCannotBePlanned) {
   EXPECT_TRUE(says(run({"plan", "never.yaml", "--margin", "arrival_time=20%"}), "Not planned: "));
 }
 
-TEST_F(ConditionsOfResults, GiveThePlanThePilotWhoseMachinesDifferMost) {
+TEST_F(ConditionsOfResults, PlanUsesTheConditionWhoseMachinesDifferMost) {
   double largest = 0.0;
   for (const std::string& condition : names_of_conditions) {
     const json alone = said({"plan", "--halfwidth", "0.05", "machines-" + condition + ".h5"}).at("halfwidth");
@@ -317,7 +317,7 @@ TEST_F(ConditionsOfResults, AreConfirmedTogether) {
 }
 
 // What is to be learnt is whether the goal is met under all conditions.
-TEST_F(ConditionsOfResults, MakeAWorldBadThatIsBadUnderOne) {
+TEST_F(ConditionsOfResults, AWorldThatIsBadUnderOneConditionIsBad) {
   const auto bad_of = [&](const std::string& study) {
     std::set<int> bad;
     const json worlds = said({"summary", "worlds-" + study + ".h5"}).at("points")[0].at("worlds");
@@ -332,7 +332,7 @@ TEST_F(ConditionsOfResults, MakeAWorldBadThatIsBadUnderOne) {
 }
 
 // Memory and time of a study with a thousand conditions are not those of a thousand open files.
-TEST(UnderACondition, TrialsAreReadFromTheFileThatIsOpen) {
+TEST(TrialsOfACondition, AreReadFromTheOpenFile) {
   const TemporaryFolder folder;
   folder.write("two.yaml",
                "zerocount: 1\nname: two\nseed: 7\ntrials: 40\ncommand: {targets: [3], hold: 0.05}\n"

@@ -79,7 +79,7 @@ TEST_F(HistoryCommand, AddsAFileOnceAndItsComparison) {
 }
 
 // Another seed or number of trials asks the same question; another gain does not.
-TEST_F(HistoryCommand, PutsRunsOfOneQuestionIntoOneSeries) {
+TEST_F(HistoryCommand, RunsOfOneQuestionFormOneSeries) {
   run("seed.h5", "seed=4");
   run("trials.h5", "trials=30");
   run("gain.h5", "controller.kp=1.0e-4");
@@ -90,7 +90,7 @@ TEST_F(HistoryCommand, PutsRunsOfOneQuestionIntoOneSeries) {
 }
 
 // What is drawn once per study is another axis with another seed.
-TEST_F(HistoryCommand, KeepsTheSeedWhereItDecidesTheAxis) {
+TEST_F(HistoryCommand, TheSeedSeparatesSeriesIfItDecidesTheAxis) {
   const std::string drawn = "friction.k2={uniform: [600, 900], per: study}";
   for (const std::string& setting : {std::string("friction.n=2"), drawn}) {  // the first: with its profile
     for (const int seed : {1, 2}) {
@@ -105,7 +105,7 @@ TEST_F(HistoryCommand, KeepsTheSeedWhereItDecidesTheAxis) {
   for (const json& series : series_shown()) EXPECT_EQ(series.at("runs").size(), 1U);
 }
 
-TEST_F(HistoryCommand, LosesNothingOfProcessesAtTheSameTime) {
+TEST_F(HistoryCommand, ConcurrentProcessesLoseNoRun) {
   std::vector<std::string> files;
   for (int i = 0; i < 6; ++i) {
     files.push_back(fmt::format("run{}.h5", i));
@@ -120,7 +120,7 @@ TEST_F(HistoryCommand, LosesNothingOfProcessesAtTheSameTime) {
   for (const json& series : series_shown()) EXPECT_EQ(series.at("runs").size(), files.size());
 }
 
-TEST_F(HistoryCommand, DrawsASeriesAndAPageOfAll) {
+TEST_F(HistoryCommand, PlotsASeriesAndAPageOfAll) {
   ASSERT_EQ(program({"history", "add", "first.h5"}).code, 0);
   const std::vector<std::string> one{"history", "plot", "--point", "low", "--measure", "success_rate", "-o"};
   const auto plot = [&](const std::string& output) {
@@ -153,7 +153,7 @@ TEST_F(HistoryCommand, IsASectionOfTheReport) {
   EXPECT_EQ(program({"report", "first.h5", "--history", "none.sqlite", "-o", "c.html"}).code, 2);
 }
 
-TEST_F(HistoryCommand, RefusesWhatItCannotUse) {
+TEST_F(HistoryCommand, RefusesInvalidOptionsAndFiles) {
   EXPECT_EQ(program({"history"}).code, 2);
   EXPECT_EQ(program({"history", "remove"}).code, 2);
   EXPECT_EQ(program({"history", "add"}).code, 2);
@@ -170,7 +170,7 @@ TEST_F(HistoryCommand, RefusesWhatItCannotUse) {
 }
 
 // The answers of monitor to a growing log are a series of each measure, which changed where its p says so.
-TEST_F(HistoryCommand, TakesAnswersOfMonitor) {
+TEST_F(HistoryCommand, AddsAnswersOfMonitor) {
   std::string before = "arrival_time [ms]\n";
   for (int i = 0; i < 300; ++i) before += fmt::format("{}\n", 40 + (7 * i) % 11);
   folder_.write("before.csv", before);

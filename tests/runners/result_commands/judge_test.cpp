@@ -20,7 +20,7 @@ class Judge : public ProgramTest {
 };
 
 // The converter is too weak in 9 of 20 trials. A goal that none meets is not missed for that reason.
-TEST_F(Judge, SaturationIsNamedWhereTheMovesThatMissSaturate) {
+TEST_F(Judge, NamesSaturationIfTheMovesThatMissSaturate) {
   const std::string axis =
       "zerocount: 1\nname: slide\naxis: linear\nseed: 1\ntrials: 20\nplant: {inertia: 1, sliding_damping: "
       "1}\n"
@@ -60,7 +60,7 @@ std::string shaken_axis(int machines, const std::string& more = "") {
 }
 
 // Few machines bound the proportion of all machines alike under both conditions, whatever their moves do.
-TEST_F(Judge, WithFewMachinesTheConditionWithMissesIsTheWorstAndAllNumbersAreItsOwn) {
+TEST_F(Judge, WithFewMachinesTheConditionWithMissesIsTheWorst) {
   folder_.write("shelf.yaml", shaken_axis(5));
   ASSERT_EQ(program({"run", "shelf.yaml", "-o", "shelf.h5", "--quiet"}).code, 0);
   const Json judged = json_of({"judge", "shelf.h5"});
@@ -85,7 +85,7 @@ TEST_F(Judge, WithFewMachinesTheConditionWithMissesIsTheWorstAndAllNumbersAreIts
 }
 
 // However few the machines are.
-TEST_F(Judge, TheBestPointIsThatOfTheRatesForAnyNumberOfMachines) {
+TEST_F(Judge, TheBestPointHasTheHighestRateForAnyNumberOfMachines) {
   for (const int machines : {2, 3, 5, 10, 20}) {
     folder_.write("points.yaml", shaken_axis(machines,
                                              "sweep: {cases: {soft: {}, stiff: {controller.cascade.kp: 0.2, "
@@ -96,7 +96,7 @@ TEST_F(Judge, TheBestPointIsThatOfTheRatesForAnyNumberOfMachines) {
   }
 }
 
-TEST_F(Judge, StatisticsDoNotDependOnWhatTheFileKeeps) {
+TEST_F(Judge, AnswersFromKeptStatisticsEqualThoseFromTrials) {
   const std::string more = "machines: 8\ngoal: {band: 3, within: 0.1, moves: 0.6, machines: 0.5}\n";
   run_study(more);
   run_study(more + "keep: statistics\n", 40, "sums.h5");
@@ -164,7 +164,7 @@ struct ProfiledMoves {
   }
 };
 
-TEST_F(Judge, TimeAfterTheProfileIsThatOfEachMove) {
+TEST_F(Judge, TimeAfterTheProfileCountsFromTheProfileOfEachMove) {
   for (unsigned seed = 0; seed < 5; ++seed) {
     ProfiledMoves moves(seed);
     const std::int64_t first = moves.draws.integer(20, 300), second = moves.draws.integer(20, 300);
@@ -185,7 +185,7 @@ TEST_F(Judge, TimeAfterTheProfileIsThatOfEachMove) {
 }
 
 // Of moves of one length the goal is that with the time from their start, in whatever is said of it.
-TEST_F(Judge, TimeAfterTheProfilesOfMovesAlikeIsOneFromTheirStart) {
+TEST_F(Judge, EqualProfilesGiveOneTimeFromTheStart) {
   for (unsigned seed = 0; seed < 5; ++seed) {
     ProfiledMoves moves(seed);
     const std::int64_t counts = moves.draws.integer(20, 300);
@@ -205,7 +205,7 @@ TEST_F(Judge, TimeAfterTheProfilesOfMovesAlikeIsOneFromTheirStart) {
 }
 
 // The goal of the motor beside the same of the load, each counted again from the measures of its mass.
-TEST_F(Judge, OfTwoMassesSaysWhichItIsAndShowsTheLoad) {
+TEST_F(Judge, WithTwoMassesNamesTheMassAndShowsTheLoad) {
   const auto run = [&](const std::string& encoder, const std::string& of) {
     folder_.write(
         "joint.yaml",
@@ -414,7 +414,7 @@ std::size_t first_of(const std::string& text, const std::vector<std::string>& wo
   return first;
 }
 
-TEST_F(QuestionOfAStudy, IsWhatEveryCommandSpeaksOfFirst) {
+TEST_F(QuestionOfAStudy, EveryCommandAnswersItFirst) {
   const std::vector<std::string> words_of_success{"zero-count", "zero count", "success", "succeed",
                                                   "failure"};
   for (const Answer& answer : answers) {

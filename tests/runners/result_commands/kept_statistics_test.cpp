@@ -44,9 +44,9 @@ void PrintTo(const StudyText& study, std::ostream* out) {
   *out << study.name;
 }
 
-class StatisticsOfStudies : public KeptStatistics, public ::testing::WithParamInterface<StudyText> {};
+class StatisticsWithoutTrials : public KeptStatistics, public ::testing::WithParamInterface<StudyText> {};
 
-TEST_P(StatisticsOfStudies, AreThoseOfARunThatKeepsItsTrials) {
+TEST_P(StatisticsWithoutTrials, EqualThoseOfARunThatKeepsItsTrials) {
   folder_.write("study.yaml", GetParam().text);
   run("full.h5");
   run("kept.h5", {"--set", "keep=statistics"});
@@ -59,7 +59,7 @@ TEST_P(StatisticsOfStudies, AreThoseOfARunThatKeepsItsTrials) {
   EXPECT_FALSE(fs::exists(at("kept/trials.csv")));
 }
 
-TEST_P(StatisticsOfStudies, DoNotDependOnHowTheTrialsWereDivided) {
+TEST_P(StatisticsWithoutTrials, DoNotDependOnTheDivisionOfTheTrials) {
   const bool open_loop = GetParam().text.find("torque") != std::string::npos;
   folder_.write("study.yaml", GetParam().text + (open_loop ? "keep: statistics\n" : "keep: failures\n"));
   run("whole.h5", {"--threads", "1"});
@@ -70,7 +70,7 @@ TEST_P(StatisticsOfStudies, DoNotDependOnHowTheTrialsWereDivided) {
 }
 
 // The second of three parts is missing; some points may have no trial, and some only a part of theirs.
-TEST_P(StatisticsOfStudies, OfAnUnfinishedRunAreThoseOfARunThatKeepsItsTrials) {
+TEST_P(StatisticsWithoutTrials, FromAnUnfinishedRunEqualThoseOfARunThatKeepsItsTrials) {
   folder_.write("study.yaml", GetParam().text);
   for (const char* keep : {"trials", "statistics"}) {
     const std::string name = keep;
@@ -86,14 +86,14 @@ const std::string torques =
     "zerocount: 1\nname: torques\nseed: 3\ntrials: 90\nfriction: {k1: {uniform: [100, 160]}}\n"
     "command: {torque: {levels: [0.01, -0.01, 0.02]}, hold: 0.1}\n";
 
-INSTANTIATE_TEST_SUITE_P(All, StatisticsOfStudies,
+INSTANTIATE_TEST_SUITE_P(All, StatisticsWithoutTrials,
                          ::testing::Values(StudyText{"jerks",
                                                      small_manifest(90, "design: latin_hypercube\n")},
                                            StudyText{"machines", small_manifest(90, "machines: 30\n")},
                                            StudyText{"machines_in_open_loop", torques + "machines: 9\n"}),
                          [](const auto& tested) { return tested.param.name; });
 
-TEST_F(KeptStatistics, OfARunThatWasInterruptedAreTheSame) {
+TEST_F(KeptStatistics, AnInterruptedRunHasTheSameStatistics) {
   folder_.write("study.yaml", small_manifest(16000, "keep: statistics\n"));
   RunningProgram running({"run", "study.yaml", "-q", "-o", "out.h5", "--threads", "1"}, folder_.path());
   running.wait_for_shards(at("out.h5.shards"));
@@ -107,7 +107,7 @@ TEST_F(KeptStatistics, OfARunThatWasInterruptedAreTheSame) {
   EXPECT_TRUE(says(program({"run", "study.yaml", "-o", "out.h5"}).err, "already complete"));
 }
 
-TEST_F(KeptStatistics, TakeAsMuchRoomForAnyNumberOfTrials) {
+TEST_F(KeptStatistics, FileSizeDoesNotGrowWithTheTrials) {
   const auto bytes = [&](int trials) {
     folder_.write("study.yaml", small_manifest(trials, "keep: statistics\n"));
     run("out.h5", {"--force"});
@@ -124,7 +124,7 @@ std::vector<std::string> lines_of(const std::string& table) {
   return lines;
 }
 
-TEST_F(KeptStatistics, WithFailuresHasThoseTrialsAndReplaysThem) {
+TEST_F(KeptStatistics, KeptFailuresCanBeReplayed) {
   folder_.write("study.yaml", small_manifest(200));
   run("full.h5");
   run("kept.h5", {"--set", "keep=failures"});
@@ -161,7 +161,7 @@ TEST_F(KeptStatistics, WithFailuresHasThoseTrialsAndReplaysThem) {
   EXPECT_EQ(program({"verify", "kept.h5", "--trials", "400"}).code, 4);
 }
 
-TEST_F(KeptStatistics, AreRefusedWhereTrialsAreNeeded) {
+TEST_F(KeptStatistics, CommandsThatNeedTrialsRefuseThem) {
   folder_.write("study.yaml", small_manifest(50, "keep: statistics\n"));
   run("out.h5");
   for (const std::vector<std::string>& words : {std::vector<std::string>{"jerks", "out.h5"},
@@ -176,18 +176,18 @@ TEST_F(KeptStatistics, AreRefusedWhereTrialsAreNeeded) {
   EXPECT_TRUE(says(refusal({"check", "study.yaml"}), "expected keep: trials"));
 }
 
-TEST_F(KeptStatistics, AreNotJoinedWithTrials) {
+TEST_F(KeptStatistics, StatisticsAndTrialsAreNotMerged) {
   folder_.write("study.yaml", small_manifest(50));
   run("trials.h5", {"--shard", "1/2"});
   run("statistics.h5", {"--shard", "2/2", "--set", "keep=statistics"});
   for (const std::vector<std::string>& parts :
        {std::vector<std::string>{"trials.h5", "statistics.h5"}, {"statistics.h5", "trials.h5"}}) {
-    EXPECT_TRUE(
-        says(refusal({"merge", parts[0], parts[1], "-o", "out.h5"}, 4), parts[1] + ": of another study"));
+    EXPECT_TRUE(says(refusal({"merge", parts[0], parts[1], "-o", "out.h5"}, 4),
+                     parts[1] + ": is from another study"));
   }
 }
 
-TEST_F(KeptStatistics, ThatCannotBeAreRefused) {
+TEST_F(KeptStatistics, ImpossibleStatisticsAreRefused) {
   folder_.write("study.yaml", small_manifest(50, "keep: statistics\n"));
   run("out.h5");
   const std::size_t numbers = sizes_of_numbers(at("out.h5")).at("/sums/whole");

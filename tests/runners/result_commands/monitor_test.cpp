@@ -57,7 +57,7 @@ TEST_F(Monitor, AnswersWithItsFieldsAndExitCodes) {
 }
 
 // The moves of the file itself are its distribution; its units are those of its export.
-TEST_F(Monitor, TakesAResultsFileAsTheBaseline) {
+TEST_F(Monitor, AcceptsAResultsFileAsTheBaseline) {
   run_study();
   ASSERT_EQ(program({"export", "study.h5", "-o", "tables"}).code, 0);
   const Json same = json_of({"monitor", "study.h5", "tables/outcomes.csv", "--measure", "arrival_time"}, 0);
@@ -71,7 +71,7 @@ TEST_F(Monitor, TakesAResultsFileAsTheBaseline) {
 }
 
 // A machine that never settles any more writes nothing but line feeds.
-TEST_F(Monitor, SeesMovesThatNeverSettleInALogOfOneColumn) {
+TEST_F(Monitor, FindsMovesThatNeverSettleInALogOfOneColumn) {
   write_log("before.csv", 200);
   folder_.write("never.csv", "arrival_time\n" + std::string(100, '\n'));
   const Json never = json_of({"monitor", "before.csv", "never.csv"}, 1);
@@ -125,7 +125,7 @@ TEST_F(Monitor, NamesTheMeasuresThatItDoesNotJudge) {
                    "columns that are not compared: Over_Shoot (looks like overshoot)"));
 }
 
-TEST_F(Monitor, SaysThatTheMovesAreThoseOfTheBaseline) {
+TEST_F(Monitor, ReportsMovesThatRepeatTheBaseline) {
   write_log("before.csv", 100);
   write_log("moves.csv", 150);
   EXPECT_EQ(json_of({"monitor", "before.csv", "moves.csv"})["repeated"], 100);
@@ -136,7 +136,7 @@ TEST_F(Monitor, SaysThatTheMovesAreThoseOfTheBaseline) {
 }
 
 // Compressed files, workbooks and texts in UTF-16 are named, whichever operand they are, and while followed.
-TEST_F(Monitor, SaysWhatALogIsThatIsNotText) {
+TEST_F(Monitor, NamesTheFormatOfALogThatIsNotText) {
   write_log("moves.csv", 20);
   const std::string wide("\xFF\xFEs\0e\0t\0\n\0", 10);
   folder_.write("moves.csv.gz", std::string("\x1F\x8B\x08\0\n\x01", 6));
@@ -177,7 +177,7 @@ TEST_F(Monitor, AsksForThePointAndTheCondition) {
   EXPECT_EQ(program({"monitor", "before.csv", "moves.csv", "--point", "1"}).code, 2);
 }
 
-TEST_F(Monitor, FollowsAGrowingLogAndSaysWhatTheWholeLogSays) {
+TEST_F(Monitor, FollowingAGrowingLogGivesTheAnswerOfTheWholeLog) {
   write_log("before.csv", 200);
   write_log("moves.csv", 40);
   std::thread writer([&] {
@@ -204,7 +204,7 @@ TEST_F(Monitor, FollowsAGrowingLogAndSaysWhatTheWholeLogSays) {
   EXPECT_EQ(Json::parse(again.out), whole);
 }
 
-TEST_F(Monitor, EndsWithoutNewMoves) {
+TEST_F(Monitor, EndsIfNoNewMovesCome) {
   write_log("before.csv", 200);
   write_log("moves.csv", 3);
   EXPECT_EQ(program({"monitor", "before.csv", "moves.csv", "--follow", "--idle", "0"}).code, 3);
@@ -218,7 +218,7 @@ TEST_F(Monitor, EndsWithoutNewMoves) {
 }
 
 // What is wrong is said at once, not with the first move.
-TEST_F(Monitor, RefusesBeforeItFollows) {
+TEST_F(Monitor, RefusesWrongInputBeforeItFollows) {
   write_log("before.csv", 200);
   write_log("moves.csv", 0);
   folder_.write("other.csv", "overshoot\n");
@@ -253,7 +253,7 @@ TEST_F(Monitor, FollowsUntilItIsInterrupted) {
   EXPECT_EQ(running.wait(), 130);
 }
 
-TEST_F(Monitor, ComparesGroupsAndSaysThatNeighboursAreAlike) {
+TEST_F(Monitor, ComparesGroupsAndReportsDependentNeighbours) {
   std::string text = "day,arrival_time\n";
   for (int i = 0; i < 240; ++i)
     text += fmt::format("{},{}\n", i / 12, 0.05 + 0.001 * ((7 * (i / 12)) % 5) + 0.0005 * ((11 * i) % 7));
@@ -273,7 +273,7 @@ TEST_F(Monitor, ComparesGroupsAndSaysThatNeighboursAreAlike) {
 }
 
 // A study knows the targets of its moves, whatever the log calls them in.
-TEST_F(Monitor, ComparesMovesWithTheirLikeInAStudy) {
+TEST_F(Monitor, ComparesMovesWithEqualMovesOfAStudy) {
   folder_.write("study.yaml", R"(zerocount: 1
 name: monitored
 seed: 5
@@ -441,7 +441,7 @@ TEST_P(GrowingLogTest, RefusesAnotherLog) {
 }
 
 // As rsync copies a log that grows: each copy is another file.
-TEST_P(GrowingLogTest, ReadsOnWhereTheFileBeginsWithWhatWasRead) {
+TEST_P(GrowingLogTest, ContinuesIfTheFileStillBeginsWithWhatWasRead) {
   EXPECT_EQ(refusal(head + rows(30, 40) + rows(7, 45)), "37 moves");
   EXPECT_EQ(refusal(head + rows(30, 40)), "30 moves");
   // A longer log than what is compared, and a last line that was not complete.

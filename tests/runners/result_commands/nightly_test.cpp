@@ -42,7 +42,7 @@ class Nightly : public ::testing::Test {
   std::string said_;
 };
 
-TEST_F(Nightly, PassesOnWhatItsBaselinesWereMadeOf) {
+TEST_F(Nightly, PassesIfTheBaselinesAreFromTheSameProgram) {
   ASSERT_EQ(script("make-baselines", "--reason 'the first ones'"), 0) << said_;
   EXPECT_TRUE(says(folder_.read("baselines/small.h5.log.yaml"), "the first ones", "[\"trials=20\"]"));
   ASSERT_EQ(night(), 0) << said_;
@@ -95,7 +95,7 @@ TEST_F(Nightly, AddsItsResultsToTheHistory) {
 }
 
 // With the margins of the repository: every change fails, whichever way it goes.
-TEST_F(Nightly, FindsWhatBecameBetterToo) {
+TEST_F(Nightly, ReportsImprovementsToo) {
   std::string slower = small_manifest(200);
   slower.replace(slower.find("3.85e-5"), 7, "1.50e-4");
   folder_.write("small.yaml", slower);
@@ -121,7 +121,7 @@ TEST_F(Nightly, RunsTheLastStudyOfAListWithoutALineBreakAtItsEnd) {
   EXPECT_TRUE(says(said_, "other: passed", "2 studies"));
 }
 
-TEST_F(Nightly, GoesOnAfterAStudyThatFails) {
+TEST_F(Nightly, ContinuesAfterAStudyThatFails) {
   ASSERT_EQ(script("make-baselines", "--reason first"), 0) << said_;
   folder_.write("studies.txt", "small none.yaml\nother small.yaml seed=7\n");
   EXPECT_EQ(night(), 2) << said_;
@@ -195,22 +195,22 @@ void expect_seen(const std::vector<std::string>& change, const comparison::GateR
     EXPECT_TRUE(comparison::fails(verdict_on(change, seed, rules))) << change.front() << ", seed " << seed;
 }
 
-TEST(GatePower, SeesALowerStiffness) {  // k1 less by 10 %
+TEST(GatePower, FindsALowerStiffness) {  // k1 less by 10 %
   expect_seen({"friction.k1={truncated_normal: {mean: 99, sd: 13.5, low: 81, high: 117}}"});
 }
 
-TEST(GatePower, SeesASpringThatSoftensSooner) {  // β more by 20 %
+TEST(GatePower, FindsASpringThatSoftensSooner) {  // β more by 20 %
   expect_seen({"friction.beta=1.2e+5"});
 }
 
-TEST(GatePower, SeesAHigherGain) {  // ki more by 10 %
+TEST(GatePower, FindsAHigherGain) {  // ki more by 10 %
   expect_seen({"sweep.cases.a.controller.ki=4.235e-5", "sweep.cases.between.controller.ki=7.15e-5",
                "sweep.cases.with-kp.controller.ki=1.0395e-4"});
 }
 
 // A coarser converter makes fewer jerks and more zero counts here: that is no regression, and is seen where a
 // change either way is asked for.
-TEST(GatePower, SeesACoarserConverterAsAChange) {
+TEST(GatePower, FindsACoarserConverterAsAChange) {
   expect_seen({"dac.resolution=9.6e-4"}, every_change_fails());
 }
 

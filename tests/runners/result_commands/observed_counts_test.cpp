@@ -59,7 +59,7 @@ TEST_F(ObservedCounts, AreTestedAgainstTheTrialsOfTheirPoint) {
   EXPECT_TRUE(says(folder_.read("out.html"), points[0]["observed_counts"]["statement"].get<std::string>()));
 }
 
-TEST_F(ObservedCounts, AreOfOneOfTheMachines) {
+TEST_F(ObservedCounts, CountAsTrialsOfOneMachine) {
   const nlohmann::json points = points_of("machines: 4\n" + counts_of_both);
   const nlohmann::json& few = points[0]["observed_counts"];
   EXPECT_EQ(few["verdict"], "too_few") << few;  // 2/5 is the least p of four machines
@@ -70,7 +70,7 @@ TEST_F(ObservedCounts, AreOfOneOfTheMachines) {
 }
 
 // With noise the loop is within its band in time, and hardly ever ends at zero counts.
-TEST_F(ObservedCounts, AreOfTheGoalWhereTheStudyHasOne) {
+TEST_F(ObservedCounts, AreComparedWithTheGoalIfTheStudyHasOne) {
   const nlohmann::json point = points_of(
       "observed: {low: {successes: 12, of: 12}}\nencoder: {fine_errors: {noise: 1}}\n"
       "goal: {band: 12, within: 0.14, moves: 0.8}\n")[0];
@@ -84,7 +84,7 @@ TEST_F(ObservedCounts, AreOfTheGoalWhereTheStudyHasOne) {
   EXPECT_FALSE(says(table, "coarse")) << table;
 }
 
-TEST_F(ObservedCounts, AreNotMissedWhereThereAreTextsOnly) {
+TEST_F(ObservedCounts, ObservationsMayBeTextsOnly) {
   const nlohmann::json points = points_of("observed: {low: calm}\n");
   EXPECT_EQ(points[0]["observed"], "calm");
   EXPECT_FALSE(points[0].contains("observed_counts"));
@@ -92,7 +92,7 @@ TEST_F(ObservedCounts, AreNotMissedWhereThereAreTextsOnly) {
   EXPECT_TRUE(one[1]["observed_counts"].is_null());
 }
 
-TEST_F(ObservedCounts, OfAnOpenLoopAreRefused) {
+TEST_F(ObservedCounts, AreRefusedForAnOpenLoop) {
   folder_.write(
       "study.yaml",
       "zerocount: 1\nname: open\nseed: 4\ntrials: 4\ncommand: {torque: {levels: [0.1]}, hold: 0.15}\n"
@@ -112,7 +112,7 @@ class Confirm : public ProgramTest {
   }
 };
 
-TEST_F(Confirm, IsTheRunOfThatPointWithTheStatedSeed) {
+TEST_F(Confirm, EqualsARunOfThatPointWithTheStatedSeed) {
   for (const char* machines : {"", "machines: 5\n"}) {
     SCOPED_TRACE(machines);
     folder_.write("study.yaml", small_manifest(20, std::string(machines) + "retain: {trials: [7]}\n"));
@@ -137,7 +137,7 @@ TEST_F(Confirm, IsTheRunOfThatPointWithTheStatedSeed) {
   }
 }
 
-TEST_F(Confirm, SaysThatTheBoundOfTheFileAllowsForTheChoice) {
+TEST_F(Confirm, SummarySaysThatTheBoundAllowsForTheChoice) {
   folder_.write("study.yaml", small_manifest(20));
   ASSERT_EQ(program({"run", "study.yaml", "-o", "out.h5"}).code, 0);
   const ProgramResult result = program({"summary", "out.h5", "--confirm", "100"});
@@ -147,7 +147,7 @@ TEST_F(Confirm, SaysThatTheBoundOfTheFileAllowsForTheChoice) {
                    "trials:                100\n"));
 }
 
-TEST_F(Confirm, IsRefusedWhereItMeansNothing) {
+TEST_F(Confirm, IsRefusedIfItIsMeaningless) {
   folder_.write("study.yaml", small_manifest(20));
   ASSERT_EQ(program({"run", "study.yaml", "-o", "out.h5"}).code, 0);
   EXPECT_EQ(program({"summary", "out.h5", "--confirm", "1"}).code, 2);
@@ -178,7 +178,7 @@ std::string random_manifest(std::mt19937_64& random) {
                         within(1e-5, 5e-5), within(1e-4, 4e-4), within(1e-4, 1e-3));
 }
 
-TEST(OnePoint, IsTheSameInEveryOutputOfRandomStudies) {
+TEST(OnePoint, EveryOutputAgreesOnEachPoint) {
   const TemporaryFolder folder;
   std::mt19937_64 random(1130);
   const auto run = [&](const std::vector<std::string>& words) {

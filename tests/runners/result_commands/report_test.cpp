@@ -21,7 +21,7 @@ class ReportCommand : public ::testing::Test {
   static inline TemporaryFolder* folder = nullptr;
 };
 
-TEST_F(ReportCommand, IsTheSamePageEveryTime) {
+TEST_F(ReportCommand, IsReproducible) {
   const ProgramResult one = run({"report", "a.h5", "-o", "one.html"});
   ASSERT_EQ(one.code, 0);
   EXPECT_EQ(one.err, "");
@@ -31,7 +31,7 @@ TEST_F(ReportCommand, IsTheSamePageEveryTime) {
 }
 
 /// The page gives the same verdict as the gate with the same margins.
-TEST_F(ReportCommand, ComparesByTheMarginsOfTheGate) {
+TEST_F(ReportCommand, ComparesWithTheMarginsOfTheGate) {
   folder->write("gate.yaml", "require: success_rate ≥ 0.9999\n");
   EXPECT_EQ(run({"report", "a.h5", "-o", "m.html", "--margins", "gate.yaml"}).code, 2);
   const ProgramResult result =
@@ -40,7 +40,7 @@ TEST_F(ReportCommand, ComparesByTheMarginsOfTheGate) {
   EXPECT_TRUE(says(folder->read("m.html"), "99.99 %"));
 }
 
-TEST_F(ReportCommand, SaysWhatIsWrongWithItsWords) {
+TEST_F(ReportCommand, WrongArgumentsAreRefusedWithTheReason) {
   EXPECT_EQ(run({"report", "a.h5"}).code, 2);
   EXPECT_EQ(run({"report", "none.h5", "-o", "x.html"}).code, 2);
   const ProgramResult point = run({"report", "a.h5", "-o", "x.html", "--point", "2"});
@@ -89,7 +89,7 @@ TEST_F(ReportCommand, TheBodePlotHasTheMarginsOfCheck) {
   }
 }
 
-TEST_F(ReportCommand, PlotSaysWhatIsWrongWithItsWords) {
+TEST_F(ReportCommand, WrongArgumentsOfPlotAreRefusedWithTheReason) {
   const ProgramResult unknown = run({"plot", "a.h5", "--figure", "sucess", "-o", "b.svg"});
   EXPECT_EQ(unknown.code, 2);
   EXPECT_TRUE(says(unknown.err, "has: success, "));
@@ -119,11 +119,11 @@ TEST(ChildProcess, PassesAnyAmountBothWays) {
   EXPECT_EQ(result->err, "said\n");
 }
 
-TEST(ChildProcess, TellsWhereThereIsNoSuchProgram) {
+TEST(ChildProcess, ReportsAMissingProgram) {
   EXPECT_FALSE(child_process::run_child({"zerocount-no-such-program"}, "").has_value());
 }
 
-TEST(ChildProcess, TellsOfASignal) {
+TEST(ChildProcess, ReportsASignal) {
   EXPECT_EQ(child_process::run_child({"sh", "-c", "kill -9 $$"}, "")->code, 137);
 }
 
@@ -177,7 +177,7 @@ TEST_F(ReportIndex, KeepsThePagesOfFilesThatHaveNotChanged) {
 }
 
 // Copying a file, or unpacking an archive, can give a file of other trials an older time than its page has.
-TEST_F(ReportIndex, MakesThePagesOfFilesThatHaveChangedWhateverTheirTimes) {
+TEST_F(ReportIndex, RemakesThePagesOfChangedFilesWhateverTheirTimes) {
   run_study("one", "");
   ASSERT_EQ(index().code, 0);
   const std::string before = folder_.read("site/one.html");
@@ -192,13 +192,13 @@ TEST_F(ReportIndex, MakesThePagesOfFilesThatHaveChangedWhateverTheirTimes) {
   EXPECT_NE(folder_.read("site/one.html"), before);
 }
 
-TEST_F(ReportIndex, RefusesWhatIsOfOneFileAndAFolderWithoutResults) {
+TEST_F(ReportIndex, RefusesOptionsOfASingleFileAndEmptyFolders) {
   const ProgramResult empty = index();
   EXPECT_EQ(empty.code, 2);
   EXPECT_TRUE(says(empty.err, "it has no results file"));
   const ProgramResult refused = index({"--with", "limits"});
   EXPECT_EQ(refused.code, 2);
-  EXPECT_TRUE(says(refused.err, "option '--with': is of one results file"));
+  EXPECT_TRUE(says(refused.err, "option '--with': applies to one results file"));
 }
 
 // `report --with`: the answers of other commands as parts of the page.
@@ -238,7 +238,7 @@ class ReportParts : public ProgramTest {
   std::string told_;
 };
 
-TEST_F(ReportParts, AreTheAnswersOfTheirCommands) {
+TEST_F(ReportParts, EqualTheAnswersOfTheirCommands) {
   run_study(
       "worlds: 6\n"
       "friction: {k1: {lognormal: {median: 130, cv: 0.2}}, alpha: {interval: [0.1, 2.0]}}\n"
@@ -264,7 +264,7 @@ TEST_F(ReportParts, AreTheAnswersOfTheirCommands) {
   EXPECT_LT(all.find("<section id=\"rare\">"), all.find("<section id=\"run\">"));
 }
 
-TEST_F(ReportParts, SayWhyTheyAreMissing) {
+TEST_F(ReportParts, GiveTheReasonIfTheyAreMissing) {
   run_study("");
   const std::string without = page({"--with", "worst,learn,rare"});
   EXPECT_TRUE(says(without, "<section id=\"overview\">"));

@@ -48,7 +48,7 @@ TEST_F(UnfinishedSummary, HasTheStatisticsOfTheTrialsThatAreFinished) {
   }
 }
 
-TEST_F(UnfinishedSummary, TakesTrialsThatOthersAreMissingBefore) {
+TEST_F(UnfinishedSummary, UsesTrialsBehindAGap) {
   folder_.write("study.yaml", small_manifest(60));
   for (const int quarter : {1, 4}) finish_quarter(quarter);
   const nlohmann::json summary = summary_of("out.h5");
@@ -58,7 +58,7 @@ TEST_F(UnfinishedSummary, TakesTrialsThatOthersAreMissingBefore) {
 }
 
 // Their numbers tell the machine or world of a trial.
-TEST_F(UnfinishedSummary, OfMachinesOrWorldsLeavesOutTrialsThatOthersAreMissingBefore) {
+TEST_F(UnfinishedSummary, WithMachinesOrWorldsOmitsTrialsBehindAGap) {
   for (const char* groups : {"machines: 30\n", "worlds: 7\n"}) {
     SCOPED_TRACE(groups);
     fs::remove_all(at("out.h5.shards"));
@@ -83,7 +83,7 @@ TEST_F(UnfinishedSummary, CountsTheMachinesThatHaveTrials) {
   EXPECT_EQ(point["machines"]["without_failure"], point["success_rate"]);
 }
 
-TEST_F(UnfinishedSummary, WhereAPointHasNoTrialYetItsRatesAreUnknown) {
+TEST_F(UnfinishedSummary, APointWithoutTrialsHasUnknownRates) {
   const std::string observed = "observed: {low: {successes: 19, of: 20}, high: {successes: 0, of: 12}}\n";
   for (const char* more : {"", "machines: 30\n", "keep: statistics\n"}) {
     SCOPED_TRACE(more);
@@ -103,7 +103,7 @@ TEST_F(UnfinishedSummary, WhereAPointHasNoTrialYetItsRatesAreUnknown) {
   }
 }
 
-TEST_F(UnfinishedSummary, IsThereWhileTheRunGoesOnAndAfterItWasInterrupted) {
+TEST_F(UnfinishedSummary, IsAvailableDuringARunAndAfterAnInterruption) {
   folder_.write("study.yaml", small_manifest(200000));
   RunningProgram run({"run", "study.yaml", "-o", "out.h5", "--threads", "1"}, folder_.path());
   run.wait_for_shards(at("out.h5.shards"));
@@ -119,7 +119,7 @@ TEST_F(UnfinishedSummary, IsThereWhileTheRunGoesOnAndAfterItWasInterrupted) {
 }
 
 // The points of a sweep take turns: whoever looks while it runs can compare all of them.
-TEST_F(UnfinishedSummary, OfAnInterruptedSweepComparesAllPointsByNearlyAsManyTrials) {
+TEST_F(UnfinishedSummary, AnInterruptedSweepHasNearlyEqualNumbersOfTrialsPerPoint) {
   folder_.write("study.yaml", small_manifest(400000, "machines: 20\nkeep: statistics\n"));
   const std::vector<std::string> sweep{
       "run",
@@ -150,13 +150,13 @@ TEST_F(UnfinishedSummary, OfAnInterruptedSweepComparesAllPointsByNearlyAsManyTri
   EXPECT_FALSE(says(status.out, "have none yet"));
 }
 
-TEST_F(UnfinishedSummary, OfARunThatHasFinishedNothingIsRefused) {
+TEST_F(UnfinishedSummary, IsRefusedIfNoTrialIsFinished) {
   folder_.write("study.yaml", small_manifest(20));
   fs::create_directories(at("out.h5.shards"));
   EXPECT_TRUE(says(refusal({"summary", "out.h5"}, 4), "no trial of this run is finished yet"));
 }
 
-TEST_F(UnfinishedSummary, OfDamagedOrForeignShardsIsRefusedWithTheirName) {
+TEST_F(UnfinishedSummary, DamagedOrForeignShardsAreRefusedByName) {
   folder_.write("study.yaml", small_manifest(20));
   finish_quarter(1);
   complete("quarter2.h5", {"--shard", "2/4", "--set", "seed=43"});
@@ -199,7 +199,7 @@ class EarlyDecision : public ::testing::Test {
   static inline std::optional<TemporaryFolder> folder;
 };
 
-TEST_F(EarlyDecision, KeepsTheOutcomesAndSaysWhatWasStopped) {
+TEST_F(EarlyDecision, KeepsTheOutcomesAndMarksStoppedTrials) {
   for (const char* name : {"outcome", "stable", "arrived", "arrival"})
     EXPECT_EQ(measure("whole.h5", name), measure("early.h5", name)) << name;
   EXPECT_GT(stopped_trials(), 20);
@@ -213,7 +213,7 @@ TEST_F(EarlyDecision, KeepsTheOutcomesAndSaysWhatWasStopped) {
 }
 
 // Real measures of a move that was not run are NaN, and its file is read all the same.
-TEST_F(EarlyDecision, MovesAfterOneThatDivergedAreReadAsNotRun) {
+TEST_F(EarlyDecision, MovesAfterADivergedMoveReadBackAsNotRun) {
   std::vector<std::string> words = with_stop({"run", "study.yaml", "-o", "moves.h5"});
   words.insert(words.end(), {"--set", "command.targets=[20, 0]"});
   const ProgramResult result = run(words);
@@ -223,7 +223,7 @@ TEST_F(EarlyDecision, MovesAfterOneThatDivergedAreReadAsNotRun) {
   EXPECT_EQ(run({"summary", "moves.h5"}).code, 0);
 }
 
-TEST_F(EarlyDecision, LeavesNoColumnWhereItIsNotUsed) {
+TEST_F(EarlyDecision, AddsNoColumnIfItIsNotUsed) {
   EXPECT_FALSE(reading::AllTrialsFile(*folder / "whole.h5").root().open_group("outcome").contains("stopped"));
   EXPECT_TRUE(reading::AllTrialsFile(*folder / "early.h5").root().open_group("outcome").contains("stopped"));
   EXPECT_FALSE(says(run({"summary", "whole.h5"}).out, "stopped"));
@@ -247,7 +247,7 @@ TEST_F(EarlyDecision, IsCountedInTheSummaryAndInThePoints) {
   EXPECT_TRUE(says(folder->read("tables/outcomes.csv"), ",stopped,"));
 }
 
-TEST_F(EarlyDecision, TracesAndRecordsEndWhereTheTrialDoes) {
+TEST_F(EarlyDecision, TracesAndRecordsEndWithTheTrial) {
   const std::string whole = run({"trace", "whole.h5", "--point", "1", "--trial", "3"}).out;
   const ProgramResult early = run({"trace", "early.h5", "--point", "1", "--trial", "3"});
   EXPECT_EQ(early.code, 0) << early.err;

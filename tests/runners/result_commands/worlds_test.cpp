@@ -55,7 +55,7 @@ TEST_F(WorldStudy, HasASummaryByWorld) {
   EXPECT_TRUE(says(program({"summary", "out.h5", "--format", "csv"}).out, "worlds_goal_missed"));
 }
 
-TEST_F(WorldStudy, TellsWhatToMeasureNext) {
+TEST_F(WorldStudy, NamesTheMeasurementToMakeNext) {
   const Json learned = json_of({"learn", "out.h5"});
   EXPECT_EQ(learned["worlds"], 12);
   EXPECT_EQ(learned["unknowns"][0]["parameter"], "creep_extension")
@@ -71,7 +71,7 @@ TEST_F(WorldStudy, TellsWhatToMeasureNext) {
 
 // Few trials decide no world, though all of them meet the goal as observed; many decide it. What is to be
 // done next follows from the verdict.
-TEST_F(WorldStudy, TellsWhatFollowsFromTheVerdict) {
+TEST_F(WorldStudy, NamesTheNextStepForEachVerdict) {
   struct Case {
     std::string trials, moves, within, status, next;
     int code;
@@ -99,7 +99,7 @@ TEST_F(WorldStudy, TellsWhatFollowsFromTheVerdict) {
   }
 }
 
-TEST_F(WorldStudy, TellsApartWhatMattersWithinAndBetweenWorlds) {
+TEST_F(WorldStudy, SeparatesInfluencesWithinAndBetweenWorlds) {
   const Json outputs = json_of({"sensitivity", "out.h5"})["points"][0]["outputs"];
   ASSERT_EQ(outputs.size(), 4U);
   EXPECT_EQ(outputs[1]["output"], "goal_between_worlds");
@@ -111,7 +111,7 @@ TEST_F(WorldStudy, TellsApartWhatMattersWithinAndBetweenWorlds) {
   }
 }
 
-TEST_F(WorldStudy, IsDrawnByWorld) {
+TEST_F(WorldStudy, IsPlottedByWorld) {
   const std::string figures = program({"plot", "out.h5"}).out;
   EXPECT_TRUE(says(figures, "worlds\n", "world-rate-2\n"));
 }
@@ -125,7 +125,7 @@ TEST_F(WorldStudy, IsPlannedAndConfirmedInEqualWorlds) {
 }
 
 // Trials of one world are alike: against other worlds, worlds are what is compared.
-TEST_F(WorldStudy, IsComparedOverWorldsWhereTheseDiffer) {
+TEST_F(WorldStudy, IsComparedOverWorldsIfTheyDiffer) {
   ASSERT_EQ(program({"run", "study.yaml", "-o", "other.h5", "--set", "seed=12"}).code, 0);
   const ProgramResult other = program({"compare", "out.h5", "other.h5"});
   EXPECT_NE(other.code, 1) << other.out;
@@ -137,7 +137,7 @@ TEST_F(WorldStudy, IsComparedOverWorldsWhereTheseDiffer) {
 }
 
 // The real machine lives in one of the worlds.
-TEST_F(WorldStudy, IsLikeARealMachineIfOneWorldIs) {
+TEST_F(WorldStudy, AgreesWithARealMachineIfOneWorldDoes) {
   const auto verdict_of = [&](const std::string& successes) {
     folder_.write("observed.yaml", std::string(study_in_worlds) + "observed: {all: {successes: " + successes +
                                        ", of: 100}}\n");

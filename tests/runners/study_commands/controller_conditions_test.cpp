@@ -33,7 +33,7 @@ class ControllerOfConditions : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(ControllerOfConditions, IsThatOfTheConditionThatIsNamed) {
+TEST_F(ControllerOfConditions, IsThatOfTheNamedCondition) {
   folder_.write("joint.yaml", std::string(manifest) +
                                   "conditions: {empty: {}, loaded: {plant.inertia: 2.2e-3, "
                                   "controller.feedforward.acceleration: 2.7e-3}}\n");
@@ -49,7 +49,7 @@ TEST_F(ControllerOfConditions, IsThatOfTheConditionThatIsNamed) {
 }
 
 // A plant that differs has the same controller, with margins under each condition.
-TEST_F(ControllerOfConditions, IsOneWhereOnlyThePlantDiffers) {
+TEST_F(ControllerOfConditions, NeedsNoConditionIfOnlyThePlantDiffers) {
   folder_.write("joint.yaml",
                 std::string(manifest) + "conditions: {empty: {}, loaded: {plant.inertia: 2.2e-3}}\n");
   const std::string both = written({});

@@ -84,7 +84,7 @@ TEST_F(EngineOption, GivesTheSameIntegersOnAStableStudy) {
   }
 }
 
-TEST_F(EngineOption, IsBatchUnlessSaidOtherwiseAndIsRecorded) {
+TEST_F(EngineOption, DefaultsToBatchAndIsRecorded) {
   folder_.write("study.yaml", small_manifest(5));
   complete("study.yaml", "default.h5");
   complete("study.yaml", "batch.h5", {"--engine", "batch"});
@@ -109,7 +109,7 @@ TEST_F(EngineOption, IsNamedInEveryFile) {
   EXPECT_TRUE(says(refusal({"summary", "odd.h5"}, 4), "steam"));
 }
 
-TEST_F(EngineOption, OfAFinishedFileIsNotOverruled) {
+TEST_F(EngineOption, CannotBeChangedForAFinishedFile) {
   folder_.write("study.yaml", small_manifest(3));
   complete("study.yaml", "out.h5");
   const std::string bytes = folder_.read("out.h5");
@@ -119,7 +119,7 @@ TEST_F(EngineOption, OfAFinishedFileIsNotOverruled) {
 }
 
 /// The engine of an unfinished run cannot be changed: its shards are refused like those of another study.
-TEST_F(EngineOption, OfAnUnfinishedRunIsNotOverruled) {
+TEST_F(EngineOption, CannotBeChangedForAnUnfinishedRun) {
   folder_.write("study.yaml", small_manifest(20));
   for (const char* engine : {"batch", "reference"}) {
     const std::string other = engine == std::string("batch") ? "reference" : "batch";
@@ -137,7 +137,7 @@ TEST_F(EngineOption, OfAnUnfinishedRunIsNotOverruled) {
   }
 }
 
-TEST_F(EngineOption, IsTheSameInAllPartsOfAMerge) {
+TEST_F(EngineOption, MustBeEqualInAllPartsOfAMerge) {
   folder_.write("study.yaml", small_manifest(21));
   complete("study.yaml", "b1.h5", {"--shard", "1/2"});
   complete("study.yaml", "b2.h5", {"--shard", "2/2"});

@@ -186,24 +186,24 @@ class FailingCalls : public ::testing::Test {
 
 // In these, a call fails in one of four ways, which take turns: ENOSPC or EIO, once or from then on. The
 // steps are primes, so that they meet all kinds of calls that come in turns.
-TEST_F(FailingCalls, ThatWriteDuringARun) {
+TEST_F(FailingCalls, WritesOfARunNeverLeaveAWrongFile) {
   fail_calls(run(), "writes", faults, 1, 53);
 }
 
-TEST_F(FailingCalls, ThatWriteDuringAMerge) {
+TEST_F(FailingCalls, WritesOfAMergeNeverLeaveAWrongFile) {
   fail_calls(merge(), "writes", faults, 1, 43);
 }
 
-TEST_F(FailingCalls, ThatWriteDuringAnExport) {
+TEST_F(FailingCalls, WritesOfAnExportNeverLeaveAWrongFile) {
   fail_calls(export_of_tables(), "writes", faults, 1, 5);
 }
 
-TEST_F(FailingCalls, ThatWriteOtherOutputs) {
+TEST_F(FailingCalls, WritesOfOtherOutputsNeverLeaveAWrongFile) {
   fail_calls_of_other_outputs(1);
 }
 
 // A history is changed in place: whatever fails, it has the runs from before, and the new one or not.
-TEST_F(FailingCalls, ThatWriteAHistory) {
+TEST_F(FailingCalls, WritesOfAHistoryKeepTheEarlierRuns) {
   make_input();
   complete({"run", "study.yaml", "-o", "earlier.h5", "-q"});
   complete({"history", "add", "earlier.h5"});
@@ -239,22 +239,22 @@ TEST_F(FailingCalls, ThatWriteAHistory) {
 }
 
 // The disk says that it has written, and has not.
-TEST_F(FailingCalls, ThatSayTheyHaveWritten) {
+TEST_F(FailingCalls, LostWritesAreDetected) {
   fail_calls(run(), "writes", std::array{Fault{"lost", false}}, 1, 113);
 }
 
-TEST_F(FailingCalls, ThatReadWhatWasJustWritten) {
+TEST_F(FailingCalls, ReadsOfWrittenDataNeverLeaveAWrongFile) {
   fail_calls(run(), "reads", std::array{Fault{std::to_string(EIO), false}}, 1, 293);
 }
 
-TEST_F(FailingCalls, ThatReadAFileThatIsThereAlready) {
+TEST_F(FailingCalls, ReadsOfAnExistingFileLeaveItUnchanged) {
   complete({"run", "study.yaml", "-o", "out.h5", "-q"});
   const Writer again{run().arguments, {"out.h5"}, read_bytes(folder_ / "out.h5"), true};
   fail_calls(again, "reads", std::array{Fault{std::to_string(EIO), true}}, 1, 23);
 }
 
 // Takes a quarter of an hour.
-TEST_F(FailingCalls, DISABLED_AllInEveryWay) {
+TEST_F(FailingCalls, DISABLED_EveryCallFailsInEveryWay) {
   fail_calls(run(), "writes", faults, faults.size());
   fail_calls(run(), "writes", std::array{Fault{"lost", false}}, 1);
   fail_calls(run(), "reads", faults, 2);
@@ -287,7 +287,7 @@ class WithoutFlock : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(WithoutFlock, ARunGivesTheSameDataAndSaysHowItIsLocked) {
+TEST_F(WithoutFlock, ARunGivesTheSameDataAndNamesItsLock) {
   folder_.write("study.yaml", small_manifest(8));
   const ProgramResult result = program({"run", "study.yaml", "-o", "out.h5"});
   ASSERT_EQ(result.code, 0) << result.err;
@@ -306,7 +306,7 @@ TEST_F(WithoutFlock, PartsAreMerged) {
   EXPECT_EQ(owner_files().size(), 0U);
 }
 
-TEST_F(WithoutFlock, TheOwnerFileOfAKilledRunStopsNothing) {
+TEST_F(WithoutFlock, TheOwnerFileOfAKilledRunBlocksNothing) {
   folder_.write("study.yaml", small_manifest(100000));
   const std::string line = "cd " + folder_.path().string() +
                            " && LD_PRELOAD=" ZEROCOUNT_NO_FLOCK
@@ -330,7 +330,7 @@ ProgramResult run_where_folders_fail_with(int error, const TemporaryFolder& fold
        "ASAN_OPTIONS=verify_asan_link_order=0:detect_leaks=0"});
 }
 
-TEST(WithoutFsyncOfFolders, ARunIsCompleteAndADiskThatFailsIsNotForgiven) {
+TEST(WithoutFsyncOfFolders, ARunCompletesButADiskFailureIsAnError) {
   const TemporaryFolder folder;
   folder.write("study.yaml", small_manifest(8));
   for (const int missing : {EINVAL, EOPNOTSUPP, ENOSYS}) {

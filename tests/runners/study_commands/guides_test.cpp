@@ -20,7 +20,7 @@ class NewGuide : public ::testing::Test {
   TemporaryFolder folder;
 };
 
-TEST_F(NewGuide, EachIsAStudyThatChecksAndRunsAndStaysWithinOneCount) {
+TEST_F(NewGuide, EachStudyRunsAndStaysWithinOneCount) {
   for (const guides::Guide& guide : guides::guide_table()) {
     const std::string name(guide.name);
     ASSERT_EQ(run({"new", "--guide", name}).code, 0) << name;
@@ -37,7 +37,7 @@ TEST_F(NewGuide, EachIsAStudyThatChecksAndRunsAndStaysWithinOneCount) {
   }
 }
 
-TEST_F(NewGuide, ScalesItWithTheLoad) {
+TEST_F(NewGuide, FrictionScalesWithTheLoad) {
   const ProgramResult usual = run({"new", "--guide", "ball-rail", "-o", "-"});
   const ProgramResult more = run(
       {"new", "--guide", "ball-rail", "--preload", "800", "--mass", "12", "--resolution", "1e-9", "-o", "-"});
@@ -72,7 +72,7 @@ TEST_F(NewGuide, IsListed) {
     EXPECT_TRUE(says(list, "\n" + std::string(guide.name) + " "));
 }
 
-TEST_F(NewGuide, RefusesWhatItDoesNotKnow) {
+TEST_F(NewGuide, RefusesUnknownGuidesAndOptions) {
   std::string names;
   for (const guides::Guide& guide : guides::guide_table())
     names += (names.empty() ? "" : ", ") + std::string(guide.name);
@@ -99,7 +99,7 @@ class Hints : public ProgramTest {
   }
 };
 
-TEST_F(Hints, CheckAndRunWarnAlikeAndGoOn) {
+TEST_F(Hints, CheckAndRunGiveTheSameWarnings) {
   const std::vector<std::string> absurd{"--set", "friction.beta=0.1", "--set", "controller.kp=20"};
   const auto with = [&](std::vector<std::string> words) {
     words.insert(words.end(), absurd.begin(), absurd.end());
@@ -112,7 +112,7 @@ TEST_F(Hints, CheckAndRunWarnAlikeAndGoOn) {
   EXPECT_TRUE(says(checked, ran)) << ran;
 }
 
-TEST_F(Hints, CheckSaysInHowManyTrialsARuleHolds) {
+TEST_F(Hints, CheckCountsTheTrialsInWhichARuleHolds) {
   const auto trials_with = [&](const std::string& resolution) {
     const auto theory = nlohmann::json::parse(
         program({"check", "study.yaml", "--set", "trials=40", "--set", "friction.k1={uniform: [100, 200]}",
@@ -128,18 +128,18 @@ TEST_F(Hints, CheckSaysInHowManyTrialsARuleHolds) {
   EXPECT_LT(trials_with("5.8e-4"), 40);
 }
 
-TEST_F(Hints, CheckTellsTheCountsOfTargetsInSiUnits) {
+TEST_F(Hints, CheckStatesTheCountsOfTargetsInSiUnits) {
   const std::string out =
       program({"check", "study.yaml", "--set", "command={units: si, targets: [1.0e-4, -2.0e-4]}"}).out;
   EXPECT_TRUE(says(out, "to the nearest of 3.879e-06 rad: 0.0001 rad = 26 counts, -0.0002 rad = -52 counts"));
 }
 
-TEST_F(Hints, AMisspeltCommandIsToldTheNearest) {
+TEST_F(Hints, AMisspeltCommandIsAnsweredWithTheNearest) {
   EXPECT_TRUE(says(refusal({"chek", "study.yaml"}), "unknown command 'chek'; did you mean check? See"));
   EXPECT_EQ(program({"frobnicate"}).err, "zerocount: unknown command 'frobnicate'; see 'zerocount --help'\n");
 }
 
-TEST_F(Hints, CompletionTellsTheLabelsOfPoints) {
+TEST_F(Hints, CompletionListsTheLabelsOfPoints) {
   warnings_of({"run", "study.yaml", "-q", "-o", "out.h5"});
   const std::string labels = program({"completion", "points", "study.yaml"}).out;
   EXPECT_EQ(std::count(labels.begin(), labels.end(), '\n'), 2) << labels;
@@ -169,7 +169,7 @@ class FileOperand : public ProgramTest {
   }
 };
 
-TEST_F(FileOperand, IsTheStudyWithItsOverrides) {
+TEST_F(FileOperand, MeansItsStudyWithItsOverrides) {
   Json of_file = Json::parse(out({"check", "axis.h5", "--format", "json"}));
   Json of_manifest = Json::parse(out({"check", "axis.yaml", "--set", "friction.k1=150", "--format", "json"}));
   for (Json* plan : {&of_file, &of_manifest}) {
@@ -194,7 +194,7 @@ TEST_F(FileOperand, IsNotChangedNorOverwritten) {
   EXPECT_TRUE(says(refusal({"controller", "axis.yaml", "--point", "best"}), "expected a results file"));
 }
 
-TEST_F(FileOperand, IsRefusedWhereItDoesNotTellTheStudy) {
+TEST_F(FileOperand, IsRefusedIfItDoesNotContainTheStudy) {
   out({"controller", "axis.yaml", "-o", "law.c"});
   const std::string folder = folder_.path().string();
   ASSERT_EQ(std::system(("cc -shared -fPIC -DZEROCOUNT_PLUGIN -I " ZEROCOUNT_PLUGIN_HEADERS " " + folder +

@@ -38,14 +38,14 @@ void expect_parts(const std::string& text, const std::vector<std::string>& parts
   for (const std::string& part : parts) EXPECT_TRUE(says(text, part)) << part << "\n" << text;
 }
 
-TEST_F(LinearAxis, IsCheckedInItsOwnUnits) {
+TEST_F(LinearAxis, CheckUsesLinearUnits) {
   const ProgramResult result = run({"check", "stage.yaml"});
   EXPECT_EQ(result.code, 0) << result.err;
   expect_parts(result.out, {"1.5e+09", "N/(m s)", "k1·Δx", "the lowest along the profiles"});
   EXPECT_FALSE(says(result.out, "N m"));
 }
 
-TEST_F(LinearAxis, HasItsUnitsInFilesTablesAndReports) {
+TEST_F(LinearAxis, FilesTablesAndReportsUseLinearUnits) {
   ASSERT_EQ(run({"run", "stage.yaml", "-o", "stage.h5"}).code, 0);
   ASSERT_EQ(run({"export", "stage.h5", "-o", "csv"}).code, 0);
   expect_parts(first_line("csv/outcomes.csv"), {"holding_torque [N]", "peak_torque [N]", "creep [m]",
@@ -157,13 +157,13 @@ TEST_F(LinearAxis, IsIdentifiedFromTheTracesOfItsMaterialTests) {
   expect_intervals_hold(folder, 2);
 }
 
-TEST_F(LinearAxis, DISABLED_IsIdentifiedWithIntervalsThatHoldTheTruth) {
+TEST_F(LinearAxis, DISABLED_IdentifiedIntervalsCoverTheTrueValues) {
   expect_intervals_hold(folder, 10);
 }
 
 // A closed loop that moves ten counts shows the inertia and the initial stiffness; it is not taken for
 // sliding.
-TEST_F(LinearAxis, IsIdentifiedFromItsLoopAsFarAsThatTells) {
+TEST_F(LinearAxis, ItsClosedLoopIdentifiesTheInertia) {
   ASSERT_EQ(run({"run", "stage.yaml", "-o", "stage.h5"}).code, 0);
   const auto found =
       nlohmann::json::parse(run({"identify", "stage.h5", "--point", "0", "--format", "json", "--quiet"}).out);

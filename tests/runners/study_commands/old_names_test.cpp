@@ -21,7 +21,7 @@ class OldNames : public ProgramTest {
 
 const std::vector<std::string> both_meanings{"arrival_time", "final_settling_time"};
 
-TEST_F(OldNames, RigsInAManifestAreCalledMachines) {
+TEST_F(OldNames, TheOldKeyForMachinesIsRefusedWithTheNewName) {
   folder_.write("old.yaml", small_manifest(30, "rigs: 10\n"));
   expect_refused({"check", "old.yaml"}, {"old.yaml:13:1: rigs: it is called machines since 0.2"});
   expect_refused({"check", "a.yaml", "--set", "rigs=10"}, {"rigs: it is called machines since 0.2"});

@@ -31,7 +31,7 @@ class OpenLoop : public ::testing::Test {
   TemporaryFolder folder;
 };
 
-TEST_F(OpenLoop, LevelsOfTheSummaryAreThoseOfTheTrials) {
+TEST_F(OpenLoop, SummaryLevelsAgreeWithTheTrials) {
   ASSERT_EQ(run({"run", "loads.yaml", "-o", "loads.h5", "--engine", "reference"}).code, 0);
   const auto json = nlohmann::json::parse(run({"summary", "loads.h5", "--format", "json"}).out);
   const study::Study study = manifest::load_study(folder / "loads.yaml");
@@ -63,7 +63,7 @@ TEST_F(OpenLoop, LevelsOfTheSummaryAreThoseOfTheTrials) {
   }
 }
 
-TEST_F(OpenLoop, TableAndTablesHaveTheLevels) {
+TEST_F(OpenLoop, TablesHaveTheLevels) {
   ASSERT_EQ(run({"run", "loads.yaml", "-o", "loads.h5"}).code, 0);
   const std::string table = run({"summary", "loads.h5"}).out;
   EXPECT_TRUE(says(table, "position (µrad)"));
@@ -98,7 +98,7 @@ TEST_F(OpenLoop, SampleRecordsOfAnExactTorqueHaveNoCode) {
   EXPECT_EQ(largest, 0.15);
 }
 
-TEST(SampleRecords, HaveTheColumnsThatTheStudyUsesInEveryPlace) {
+TEST(SampleRecords, HaveTheColumnsThatTheStudyUsesInEveryFormat) {
   const TemporaryFolder folder;
   folder.write("study.yaml",
                "zerocount: 1\nname: two phases\nseed: 2\ntrials: 2\n"
@@ -188,7 +188,7 @@ class SlowStage : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(SlowStage, IsCalledUndecidedWithTheHoldThatDecides) {
+TEST_F(SlowStage, IsCalledUndecidedWithTheHoldThatWouldDecide) {
   ASSERT_EQ(run({"run", "stage.yaml", "-q", "-o", "slow.h5"}).code, 0);
   const Recorded counted = recorded("slow.h5");
   EXPECT_LT(counted.arrived, moves_of_stage / 5);
@@ -229,7 +229,7 @@ TEST_F(SlowStage, ArrivesWithTheAdvisedHoldUnderAProportionalGain) {
   EXPECT_TRUE(says(table, "; it was falling, with a ripple of one count, in "));
 }
 
-TEST_F(SlowStage, IsToldOfByCheckBeforeItRuns) {
+TEST_F(SlowStage, CheckWarnsBeforeItRuns) {
   const std::string slow = run({"check", "stage.yaml"}).err;
   EXPECT_TRUE(says(slow, "warning: point 0 (all): the loop's slowest time constant is 0.2",
                    "longer than the hold of 0.3 s: moves may end before they arrive"));

@@ -47,7 +47,7 @@ class Places : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(Places, NoCommandReplacesWhatExistsWithoutForce) {
+TEST_F(Places, ExistingFilesAreReplacedOnlyWithForce) {
   const std::vector<Writing> writing{
       {"run.h5", {"run", "study.yaml", "-o", "run.h5"}},
       {"merged.h5", {"merge", "part1.h5", "part2.h5", "-o", "merged.h5"}},
@@ -79,7 +79,7 @@ TEST_F(Places, NoCommandReplacesWhatExistsWithoutForce) {
 }
 
 // A report of an earlier command that says "passed" would be read as the answer of one that failed.
-TEST_F(Places, NoAnswerOfAnEarlierCommandStaysBesideAFailure) {
+TEST_F(Places, AFailureLeavesNoEarlierAnswer) {
   folder_.write("damaged.h5", folder_.read("all.h5").substr(0, 5000));
   const std::vector<Writing> failing{
       {"gate.json", {"compare", "all.h5", "damaged.h5", "--json", "gate.json"}},
@@ -181,7 +181,7 @@ TEST_F(Places, APipeIsReadLikeAFile) {
 }
 
 // The system's `timeout` ends a program that waits for the other end with exit code 124.
-TEST_F(Places, APipeForDataIsRefusedAndNotWaitedFor) {
+TEST_F(Places, APipeAsOutputIsRefusedImmediately) {
   ASSERT_EQ(shell("mkfifo pipe.h5 pipe.csv pipe.svg new.h5.part new.h5.lock new.csv.part"), 0);
   for (const char* line :
        {"summary pipe.h5", "merge pipe.h5 -o other.h5", "trace pipe.h5",
@@ -200,11 +200,11 @@ TEST_F(Places, APipeForDataIsRefusedAndNotWaitedFor) {
 }
 
 // Where a parent ignores the ends of its children, so do they, unless they say otherwise.
-TEST_F(Places, AFileIsReadWhereTheEndsOfChildrenAreIgnored) {
+TEST_F(Places, AFileIsReadEvenIfSigchldIsIgnored) {
   EXPECT_EQ(shell("env --ignore-signal=CHLD $Z summary all.h5 > summary.txt"), 0) << folder_.read("err");
 }
 
-TEST_F(Places, ALinkInTheWayIsNotFollowed) {
+TEST_F(Places, ALinkAtATemporaryNameIsNotFollowed) {
   folder_.write("notes", "my notes");
   for (const char* link : {"new.h5.lock", "merged.h5.part", "new.csv.part"})
     fs::create_symlink(at("notes"), at(link));
@@ -218,7 +218,7 @@ TEST_F(Places, ALinkInTheWayIsNotFollowed) {
     EXPECT_TRUE(fs::is_symlink(at(link))) << link;
 }
 
-TEST_F(Places, ALinkIsNoOutput) {
+TEST_F(Places, ALinkIsRefusedAsOutput) {
   folder_.write("notes", "my notes");
   for (const char* name : {"link.h5", "link.csv", "link.html"}) fs::create_symlink(at("notes"), at(name));
   for (const char* line :
@@ -231,7 +231,7 @@ TEST_F(Places, ALinkIsNoOutput) {
   for (const char* name : {"link.h5", "link.csv", "link.html"}) EXPECT_TRUE(fs::is_symlink(at(name))) << name;
 }
 
-TEST_F(Places, TheNameOfAnOutputIsTheKindOfItsContents) {
+TEST_F(Places, TheExtensionOfAnOutputMustMatchItsContents) {
   for (const char* name : {"report.pdf", "report", "report.svg"}) {
     const ProgramResult result = program({"report", "all.h5", "-o", name});
     EXPECT_EQ(result.code, 2) << name;

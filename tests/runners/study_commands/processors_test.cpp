@@ -22,7 +22,7 @@ int shell(const std::string& line) {
 }
 
 // The Python interpreter takes its exponentials from the C library.
-TEST(Processors, WithoutFusedOperationsHaveOtherExponentialsInTheCLibrary) {
+TEST(ProcessorsWithoutFma, HaveOtherExponentialsInTheCLibrary) {
   if (!processor_has_fma()) GTEST_SKIP() << "this processor has no fused operations";
   const TemporaryFolder folder;
   const std::string python = fmt::format(

@@ -70,7 +70,7 @@ TEST_F(Run, SurvivesBeingKilledAtRandomMoments) {
   }
 }
 
-TEST_F(Run, KeepsWhatIsFinishedWhenInterruptedAndGoesOn) {
+TEST_F(Run, AnInterruptedRunKeepsItsTrialsAndContinues) {
   RunningProgram running = start_long_run("long.h5");
   running.send(SIGINT);
   EXPECT_EQ(running.wait(), 130);
@@ -83,7 +83,7 @@ TEST_F(Run, KeepsWhatIsFinishedWhenInterruptedAndGoesOn) {
   EXPECT_EQ(again.wait(), 130);
 }
 
-TEST_F(Run, LosesLittleWhenItIsKilled) {
+TEST_F(Run, AKilledRunKeepsItsFinishedTrials) {
   RunningProgram running = start_long_run("killed.h5");
   std::this_thread::sleep_for(std::chrono::milliseconds(1500));
   running.send(SIGKILL);
@@ -105,7 +105,7 @@ TEST_F(Run, LeavesAnIgnoredSignalIgnored) {
   EXPECT_TRUE(fs::exists(at("out.h5")));
 }
 
-TEST_F(Run, UsesWhatItCanOfOverlappingShards) {
+TEST_F(Run, UsesOverlappingShards) {
   folder_.write("study.yaml", small_manifest(60));
   complete("study.yaml", "whole.h5");
   complete("study.yaml", "middle.h5", {"--shard", "2/3"});
@@ -117,7 +117,7 @@ TEST_F(Run, UsesWhatItCanOfOverlappingShards) {
   expect_same_datasets(at("whole.h5"), at("out.h5"));
 }
 
-TEST_F(Run, TidiesUpAfterARunThatDiedAtItsEnd) {
+TEST_F(Run, CleansUpAfterARunThatDiedAtItsEnd) {
   folder_.write("study.yaml", small_manifest(10));
   complete("study.yaml", "part.h5", {"--shard", "1/2"});
   complete("study.yaml", "out.h5");
@@ -133,7 +133,7 @@ TEST_F(Run, TidiesUpAfterARunThatDiedAtItsEnd) {
   EXPECT_TRUE(fs::exists(at("out.h5.shards/other.h5")));
 }
 
-TEST_F(Run, RunsAgainWhatADamagedShardHeld) {
+TEST_F(Run, RepeatsTheTrialsOfADamagedShard) {
   folder_.write("study.yaml", small_manifest(40));
   complete("study.yaml", "whole.h5");
   complete("study.yaml", "part.h5", {"--shard", "1/2"});
@@ -150,7 +150,7 @@ constexpr const char* long_trials =
     "zerocount: 1\nname: slow\nseed: 1\ntrials: 4\nfriction: {lambda: 1.0e-6}\n"
     "command: {targets: [5], hold: 5000}\n";
 
-TEST_F(Run, ACheckOfLongTrialsEndsSoon) {
+TEST_F(Run, CheckOfLongTrialsEndsSoon) {
   folder_.write("slow.yaml", long_trials);
   const auto started = std::chrono::steady_clock::now();
   const ProgramResult result = program({"check", "slow.yaml", "--set", "friction.lambda=1.0e-9"});
@@ -182,14 +182,14 @@ TEST_F(Run, RefusesASecondRunOnTheSameOutput) {
   EXPECT_EQ(third.wait(), 130);
 }
 
-TEST_F(Run, SaysWhyAnOutputCannotBeWritten) {
+TEST_F(Run, AnUnwritableOutputIsReportedWithTheReason) {
   folder_.write("study.yaml", small_manifest(4));
   EXPECT_TRUE(says(refusal({"run", "study.yaml", "-o", "nowhere/out.h5"}, 5), "nowhere", "does not exist"));
   EXPECT_EQ(program({"run", "study.yaml", "-o", "new/"}).code, 2);
   EXPECT_EQ(program({"run", "study.yaml", "-o", "."}).code, 2);
 }
 
-TEST_F(Run, AFullDiskLosesNothingThatWasFinished) {
+TEST_F(Run, AFullDiskLosesNoFinishedTrial) {
   folder_.write("study.yaml", small_manifest(400));
   complete("study.yaml", "whole.h5");
   // A limit on file size stands for the full disk: shards fit, and the results file does not.

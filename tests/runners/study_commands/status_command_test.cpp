@@ -27,7 +27,7 @@ class StatusOfARun : public ProgramTest {
   }
 };
 
-TEST_F(StatusOfARun, IsThatOfItsShards) {
+TEST_F(StatusOfARun, CountsTheTrialsInItsShards) {
   folder_.write("study.yaml", small_manifest(200000));
   EXPECT_EQ(program({"status", "out.h5"}).code, 2);
   RunningProgram run({"run", "study.yaml", "-q", "-o", "out.h5", "--threads", "1"}, folder_.path());
@@ -86,7 +86,7 @@ TEST_F(StatusOfARun, NamesFilesThatCannotBeRead) {
   EXPECT_EQ(program({"status", "out.h5"}).code, 4);  // nothing but what cannot be read
 }
 
-TEST_F(StatusOfARun, IsRefusedOfWhatIsNoRun) {
+TEST_F(StatusOfARun, IsRefusedForFilesThatAreNotARun) {
   folder_.write("study.yaml", small_manifest(60));
   for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
            {"status", "out.h5"}, {"status", "out.h5", "--watch", "1"}, {"status", "."}})
@@ -96,7 +96,7 @@ TEST_F(StatusOfARun, IsRefusedOfWhatIsNoRun) {
   EXPECT_EQ(program({"status", "part.h5"}).code, 4);
 }
 
-TEST_F(StatusOfARun, OfPartsIsCompleteWhenTheyAreMerged) {
+TEST_F(StatusOfARun, PartsAreCompleteWhenTheyAreMerged) {
   folder_.write("study.yaml", small_manifest(60));
   fs::create_directory(folder_ / "out.h5.parts");
   for (const int part : {1, 2, 3, 4}) run_part(part, fmt::format("out.h5.parts/part-{}-of-4.h5", part));
@@ -114,7 +114,7 @@ TEST_F(StatusOfARun, OfPartsIsCompleteWhenTheyAreMerged) {
   EXPECT_FALSE(status()["complete"].get<bool>());  // the file is older than a part
 }
 
-TEST_F(StatusOfARun, OfAFileThatIsThereIsComplete) {
+TEST_F(StatusOfARun, AnExistingFileIsComplete) {
   folder_.write("study.yaml", small_manifest(4));
   ASSERT_EQ(program({"run", "study.yaml", "-q", "-o", "out.h5"}).code, 0);
   const std::string text = program({"status", "out.h5"}).out;
@@ -151,7 +151,7 @@ TEST_F(TimelineOfRun, HasEveryTrialInEachStage) {
   EXPECT_EQ(trials["read back"], 300);  // of the file; storing a shard contains it
 }
 
-TEST_F(TimelineOfRun, IsThatOfTheSumsWhereTheyAreKept) {
+TEST_F(TimelineOfRun, CoversKeptStatistics) {
   folder_.write("study.yaml", small_manifest(150, "keep: statistics\n"));
   const ProgramResult run = program({"run", "study.yaml", "-o", "study.h5", "--timeline", "time.json"});
   ASSERT_EQ(run.code, 0) << run.err;
@@ -159,7 +159,7 @@ TEST_F(TimelineOfRun, IsThatOfTheSumsWhereTheyAreKept) {
   EXPECT_EQ(trials_of_stages("time.json")["statistics"], 300);
 }
 
-TEST_F(TimelineOfRun, ReplacesATimelineAndNothingElse) {
+TEST_F(TimelineOfRun, ReplacesOnlyATimeline) {
   folder_.write("study.yaml", small_manifest(20));
   folder_.write("notes.txt", "not a timeline\n");
   const auto run = [&](const std::string& timeline) {
@@ -172,7 +172,7 @@ TEST_F(TimelineOfRun, ReplacesATimelineAndNothingElse) {
   EXPECT_EQ(run("study.yaml").code, 2);
 }
 
-TEST_F(TimelineOfRun, OfASearchHasItsStagesAndEveryLoop) {
+TEST_F(TimelineOfRun, ATuningHasItsStages) {
   const std::string study = small_manifest(150);
   folder_.write("study.yaml", study.substr(0, study.find("sweep:")) +
                                   "controller: {ki: 3.85e-5}\n"
@@ -214,7 +214,7 @@ class MachineStudy : public ProgramTest {
   }
 };
 
-TEST_F(MachineStudy, CheckSaysHowManyTrialsAMachineHasAndWhatItIsThatDiffers) {
+TEST_F(MachineStudy, CheckListsTrialsPerMachineAndTheParametersThatDiffer) {
   const ProgramResult result = program({"check", "m.yaml"});
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_TRUE(says(result.out, " 8, 5 trials of each\n"));
@@ -255,7 +255,7 @@ TEST_F(MachineStudy, CheckGivesTheBoundsAtTheSoftestRotorOfAllMachines) {
   EXPECT_NEAR(theory["lowest_stable_below"].get<double>(), bound, 2e-3 * bound);
 }
 
-TEST_F(MachineStudy, TheFileIsTheSameHoweverItWasRun) {
+TEST_F(MachineStudy, TheFileDoesNotDependOnHowItWasRun) {
   run({"-o", "once.h5", "--threads", "1"});
   run({"-o", "a.h5", "--shard", "1/2"});
   run({"-o", "b.h5", "--shard", "2/2"});
@@ -273,7 +273,7 @@ TEST_F(MachineStudy, TheFileIsTheSameHoweverItWasRun) {
   EXPECT_EQ(once.profiles().at(0).machines, 8);
 }
 
-TEST_F(MachineStudy, ATrialIsRunAgainAlone) {
+TEST_F(MachineStudy, ASingleTrialCanBeReplayed) {
   run({"-o", "once.h5", "--engine", "reference"});
   std::int64_t slid = 0;
   const reading::AllTrialsFile file(folder_ / "once.h5");
@@ -315,7 +315,7 @@ TEST_F(Samples, AreFoundBesideTheManifest) {
   EXPECT_TRUE(says(check.out, "friction.k1, friction.k2: a row of posterior.csv (3 draws) for each machine"));
 }
 
-TEST_F(Samples, AreRecordedSoThatTheFileStandsAlone) {
+TEST_F(Samples, AreRecordedInTheResultsFile) {
   ASSERT_EQ(run("out.h5").code, 0);
   std::filesystem::remove(folder_ / "studies/posterior.csv");
   EXPECT_EQ(reading::AllTrialsFile(folder_ / "out.h5").header().samples, table_text);
@@ -328,7 +328,7 @@ TEST_F(Samples, AreRecordedSoThatTheFileStandsAlone) {
   EXPECT_TRUE(says(folder_.read("out.html"), "a row of posterior.csv (3 draws) for each machine"));
 }
 
-TEST_F(Samples, OfAChangedTableAreAnotherStudy) {
+TEST_F(Samples, AChangedTableIsAnotherStudy) {
   ASSERT_EQ(run("out.h5").code, 0);
   folder_.write("studies/posterior.csv", table_text + "130,710\n");
   ASSERT_EQ(run("other.h5").code, 0);
@@ -337,14 +337,14 @@ TEST_F(Samples, OfAChangedTableAreAnotherStudy) {
   EXPECT_TRUE(says(compare.out, "samples, SHA-256 of the table"));
 }
 
-TEST_F(Samples, GoWithAStudyThatStopsByItself) {
+TEST_F(Samples, WorkWithAStudyThatStopsByItself) {
   const ProgramResult stopped =
       run("out.h5", {"--set", "stop={success_rate_halfwidth: 0.3, max_trials: 6000}"});
   EXPECT_EQ(stopped.code, 0) << stopped.err;
   EXPECT_EQ(program({"summary", "out.h5"}).code, 0);
 }
 
-TEST_F(Samples, NameTheFileThatIsNotThere) {
+TEST_F(Samples, NameTheMissingFile) {
   std::filesystem::remove(folder_ / "studies/posterior.csv");
   EXPECT_TRUE(says(refusal({"check", "studies/study.yaml"}),
                    "studies/posterior.csv: no such file; expected a table of samples"));

@@ -64,7 +64,7 @@ TEST_F(Trace, CsvHasTheColumnsAndReadsBackToTheSameNumbers) {
   EXPECT_FALSE(std::getline(lines, line));
 }
 
-TEST_F(Trace, JsonHoldsTheSame) {
+TEST_F(Trace, JsonEqualsTheRecords) {
   const auto json =
       nlohmann::json::parse(program({"trace", "study.yaml", "--trial", "1", "--format", "json"}).out);
   const std::vector<trial::SampleRecord> expected = records(0, 1);
@@ -79,7 +79,7 @@ TEST_F(Trace, JsonHoldsTheSame) {
   EXPECT_EQ(json["outcome"].size(), 1u);
 }
 
-TEST_F(Trace, ReplaysFromTheFileAloneAndEqualsTheRetainedRecord) {
+TEST_F(Trace, ReplayFromTheFileEqualsTheRetainedRecord) {
   ASSERT_EQ(program({"run", "study.yaml", "-o", "out.h5"}).code, 0);
   const std::string from_manifest = program({"trace", "study.yaml", "--point", "1", "--trial", "2"}).out;
   std::filesystem::remove(folder_.path() / "study.yaml");
@@ -96,7 +96,7 @@ TEST_F(Trace, ReplaysFromTheFileAloneAndEqualsTheRetainedRecord) {
   EXPECT_EQ(kept[300].k, 0);
 }
 
-TEST_F(Trace, ReportsAReplayThatIsNotTheRecordedTrial) {
+TEST_F(Trace, ReportsAReplayThatDiffersFromTheRecord) {
   const study::Study study = manifest::load_study(folder_.path() / "study.yaml");
   std::vector<shards::TrialResult> results = trials::TrialRunner(study).run(layout::all_rows(study));
   results[3].outcome.moves[0].holding_torque += 2.4e-4;
@@ -112,12 +112,12 @@ TEST_F(Trace, ReportsAReplayThatIsNotTheRecordedTrial) {
   EXPECT_FALSE(says(altered.err, "creep"));
 }
 
-TEST_F(Trace, OfAnEmptyResultsFileSaysThatItIsDamaged) {
+TEST_F(Trace, AnEmptyResultsFileIsCalledDamaged) {
   folder_.write("empty.h5", "");
   EXPECT_TRUE(says(refusal({"trace", "empty.h5"}, 4), "empty.h5: not a results file of zerocount"));
 }
 
-TEST_F(Trace, LeavesNoHalfFile) {
+TEST_F(Trace, LeavesNoPartialFile) {
   const std::string command = "cd " + folder_.path().string() +
                               " && bash -c \"ulimit -f 8; " ZEROCOUNT_PROGRAM
                               " trace study.yaml -o trial.csv 2> err\"";
@@ -127,7 +127,7 @@ TEST_F(Trace, LeavesNoHalfFile) {
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "trial.csv.part"));
 }
 
-TEST_F(Trace, OfAPartHoldsOnlyItsTrials) {
+TEST_F(Trace, APartHasOnlyItsTrials) {
   ASSERT_EQ(program({"run", "study.yaml", "-o", "part.h5", "--shard", "1/2"}).code, 0);
   EXPECT_EQ(program({"trace", "part.h5", "--point", "0", "--trial", "4"}).code, 0);
   EXPECT_EQ(program({"trace", "part.h5", "--point", "1", "--trial", "0"}).code, 2);
@@ -161,13 +161,13 @@ std::string trace_of(const study::StudyFeatures& features, bool json) {
   return text;
 }
 
-TEST(TraceColumns, AreFourteenWhereTheStudyUsesNoMore) {
+TEST(TraceColumns, AreFourteenForABasicStudy) {
   EXPECT_EQ(trace_of({}, false),
             "k,t,target,count,coarse_count,error,code,torque,theta,omega,xp,xh,depth,mode\n"
             "0,0,0,5,0,0,0,0,0,0,0,0,0,stick\n");
 }
 
-TEST(TraceColumns, ThatTheStudyUsesComeAfterTheMode) {
+TEST(TraceColumns, OptionalColumnsComeAfterTheMode) {
   EXPECT_EQ(
       trace_of({.travel = true, .phases = true, .drive_torque = true}, false),
       "k,t,target,count,coarse_count,error,code,torque,theta,omega,xp,xh,depth,mode,reference,phase,drive_"
@@ -176,7 +176,7 @@ TEST(TraceColumns, ThatTheStudyUsesComeAfterTheMode) {
   EXPECT_TRUE(trace_of({.phases = true}, false).ends_with(",stick,coarse\n"));
 }
 
-TEST(TraceColumns, OfJsonAreTheSame) {
+TEST(TraceColumns, JsonHasTheSameColumns) {
   const auto all = nlohmann::json::parse(
       trace_of({.travel = true, .phases = true, .drive_torque = true}, true))["samples"][0];
   EXPECT_EQ(all.size(), 17U);
@@ -188,7 +188,7 @@ TEST(TraceColumns, OfJsonAreTheSame) {
   EXPECT_FALSE(few.contains("reference"));
 }
 
-TEST(TraceOutcome, SaysWhetherItWasStoppedWhereTheStudyCanStop) {
+TEST(TraceOutcome, SaysWhetherItWasStoppedIfTheStudyCanStop) {
   study::Study study;
   const study::StudyTrial trial;
   for (const bool stopped : {false, true}) {

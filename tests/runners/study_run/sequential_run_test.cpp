@@ -62,7 +62,7 @@ bool narrow(const reading::AllTrialsFile& file, std::int64_t trials) {
   return true;
 }
 
-TEST_F(SequentialRun, EndsAfterTheFirstBlockThatLeavesItSure) {
+TEST_F(SequentialRun, EndsAfterTheFirstBlockThatDecides) {
   folder_.write("study.yaml", stopping_manifest());
   complete("study.yaml", "out.h5");
   const reading::AllTrialsFile file(at("out.h5"));
@@ -75,7 +75,7 @@ TEST_F(SequentialRun, EndsAfterTheFirstBlockThatLeavesItSure) {
   EXPECT_FALSE(fs::exists(at("out.h5.shards")));
 }
 
-TEST_F(SequentialRun, ComesToTheSameForAnyThreadsAndInterruptions) {
+TEST_F(SequentialRun, DoesNotDependOnThreadsAndInterruptions) {
   folder_.write("study.yaml", stopping_manifest());
   complete("study.yaml", "one.h5", {"--threads", "1"});
   complete("study.yaml", "three.h5", {"--threads", "3"});
@@ -90,7 +90,7 @@ TEST_F(SequentialRun, ComesToTheSameForAnyThreadsAndInterruptions) {
   expect_same_datasets(at("one.h5"), at("cut.h5"));
 }
 
-TEST_F(SequentialRun, SaysWhatItCameToAndWhy) {
+TEST_F(SequentialRun, ReportsItsTrialsAndTheReasonForStopping) {
   folder_.write("study.yaml", stopping_manifest());
   const ProgramResult sure = run("study.yaml", "out.h5");
   const std::string trials = std::to_string(reading::AllTrialsFile(at("out.h5")).header().trials);
@@ -100,13 +100,13 @@ TEST_F(SequentialRun, SaysWhatItCameToAndWhy) {
   EXPECT_EQ(reading::AllTrialsFile(at("few.h5")).header().trials, 120);
 }
 
-TEST_F(SequentialRun, TakesMinTrialsAtLeast) {
+TEST_F(SequentialRun, RunsAtLeastMinTrials) {
   folder_.write("study.yaml", stopping_manifest());
   complete("study.yaml", "out.h5", {"--set", "stop.min_trials=1020"});
   EXPECT_EQ(reading::AllTrialsFile(at("out.h5")).header().trials, 1050);
 }
 
-TEST_F(SequentialRun, IsNotRunTwiceAndOverwritesNothing) {
+TEST_F(SequentialRun, AFinishedOneIsNotRunAgain) {
   folder_.write("study.yaml", stopping_manifest());
   complete("study.yaml", "out.h5");
   const ProgramResult again = run("study.yaml", "out.h5");
@@ -123,7 +123,7 @@ TEST_F(SequentialRun, CannotBeDividedIntoParts) {
   EXPECT_TRUE(says(result.err, "option '--shard': a study with `stop` cannot be divided"));
 }
 
-TEST_F(SequentialRun, SummaryHasTheBoundsThatHold) {
+TEST_F(SequentialRun, SummaryHasAnytimeValidBounds) {
   folder_.write("study.yaml", stopping_manifest());
   complete("study.yaml", "out.h5");
   const reading::AllTrialsFile file(at("out.h5"));
@@ -141,7 +141,7 @@ TEST_F(SequentialRun, SummaryHasTheBoundsThatHold) {
   }
 }
 
-TEST_F(SequentialRun, SummarySaysWhereTheGoalWasNotReached) {
+TEST_F(SequentialRun, SummaryNamesPointsThatStayedUndecided) {
   folder_.write("study.yaml", stopping_manifest());
   complete("study.yaml", "few.h5", {"--set", "stop.max_trials=100"});
   const ProgramResult table =
@@ -175,7 +175,7 @@ TEST_F(SequentialRun, EndsAfterAWholeRoundOfItsMachines) {
 }
 
 // What more trials narrowed is the mean over these machines; of all machines less is known.
-TEST_F(SequentialRun, SummaryKeepsTheBoundsOfTheseMachinesApartFromThoseOfAll) {
+TEST_F(SequentialRun, SummarySeparatesBoundsForTheseMachinesFromThoseForAll) {
   folder_.write("study.yaml", stopping_manifest() + "machines: 10\n");
   complete("study.yaml", "out.h5");
   const ProgramResult result = zerocount_program({"summary", "out.h5", "--format", "json"}, folder_.path());
@@ -191,7 +191,7 @@ TEST_F(SequentialRun, SummaryKeepsTheBoundsOfTheseMachinesApartFromThoseOfAll) {
   }
   EXPECT_TRUE(differ) << result.out;
   EXPECT_TRUE(says(zerocount_program({"summary", "out.h5"}, folder_.path()).out,
-                   "these bounds are of the mean over the 10 machines of the study"));
+                   "these bounds hold for the mean over the 10 machines of the study"));
 }
 
 /// Every trial of the file can be run again from it.
@@ -242,7 +242,7 @@ class ExistingOutput : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(ExistingOutput, IsExtendedToWhatARunOfAllItsTrialsGives) {
+TEST_F(ExistingOutput, AnExtendedRunEqualsARunOfAllTrials) {
   std::mt19937 random(20);
   const auto between = [&](int low, int high) {
     return std::uniform_int_distribution<int>(low, high)(random);
@@ -266,7 +266,7 @@ TEST_F(ExistingOutput, IsExtendedToWhatARunOfAllItsTrialsGives) {
   }
 }
 
-TEST_F(ExistingOutput, OfTheDesignSaltelliIsExtendedByRows) {
+TEST_F(ExistingOutput, ASaltelliDesignIsExtendedByRows) {
   folder_.write("study.yaml", small_manifest(60, "design: saltelli\n"));  // rows of 4 factors and 2
   complete("study.yaml", "out.h5");
   complete("study.yaml", "out.h5", {"--set", "trials=120"});
@@ -274,7 +274,7 @@ TEST_F(ExistingOutput, OfTheDesignSaltelliIsExtendedByRows) {
   expect_same_datasets(at("fresh.h5"), at("out.h5"));
 }
 
-TEST_F(ExistingOutput, ThatIsCompleteStaysAsItIs) {
+TEST_F(ExistingOutput, ACompleteFileIsNotChanged) {
   folder_.write("study.yaml", small_manifest(4));
   complete("study.yaml", "out.h5");
   const std::string before = folder_.read("out.h5");
@@ -284,7 +284,7 @@ TEST_F(ExistingOutput, ThatIsCompleteStaysAsItIs) {
   EXPECT_TRUE(folder_.read("out.h5") == before);
 }
 
-TEST_F(ExistingOutput, SaysWhatItKeepsAndRunsOnlyTheOthers) {
+TEST_F(ExistingOutput, AnExtensionRunsOnlyTheMissingTrials) {
   folder_.write("study.yaml", small_manifest(20));
   complete("study.yaml", "out.h5");
   folder_.write("more.yaml", "# with a comment, and another notation\n" + small_manifest(25));
@@ -293,7 +293,7 @@ TEST_F(ExistingOutput, SaysWhatItKeepsAndRunsOnlyTheOthers) {
   EXPECT_TRUE(says(result.err, "20 trials at each point are kept, 5 are added"));
 }
 
-TEST_F(ExistingOutput, AnExtensionThatIsKilledLosesNothing) {
+TEST_F(ExistingOutput, AKilledExtensionLosesNothing) {
   folder_.write("study.yaml", small_manifest(100));
   complete("study.yaml", "out.h5");
   const std::string before = folder_.read("out.h5");
@@ -316,7 +316,7 @@ TEST_F(ExistingOutput, AnExtensionThatIsKilledLosesNothing) {
   expect_same_datasets(at("fresh.h5"), at("out.h5"));
 }
 
-TEST_F(ExistingOutput, IsRefusedWithWhatDiffers) {
+TEST_F(ExistingOutput, AnotherStudyIsRefusedWithTheDifferences) {
   folder_.write("study.yaml", small_manifest(20));
   complete("study.yaml", "out.h5");
   expect_refused({"--set", "seed=43"}, {"another study", "seed is 42 there and 43 here"});
@@ -329,7 +329,7 @@ TEST_F(ExistingOutput, IsRefusedWithWhatDiffers) {
 }
 
 // Trials of one case stood under the name of another.
-TEST_F(ExistingOutput, InAnotherOrderIsNotExtended) {
+TEST_F(ExistingOutput, AStudyInAnotherOrderIsNotExtended) {
   folder_.write(
       "study.yaml",
       small_manifest(8,
@@ -356,26 +356,26 @@ TEST_F(ExistingOutput, InAnotherOrderIsNotExtended) {
   complete("study.yaml", "out.h5", {"--set", swept, "--set", "trials=16"});
 }
 
-TEST_F(ExistingOutput, OfALatinHypercubeCannotBeExtended) {
+TEST_F(ExistingOutput, ALatinHypercubeCannotBeExtended) {
   folder_.write("study.yaml", small_manifest(20, "design: latin_hypercube\n"));
   complete("study.yaml", "out.h5");
   expect_refused({"--set", "trials=40"}, {"latin_hypercube", "laid out for their number"});
 }
 
-TEST_F(ExistingOutput, OfAPartCannotBeExtended) {
+TEST_F(ExistingOutput, APartCannotBeExtended) {
   folder_.write("study.yaml", small_manifest(20));
   complete("study.yaml", "out.h5", {"--shard", "1/2"});
   expect_refused({"--set", "trials=40"}, {"a part of a study"});
 }
 
-TEST_F(ExistingOutput, ThatIsNoResultsFileIsRefused) {
+TEST_F(ExistingOutput, AFileThatIsNotAResultsFileIsRefused) {
   folder_.write("study.yaml", small_manifest(4));
   folder_.write("out.h5", "my notes");
   expect_refused({}, {"not a usable results file"});
   complete("study.yaml", "out.h5", {"--force"});
 }
 
-TEST_F(ExistingOutput, OfAnEarlierFormatIsRefused) {
+TEST_F(ExistingOutput, AnEarlierFormatIsRefused) {
   folder_.write("study.yaml", small_manifest(4));
   complete("study.yaml", "out.h5", {});
   replace_attribute(at("out.h5"), "format_version", 3);

@@ -36,7 +36,7 @@ retain: {trials: [3]}
   return study;
 }
 
-TEST(TrialRunner, GivesRowsOfAnyPlacesTheResultsThatEachHasAlone) {
+TEST(TrialRunner, ResultsEqualThoseOfEachTrialAlone) {
   const std::vector<std::int64_t> rows{71, 0, 43, 3, 40, 39, 12};
   for (const study::Engine engine : {study::Engine::batch, study::Engine::reference}) {
     const study::Study study = two_gains(engine);
@@ -68,7 +68,7 @@ trials::TrialBlock block_stopped_after(int milliseconds, const study::Study& stu
   return trials::TrialRunner(study).run_block(rows, source.get_token());
 }
 
-TEST(TrialRunner, AStoppedBlockHasTheTrialsBeforeTheFirstThatHasNotEnded) {
+TEST(TrialRunner, AStoppedBlockKeepsTheTrialsBeforeTheFirstUnfinishedOne) {
   for (const study::Engine engine : {study::Engine::batch, study::Engine::reference}) {
     study::Study study = two_gains(engine);
     study.trials = 100'000;
@@ -96,7 +96,7 @@ TEST(TrialRunner, AStoppedBlockHasTheTrialsBeforeTheFirstThatHasNotEnded) {
 // Trials that are counted are divided evenly among the threads.
 
 // The last blocks of the threads end together where each thread has as many.
-TEST(TrialSet, EveryThreadHasAsManyBlocksForItsLanes) {
+TEST(TrialSet, EveryThreadFillsItsLanes) {
   std::mt19937_64 random(17);
   for (const int threads : {1, 2, 5, 16}) {
     const parallel::ThreadLimit limit(threads);
@@ -183,7 +183,7 @@ TEST(BlockSource, SlowTrialsMakeSmallBlocks) {
 }
 
 // Trials that lanes cannot run are as slow in the batch engine.
-TEST(BlockSource, TheFirstBlocksAreSmallWhereTheLanesLackAFeatureOfSomePoint) {
+TEST(BlockSource, FirstBlocksAreSmallIfAPointNeedsTheReferenceEngine) {
   const study::Study study = manifest::parse_study(R"(zerocount: 1
 name: gaps
 seed: 7

@@ -19,7 +19,7 @@ std::vector<RowRange> random_ranges(std::mt19937& random, std::int64_t rows) {
   return ranges;
 }
 
-class TurnsOfRandomSweeps : public ::testing::TestWithParam<unsigned> {
+class RotationOfRandomSweeps : public ::testing::TestWithParam<unsigned> {
  protected:
   std::mt19937 random{GetParam()};
   std::int64_t any(std::int64_t low, std::int64_t high) {
@@ -27,7 +27,7 @@ class TurnsOfRandomSweeps : public ::testing::TestWithParam<unsigned> {
   }
 };
 
-TEST_P(TurnsOfRandomSweeps, RunEachRowOfTheRangesOnceAndNoOther) {
+TEST_P(RotationOfRandomSweeps, EachRowOfTheRangesRunsExactlyOnce) {
   const std::int64_t trials = any(1, 40), points = any(1, 12);
   const std::vector<RowRange> ranges = random_ranges(random, trials * points);
   std::vector<int> wanted(static_cast<std::size_t>(trials * points)), run = wanted;
@@ -49,7 +49,7 @@ TEST_P(TurnsOfRandomSweeps, RunEachRowOfTheRangesOnceAndNoOther) {
 }
 
 // A block has rows of one point, or ends where a point ends: tiny points share a block, and no other does.
-TEST_P(TurnsOfRandomSweeps, DivideAPointOnlyInBlocksOfItsOwn) {
+TEST_P(RotationOfRandomSweeps, ABlockHoldsOnePointOrEndsWithAPoint) {
   const std::int64_t trials = any(1, 40), points = any(1, 12);
   Turns turns(random_ranges(random, trials * points), trials);
   while (!turns.is_empty()) {
@@ -62,7 +62,7 @@ TEST_P(TurnsOfRandomSweeps, DivideAPointOnlyInBlocksOfItsOwn) {
 }
 
 // Where no trial has been run before, no point is ahead of another by more than the longest turn.
-TEST_P(TurnsOfRandomSweeps, KeepPointsWithinATurnOfOneAnother) {
+TEST_P(RotationOfRandomSweeps, NoPointIsAheadByMoreThanOneRound) {
   const std::int64_t trials = any(20, 400), points = any(2, 12), block = any(1, 10);
   const std::vector<RowRange> all{{0, trials * points}};
   std::vector<std::int64_t> run(static_cast<std::size_t>(points));
@@ -85,7 +85,7 @@ TEST_P(TurnsOfRandomSweeps, KeepPointsWithinATurnOfOneAnother) {
 
 // Of each point from its first trial on without gaps: trials of a machine or of a design depend on one
 // another.
-TEST_P(TurnsOfRandomSweeps, RunTheTrialsOfAPointInTheirOrder) {
+TEST_P(RotationOfRandomSweeps, TrialsOfAPointRunInOrder) {
   const std::int64_t trials = any(1, 40), points = any(1, 12);
   std::map<std::int64_t, std::int64_t> last;  // [point] row
   Turns turns(random_ranges(random, trials * points), trials);
@@ -101,9 +101,9 @@ TEST_P(TurnsOfRandomSweeps, RunTheTrialsOfAPointInTheirOrder) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, TurnsOfRandomSweeps, ::testing::Range(1U, 41U));
+INSTANTIATE_TEST_SUITE_P(Seeds, RotationOfRandomSweeps, ::testing::Range(1U, 41U));
 
-TEST(Turns, OfEqualPointsAreTheirFirstBlocksThenTheirSecondOnes) {
+TEST(RotationOfPoints, RunsTheFirstBlocksOfAllPointsThenTheSecond) {
   std::vector<RowRange> blocks;
   for (Turns turns(std::vector<RowRange>{{0, 60}}, 20); !turns.is_empty(); turns.end_turn()) {
     blocks.push_back(turns.upcoming(8));
@@ -113,7 +113,7 @@ TEST(Turns, OfEqualPointsAreTheirFirstBlocksThenTheirSecondOnes) {
   EXPECT_EQ(blocks, (std::vector<RowRange>{{0, 8}, {20, 8}, {40, 8}, {8, 8}, {28, 8}, {48, 8}}));
 }
 
-TEST(Turns, OfAContinuedRunBeginWithThePointThatHasFewestTrials) {
+TEST(RotationOfPoints, AContinuedRunStartsWithThePointWithFewestTrials) {
   // Run before: all of point 0, half of point 1, nothing of point 2.
   Turns turns(std::vector<RowRange>{{15, 15}}, 10);
   EXPECT_EQ(turns.points(), 2);

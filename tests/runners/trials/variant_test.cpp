@@ -103,7 +103,7 @@ std::vector<double> motion_of(const study::Study& study, std::int64_t trial) {
   return motion;
 }
 
-TEST(Variant, WithValuesIsTheStudyWhoseManifestHasThem) {
+TEST(Variant, WithValuesEqualsTheStudyWithTheseValuesInItsManifest) {
   std::mt19937 random(3);
   int allowed = 0, refused = 0;
   for (const char* const text : manifests) {
@@ -137,7 +137,7 @@ TEST(Variant, WithValuesIsTheStudyWhoseManifestHasThem) {
 }
 
 // Each trial under a condition is one of the study under that condition alone, whatever was changed before.
-TEST(Variant, UnderAConditionAreTheTrialsOfThatCondition) {
+TEST(Variant, UnderAConditionHasTheTrialsOfThatCondition) {
   const study::Study study = manifest::parse_study(manifests[std::size(manifests) - 1], "test");
   const std::vector<std::string> names{"controller.ki"};
   const study::Study edited = with_values(study, names, std::vector<double>{2.0e-5}).value();
@@ -161,7 +161,7 @@ TEST(Variant, AFreshSeedDiffersForEachPurpose) {
 
 using std::chrono::milliseconds;
 
-TEST(Effort, WithoutLimitsIsNeverSpent) {
+TEST(Effort, WithoutLimitsIsNeverExhausted) {
   const Effort effort;
   effort.spend(std::int64_t{1} << 40);
   EXPECT_FALSE(effort.is_spent());
@@ -207,7 +207,7 @@ TEST(Effort, IsDividedIntoEqualParts) {
   EXPECT_EQ(Effort().part(3).seconds_left(), std::numeric_limits<double>::infinity());
 }
 
-TEST(Effort, StopsWhatRunsWhenItsTimeIsOver) {
+TEST(Effort, StopsRunningWorkWhenItsTimeIsOver) {
   const Effort whole = Effort().share({}, 60.0);
   const auto start = std::chrono::steady_clock::now();
   const Effort part = whole.share({}, 0.05);
@@ -222,7 +222,7 @@ TEST(Effort, StopsWhatRunsWhenItsTimeIsOver) {
   EXPECT_FALSE(whole.is_spent());
 }
 
-TEST(Effort, TellsARequestToStopFromTheEndOfItsTime) {
+TEST(Effort, DistinguishesAStopRequestFromATimeout) {
   std::stop_source user;
   const Effort part = Effort(user.get_token()).share(1000, 60.0).share({}, 30.0);
   user.request_stop();
@@ -262,7 +262,7 @@ void expect_same(const study::Study& one, const study::Study& whole) {
   }
 }
 
-TEST(Restricted, HasTheMachinesAndDrawsOfTheWholeStudy) {
+TEST(RestrictedStudy, HasTheMachinesAndDrawsOfTheWholeStudy) {
   for (const char* design : {"monte_carlo", "latin_hypercube", "sobol"}) {
     const study::Study whole =
         manifest::parse_study(fmt::format(fmt::runtime(whole_life), design), "life.yaml");
@@ -277,7 +277,7 @@ TEST(Restricted, HasTheMachinesAndDrawsOfTheWholeStudy) {
   }
 }
 
-TEST(Restricted, RefusesWhatTheStudyDoesNotHave) {
+TEST(RestrictedStudy, RefusesUnknownConditionsAndAges) {
   const study::Study whole =
       manifest::parse_study(fmt::format(fmt::runtime(whole_life), "monte_carlo"), "life.yaml");
   EXPECT_THROW(restricted_to(whole, "hot", {}), Failure);

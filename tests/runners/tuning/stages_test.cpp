@@ -35,7 +35,7 @@ struct Searching {
   StudySearch search;
 };
 
-TEST(TuningStages, TheSearchTakesItsPartAndRanksItsFinalists) {
+TEST(TuningStages, SearchTakesItsFractionOfTheBudgetAndRanksItsFinalists) {
   Searching of(4000);
   int generations = 0;
   const Searched found =
@@ -62,7 +62,7 @@ std::optional<Proven> proof_of_values(Searching& of, const Values& values,
   return prove_values(of.space, of.search, found, {path, 1}, line);
 }
 
-TEST(TuningStages, TheProofIsTheVerdictOfItsFile) {
+TEST(TuningStages, ProofEqualsTheVerdictOfItsFile) {
   Searching of(20000);
   const Values values{3.85e-5, 0.0};
   const TemporaryFolder folder;
@@ -91,7 +91,7 @@ struct RandomProofs {
 };
 
 // What a proof shows is shown by its file, with the part of the error probability that its attempt has.
-TEST_EACH_SEED(RandomProofs, HaveTheVerdictThatTheirFileHasByItself) {
+TEST_EACH_SEED(RandomProofs, VerdictEqualsThatOfTheResultsFile) {
   Searching of(budget, {goal});
   const TemporaryFolder folder;
   const std::optional<Proven> proven = proof_of_values(of, values, folder.path() / "proof.h5");

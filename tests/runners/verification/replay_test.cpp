@@ -21,11 +21,11 @@ shards::TrialResult settled() {
   return result;
 }
 
-TEST(Replay, OfTheSameTrialHasNoDifferences) {
+TEST(Replay, TheSameTrialHasNoDifferences) {
   EXPECT_TRUE(verification::differences(columns, settled(), settled()).empty());
 }
 
-TEST(Replay, ForgivesTheLastDigitOfAnotherMachine) {
+TEST(Replay, AllowsTheLastDigitOfAnotherComputer) {
   shards::TrialResult other = settled();
   other.outcome.moves[0].holding_torque *= 1.0 + 1e-12;
   other.inputs[0] *= 1.0 - 1e-13;
@@ -44,7 +44,7 @@ TEST(Replay, NamesEveryMeasureThatDiffers) {
   EXPECT_EQ(lines[1].rfind("move 1: outcome: recorded 3, replayed 1", 0), 0u) << lines[1];
 }
 
-TEST(Replay, TellsNeverFromAValue) {
+TEST(Replay, NeverDiffersFromAnyValue) {
   shards::TrialResult other = settled();
   other.outcome.moves[0].arrival_time = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(verification::differences(columns, settled(), other).size(), 1u);
@@ -58,7 +58,7 @@ TEST(Replay, ComparesTheMeasuresThatWereRecorded) {
   EXPECT_TRUE(verification::differences(columns, settled(), other, {}).empty());
 }
 
-TEST(Replay, LooksAtInputsAndJerksToo) {
+TEST(Replay, ComparesInputsAndJerksToo) {
   shards::TrialResult other = settled();
   other.inputs[0] = 111.0;
   other.jerks[0].onset = 0.3;

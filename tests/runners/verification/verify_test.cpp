@@ -78,7 +78,7 @@ class Verify : public ProgramTest {
   }
 };
 
-TEST_F(Verify, FindsNothingWrongInAFileAsItWasWritten) {
+TEST_F(Verify, AcceptsAnUnchangedFile) {
   make("out.h5");
   EXPECT_EQ(problems("out.h5"), "");
   const ProgramResult result = program({"verify", "out.h5"});
@@ -166,7 +166,7 @@ TEST_F(Verify, ChecksThatTheShardsOfAFolderHoldEachTrialOnce) {
   fs::remove(second);
 }
 
-TEST_F(Verify, OfAnUnfinishedRunSaysHowManyTrialsAreMissing) {
+TEST_F(Verify, CountsTheMissingTrialsOfAnUnfinishedRun) {
   const fs::path shards = make_shards("out", verified_manifest, 4);
   fs::remove(shards / "trials-000000000008-000000000015.shard");
   const ProgramResult result = program({"verify", "out.h5.shards"});
@@ -175,7 +175,7 @@ TEST_F(Verify, OfAnUnfinishedRunSaysHowManyTrialsAreMissing) {
                    "skipped out.h5.shards: all trials: 8 are in none of the shards yet, from trial 8 on"));
 }
 
-TEST_F(Verify, NamesAShardOfAnotherStudyAndOneThatIsDamaged) {
+TEST_F(Verify, NamesForeignAndDamagedShards) {
   const fs::path shards = make_shards("out", verified_manifest, 4);
   const fs::path foreign = make_shards("other", std::string(verified_manifest) + "description: other\n", 4);
   const std::string name = "trials-000000000008-000000000015.shard";
@@ -184,7 +184,7 @@ TEST_F(Verify, NamesAShardOfAnotherStudyAndOneThatIsDamaged) {
   make("out.h5.shards/part.h5", {"--shard", "4/4"});
   change_element(shards / "part.h5", "/outcome/creep", 3);
   const std::string found = problems("out.h5.shards");
-  EXPECT_TRUE(says(found, "shards: " + name + " is of another study ('verified') than most",
+  EXPECT_TRUE(says(found, "shards: " + name + " is from another study ('verified') than most",
                    "part.h5: trials run again: point 1, trial 9: move 1: creep"));
 }
 
@@ -200,13 +200,13 @@ TEST_F(Verify, AnswersInJson) {
             "3 of 32, with inputs, measures, jerks and sample records equal to the bit");
 }
 
-TEST_F(Verify, RefusesWhatIsNotThere) {
+TEST_F(Verify, RefusesMissingFilesAndEmptyFolders) {
   EXPECT_EQ(program({"verify", "nothing.h5"}).code, 2);
   fs::create_directory(folder_ / "empty");
   EXPECT_EQ(program({"verify", "empty"}).code, 2);
 }
 
-TEST(SampleOfTrials, HasDifferentRowsInOrderAndAllOfFew) {
+TEST(SampleOfTrials, HasDifferentRowsInOrder) {
   std::vector<int> drawn(20, 0);
   for (std::uint64_t seed = 0; seed < 4000; ++seed) {
     const std::vector<std::int64_t> rows = verification::sample_below(20, 5, seed);

@@ -152,7 +152,7 @@ TEST(CheckedRecord, TorqueAndAngleMustAgreeInSign) {
                       "good.csv", "wrong sign"));
 }
 
-TEST(CheckedRecord, AReadingThatStandsOutAloneIsNamed) {
+TEST(CheckedRecord, ASingleOutlierIsNamed) {
   for (const double off : {-500.0, -30.0, 30.0, 500.0}) {
     EXPECT_TRUE(refused(record_refusal([off](fit::RawSeries& s) { s.angle[1234] += off; }), "good.csv:1236",
                         "probably a read error"));
@@ -182,7 +182,7 @@ TEST(CheckedRecord, CountsMustBeWhole) {
 
 // What a thousandfold error makes of each quantity is refused, in either direction, and kept where it is
 // asked for.
-TEST(CheckedRecord, UnitsAThousandfoldOffAreRefused) {
+TEST(CheckedRecord, UnitsWrongByAFactorOfAThousandAreRefused) {
   const auto times = [](std::vector<double> fit::RawSeries::*values, double factor) {
     return [values, factor](fit::RawSeries& s) {
       for (double& value : s.*values) value *= factor;
@@ -221,7 +221,7 @@ TEST(CheckedRecord, ARecordIsCutWhereItBeginsToSlide) {
 }
 
 // The torque of a loop that moves a sliding axis to and fro: against friction, and ahead of the motion.
-TEST(CheckedRecord, ASlidingAxisHasNoWrongSign) {
+TEST(CheckedRecord, ASlidingAxisIsRefusedWithTheOptionForIt) {
   const auto sliding = [](fit::RawSeries& s) {
     constexpr double period = 400.0;  // samples
     for (std::size_t k = 0; k < s.time.size(); ++k) {
@@ -327,7 +327,7 @@ TEST(CheckedRecord, ACommandedTorqueActsAfterTheDelay) {
 }
 
 // The amplifier's lag: from what it was told, or from what it gave at the samples.
-TEST(CheckedRecord, AnAmplifierOfKnownBandwidthIsFollowed) {
+TEST(CheckedRecord, TheLagOfAnAmplifierIsIncluded) {
   constexpr double bandwidth = 100.0;
   const double rate = 2.0 * std::numbers::pi * bandwidth;
   fit::RawSeries commanded = good_series();

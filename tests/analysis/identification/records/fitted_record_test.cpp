@@ -12,7 +12,7 @@ namespace zerocount::testing {
 namespace {
 
 // What is drawn is what the report sums up: its root mean square is that of the summary.
-TEST(FittedRecords, LeaveTheMisfitOfTheSummary) {
+TEST(FittedRecords, ResidualsGiveTheMisfitOfTheSummary) {
   std::mt19937_64 random(31);
   const fit::ContactParameters contact = random_contact(random);
   std::vector<fit::TestRecord> records;

@@ -95,15 +95,15 @@ void expect_no_cut(std::uint64_t machines) {
   }
 }
 
-TEST(GrossSliding, NoTestBelowTheBreakawayIsCut) {
+TEST(GrossSliding, TestsBelowBreakawayAreNotCut) {
   expect_no_cut(12);
 }
 
-TEST(GrossSliding, DISABLED_NoTestOfManyMachinesBelowTheBreakawayIsCut) {
+TEST(GrossSliding, DISABLED_TestsBelowBreakawayOfManyMachinesAreNotCut) {
   expect_no_cut(60);
 }
 
-TEST(GrossSliding, ABreakawayIsFoundShortlyBeforeIt) {
+TEST(GrossSliding, TheCutIsShortlyBeforeBreakaway) {
   for (std::uint64_t set = 0; set < 30; ++set) {
     std::mt19937_64 random(set);
     const fit::ContactParameters contact = random_breakaway(random);
@@ -147,13 +147,13 @@ TEST(GrossSliding, TooEarlyABreakawayIsRefused) {
   EXPECT_GE(fit::sample_count(fit::checked_record(made_slide(300, 100.0), false)), 250u);
 }
 
-TEST(GrossSliding, TheFlagOfAFileIsBelieved) {
+TEST(GrossSliding, TheSlidingFlagOfAFileDecides) {
   fit::RawSeries series = made_slide(300, 100.0);
   series.sliding.assign(series.time.size(), false);
   EXPECT_TRUE(fit::checked_record(series, true).note.empty());
 }
 
-TEST(GrossSliding, ALeapOfTheReadingIsNoSlide) {
+TEST(GrossSliding, AJumpOfTheReadingIsNotTakenForSliding) {
   for (const double leap : {-1e5, 1e5}) {
     fit::RawSeries series = made_slide(499, 0.0);
     for (std::size_t k = 300; k < series.angle.size(); ++k) series.angle[k] += leap;
@@ -162,7 +162,7 @@ TEST(GrossSliding, ALeapOfTheReadingIsNoSlide) {
   }
 }
 
-TEST(GrossSliding, MaskedReadingsShowNoSlide) {
+TEST(GrossSliding, MaskedReadingsAreNotTakenForSliding) {
   fit::RawSeries series = made_slide(400, 100.0);
   EXPECT_TRUE(fit::find_gross_sliding(series));
   EXPECT_TRUE(records::exclude(series, {399 * 5e-4, 1.0}));

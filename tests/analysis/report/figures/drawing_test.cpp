@@ -253,7 +253,7 @@ TEST(DrawnFigure, HasColoursAndRowsByItsData) {
   EXPECT_EQ(whole["layer"][0]["encoding"]["x"]["scale"]["domain"], ordered_json({0.92, 1}));
 }
 
-TEST(Datum, KeepsTheDigitsAskedFor) {
+TEST(Datum, KeepsTheRequestedDigits) {
   EXPECT_EQ(datum(0.123456789).dump(), "0.123457");
   EXPECT_EQ(datum(0.123456789, 3).dump(), "0.123");
   EXPECT_EQ(datum(3.0).dump(), "3");
@@ -262,7 +262,7 @@ TEST(Datum, KeepsTheDigitsAskedFor) {
   EXPECT_TRUE(datum(std::numeric_limits<double>::infinity()).is_null());
 }
 
-TEST(SpacedByRatio, TellsTheTwoSpacingsApart) {
+TEST(SpacedByRatio, DistinguishesLogarithmicFromLinearSpacing) {
   EXPECT_TRUE(spaced_by_ratio({1e-5, 1e-4, 1e-3}));
   EXPECT_TRUE(spaced_by_ratio({2.0e-5, 2.44211e-5, 2.98195e-5, 3.64113e-5}));
   EXPECT_FALSE(spaced_by_ratio({1.0, 2.0, 3.0, 4.0}));
@@ -270,7 +270,7 @@ TEST(SpacedByRatio, TellsTheTwoSpacingsApart) {
   EXPECT_FALSE(spaced_by_ratio({1.0, 10.0}));
 }
 
-TEST(Specifications, AreVegaLiteOfDataByName) {
+TEST(Specifications, AreVegaLiteWithNamedData) {
   int specifications = 0;
   for (const EmbeddedFile& file : embedded_files()) {
     if (!file.name.ends_with(".vl.json")) continue;
@@ -284,7 +284,7 @@ TEST(Specifications, AreVegaLiteOfDataByName) {
 }
 
 /// Both sets of colours have every colour that a figure names.
-TEST(Specifications, NameColoursThatThereAre) {
+TEST(Specifications, NameOnlyColoursThatExist) {
   const auto colours = nlohmann::ordered_json::parse(embedded_file("colours.json"));
   const std::regex name("var\\((--[a-z0-9-]+)\\)");
   for (const EmbeddedFile& file : embedded_files()) {
@@ -298,7 +298,7 @@ TEST(Specifications, NameColoursThatThereAre) {
   }
 }
 
-TEST(EmbeddedFiles, WhatIsMissingIsSaidWithWhatToDo) {
+TEST(EmbeddedFiles, AMissingFileIsReportedWithItsRemedy) {
   testing::expect_failure(ExitCode::machine_failed, "npm ci", [] { embedded_file("vega.max.js"); });
 }
 
@@ -336,7 +336,7 @@ std::int64_t at(const std::vector<trial::SampleRecord>& samples, std::int64_t k)
   return (after - 1)->error;
 }
 
-TEST(TraceThinner, KeepsTheStepLineWhereThereIsRoomForAllOfIt) {
+TEST(TraceThinner, KeepsTheWholeStepLineIfThereIsRoom) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const std::vector<trial::SampleRecord> samples = random_samples(seed, 500);
     const std::vector<trial::SampleRecord> kept = thinned(samples, 500);
@@ -372,7 +372,7 @@ TEST(TraceThinner, KeepsTheExtremesOfEveryStretch) {
   }
 }
 
-TEST(TraceThinner, OfRestOnlyTheEndsAreKept) {
+TEST(TraceThinner, AConstantTraceKeepsOnlyItsEnds) {
   std::vector<trial::SampleRecord> samples(1000);
   for (std::size_t k = 0; k < samples.size(); ++k) samples[k].k = static_cast<std::int64_t>(k);
   EXPECT_EQ(thinned(samples, 50).size(), 2U);

@@ -72,7 +72,7 @@ std::vector<ordered_json> column_of(const ordered_json& figure, std::size_t data
   return values;
 }
 
-TEST(ExtremeSamples, AreTheEndsAndTheExtremes) {
+TEST(ExtremeSamples, IncludeTheEnds) {
   const std::vector<double> values{3, 5, 1, 2, 9, 4, 4};
   const auto value = [&](std::size_t k) { return values[k]; };
   EXPECT_EQ(report::extreme_samples(0, 7, {value}), (std::vector<std::size_t>{0, 2, 4, 6}));
@@ -156,7 +156,7 @@ TEST(IdentificationPage, HasTheDataOfEachRecord) {
 }
 
 // A masked reading is drawn apart, has no residual, and does not set the scale.
-TEST(IdentificationPage, ShowsWhatIsMasked) {
+TEST(IdentificationPage, ShowsMaskedReadingsApart) {
   FittedRecord record = random_record(3, 400, false);
   for (std::size_t k = 100; k < 150; ++k) record.excluded[k] = true;
   record.reading[120] = 9e9;
@@ -192,7 +192,7 @@ TEST(IdentificationPage, AnglesAreInMicroradians) {
 }
 
 // The band is that of the noise, also where the model departs from the record by much more.
-TEST(ReadingNoise, IsThatOfTheReadingsAlone) {
+TEST(ReadingNoise, ExcludesTheErrorOfTheModel) {
   std::mt19937_64 random(9);
   std::normal_distribution<double> normal(0.0, 0.3);
   fit::RecordSummary record;
@@ -211,7 +211,7 @@ TEST(ReadingNoise, IsThatOfTheReadingsAlone) {
   EXPECT_EQ(report::residual_band(record, beside), 0.5 + 1.96 * 2.0);
 }
 
-TEST(IdentificationPage, SaysWhetherTheModelFits) {
+TEST(IdentificationPage, StatesWhetherTheModelFits) {
   Identification found = identification_of({random_record(5, 300, false)});
   EXPECT_TRUE(says(page_of(found), "the model explains the records"));
   found.checks.passed = false;

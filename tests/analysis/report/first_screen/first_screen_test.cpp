@@ -14,7 +14,7 @@ namespace {
 using testing::TemporaryFolder;
 using testing::times_in;
 
-TEST(Quantity, HasItsUnitInTheSameLine) {
+TEST(Quantity, IsNotBrokenFromItsUnit) {
   EXPECT_EQ(quantity_text(50.0, "N m s/rad"), "50\u00a0N\u00a0m\u00a0s/rad");
   EXPECT_EQ(range_text(5e-4, 5e-3, "m/s"), "0.5 … 5\u00a0mm/s");
   EXPECT_EQ(list_text(std::vector{2e-5, 2.1e-5, 0.0}, "m"), "20, 21, 0\u00a0µm");
@@ -37,7 +37,7 @@ std::string screen_of(const std::string& manifest, const FirstScreenParts& parts
   return first_screen(reported_study(file), parts).html;
 }
 
-TEST(FirstScreen, HasAVerdictOnEachGoalUnderEachCondition) {
+TEST(FirstScreen, HasAVerdictForEachGoalUnderEachCondition) {
   const std::string html = screen_of(two_goals);
   EXPECT_EQ(times_in(html, "data-head=\"verdict\""), 4U);
   EXPECT_EQ(times_in(html, "<td class=\"text\" data-head=\"condition\">plain<"), 2U);
@@ -49,7 +49,7 @@ TEST(FirstScreen, HasAVerdictOnEachGoalUnderEachCondition) {
     EXPECT_EQ(times_in(html, std::string("data-head=\"") + head), 4U) << head;
 }
 
-TEST(FirstScreen, HasTheMovesOfEachGoalUnderItsOwnCondition) {
+TEST(FirstScreen, ShowsTheMovesOfEachGoalUnderItsCondition) {
   const TemporaryFolder folder;
   testing::run_study_file(folder / "a.h5", two_goals);
   const reading::AllTrialsFile file(folder / "a.h5");
@@ -64,7 +64,7 @@ TEST(FirstScreen, HasTheMovesOfEachGoalUnderItsOwnCondition) {
   EXPECT_GE(peaks.size(), 3U);
 }
 
-TEST(FirstScreen, HidesNoGain) {
+TEST(FirstScreen, ShowsEveryGain) {
   const std::string html = screen_of(two_goals);
   EXPECT_EQ(times_in(html, "<details"), 0U);
   EXPECT_TRUE(says(html, ">ki</td>", "2e-5\u00a0N\u00a0m/count", "1e-5 … 0.0001"));  // the range of tune
@@ -90,7 +90,7 @@ TEST(FirstScreen, NamesEachAssumptionByItsSource) {
   EXPECT_FALSE(between(given, assumed, "controller.ki"));  // it is chosen, not assumed
 }
 
-TEST(FirstScreen, ShowsWhatATuningTellsInPlaceOfItsOwn) {
+TEST(FirstScreen, ShowsTheHeadlineAndMarginsOfATuning) {
   const std::string html =
       screen_of(two_goals, {.headline = "proven", .margins = "<p>those of the tuning</p>"});
   EXPECT_TRUE(says(html, ">proven</p>", "those of the tuning"));
@@ -128,7 +128,7 @@ const char* const linear =
     "1.0e+8, "
     "kd: 2000}\n";
 
-TEST(Diagram, NamesEachBlockThatIsOnWithItsNumbers) {
+TEST(Diagram, NamesEachActiveBlockWithItsParameters) {
   const std::string html = diagram_html(axis(long_controller), 0);
   EXPECT_TRUE(says(html, ">kp 0.0001", ">ki 2e-5",
                    "<span>notch 400\u00a0Hz</span>\n<span>low-pass 900\u00a0Hz</span>", "observer 30",
@@ -167,7 +167,7 @@ TEST(Diagram, ShowsTheValuesOfAllConditions) {
            "<span>notch 300 … 400\u00a0Hz</span>", "<span>k1 about 100 … 200\u00a0N\u00a0m/rad</span>"));
 }
 
-TEST(Diagram, HasTheCoarsePhaseAfterTheFineOne) {
+TEST(Diagram, ShowsTheCoarsePhaseAfterTheFinePhase) {
   const std::string html = diagram_html(
       axis(
           "command: {targets: [3000], hold: 0.5}\ncontroller: {ki: 2.0e-5, filters: [{biquad: {b: [1, 0, 0], "

@@ -32,7 +32,7 @@ Moments moments_of(const std::vector<double>& values) {
   return moments;
 }
 
-TEST(ClusteredMean, OfNormalValuesIsAboutStudents) {
+TEST(ClusteredMean, NormalValuesHaveBoundsNearStudentsT) {
   std::mt19937_64 random(51);
   std::normal_distribution<double> normal(3.0, 0.5);
   for (int round = 0; round < 10; ++round) {
@@ -57,7 +57,7 @@ TEST(ClusteredMean, BootstrapReachesFurtherTowardsTheLongTail) {
   EXPECT_GT(bounds.high - mean, 1.1 * (mean - bounds.low));
 }
 
-TEST(ClusteredMean, ValuesThatAreAlikeInTheirClusterCountOnce) {
+TEST(ClusteredMean, EqualValuesOfAClusterCountOnce) {
   std::mt19937_64 random(53);
   std::gamma_distribution<double> gamma(3.0);
   std::vector<double> values(80);
@@ -71,7 +71,7 @@ TEST(ClusteredMean, ValuesThatAreAlikeInTheirClusterCountOnce) {
   EXPECT_NEAR(alike.high, single.high, 1e-12);
 }
 
-TEST(ClusteredMean, ManyClustersAreGatheredIntoGroupsWithoutLoss) {
+TEST(ClusteredMean, GroupingManyClustersKeepsTheBounds) {
   std::mt19937_64 random(54);
   std::exponential_distribution<double> exponential;
   std::vector<double> values(100'000);
@@ -85,7 +85,7 @@ TEST(ClusteredMean, ManyClustersAreGatheredIntoGroupsWithoutLoss) {
   EXPECT_NEAR(found.high, expected.high, 0.1 * (expected.high - expected.low));
 }
 
-TEST(ClusteredMean, ResamplesDependOnTheirStreamAlone) {
+TEST(ClusteredMean, ResamplesDependOnlyOnTheirStream) {
   const ClusterTotals totals = totals_of({1.0, 2.0, 4.0, 8.0, 16.0, 3.0, 2.5, 7.0});
   const ConfidenceInterval once = clustered_mean_bounds(totals, stream);
   EXPECT_EQ(clustered_mean_bounds(totals, stream).high, once.high);
@@ -109,7 +109,7 @@ std::pair<double, double> tails_of_every_draw(const std::vector<double>& values,
   return {sample_quantile(studentised, tail), sample_quantile(studentised, 1.0 - tail)};
 }
 
-TEST(ClusteredMean, OfFewClustersIsThatOfEverySample) {
+TEST(ClusteredMean, FewClustersUseEveryResample) {
   std::mt19937_64 random(55);
   std::exponential_distribution<double> exponential;
   for (const std::size_t m : {2UL, 3UL, 4UL, 5UL, 6UL, 7UL}) {
@@ -138,7 +138,7 @@ TEST(ClusteredMean, OfFewClustersIsThatOfEverySample) {
   }
 }
 
-TEST(ClusteredMean, SaysNothingWhereThereIsNothingToResample) {
+TEST(ClusteredMean, IsUndefinedIfThereIsNothingToResample) {
   for (const std::vector<double>& values : {std::vector<double>{}, {1.0}, {0.3, 0.3, 0.3}}) {
     const ConfidenceInterval bounds = clustered_mean_bounds(totals_of(values), stream);
     EXPECT_TRUE(std::isnan(bounds.low));
@@ -147,7 +147,7 @@ TEST(ClusteredMean, SaysNothingWhereThereIsNothingToResample) {
   EXPECT_THROW(clustered_mean_bounds(totals_of({1.0, 2.0}), stream, 1.0), Failure);
 }
 
-TEST(ClusteredCount, WithoutAnEventHasTheBoundOfOneEventPerCluster) {
+TEST(ClusteredCount, WithoutEventsHasTheBoundForOneEventPerCluster) {
   EXPECT_EQ(clustered_count_bounds(totals_of(std::vector<double>(300, 0.0)), stream).low, 0.0);
   EXPECT_NEAR(clustered_count_bounds(totals_of(std::vector<double>(300, 0.0)), stream).high,
               -std::log(0.025) / 300.0, 1e-12);
@@ -158,7 +158,7 @@ TEST(ClusteredCount, WithoutAnEventHasTheBoundOfOneEventPerCluster) {
   EXPECT_NEAR(clustered_count_bounds(machines, stream).high, -std::log(0.025) / 100.0, 1e-12);
 }
 
-TEST(ClusteredCount, OfFewEventsIsGarwoodsWithStudentsFactor) {
+TEST(ClusteredCount, FewEventsHaveGarwoodBoundsWithStudentsFactor) {
   std::vector<double> values(400, 0.0);
   for (std::size_t i = 0; i < 5; ++i) values[10 * i] = 1.0;
   const boost::math::students_t_distribution<double> student(399.0);
@@ -178,7 +178,7 @@ ClusteredSample sample_of(const std::vector<std::vector<double>>& clusters, std:
   return sample;
 }
 
-TEST(ClusteredQuantile, OfSingleValuesIsThatOfIndependentOnes) {
+TEST(ClusteredQuantile, ClustersOfOneValueAreIndependentValues) {
   std::mt19937_64 random(41);
   Histogram<double> plain;
   ClusteredSample single;
@@ -216,7 +216,7 @@ TEST(ClusteredQuantile, AMoveThatNeverArrivedIsLaterThanAnyTime) {
   EXPECT_TRUE(std::isnan(clustered_quantile(ClusteredSample{}, 0.5).value));
 }
 
-TEST(ClusteredQuantile, ValuesThatAreAlikeInTheirClusterCountOnce) {
+TEST(ClusteredQuantile, EqualValuesOfAClusterCountOnce) {
   ClusteredSample clusters, single;
   for (int i = 0; i < 200; ++i) {
     std::vector<double> ten(10, static_cast<double>(i)), one(1, static_cast<double>(i));
@@ -249,7 +249,7 @@ TEST(ClusteredQuantile, ClustersMayHaveOneValueOrSeveral) {
   EXPECT_EQ(found.events_squared, expected.events_squared);
 }
 
-TEST(ClusteredQuantile, BoundsAreThoseOfTheFormulaByScipy) {
+TEST(ClusteredQuantile, BoundsMatchTheFormulaInSciPy) {
   const testing::TemporaryFolder folder;
   std::ofstream cases(folder / "cases");  // probability size value low high  x11 … x1size x21 … (nan: never)
   std::mt19937_64 random(43);
@@ -284,7 +284,7 @@ TEST(ClusteredQuantile, BoundsAreThoseOfTheFormulaByScipy) {
   EXPECT_EQ(folder.read("out"), fmt::format("{} samples\n", rounds));
 }
 
-TEST(ClusteredProportion, OfEventsThatComeAloneIsClopperPearsons) {
+TEST(ClusteredProportion, ClustersOfOneEventHaveClopperPearsonBounds) {
   for (const std::int64_t hits : {0, 1, 7, 30, 40}) {
     ClusterSums sums;
     for (int i = 0; i < 40; ++i) sums.add(i < hits, 1);
@@ -300,7 +300,7 @@ TEST(ClusteredProportion, OfEventsThatComeAloneIsClopperPearsons) {
   }
 }
 
-TEST(ClusteredProportion, EventsThatAreAlikeInTheirClusterCountOnce) {
+TEST(ClusteredProportion, EqualEventsOfAClusterCountOnce) {
   ClusterSums sums;
   for (int i = 0; i < 50; ++i) sums.add(i < 20 ? 6 : 0, 6);
   EXPECT_NEAR(effective_events(sums), 49.0, 1e-9);  // m/(m − 1) makes 49 of the 50
@@ -311,7 +311,7 @@ TEST(ClusteredProportion, EventsThatAreAlikeInTheirClusterCountOnce) {
   EXPECT_NEAR(clustered_proportion(all).korn_graubard.low, clopper_pearson(50, 50).low, 1e-12);
 }
 
-TEST(ClusteredProportion, EventsThatDifferLessThanChanceCountNoMoreThanOnceEach) {
+TEST(ClusteredProportion, EventsCountAtMostOnceEach) {
   ClusterSums sums;
   for (int i = 0; i < 50; ++i) sums.add(5, 10);
   EXPECT_EQ(effective_events(sums), 500.0);
@@ -386,7 +386,7 @@ double coverage_of(const Mixture& mixture, int studies, std::uint64_t seed = 11)
   return static_cast<double>(covered) / studies;
 }
 
-TEST(ClusteredProportion, LowerBoundsHoldWhereAFewClustersAlwaysOrHalfFail) {
+TEST(ClusteredProportion, LowerBoundsHoldIfAFewClustersFailAlwaysOrHalfTheTime) {
   constexpr int studies = 400;
   const double lowest = 0.95 - 4.0 * std::sqrt(0.95 * 0.05 / studies);
   for (const std::int64_t clusters : {5, 10, 25, 59, 100, 300, 1000}) {
@@ -422,7 +422,7 @@ double most_wrong(int studies) {
 
 // Korn and Graubard's bounds alone are wrong in up to half of these studies: misses that all clusters have
 // now and then make a few clusters that always fail look like some more of them.
-TEST(ClusteredProportion, LowerBoundsHoldWhereFailingClustersMixWithScatteredMisses) {
+TEST(ClusteredProportion, LowerBoundsHoldIfFailingClustersMixWithScatteredMisses) {
   constexpr int studies = 120;
   for (const std::int64_t clusters : {30, 100, 200}) {
     for (const std::int64_t size : {20, 100})
@@ -439,7 +439,7 @@ std::uint64_t seed_of_today() {
   return static_cast<std::uint64_t>(days);
 }
 
-TEST(ClusteredProportion, DISABLED_LowerBoundsHoldInMixturesOfEveryNight) {
+TEST(ClusteredProportion, DISABLED_LowerBoundsHoldInMixturesWithANewSeed) {
   constexpr int studies = 2000;
   const std::uint64_t seed = seed_of_today();
   for (const std::int64_t clusters : {10, 30, 59, 100, 200, 300, 1000}) {
@@ -450,7 +450,7 @@ TEST(ClusteredProportion, DISABLED_LowerBoundsHoldInMixturesOfEveryNight) {
 }
 
 // The table behind analysis/statistics/coverage.md.
-TEST(ClusteredProportion, DISABLED_CoversMixtures) {
+TEST(ClusteredProportion, DISABLED_BoundsCoverMixtures) {
   constexpr int studies = 4000;
   for (const double others : {1.0, 0.999, 0.99, 0.97}) {
     for (const double weak_rate : {0.0, 0.5}) {
@@ -468,7 +468,7 @@ TEST(ClusteredProportion, DISABLED_CoversMixtures) {
   }
 }
 
-TEST(ClusteredProportion, WithoutAnEventNothingIsKnown) {
+TEST(ClusteredProportion, IsUndefinedWithoutEvents) {
   ClusterSums sums;
   sums.add(0, 0);
   const ClusteredProportion found = clustered_proportion(sums);
@@ -478,7 +478,7 @@ TEST(ClusteredProportion, WithoutAnEventNothingIsKnown) {
   EXPECT_THROW(clustered_proportion(sums, 0.0), Failure);
 }
 
-TEST(ClusteredProportion, BoundsAreThoseOfTheFormulaByScipy) {
+TEST(ClusteredProportion, BoundsMatchTheFormulaInSciPy) {
   const testing::TemporaryFolder folder;
   std::ofstream cases(folder /
                       "cases");  // confidence low high wilson_low wilson_high at_least  k1 n1 k2 n2 …

@@ -42,7 +42,7 @@ TEST(MachineStatistics, CountsTheMachinesWithoutFailureAndTheWorst) {
 }
 
 /// A beta-binomial sample has the standard deviation of its beta distribution, whatever the number of trials.
-TEST(MachineStatistics, StandardDeviationIsThatOfTheProbabilities) {
+TEST(MachineStatistics, StandardDeviationEstimatesThatOfTheProbabilities) {
   std::mt19937_64 random(61);
   for (const double sd : {0.0, 0.1, 0.3}) {
     for (const std::int64_t trials : {2, 10, 100}) {
@@ -64,7 +64,7 @@ TEST(MachineStatistics, StandardDeviationIsThatOfTheProbabilities) {
   EXPECT_EQ(machine_statistics(machines_with(10, {5, 5, 5, 5})).success_sd, 0.0);
 }
 
-TEST(MachineTolerance, WithoutAFailureIsTheBoundOfTheTrialsOfOneMachine) {
+TEST(MachineTolerance, WithoutFailuresIsTheBoundOfOneMachine) {
   // 29 machines are the fewest that show a content of 90 % with 95 % confidence: 0.9^29 < 0.05.
   const MachineTolerance few =
       machine_tolerance(machines_with(100, std::vector<std::int64_t>(28, 100)), 0.9, 0.95);
@@ -83,7 +83,7 @@ TEST(MachineTolerance, WithoutAFailureIsTheBoundOfTheTrialsOfOneMachine) {
             "with 95 % confidence at least 90 % of machines hold zero in at least 98.7 % of moves");
 }
 
-TEST(MachineTolerance, MovesOfOneTrialMayAllBeAlike) {
+TEST(MachineTolerance, MovesOfATrialCountAsOneObservation) {
   // Without a failure, ten moves a trial show no more than one does.
   std::vector<MachineTrials> one, ten;
   for (int machine = 0; machine < 60; ++machine) {
@@ -101,7 +101,7 @@ TEST(MachineTolerance, MovesOfOneTrialMayAllBeAlike) {
   EXPECT_EQ(machine_tolerance(ten, 0.9, 0.95).zero_at_least, 0.0);
 }
 
-TEST(MachineTolerance, LeavesOutAsManyMachinesAsItsRankAllows) {
+TEST(MachineTolerance, OmitsAsManyMachinesAsItsRankAllows) {
   // Of 100 machines the third worst counts: two that always fail cost nothing.
   std::vector<std::int64_t> successes(100, 200);
   const double best = machine_tolerance(machines_with(200, successes), 0.9, 0.95).zero_at_least;
@@ -114,7 +114,7 @@ TEST(MachineTolerance, LeavesOutAsManyMachinesAsItsRankAllows) {
 // Bounds of the proportion of machines that meet a requirement in a proportion of their moves.
 
 // If all machines pass, only the highest mark can show so much, and has all of the error.
-TEST(MachineProportion, OfMachinesThatAllPassIsThatOfWilksLessWhatFewMovesHide) {
+TEST(MachineProportion, AllPassingGivesWilksBoundLessTheErrorOfFewMoves) {
   // 100 moves: P(B ≥ 57) = 0.0966 ≤ 0.1 for B binomial (100, ½).
   const std::vector<MachineMoves> machines(300, {100, 100, 100});
   const MachineProportion found = machine_proportion(machines, {0.5, 0.95, 0.95});
@@ -133,7 +133,7 @@ TEST(MachineProportion, OfMachinesThatAllPassIsThatOfWilksLessWhatFewMovesHide) 
             0.95);
 }
 
-TEST(MachineProportion, OfMachinesThatAllFailIsSmall) {
+TEST(MachineProportion, AllFailingGivesASmallUpperBound) {
   const MachineProportion found =
       machine_proportion(std::vector<MachineMoves>(100, {200, 200, 20}), {0.9, 0.9, 0.95});
   EXPECT_EQ(found.meeting, 0);
@@ -142,7 +142,7 @@ TEST(MachineProportion, OfMachinesThatAllFailIsSmall) {
 }
 
 // Where machines are well above the requirement and miss at times, a bound by those without a miss is poor.
-TEST(MachineProportion, IsSharperThanThatOfOneMark) {
+TEST(MachineProportion, SeveralThresholdsGiveASharperBoundThanOne) {
   std::mt19937_64 random(3);
   const auto median_low = [&](double good, double bad, std::int64_t machines, std::int64_t moves) {
     std::vector<double> found;
@@ -164,7 +164,7 @@ TEST(MachineProportion, IsSharperThanThatOfOneMark) {
 
 // Half of the machines hold far fewer moves than the claim asks for: the bound on the proportion stays near
 // one half.
-TEST(MachineProportion, OfHalfOfTheMachinesLeavesTheOthersOut) {
+TEST(MachineProportion, HalfOfTheMachinesFailingBoundsTheProportionNearOneHalf) {
   std::vector<MachineMoves> machines(200, {20, 20, 20});
   for (std::size_t machine = 0; machine < machines.size(); machine += 2) machines[machine].met = 4;
   const MachineProportion found = machine_proportion(machines, {0.9, 0.95, 0.95});
@@ -175,7 +175,7 @@ TEST(MachineProportion, OfHalfOfTheMachinesLeavesTheOthersOut) {
   EXPECT_GT(found.high, 0.5);
 }
 
-TEST(MachineProportion, OfNoMachineIsUnknown) {
+TEST(MachineProportion, IsUnknownWithoutMachines) {
   const MachineProportion none = machine_proportion({}, {0.9, 0.9, 0.95});
   EXPECT_EQ(none.meeting, 0);
   EXPECT_EQ(none.low, 0.0);
@@ -251,9 +251,9 @@ State state_of(const TrialClusters& clusters) {
   return state;
 }
 
-class TrialClustersOf : public ::testing::TestWithParam<std::int64_t> {};
+class TrialClustersByMachineCount : public ::testing::TestWithParam<std::int64_t> {};
 
-TEST_P(TrialClustersOf, MomentsAreThoseOfTheValuesOfEachMachine) {
+TEST_P(TrialClustersByMachineCount, MomentsEqualThoseOfTheValuesOfEachMachine) {
   const std::int64_t machines = GetParam();
   constexpr std::int64_t trials = 700;
   std::vector<std::vector<double>> by_machine(static_cast<std::size_t>(machines));
@@ -281,7 +281,7 @@ TEST_P(TrialClustersOf, MomentsAreThoseOfTheValuesOfEachMachine) {
   }
 }
 
-TEST_P(TrialClustersOf, BlocksInAnyOrderGiveTheStateOfAllTrials) {
+TEST_P(TrialClustersByMachineCount, BlocksMergeInAnyOrder) {
   const std::int64_t machines = GetParam();
   constexpr std::int64_t trials = 700;
   const State whole = state_of(clusters_of(machines, 0, trials));
@@ -309,7 +309,7 @@ TEST_P(TrialClustersOf, BlocksInAnyOrderGiveTheStateOfAllTrials) {
   }
 }
 
-TEST(TrialClusters, OfAColumnAreThoseOfItsTrials) {
+TEST(TrialClusters, AddingAColumnEqualsAddingItsTrials) {
   std::mt19937_64 random(9);
   for (const std::int64_t machines : {0, 0, 7}) {
     TrialClusters one_by_one(machines), by_column(machines);
@@ -339,7 +339,7 @@ TEST(TrialClusters, OfAColumnAreThoseOfItsTrials) {
 }
 
 // Few machines with many trials, about as many, and machines without a trial.
-INSTANTIATE_TEST_SUITE_P(Machines, TrialClustersOf, ::testing::Values(1, 7, 64, 699, 5000));
+INSTANTIATE_TEST_SUITE_P(Machines, TrialClustersByMachineCount, ::testing::Values(1, 7, 64, 699, 5000));
 
 }  // namespace
 }  // namespace zerocount::statistics

@@ -9,7 +9,7 @@ namespace {
 
 using Random = std::mt19937_64;
 
-TEST(ObservedTest, EqualsSciPys) {
+TEST(ObservedTest, MatchesSciPy) {
   const testing::TemporaryFolder folder;
   std::ofstream cases(folder / "cases");
   Random random(151);
@@ -58,7 +58,7 @@ TEST(ObservedTest, IsSymmetric) {
   }
 }
 
-TEST(ObservedTest, RaisesFalseAlarmsNoMoreOftenThanItSays) {
+TEST(ObservedTest, RaisesFalseAlarmsNoMoreOftenThanStated) {
   Random random(152);
   constexpr int rounds = 4000;
   int fisher = 0;
@@ -78,7 +78,7 @@ double of_a_machine(Random& random) {
 
 // The real machine is one more of these machines. Taken for independent trials of all of them, its own would
 // differ far too often.
-TEST(ObservedTest, AMachineIsOneOfThoseThatDiffer) {
+TEST(ObservedTest, AllowsForDifferencesBetweenMachines) {
   Random random(153);
   constexpr int rounds = 3000;
   int ranks = 0, fisher = 0;
@@ -99,7 +99,7 @@ TEST(ObservedTest, AMachineIsOneOfThoseThatDiffer) {
             << 100.0 * fisher / rounds << " %\n";
 }
 
-TEST(ObservedTest, FindsAMachineThatIsNone) {
+TEST(ObservedTest, RejectsAMachineOutsideThePopulation) {
   std::vector<std::int64_t> of_machines;
   for (int machine = 0; machine < 100; ++machine) of_machines.push_back(18 + machine % 3);
   EXPECT_LE(machine_rank_test({4, 15}, of_machines, 20).p, 0.02);
@@ -107,7 +107,7 @@ TEST(ObservedTest, FindsAMachineThatIsNone) {
   EXPECT_LT(fisher_test({2, 10}, {980, 1000}).p, 1e-6);
 }
 
-TEST(ObservedTest, KnowsWhatItCannotFind) {
+TEST(ObservedTest, ReportsTheSmallestPossiblePValue) {
   EXPECT_GT(fisher_test({2, 2}, {50, 100}).lowest_p, 0.05);
   EXPECT_LT(fisher_test({2, 2}, {98, 100}).lowest_p, 0.05);
   const std::vector<std::int64_t> few(20, 10);

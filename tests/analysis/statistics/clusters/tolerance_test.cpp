@@ -19,7 +19,7 @@ double binomial_up_to(std::int64_t k, std::int64_t n, double p) {
 
 /// Bounds by SciPy 1.10: binomtest(k, n, alternative='greater' and 'less').proportion_ci(confidence,
 /// 'exact').
-TEST(Tolerance, OneSidedBoundsEqualSciPys) {
+TEST(Tolerance, OneSidedBoundsMatchSciPy) {
   struct {
     std::int64_t k, n;
     double confidence, at_least, at_most;
@@ -46,7 +46,7 @@ TEST(Tolerance, OneSidedBoundsAreTheEndsOfTheTwoSidedIntervalWithTwiceTheTail) {
   }
 }
 
-TEST(Tolerance, AClaimIsTrueWithTheStatedConfidenceWhateverTheRate) {
+TEST(Tolerance, ClaimsHoldWithTheirConfidenceAtEveryRate) {
   for (const std::int64_t n : {20, 100}) {
     for (const double p : {0.2, 0.5, 0.9, 0.97, 0.99}) {
       double kept = 0.0;
@@ -61,7 +61,7 @@ TEST(Tolerance, AClaimIsTrueWithTheStatedConfidenceWhateverTheRate) {
   }
 }
 
-TEST(Tolerance, WithoutAFailureItHasWilkssClosedFormAndTheRuleOfThree) {
+TEST(Tolerance, WithoutFailuresHasTheClosedFormOfWilks) {
   for (const std::int64_t n : {59, 1000, 100000}) {
     const SuccessClaim claim = success_claim(n, n, 0.95);
     EXPECT_NEAR(claim.success_at_least, std::pow(0.05, 1.0 / static_cast<double>(n)), 1e-12);
@@ -72,7 +72,7 @@ TEST(Tolerance, WithoutAFailureItHasWilkssClosedFormAndTheRuleOfThree) {
   EXPECT_TRUE(std::isnan(rule_of_three(success_claim(99, 100, 0.95))));
 }
 
-TEST(Tolerance, RanksAreThoseOfWilkssTables) {
+TEST(Tolerance, RanksMatchTheTablesOfWilks) {
   // The sample sizes of the first orders for 95 % content with 95 % confidence.
   EXPECT_EQ(tolerance_rank(58, 0.95, 0.95), 59);  // none of 58
   EXPECT_EQ(tolerance_rank(59, 0.95, 0.95), 59);
@@ -83,7 +83,7 @@ TEST(Tolerance, RanksAreThoseOfWilkssTables) {
   EXPECT_EQ(tolerance_rank(0, 0.95, 0.95), 1);
 }
 
-TEST(Tolerance, RanksAreTheSmallestThatWillDo) {
+TEST(Tolerance, RanksAreTheSmallestPossible) {
   for (const std::int64_t n : {10, 100, 500}) {
     for (const double content : {0.5, 0.9, 0.99}) {
       for (const double confidence : {0.9, 0.99}) {
@@ -97,7 +97,7 @@ TEST(Tolerance, RanksAreTheSmallestThatWillDo) {
   }
 }
 
-TEST(Tolerance, LimitsContainTheirShareAsOftenAsTheySay) {
+TEST(Tolerance, LimitsContainTheirProportionWithTheStatedConfidence) {
   std::mt19937_64 random(95);
   std::exponential_distribution<double> exponential;
   constexpr int rounds = 4000;
@@ -116,7 +116,7 @@ TEST(Tolerance, LimitsContainTheirShareAsOftenAsTheySay) {
   }
 }
 
-TEST(Tolerance, SentencesSayWhatWasShown) {
+TEST(Tolerance, SentencesStateTheClaim) {
   EXPECT_EQ(
       claim_sentence(success_claim(2995, 2995, 0.95)),
       "at least 99.9 % of axes succeed, with 95 % confidence (no failure in 2995 trials: not 100 %, but at "

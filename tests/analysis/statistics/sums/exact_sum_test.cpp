@@ -36,7 +36,7 @@ void shuffle(std::vector<double>& values, testing::Draws& draws) {
     std::swap(values[i - 1], values[static_cast<std::size_t>(draws.uniform(0.0, static_cast<double>(i)))]);
 }
 
-TEST(ExactSum, DoesNotDependOnTheOrderNorOnTheDivision) {
+TEST(ExactSum, DoesNotDependOnOrderOrPartition) {
   testing::Draws draws(2301);
   for (const int range : {2, 40, 1000}) {
     for (int round = 0; round < 100; ++round) {
@@ -54,7 +54,7 @@ TEST(ExactSum, DoesNotDependOnTheOrderNorOnTheDivision) {
   }
 }
 
-TEST(ExactSum, IsThatOfRationalNumbers) {
+TEST(ExactSum, EqualsTheSumOfRationalNumbers) {
   testing::Draws draws(2302);
   for (int round = 0; round < 100; ++round) {
     const std::vector<double> values = random_values(draws, 30);
@@ -71,7 +71,7 @@ TEST(ExactSum, IsThatOfRationalNumbers) {
 }
 
 // So many additions that the digits have to be carried on the way.
-TEST(ExactSum, IsTwiceAsLargeWithItself) {
+TEST(ExactSum, DoublesIfAddedToItself) {
   ExactSum sum;
   for (const double value : {1.0 / 3.0, -1e-30, 7e20}) sum.add(value);
   const double once = sum.value();
@@ -91,7 +91,7 @@ TEST(ExactSum, HoldsTheSmallestAndTheLargestDoubles) {
   EXPECT_EQ(sum_of({-1.0, 1.0}), sum_of({}));
 }
 
-TEST(MomentSums, GiveTheSpreadOfValuesThatHardlyDiffer) {
+TEST(MomentSums, KeepTheSpreadOfNearlyEqualValues) {
   std::vector<double> values;
   for (int i = 0; i < 10; ++i) values.push_back(1e9 + i);
   MomentSums sums;
@@ -101,7 +101,7 @@ TEST(MomentSums, GiveTheSpreadOfValuesThatHardlyDiffer) {
   EXPECT_EQ(sums.moments().max, 1e9 + 9);
 }
 
-TEST(MomentSums, LeaveOutWhatIsNotFinite) {
+TEST(MomentSums, LeaveOutNonfiniteValues) {
   MomentSums sums;
   sums.add(std::nan(""));
   EXPECT_TRUE(std::isnan(sums.moments().mean));

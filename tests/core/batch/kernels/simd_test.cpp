@@ -20,7 +20,7 @@ double relative_error(double value, long double expected) {
   return static_cast<double>(std::abs(value / expected - 1.0L));
 }
 
-TEST(Lanes, TakeExponentialsAndLogarithms) {
+TEST(Lanes, ExponentialsAndLogarithmsAreAccurate) {
   Draws draws(1803);
   for (int round = 0; round < 20000; ++round) {
     const long double x = draws.uniform(-690.0, 690.0), a = draws.log_uniform(1e-300, 1e300);
@@ -38,7 +38,7 @@ TEST(Lanes, TakeExponentialsAndLogarithms) {
   }
 }
 
-TEST(Lanes, TakePowers) {
+TEST(Lanes, PowersAreAccurate) {
   Draws draws(1804);
   for (int round = 0; round < 20000; ++round) {
     const long double a = draws.log_uniform(1e-12, 1e3), n = draws.uniform(1.0, 8.0);
@@ -50,7 +50,7 @@ TEST(Lanes, TakePowers) {
   }
 }
 
-TEST(Lanes, TakePowersOfWhatIsNoOrdinaryNumber) {
+TEST(Lanes, PowersOfZeroSubnormalInfinityAndNaNAreHandled) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   EXPECT_EQ(pow(Lanes(0.0), Lanes(1.5)).part[0][0], 0.0);
   EXPECT_LT(pow(Lanes(1e-310), Lanes(1.5)).part[0][0], 1e-300);

@@ -95,12 +95,12 @@ std::vector<trial::TrialParameters> trials_of(LoopKind kind, int count) {
   return trials;
 }
 
-TEST(BatchLaneLoop, DecidesAsThatOfTheReference) {
+TEST(BatchLaneLoop, AgreesWithTheReference) {
   for (int kind = 0; kind < loop_kinds; ++kind)
     expect_agreement_in_lanes(trials_of(static_cast<LoopKind>(kind), 80), loop_kind_names[kind]);
 }
 
-TEST(BatchLaneLoop, DependsOnNoOtherTrial) {
+TEST(BatchLaneLoop, DoesNotDependOnOtherTrials) {
   std::vector<trial::TrialParameters> trials;
   for (int kind = 0; kind < loop_kinds; ++kind) {
     for (const trial::TrialParameters& p : trials_of(static_cast<LoopKind>(kind), 6)) trials.push_back(p);
@@ -189,7 +189,7 @@ void expect_agreement_in_motion(const std::vector<trial::TrialParameters>& trial
   }
 }
 
-TEST(LaneDrive, MovesTheRotorAsTheReferenceDoes) {
+TEST(LaneDrive, MovesTheRotorLikeTheReference) {
   for (std::size_t i = 0; i < std::size(drive_kinds); ++i) {
     const std::vector<trial::TrialParameters> trials = trials_of(drive_kinds[i], 100);
     if (drive_kinds[i] <= DriveKind::jitter) {
@@ -201,7 +201,7 @@ TEST(LaneDrive, MovesTheRotorAsTheReferenceDoes) {
 }
 
 // In exact equilibrium under a ripple nothing moves the rotor until the first delayed torque arrives.
-TEST(LaneDrive, LeavesARotorInEquilibriumAlone) {
+TEST(LaneDrive, KeepsARotorInEquilibriumAtRest) {
   for (const friction::FrictionModel model :
        {friction::FrictionModel::presliding, friction::FrictionModel::lugre, friction::FrictionModel::dahl,
         friction::FrictionModel::gms}) {
@@ -221,7 +221,7 @@ TEST(LaneDrive, LeavesARotorInEquilibriumAlone) {
   }
 }
 
-TEST(LaneDrive, DependsOnNoOtherTrialAndOnNoInstructionSet) {
+TEST(LaneDrive, DoesNotDependOnOtherTrialsOrInstructionSet) {
   std::vector<trial::TrialParameters> trials;
   for (const DriveKind kind : drive_kinds) {
     for (const trial::TrialParameters& p : trials_of(kind, 6)) trials.push_back(p);
@@ -234,7 +234,7 @@ TEST(LaneDrive, DependsOnNoOtherTrialAndOnNoInstructionSet) {
 // grows to 300 counts a sample: from sample 846 on, its difference and that between the reference and one
 // with another inertia grow by the same factor, about 5 in 282 samples, from 1e-9 count to 1e-3 after 9e5
 // counts of travel. It is not the stops that amplify: the rotor stands once, before.
-TEST(LaneDrive, MovesOtherLawsAsTheReferenceDoes) {
+TEST(LaneDrive, MovesOtherLawsLikeTheReference) {
   int parted = 0;
   int amplifying = 0;
   int trials = 0;

@@ -68,7 +68,7 @@ double breakaway_force(double rate) {
   return force;
 }
 
-TEST(LuGre, BreaksAwayAtASmallerForceTheFasterTheForceRises) {
+TEST(LuGre, BreakawayForceFallsWithTheRateOfTheForce) {
   EXPECT_NEAR(breakaway_force(0.5), 1.476, 5e-4);
   EXPECT_NEAR(breakaway_force(2.0), 1.436, 5e-4);
   EXPECT_NEAR(breakaway_force(10.0), 1.307, 5e-4);
@@ -270,7 +270,7 @@ TEST(Gms, IsTheSpringOfThePaperInTheLimitOfManyElements) {
 }
 
 // In exact balance at rest no direction is ahead, in which an element could slip.
-TEST(Gms, KeepsItsElementsWhereNothingMovesThem) {
+TEST(Gms, KeepsItsElementsIfNothingMovesThem) {
   GmsPlant alone({}, elements(gms_like_the_spring(), 0.8, 30.0), {}, gms_tolerance);
   GmsPlant beside({}, elements(gms_like_the_spring(), 0.8, 30.0), {}, gms_tolerance);
   motion::Disturbance disturbance;
@@ -303,7 +303,7 @@ TEST(Gms, StartsWithTheMemoryOfItsPreload) {
 // Friction takes energy. The model gives a little: while ω falls, the torque of a slipping element rises to
 // its level by itself, not by travel. An element that began to slip against its torque would give some sixty
 // times as much.
-TEST(Gms, IsPassiveButForTheRiseOfSlippingTorques) {
+TEST(Gms, IsPassiveExceptForTheRiseOfSlippingTorques) {
   std::mt19937_64 random(5);
   std::normal_distribution<double> torque(0.0, 0.3);
   const motion::PlantParameters rotor;

@@ -85,7 +85,7 @@ double elongation_at(const StopElements& stops, double from, double torque) {
 }
 
 // Loaded by torque, the spring goes where the elements go: no branch law is inverted there.
-TEST(StopElements, ReachTheTorquesOfAHistoryWhereTheSpringDoes) {
+TEST(StopElements, ReachTheTorquesOfAHistoryAtThePositionsOfTheSpring) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const friction::FrictionParameters friction = random_friction(seed);
     std::mt19937_64 engine(seed + 500);

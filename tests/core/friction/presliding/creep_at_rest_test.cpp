@@ -151,11 +151,11 @@ Deviations largest_deviations(const CreepingRotor& r) {
   return worst;
 }
 
-class CreepAtRestAgainstTheEquations : public ::testing::TestWithParam<bool> {};
+class CreepAtRestFormula : public ::testing::TestWithParam<bool> {};
 
-INSTANTIATE_TEST_SUITE_P(Spring, CreepAtRestAgainstTheEquations, ::testing::Values(false, true));
+INSTANTIATE_TEST_SUITE_P(Spring, CreepAtRestFormula, ::testing::Values(false, true));
 
-TEST_P(CreepAtRestAgainstTheEquations, StaysWithinItsErrorBound) {
+TEST_P(CreepAtRestFormula, StaysWithinItsErrorBound) {
   Draws draws(GetParam() ? 12 : 11);
   double closest = 0.0;
   int noticeable = 0;
@@ -186,7 +186,7 @@ TEST(CreepAtRest, IsTheIntegralOfItsRate) {
   }
 }
 
-TEST(CreepAtRest, InvertsItsFunctions) {
+TEST(CreepAtRest, ItsFunctionsAreInverse) {
   Draws draws(14);
   for (int i = 0; i < 1000; ++i) {
     CreepAtRest creep = random_rotor(draws, true).creep;
@@ -202,7 +202,7 @@ TEST(CreepAtRest, InvertsItsFunctions) {
   }
 }
 
-TEST(CreepAtRest, NeverGrowsByMoreThanIsLeft) {
+TEST(CreepAtRest, NeverExceedsTheRemainingExtension) {
   Draws draws(15);
   for (int i = 0; i < 200; ++i) {
     const CreepAtRest creep = random_rotor(draws, i % 2 == 0).creep;
@@ -212,7 +212,7 @@ TEST(CreepAtRest, NeverGrowsByMoreThanIsLeft) {
   }
 }
 
-TEST(CreepAtRest, IsNoneWhereCreepIsAsFastAsTheSwing) {
+TEST(CreepAtRest, IsNotUsedIfCreepIsAsFastAsTheOscillation) {
   const motion::PlantParameters plant;
   FrictionParameters contact;
   const double stiffness = 860.0;
@@ -257,7 +257,7 @@ TEST(Creep, NeedsMoreTorqueThanItWasHardenedWith) {
   EXPECT_GT(creep_at_constant_torque(friction, hardened, 0.12, long_time).extension, hardened.extension);
 }
 
-TEST(Creep, LargerTorqueTheOtherWayCreepsBackWhileHardeningOnlyGrows) {
+TEST(Creep, ALargerOppositeTorqueCreepsBackAndHardensFurther) {
   const FrictionParameters friction;
   const CreepState hardened = creep_at_constant_torque(friction, {}, 0.1, long_time);
   const CreepState back = creep_at_constant_torque(friction, hardened, -0.12, long_time);
@@ -274,7 +274,7 @@ TEST(Creep, OnsetTorqueInvertsTheHardeningLimit) {
   }
 }
 
-TEST(Creep, NeverSetsInWhereItsRateIsZero) {
+TEST(Creep, NeverSetsInIfItsRateIsZero) {
   FrictionParameters friction;
   friction.alpha = 0.0;
   EXPECT_TRUE(std::isinf(creep_onset_torque(friction, 0.0)));

@@ -41,7 +41,7 @@ friction::OscillationLaw law_of(const Rotor& rotor, double softening) {
 
 constexpr double notice = 1e-30;
 
-TEST(ResidualOscillation, SolvesItsEquationsWhereTheSpringIsStraight) {
+TEST(ResidualOscillation, SolvesItsEquationsForALinearSpring) {
   Draws draws(1);
   for (int i = 0; i < 200; ++i) {
     const Rotor rotor = random_rotor(draws);
@@ -64,7 +64,7 @@ TEST(ResidualOscillation, SolvesItsEquationsWhereTheSpringIsStraight) {
   }
 }
 
-TEST(ResidualOscillation, MovesAsItsVelocitySays) {
+TEST(ResidualOscillation, PositionIsTheIntegralOfItsVelocity) {
   Draws draws(2);
   for (int i = 0; i < 200; ++i) {
     const Rotor rotor = random_rotor(draws);
@@ -82,7 +82,7 @@ TEST(ResidualOscillation, MovesAsItsVelocitySays) {
 }
 
 /// A cycle of amplitude a costs 4/3·k2·β·a³, the area of a closed loop of the spring to that order (Masing).
-TEST(ResidualOscillation, LosesWhatALoopOfTheSpringCosts) {
+TEST(ResidualOscillation, LosesTheHysteresisEnergyPerCycle) {
   const Rotor rotor{1e-9, 1e6, 0.0};
   const double softening = 1e-4;  // k2·β/k, with a = 1
   const friction::ResidualOscillation oscillation =

@@ -47,7 +47,7 @@ trial::TrialParameters machine_number(std::uint64_t index) {
   return random_trial(index % 4 == 0 ? TrialKind::spring_alone : TrialKind::calm, 9000 + index);
 }
 
-TEST(PlantAtRest, IsWhereTheFullEquationsHaveIt) {
+TEST(PlantAtRest, AgreesWithTheFullEquations) {
   double worst = 0.0;
   int rests = 0;
   for (std::uint64_t index = 0; index < 40; ++index) {
@@ -75,7 +75,7 @@ TEST(PlantAtRest, IsWhereTheFullEquationsHaveIt) {
 
 /// The agreement lasts as long as the creep: the closed form continues from one rest, and the judge
 /// integrates.
-TEST(PlantAtRest, StaysWithTheFullEquationsForSeconds) {
+TEST(PlantAtRest, AgreesWithTheFullEquationsForSeconds) {
   double worst = 0.0;
   for (std::uint64_t index = 0; index < 6; ++index) {
     trial::TrialParameters machine = machine_number(4 * index + 1);
@@ -131,7 +131,7 @@ TEST(PlantAtRest, RemembersTheSameReversalsInPiecesOfAnyLength) {
   EXPECT_GT(deepest, 20);
 }
 
-TEST(PlantAtRest, IsNotWhileItSwings) {
+TEST(PlantAtRest, IsNotReachedWhileTheRotorOscillates) {
   for (const double alpha : {0.0, 0.5}) {
     trial::TrialParameters machine;
     machine.friction.uniform.alpha = alpha;
@@ -148,7 +148,7 @@ TEST(PlantAtRest, IsNotWhileItSwings) {
 
 /// Creep goes by a power of σ, so oscillations about a torque add more to it on one side than they take on
 /// the other; and it recovers what it is ahead. With little damping and fast creep both are far from small.
-TEST(PlantAtRest, WaitsWhereSwingsMakeCreep) {
+TEST(PlantAtRest, WaitsIfOscillationsAddToCreep) {
   double worst = 0.0;
   for (std::uint64_t index = 0; index < 24; ++index) {
     Draws draws(3000 + index);

@@ -38,7 +38,7 @@ struct SpringProperties {
   double torque_scale_{friction_.k2 / friction_.beta};
 };
 
-TEST_EACH_SEED(SpringProperties, TangentRunsFromTheHighestToTheLowestStiffness) {
+TEST_EACH_SEED(SpringProperties, TangentFallsFromTheHighestToTheLowestStiffness) {
   HystereticSpring spring(friction_);
   spring.move_to(5.0 * length_);
   spring.set_direction(-1);
@@ -128,7 +128,7 @@ std::vector<double> random_torques(std::mt19937& random, double scale, int count
   return torques;
 }
 
-TEST_EACH_SEED(SpringProperties, ReachesTheTorqueItIsTakenTo) {
+TEST_EACH_SEED(SpringProperties, ReachesTheRequestedTorque) {
   HystereticSpring spring(friction_);
   for (const double torque : random_torques(random_, torque_scale_, 300)) {
     spring.move_to_torque(torque);
@@ -139,7 +139,7 @@ TEST_EACH_SEED(SpringProperties, ReachesTheTorqueItIsTakenTo) {
 }
 
 // Also where a virgin curve is run inwards and then outwards again.
-TEST_EACH_SEED(SpringProperties, PointAtATorqueIsWhereTheMoveToItEnds) {
+TEST_EACH_SEED(SpringProperties, PointAtATorqueEqualsTheEndOfAMoveToIt) {
   std::normal_distribution<double> normal(0.0, torque_scale_);
   for (int history = 0; history < 50; ++history) {
     HystereticSpring spring(friction_);
@@ -217,7 +217,7 @@ TEST_F(MeasuredSpring, PassesThroughBothPoints) {
 }
 
 // Both ways say the same spring.
-TEST_F(MeasuredSpring, FollowsFromASecantOfItsOwnCurve) {
+TEST_F(MeasuredSpring, IsRecoveredFromASecantOfItsCurve) {
   for (int i = 0; i < 1000; ++i) {
     const double final = log_uniform(1e2, 1e6);
     const Softening spring{final * log_uniform(0.1, 100), log_uniform(1e4, 1e7)};
@@ -233,7 +233,7 @@ TEST_F(MeasuredSpring, FollowsFromASecantOfItsOwnCurve) {
   }
 }
 
-TEST_F(MeasuredSpring, DoesNotExistBeyondItsConditions) {
+TEST_F(MeasuredSpring, DoesNotExistOutsideItsConditions) {
   for (int i = 0; i < 1000; ++i) {
     const double excess = log_uniform(1.0 + 1e-9, 3);
     EXPECT_FALSE(softening_from(100, 10, {1e-3, 1e-3 * 10 / excess}));
@@ -268,7 +268,7 @@ TEST(PreslidingRange, IsTheTravelAtWhichAVirginContactCarriesBreakaway) {
   }
 }
 
-TEST(PreslidingRange, HasClosedFormsWhereOneTermOfTheSpringIsMissing) {
+TEST(PreslidingRange, HasClosedFormsIfATermOfTheSpringIsMissing) {
   FrictionParameters contact;
   contact.k2 = 0.0;
   EXPECT_DOUBLE_EQ(presliding_range(contact), contact.breakaway / contact.k1);

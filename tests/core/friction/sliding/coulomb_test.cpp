@@ -30,7 +30,7 @@ double next_after(double value) {
   return std::nextafter(value, std::numeric_limits<double>::infinity());
 }
 
-TEST(CoulombPlant, StandsExactlyWhileTheTorqueIsWithinTheLevel) {
+TEST(CoulombPlant, StandsExactlyStillBelowTheBreakawayTorque) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> torque(-level, level);
   CoulombPlant plant({}, coulomb(0.5), {}, coulomb_tolerance);
@@ -46,7 +46,7 @@ TEST(CoulombPlant, StandsExactlyWhileTheTorqueIsWithinTheLevel) {
   EXPECT_EQ(plant.breakaways(), 0);
 }
 
-TEST(CoulombPlant, KnowsNoPreslidingState) {
+TEST(CoulombPlant, HasNoPreslidingState) {
   motion::PlantStart start;
   start.hardening = 1e-5;
   start.preload = 0.1;
@@ -61,7 +61,7 @@ TEST(CoulombPlant, KnowsNoPreslidingState) {
   EXPECT_NE(plant.theta(), 0.0);
 }
 
-TEST(CoulombPlant, SlidesOnAtOnceWhereTheNewContactIsWeaker) {
+TEST(CoulombPlant, SlidesOnImmediatelyIfTheNewContactIsWeaker) {
   const auto weaker = std::make_shared<const Profile>(
       Profile{Marginal::normal, level, 0.2, {0.0, 0.0}, {0.0, -1.0}});  // falls with the angle
   FrictionAlongRotor friction = coulomb();
@@ -77,7 +77,7 @@ TEST(CoulombPlant, SlidesOnAtOnceWhereTheNewContactIsWeaker) {
   EXPECT_GT(plant.theta(), theta);
 }
 
-TEST(CoulombPlant, NeedsTheStaticLevelToStartButNotToGoOn) {
+TEST(CoulombPlant, NeedsTheStaticLevelToStartButNotToKeepSliding) {
   const double between = 0.9 * level;
   CoulombPlant standing({}, coulomb(0.8), {}, coulomb_tolerance);
   hold(standing, between, 1.0);
@@ -124,7 +124,7 @@ TEST(CoulombPlant, IsReleasedByAnAmplifierAtTheExactInstant) {
 }
 
 // Torques that touch the level, or pass it by no more than rounding: none may hang or lose the motion.
-TEST(CoulombPlant, FollowsEveryTorqueAtTheVeryLevel) {
+TEST(CoulombPlant, HandlesATorqueEqualToBreakaway) {
   for (const double ratio : {1.0, 0.8, 0.3, 0.1}) {
     for (const double side : {1.0, -1.0}) {
       const double beyond = side * next_after(level);
@@ -221,7 +221,7 @@ TEST(CoulombPlant, StandsUnderAVibrationWhosePeakIsBelowTheLevel) {
 
 // The torque of a fast amplifier is no polynomial over a sample. A vibration without amplitude has the rotor
 // stand by series in place of the closed form.
-TEST(CoulombPlant, IsReleasedByAnAmplifierBesideADisturbanceOfNoSizeAsWithoutIt) {
+TEST(CoulombPlant, AZeroDisturbanceDoesNotChangeTheReleaseByAnAmplifier) {
   std::mt19937 random(6);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   for (int trial = 0; trial < 300; ++trial) {
@@ -244,7 +244,7 @@ TEST(CoulombPlant, IsReleasedByAnAmplifierBesideADisturbanceOfNoSizeAsWithoutIt)
 }
 
 // Nothing could give way to a velocity but sliding.
-TEST(CoulombPlant, SlidesAtTheStartWithAVelocityWhateverTheMode) {
+TEST(CoulombPlant, AnInitialVelocityStartsInSliding) {
   for (const double omega : {2.0, -0.3, 1e-6}) {
     CoulombPlant sliding({}, coulomb(0.6), {.velocity = omega, .sliding = true}, coulomb_tolerance);
     CoulombPlant sticking({}, coulomb(0.6), {.velocity = omega, .sliding = false}, coulomb_tolerance);
@@ -345,7 +345,7 @@ Textbook textbook(const Push& push) {
   return end;
 }
 
-TEST(FreeMotion, IsThatOfTheTextbook) {
+TEST(FreeMotion, MatchesTheTextbook) {
   RandomPushes pushes;
   for (int i = 0; i < 4000; ++i) {
     const Push push = pushes.next();
@@ -417,7 +417,7 @@ TEST(SlidingEvent, IsTheFirstZeroOfTheVelocity) {
   EXPECT_EQ(Slide::first_event(with_velocity({2.0, -1.0}), 1.5).event, Slide::Event::none);
 }
 
-TEST(SlidingEvent, IsNotTheRestFromWhichTheSlideStarts) {
+TEST(SlidingEvent, IsNotTheRestBeforeTheSlideStarts) {
   EXPECT_EQ(Slide::first_event(with_velocity({0.0, 1.0}), 5.0).event, Slide::Event::none);
   const auto back = Slide::first_event(with_velocity({0.0, 3.0, -1.0}), 5.0);
   EXPECT_EQ(back.event, Slide::Event::velocity_zero);

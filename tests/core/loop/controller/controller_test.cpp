@@ -49,7 +49,7 @@ std::vector<double> integrals(const ControlBlocks& blocks, const std::vector<dou
 
 using Integrals = std::vector<double>;
 
-TEST(Integrator, StaysInsideTheDeadband) {
+TEST(Integrator, IsFrozenInsideTheDeadband) {
   EXPECT_EQ(integrals({.deadband = {1, -1}}, {2, 1, -1, 0, -2, 2}), (Integrals{1, 1, 1, 1, 2, 3}));
   EXPECT_EQ(integrals({.deadband = {0, -1}}, {1, 0, 0, -1}), (Integrals{1, 1, 1, 2}));
   EXPECT_EQ(integrals({}, {0, 0, 5}), (Integrals{1, 2, 3}));
@@ -74,7 +74,7 @@ TEST(Integrator, LeaksToTheLevelOfItsIncrements) {
   EXPECT_NEAR(integrator.value(), 1.0 / -std::expm1(-0.001 / 0.05), 1e-9);
 }
 
-TEST(Integrator, RemembersTheDeadbandThroughSamplesThatAnotherLawDecides) {
+TEST(Integrator, RemembersTheDeadbandWhileAnotherLawDecides) {
   Integrator integrator(integral_constants({.deadband = {1, 3}}, 1000.0, any_torque), 0.0);
   integrator.observe(1.0);
   EXPECT_EQ(integrator.add(3.0, 1.0), 0.0);
@@ -311,12 +311,12 @@ struct EachBlock<std::tuple<Blocks...>> {
   }
 };
 
-TEST(ControlChain, TheLinearFormOfEveryBlockIsWhatItDoes) {
+TEST(ControlChain, EveryBlockMatchesItsLinearForm) {
   EachBlock<ControlBlockChain::List>::expect_linear_forms();
   EachBlock<std::tuple<Pid, Cascade, LowPass>>::expect_linear_forms();
 }
 
-TEST(ControlChain, ABlockOfTheTestsHasTheImpulseResponseOfItsTransferFunction) {
+TEST(ControlChain, AnAddedBlockHasTheImpulseResponseOfItsTransferFunction) {
   LowPass block({}, {});
   for (int k = 0; k < 50; ++k) {
     EXPECT_NEAR(block.step({}, k == 0 ? 1.0 : 0.0), (1.0 - LowPass::decay) * std::pow(LowPass::decay, k),
@@ -404,7 +404,7 @@ TEST(Filter, HasTheContinuousResponseAtItsFrequencyAtZeroAndAtHalfTheSampleRate)
 
 // A biquad with the coefficients of a filter of 2 kHz, moved to another rate, is that filter of the other
 // rate.
-TEST(Filter, OfCoefficientsMovesToAnotherSampleRateAsTheFilterThatTheyAreOf) {
+TEST(Filter, GivenCoefficientsAreConvertedToAnotherSampleRate) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   for (int i = 0; i < 300; ++i) {
@@ -425,14 +425,14 @@ TEST(Filter, OfCoefficientsMovesToAnotherSampleRateAsTheFilterThatTheyAreOf) {
   }
 }
 
-TEST(Filter, OfCoefficientsWithAPoleAtHalfTheSampleRateIsOfNoOtherRate) {
+TEST(Filter, PoleAtHalfTheSampleRateIsRejected) {
   EXPECT_FALSE(resampled({.kind = FilterKind::biquad, .b = {1.0, 0.0, 0.0}, .a = {1.0, 0.0}}, 2.0));
   const std::optional<Filter> gain = resampled({.kind = FilterKind::biquad, .b = {3.0, 0.0, 0.0}}, 2.0);
   ASSERT_TRUE(gain);
   EXPECT_EQ(gain->b, (std::array<double, 3>{3.0, 0.0, 0.0}));
 }
 
-TEST(Filter, IsStableWhereBothPolesLieInsideTheUnitCircle) {
+TEST(Filter, IsStableIfBothPolesLieInsideTheUnitCircle) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> coefficient(-2.5, 2.5);
   for (int i = 0; i < 2000; ++i) {
@@ -446,7 +446,7 @@ TEST(Filter, IsStableWhereBothPolesLieInsideTheUnitCircle) {
 
 // In the steady state that take_over makes, the chain decides the torque in force whatever its blocks, and
 // goes on deciding it while nothing moves.
-TEST(ControlChain, GoesOnFromTheTorqueInForce) {
+TEST(ControlChain, ContinuesFromThePresentTorque) {
   testing::RandomBlocks draw(5);
   for (int i = 0; i < 100; ++i) {
     ControllerParameters p;
@@ -461,7 +461,7 @@ TEST(ControlChain, GoesOnFromTheTorqueInForce) {
   }
 }
 
-TEST(ControlChain, WithAnObserverChangesTheTorqueOnlyAsTheEstimateGoesOn) {
+TEST(ControlChain, WithAnObserverChangesPhaseWithoutATorqueStep) {
   ControllerParameters p;
   p.ki = 0.0;
   p.blocks.observer = {20.0, 5e-4};
@@ -481,7 +481,7 @@ ControllerParameters parameters_with(std::function<plugin::StepFunction(const ze
   return parameters;
 }
 
-TEST(UserLaw, ALawOfThisProcessIsStartedWithTheSetupAndStepsWithTheSamples) {
+TEST(UserLaw, IsSetUpOnceAndCalledForEverySample) {
   std::vector<std::int64_t> samples;
   const ControllerParameters parameters = parameters_with([&](const zerocount_setup& setup) {
     EXPECT_EQ(setup.sample_time, 1.0 / 4000.0);
@@ -504,7 +504,7 @@ TEST(UserLaw, ALawOfThisProcessIsStartedWithTheSetupAndStepsWithTheSamples) {
   EXPECT_EQ(samples, (std::vector<std::int64_t>{0, 1}));
 }
 
-TEST(UserLaw, AnExceptionOfALawOfThisProcessIsPassedOn) {
+TEST(UserLaw, AnExceptionIsPassedToTheCaller) {
   const ControllerParameters parameters = parameters_with([](const zerocount_setup&) {
     return [](const zerocount_sample&) -> double { throw std::runtime_error("mine"); };
   });

@@ -54,7 +54,7 @@ double true_age(double limit) {
   return 1.0e6 / rate_of_k1 * std::log(limit / (50.0 + 0.8 * 200.0));
 }
 
-TEST(LostAges, IsTheAgeAtWhichTooManyMachinesLeaveTheLimit) {
+TEST(AgeOfLoss, IsTheAgeAtWhichTooManyMachinesLeaveTheLimit) {
   const double truth = true_age(largest_k1());
   const LostAges found = lost_of({"machines=4000", "trials=12000"});
   ASSERT_EQ(found.claims.size(), 1U);
@@ -66,7 +66,7 @@ TEST(LostAges, IsTheAgeAtWhichTooManyMachinesLeaveTheLimit) {
   EXPECT_TRUE(std::ranges::is_sorted(found.tried, {}, &tuning::AgeVerdict::age));
 }
 
-TEST(LostAges, ItsBoundsCoverTheAgeAsOftenAsTheGoalIsConfident) {
+TEST(AgeOfLoss, BoundsCoverTheAgeWithTheConfidenceOfTheGoal) {
   const double truth = true_age(largest_k1());
   constexpr int populations = 40;
   int too_late = 0;
@@ -81,7 +81,7 @@ TEST(LostAges, ItsBoundsCoverTheAgeAsOftenAsTheGoalIsConfident) {
   EXPECT_LE(too_early, 6);
 }
 
-TEST(LostAges, TellsClaimsApart) {
+TEST(AgeOfLoss, IsGivenForEachClaim) {
   const LostAges found = lost_of({"goal={band: 1, within: 0.1, moves: 0.8}", "trials=1200",
                                   "conditions={light: {}, stiff: {friction.k1: {uniform: [75, 375]}}}"});
   ASSERT_EQ(found.claims.size(), 2U);
@@ -91,7 +91,7 @@ TEST(LostAges, TellsClaimsApart) {
               0.2 * *found.claims[0].lost);
 }
 
-TEST(LostAges, HoldsWhereNothingIsLost) {
+TEST(AgeOfLoss, IsAbsentIfNoMachineIsLost) {
   const LostAges found =
       lost_of({"friction.k1={uniform: [50, 250], aging: {logarithmic: 0.001, scale: 1.0e+6}}"});
   EXPECT_FALSE(found.claims[0].lost);
@@ -100,14 +100,14 @@ TEST(LostAges, HoldsWhereNothingIsLost) {
   EXPECT_EQ(found.tried.back().age, 1.0e12);
 }
 
-TEST(LostAges, EndsWhereAValueWouldLeaveItsRange) {
+TEST(AgeOfLoss, EndsWhereAValueWouldLeaveItsRange) {
   const LostAges found = lost_of({"friction.k1={uniform: [50, 250], aging: {linear: -0.1, scale: 1.0e+6}}"});
   EXPECT_TRUE(says(found.refusal, "friction.k1"));
   EXPECT_LT(found.tried.back().age, 1.0e7);
   EXPECT_GT(found.tried.back().age, 0.97e7);
 }
 
-TEST(LostAges, IsMissedFromTheFirstAgeOn) {
+TEST(AgeOfLoss, AGoalMissedFromTheStartIsReported) {
   const LostAges found = lost_of({"goal={band: 1, within: 0.01, moves: 0.8}"});
   EXPECT_EQ(found.claims[0].lost, 0.0);
   EXPECT_FALSE(found.claims[0].met_until);

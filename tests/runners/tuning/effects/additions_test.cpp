@@ -121,7 +121,7 @@ std::string hypot_text(double a, double b) {
   return fmt::format("{}", std::hypot(a, b));
 }
 
-TEST(Additions, HaveTheRatesOfTheManifestsThatStateThem) {
+TEST(Additions, RatesEqualRunsOfTheirManifests) {
   struct Case {
     const char* text;
     std::vector<std::string> with_noise, with_delay;
@@ -166,7 +166,7 @@ TEST(Additions, PutNoiseOnTheEncoderThatClosesTheLoop) {
   EXPECT_DOUBLE_EQ(p.encoder.coarse_errors.noise, std::hypot(0.2, 0.1));
 }
 
-TEST(Additions, HaveAModeOfTheTwoFreeMasses) {
+TEST(Additions, ResonanceIsThatOfTwoFreeMasses) {
   const study::Study study = parsed(of_trials);
   for (const double frequency : {20.0, 333.0, 5000.0}) {
     trial::TrialParameters p = study::study_trial(study, 0, 0).parameters;
@@ -182,7 +182,7 @@ TEST(Additions, HaveAModeOfTheTwoFreeMasses) {
 
 // The row's rate is that of the manifest with the mode, which costs no claim more than 1 %; the frequency
 // that is said to cost more does.
-TEST(Additions, FindTheLowestModeThatIsBorne) {
+TEST(Additions, FindTheLowestTolerableResonance) {
   struct Case {
     std::string text;
     std::vector<std::pair<double, std::string>> inertias;  // and conditions
@@ -221,7 +221,7 @@ TEST(Additions, FindTheLowestModeThatIsBorne) {
 }
 
 // A mode takes long: of a large study its rate is of the first machines, and says so.
-TEST(Additions, TryModesOnTheFirstMachinesOfALargeStudy) {
+TEST(Additions, LargeStudiesTryResonancesOnTheirFirstMachines) {
   const std::string larger = "trials=6000";
   const study::Study study = parsed(of_trials, {larger, "command.hold=0.06"});
   const EffectRuns runs = runs_of(study);
@@ -231,7 +231,7 @@ TEST(Additions, TryModesOnTheFirstMachinesOfALargeStudy) {
   EXPECT_TRUE(says(row.note, fmt::format("first {} of 6000 draws", row.estimate.units)));
 }
 
-TEST(Additions, SayWhatIsNotSimulated) {
+TEST(Additions, CasesThatAreNotSimulatedGiveTheReason) {
   const study::Study late = parsed(of_trials, {"controller.delay=100"});
   const std::vector<Limit> rows = additions_to(runs_of(late));
   ASSERT_EQ(rows.size(), 3U);
@@ -272,7 +272,7 @@ std::vector<Limit> variations() {
                        [](std::uint64_t seed) { return stated({fmt::format("seed={}", seed)}); });
 }
 
-TEST(Robustness, RatesAreThoseOfManifestsWithOtherPremises) {
+TEST(Robustness, RatesEqualRunsOfManifestsWithOtherAssumptions) {
   const std::vector<Limit> found = variations();
   ASSERT_EQ(found.size(), 4U);
   double lowest = 1.0;
@@ -294,7 +294,7 @@ TEST(Robustness, RatesAreThoseOfManifestsWithOtherPremises) {
 }
 
 // A value that would leave its range stays, and the row says so.
-TEST(Robustness, NamesWhatStays) {
+TEST(Robustness, NamesParametersThatCannotBeVaried) {
   const auto effects = tuning::other_premises(
       manifest::parse_study(std::string(text) + "plant: {presliding_damping: {uniform: [0.01, 0.3]}}\n",
                             "axis.yaml", {}),

@@ -35,7 +35,7 @@ TEST(PairedGain, IsTheExactSignTestOfTheMachinesThatDiffer) {
 }
 
 // Three moves of 400 are chance.
-TEST(PairedGain, OfFewMovesIsNotShown) {
+TEST(PairedGain, AFewChangedMovesAreNotSignificant) {
   std::vector<int> before(400, 0);
   std::vector<int> after = before;
   for (std::size_t i = 0; i < 3; ++i) after[100 * i] = 1;
@@ -43,7 +43,7 @@ TEST(PairedGain, OfFewMovesIsNotShown) {
 }
 
 // The moves of a machine depend on each other: a machine that gains all its moves counts once.
-TEST(PairedGain, CountsMachinesAndNotTheirMoves) {
+TEST(PairedGain, CountsMachinesRatherThanTheirMoves) {
   const PairedGain gain =
       paired_gain({}, 0, machines({0, 0, 0, 0, 0}, 100), machines({90, 80, 95, 70, 99}, 100), 10);
   EXPECT_NEAR(gain.p_value, 1.0 / 32.0, 1e-12);
@@ -52,7 +52,7 @@ TEST(PairedGain, CountsMachinesAndNotTheirMoves) {
 }
 
 // Of a claim about machines those count that meet it in as many of their moves as it asks.
-TEST(PairedGain, OfMachinesIsMcNemarsTest) {
+TEST(PairedGain, ForMachinesEqualsMcNemarsTest) {
   const Claim claim{.moves = 0.5, .machines = 0.9};
   const PairedGain gain = paired_gain(claim, 0, machines({1, 1, 4, 9}, 10), machines({4, 5, 5, 4}, 10), 1);
   EXPECT_EQ(gain.gained, 2);

@@ -50,7 +50,7 @@ ProvenSearch searched_and_proven(const MadeUpProblem& truth) {
   return both;
 }
 
-TEST(Proof, ItsClaimsHoldAndThoseOfTheSearchDoNot) {
+TEST(Proof, ClaimsOfTheProofHoldAndThoseOfTheSearchDoNot) {
   constexpr int repetitions = 80;
   int wrong_claims = 0;
   int wrong_bounds = 0;
@@ -79,7 +79,7 @@ TEST(Proof, ItsClaimsHoldAndThoseOfTheSearchDoNot) {
 }
 
 // Of values that lie just within a goal, a proof may miss the best by chance.
-TEST(Proof, MissesAGoalForGoodOnlyWhereNoFinalistMayMeetIt) {
+TEST(Proof, AGoalIsMissedOnlyIfNoFinalistMayMeetIt) {
   const auto lost = [](double highest_rate) {
     int count = 0;
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
@@ -94,14 +94,14 @@ TEST(Proof, MissesAGoalForGoodOnlyWhereNoFinalistMayMeetIt) {
   EXPECT_GE(lost(0.85), 38);
 }
 
-TEST(Proof, AttemptsShareTheErrorProbability) {
+TEST(Proof, AttemptsDivideTheErrorProbability) {
   double sum = 0.0;
   for (int attempt = 1; attempt <= max_attempts; ++attempt)
     sum += 1.0 / static_cast<double>(correction_of(attempt));
   EXPECT_DOUBLE_EQ(sum, 1.0);
 }
 
-TEST(Proof, GoesOnToTheNextFinalistAfterAMissAndToMoreUnitsWhenUndecided) {
+TEST(Proof, TriesTheNextFinalistAfterAMissAndMoreUnitsIfUndecided) {
   std::vector<Attempt> attempts;
   const study::Goal goal{.within = 1.0, .moves = 0.95};
   ProofProblem problem;
@@ -130,7 +130,7 @@ TEST(Proof, GoesOnToTheNextFinalistAfterAMissAndToMoreUnitsWhenUndecided) {
 }
 
 // Such as margins of the sliding loop, where only the proof slides.
-TEST(Proof, GoesOnToTheNextFinalistWhereItRejectsOneThatMeetsTheGoal) {
+TEST(Proof, TriesTheNextFinalistIfItRejectsOneThatMeetsTheGoal) {
   const study::Goal goal{.within = 1.0, .moves = 0.95};
   ProofProblem problem;
   problem.may_meet = {true, true};
@@ -169,7 +169,7 @@ Aim aim_with(const Claim& claim, double quantile = 0.95) {
   return {.claims = {claim}, .quantile = quantile};
 }
 
-TEST(Candidate, RateIsOfMovesOrOfMachines) {
+TEST(Candidate, RateCountsMovesOrMachines) {
   const Candidate candidate = candidate_of({{10, 10, {}}, {10, 9, {}}, {10, 5, {}}, {10, 10, {}}});
   EXPECT_DOUBLE_EQ(estimate_of(aim_with({.moves = 0.9}), candidate.units, 4).rate, 34.0 / 40.0);
   EXPECT_DOUBLE_EQ(estimate_of(aim_with({.moves = 0.9, .machines = 0.7}), candidate.units, 4).rate, 0.75);
@@ -177,7 +177,7 @@ TEST(Candidate, RateIsOfMovesOrOfMachines) {
 }
 
 // The product over the moves in their order, whatever is computed once for those that are alike.
-TEST(Candidate, EvidenceIsTheMeanWealthOfTheBets) {
+TEST(Candidate, EvidenceIsTheMeanCapitalOfTheBets) {
   std::mt19937_64 random(4);
   for (const int kinds : {1, 2, 7, 1000}) {
     std::vector<double> differences;
@@ -235,7 +235,7 @@ Candidate candidate_with(const std::vector<MadeUpClaim>& claims, int units = 400
 const Aim two_goals{.claims = {{.moves = 0.9}, {.moves = 0.9}, {.moves = 0.6}, {.moves = 0.6}},
                     .conditions = 2};
 
-TEST(Candidate, OfSeveralClaimsTheWorstDecides) {
+TEST(Candidate, TheWorstOfSeveralClaimsDecides) {
   const Candidate lacking = candidate_with({{0.99, 0.1}, {0.95, 0.2}, {0.99, 0.3}, {0.62, 0.4}});
   const Estimate estimate = estimate_of(two_goals, lacking.units, 400);
   EXPECT_EQ(estimate.worst, 3U) << "62 % of 60 % is nearer to the goal than 95 % of 90 %";
@@ -246,7 +246,7 @@ TEST(Candidate, OfSeveralClaimsTheWorstDecides) {
   EXPECT_TRUE(reaches(two_goals, estimate)) << "with nothing to spare";
 }
 
-TEST(Candidate, OneThatMeetsMoreGoalsIsBetterThenTheOneWithTheBetterWorstClaim) {
+TEST(Candidate, RanksByGoalsMetThenByTheWorstClaim) {
   const auto estimate = [](const std::vector<MadeUpClaim>& claims) {
     return estimate_of(two_goals, candidate_with(claims).units, 400);
   };
@@ -279,7 +279,7 @@ TEST(Candidate, IsDroppedByTheClaimThatItMisses) {
 
 // The criterion is the largest of all claims: a claim with 3 % beyond the limit is as early as the latest of
 // `best`, of which 4 % are beyond it.
-TEST(Candidate, IsNotLaterByAClaimThatIsEarlierThanTheLatestOfTheBest) {
+TEST(Candidate, IsNotSlowerByAClaimThatIsFasterThanTheSlowestOfTheBest) {
   constexpr int units = 2000;
   Candidate best = candidate_with({{1.0, 0.2}, {1.0, 0.2}, {1.0, 0.2}, {1.0, 0.4}}, units);
   for (int i = 0; i < units; i += 25) best.units[static_cast<std::size_t>(i)].claims[3].values = {0.9};
@@ -291,7 +291,7 @@ TEST(Candidate, IsNotLaterByAClaimThatIsEarlierThanTheLatestOfTheBest) {
 }
 
 // The error probability holds for all numbers of units together, for differences of any shape.
-TEST(Candidate, EvidenceRarelyAccusesTheInnocent) {
+TEST(Candidate, EvidenceSeldomDropsAnEqualCandidate) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   constexpr int sequences = 600;
@@ -311,13 +311,13 @@ TEST(Candidate, EvidenceRarelyAccusesTheInnocent) {
   EXPECT_LE(accused, alpha * sequences);
 }
 
-TEST(Candidate, EvidenceFindsAnIncreaseSoon) {
+TEST(Candidate, EvidenceFindsASlowerCandidateSoon) {
   std::vector<double> differences;
   for (int i = 0; i < 256; ++i) differences.push_back(i % 10 == 0 ? 1.0 : 0.0);  // 10 % more misses
   EXPECT_GT(evidence_of_increase(differences), 100.0);
 }
 
-TEST(Candidate, IsSurelyLaterThanAFasterOne) {
+TEST(Candidate, ASlowerCandidateIsDistinguishedFromAFasterOne) {
   std::vector<ClaimResult> fast;
   std::vector<ClaimResult> slow;
   for (int i = 0; i < 128; ++i) {
@@ -331,7 +331,7 @@ TEST(Candidate, IsSurelyLaterThanAFasterOne) {
 
 // The size of a search follows its effort.
 
-TEST(SearchSize, FirstGenerationTakesHalfOfTheEffortAtMost) {
+TEST(SearchSize, FirstGenerationTakesAtMostHalfOfTheEffort) {
   for (std::size_t free = 1; free <= 6; ++free) {
     for (const std::int64_t worlds : {0, 7, 30}) {
       const SearchScope scope{free, free / 2, 2048, worlds};
@@ -382,13 +382,13 @@ Landscape landscape(Rate rate, int points = 400) {
   return landscape_of(aim, tried);
 }
 
-TEST(Landscape, LeadsWhereTheRateRisesToItsHighest) {
+TEST(Landscape, LeadsToTheHighestRate) {
   EXPECT_TRUE(landscape([](double x) { return 0.6 * std::exp(-8.0 * (x - 0.4) * (x - 0.4)); }).leads());
   // A narrow peak that the search refined: one point in ten lies on it.
   EXPECT_TRUE(landscape([](double x) { return std::max(0.0, 0.7 - 20.0 * std::abs(x - 0.3)); }).leads());
 }
 
-TEST(Landscape, LeadsNowhereWhereHardlyAnyMoveMeetsTheGoal) {
+TEST(Landscape, LeadsNowhereIfHardlyAnyMoveMeetsTheGoal) {
   EXPECT_FALSE(landscape([](double) { return 0.0; }).leads());
   // Half of the moves are trivial, and meet it everywhere.
   EXPECT_FALSE(landscape([](double) { return 0.5; }).leads());
@@ -408,7 +408,7 @@ TEST(Landscape, FollowsTheMovesOfAGoalForMachines) {
   EXPECT_TRUE(landscape_of(of_machines, tried).leads());
 }
 
-TEST(Frontier, HasThePointsThatNoOtherBeatsInBoth) {
+TEST(Frontier, HasThePointsThatNoOtherDominates) {
   std::mt19937 random(5);
   std::uniform_int_distribution<int> number(0, 30);
   for (int round = 0; round < 50; ++round) {

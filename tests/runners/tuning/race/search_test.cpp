@@ -37,7 +37,7 @@ TEST(Search, FindsTheFastestPointThatMeetsTheGoal) {
   EXPECT_GE(found, 7);
 }
 
-TEST(Search, RunsMostTrialsWhereTheDecisionIsOpen) {
+TEST(Search, SpendsLessThanHalfTheTrialsOfAFullEvaluation) {
   const MadeUpProblem truth;
   const SearchResult result = search(truth.problem(2048), {.seed = 1});
   EXPECT_LT(result.trials, result.points * 2048 / 2);
@@ -63,7 +63,7 @@ TEST(Search, SpendsNoMoreThanItsEffort) {
 }
 
 // Trials that end within a race: the candidates are judged by the units that all of them had.
-TEST(Search, WithTooFewTrialsForARaceKeepsThoseWithTheMostUnits) {
+TEST(Search, WithTooFewTrialsJudgesAllByTheSameUnits) {
   const MadeUpProblem truth;
   for (std::int64_t trials = 64; trials < 40'000; trials = 2 * trials + 1) {
     const SearchResult result = search(truth.problem(2048), {.seed = 4, .effort = effort_of(trials)});
@@ -102,7 +102,7 @@ MadeUpProblem narrow_peak(std::uint64_t seed) {
 }
 
 // Where no candidate meets the goal yet, many candidates with few units come nearer than few with many.
-TEST(Search, ClimbsToNarrowPeaksWithFewUnits) {
+TEST(Search, FewUnitsPerCandidateFindNarrowPeaksBetter) {
   double with_few = 0.0;
   double with_many = 0.0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
@@ -141,7 +141,7 @@ TEST(Search, DISABLED_KeepsTheBestThatItHasSeen) {
 }
 
 // A search that may begin anew uses its effort, and is not worse for it.
-TEST(Search, DISABLED_BeginsAnewWhereGenerationsImproveNothing) {
+TEST(Search, DISABLED_RestartsIfGenerationsImproveNothing) {
   double sooner = 0.0;
   double later = 0.0;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
@@ -158,7 +158,7 @@ TEST(Search, DISABLED_BeginsAnewWhereGenerationsImproveNothing) {
   EXPECT_LE(later, sooner);
 }
 
-TEST(Search, EndsWhereAllValuesAreTried) {
+TEST(Search, EndsWhenAllValuesAreTried) {
   const MadeUpProblem truth;
   SearchProblem problem = truth.problem(512);
   for (study::FreeParameter& one : problem.free) one.whole = true;  // 0 and 1
@@ -227,7 +227,7 @@ TunedControl tuned(const MadeUpProblem& truth, std::vector<std::size_t> zeros,
 // first; an observer beside the PID. Of each pair of which one has all blocks of the other it is not worse by
 // the truth, but for what 512 units cannot tell. The places that are any good fill 2e-5 to all of the ranges;
 // only from the tuned values of others does the observer find the smallest of them.
-TEST(Search, DISABLED_OfAControlWithMoreBlocksIsWorseThanThatWithFewerOnlyByChance) {
+TEST(Search, DISABLED_MoreControlBlocksAreWorseOnlyByChance) {
   int compared = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     MadeUpProblem truth{.seed = seed};
@@ -261,7 +261,7 @@ TEST(Search, DISABLED_OfAControlWithMoreBlocksIsWorseThanThatWithFewerOnlyByChan
 }
 
 // A control with fewer blocks may be the only one that is admissible: a face of the ranges.
-TEST(Search, FindsWhatIsAdmissibleOnAFaceOnly) {
+TEST(Search, FindsPointsThatAreAdmissibleOnlyOnAFace) {
   const MadeUpProblem truth{.reliable = {0.0, 0.6}, .fast = {0.0, 0.4}};
   SearchProblem problem = truth.problem(512);
   problem.size = search_size({.free = 2, .faces = 1, .max_units = 512}, 20'000);
@@ -330,7 +330,7 @@ Ending ending_of(const MadeUpProblem& truth, std::int64_t trials) {
 
 // The rate has a peak in four parameters, so that a small search ends on its slope: then the goal is not out
 // of reach. Where the peak is below the goal, a search with enough effort does not hold out any hope.
-TEST(Search, SaysWhetherItEndedOnTheWayToTheGoal) {
+TEST(Search, ReportsWhetherItWasStillImproving) {
   int missed = 0, approaching = 0, beyond = 0, hopeful = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     MadeUpProblem truth{.seed = seed, .fall = 8.0};
@@ -351,7 +351,7 @@ TEST(Search, SaysWhetherItEndedOnTheWayToTheGoal) {
   EXPECT_LE(hopeful, 2);
 }
 
-TEST(Search, DependsOnTheSeedAlone) {
+TEST(Search, DependsOnlyOnTheSeed) {
   const MadeUpProblem truth;
   const SearchResult a = search(truth.problem(512), {.seed = 5, .effort = effort_of(50'000)});
   const SearchResult b = search(truth.problem(512), {.seed = 5, .effort = effort_of(50'000)});
@@ -362,7 +362,7 @@ TEST(Search, DependsOnTheSeedAlone) {
 }
 
 // A condition that only the leading candidates are held against, as the margins of all machines are.
-TEST(Search, KeepsConditionsThatAreCostlyToExamine) {
+TEST(Search, FinalistsPassCostlyConstraints) {
   const MadeUpProblem truth;
   SearchProblem problem = truth.problem(512);
   problem.verified = [](const Candidate& one) { return one.values[0] <= 0.4; };
@@ -372,7 +372,7 @@ TEST(Search, KeepsConditionsThatAreCostlyToExamine) {
 }
 
 // Fast candidates that fail such a condition must not drive out the slower ones that keep it.
-TEST(Search, FindsWhatKeepsACostlyConditionWhereFewOfTheBestDo) {
+TEST(Search, FindsPointsThatPassACostlyConstraintIfFewOfTheBestDo) {
   const MadeUpProblem truth;
   for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
     SearchProblem problem = truth.problem(512);

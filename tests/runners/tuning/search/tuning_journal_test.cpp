@@ -25,7 +25,7 @@ UnitResult random_unit(std::mt19937_64& random) {
   return unit;
 }
 
-TEST(TuningJournal, GivesBackWhatWasWritten) {
+TEST(TuningJournal, ReadsBackWrittenEntries) {
   const TemporaryFolder folder;
   const std::filesystem::path path = folder.path() / "journal";
   std::mt19937_64 random(12);
@@ -60,7 +60,7 @@ TEST(TuningJournal, GivesBackWhatWasWritten) {
 }
 
 // It named a file that was not there.
-TEST(TuningJournal, IsNamedByAnInterruptionOnlyWhereItIs) {
+TEST(TuningJournal, IsNamedByAnInterruptionOnlyIfItExists) {
   const TemporaryFolder folder;
   const std::filesystem::path output = folder / "tuned.h5";
   EXPECT_FALSE(says(tuning::interruption_text(output), output.string()));

@@ -38,7 +38,7 @@ std::vector<std::int64_t> drawn_errors(testing::Draws& draws) {
 }
 
 // |e| ≤ b in counts of the study is |e'| ≤ 4b + 2 in finer ones.
-TEST(FinerUnits, KeepTheLengthOfEveryBand) {
+TEST(FinerEncoder, KeepsTheLengthOfEveryBand) {
   for (std::int64_t finer = -50; finer <= 50; ++finer) {
     const std::int64_t error = error_in_study_counts(finer, counts);
     for (std::int64_t band = 0; band < 10; ++band)
@@ -49,7 +49,7 @@ TEST(FinerUnits, KeepTheLengthOfEveryBand) {
 
 // Measured by the finer encoder and told in counts of the study, a move has the measures of the same errors
 // in counts of the study.
-TEST(FinerUnits, HaveTheMeasuresOfTheErrorsInCountsOfTheStudy) {
+TEST(FinerEncoder, MeasuresErrorsInCountsOfTheStudy) {
   testing::Draws draws(7);
   const trial::ErrorBands of_study{.limits = {0, 2, 5}, .count = 3};
   int arrived = 0;
@@ -89,7 +89,7 @@ TEST(FinerUnits, HaveTheMeasuresOfTheErrorsInCountsOfTheStudy) {
 }
 
 // A length that a study measures in counts is told in its counts, whatever the measure; each once.
-TEST(FinerUnits, ScaleEveryLengthInCountsOnce) {
+TEST(FinerEncoder, ScalesEveryLengthInCountsOnce) {
   trial::MoveOutcome finer;
   for (const layout::Measure& measure : layout::move_measures()) {
     if (measure.field.column.unit != std::string("count")) continue;
@@ -112,7 +112,7 @@ TEST(FinerUnits, ScaleEveryLengthInCountsOnce) {
 }
 
 // Lengths of time in samples are told in samples of the study.
-TEST(FinerUnits, TellTheSampleOfArrivalInSamplesOfTheStudy) {
+TEST(FinerEncoder, CountsTheArrivalInSamplesOfTheStudy) {
   trial::MoveOutcome finer;
   finer.arrival = 41;
   EXPECT_EQ(in_study_units(finer, {.samples = 2}, {}, timing_of({})).arrival, 21);

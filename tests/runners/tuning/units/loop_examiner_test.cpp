@@ -47,7 +47,7 @@ TEST(LoopExaminer, ExaminesTheSlidingLoopOfMachinesThatSlide) {
 }
 
 // Coulomb friction has no stiffness before it slides, and an air bearing always slides.
-TEST(LoopExaminer, ExaminesTheSlidingLoopWhereThereIsNoOther) {
+TEST(LoopExaminer, ExaminesTheSlidingLoopIfThereIsNoOther) {
   for (const char* const friction : {"model: coulomb", "model: none"}) {
     for (const bool slides : {false, true}) {
       EXPECT_FALSE(keeps(study_with(friction, "kp: 0, ki: 1000"), slides)) << friction;
@@ -148,7 +148,7 @@ study::Study with_margins(const std::string& margins, const std::string& more = 
 }
 
 // The worst of eight machines whose manifests state what is spread: the corners.
-TEST(LoopExaminer, SpreadsWhatTheStudyDoesNotDraw) {
+TEST(LoopExaminer, SpreadsParametersThatTheStudyDoesNotDraw) {
   const auto alone = [](double inertia, double damping, double torque) {
     return with_margins("{spread: off}",
                         fmt::format("conditions: {{it: {{plant.inertia: {}, plant.presliding_damping: {}, "
@@ -190,7 +190,7 @@ TEST(LoopExaminer, LeavesDrawnQuantitiesToTheStudy) {
   EXPECT_EQ(left.inertia, 0.1);
 }
 
-TEST(LoopExaminer, KeepsASensitivityThatIsTheLargestOfAnyLoop) {
+TEST(LoopExaminer, SensitivityMarginAppliesToTheLargestOfAllLoops) {
   const study::Study study = with_margins("{gain: 6, spread: typical}");
   const double largest = LoopExaminer(study, 4).margins_of(study, true).sensitivity.value;
   for (const double wanted : {0.999 * largest, 1.001 * largest}) {
@@ -201,7 +201,7 @@ TEST(LoopExaminer, KeepsASensitivityThatIsTheLargestOfAnyLoop) {
 }
 
 // Along a line of gains, from no control to far beyond what any loop bears.
-TEST(LoopExaminer, FallsShortOfTheMarginsWhereItDoesNotKeepThem) {
+TEST(LoopExaminer, ShortfallIsPositiveIfTheMarginsAreMissed) {
   int kept = 0;
   int stable = 0;
   constexpr int steps = 40;
@@ -227,7 +227,7 @@ TEST(LoopExaminer, FallsShortOfTheMarginsWhereItDoesNotKeepThem) {
 }
 
 // At the lowest mode that is borne the loops are stable, and a little below it one is not.
-TEST(LoopExaminer, FindsTheLowestModeOfALoadThatTheLoopsBear) {
+TEST(LoopExaminer, FindsTheLowestResonanceThatTheLoopsTolerate) {
   const study::Study study = with_margins("off");
   const std::optional<double> lowest = LoopExaminer(study, 4).lowest_mode(study, true);
   ASSERT_TRUE(lowest);

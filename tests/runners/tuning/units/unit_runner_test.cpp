@@ -77,7 +77,7 @@ Results together(const Entries& of, int threads) {
   return results;
 }
 
-TEST(UnitRunner, ResultsAreThoseOfEachCandidateAloneOnAnyNumberOfThreads) {
+TEST(UnitRunner, ResultsDoNotDependOnThreadsOrOtherCandidates) {
   std::mt19937_64 random(8);
   for (int round = 0; round < 4; ++round) {
     const Entries entries = random_entries(random);

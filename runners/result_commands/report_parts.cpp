@@ -182,9 +182,9 @@ std::vector<command_line::OptionSpec> part_options() {
   return {command_line::list_of(
               std::move(words),
               {"with", "PARTS", "add answers of other commands: all, or some of " + all_names()}),
-          command_line::needing({"with"}, {"budget", "B",
-                                           "of these answers together: a number of trials, or a time such as "
-                                           "60s or 5min"})};
+          command_line::needing(
+              {"with"}, {"budget", "B",
+                         "of these answers together: a number of trials, or a time such as 60s or 5min"})};
 }
 
 std::vector<std::string_view> parts_option(const command_line::Arguments& arguments) {

@@ -99,10 +99,10 @@ def claimed_numbers(documented):
         rows = {}
         for value in values_of(claim):
             if "mark" in value:
-                yield value["mark"], marks.Numbers([notations(value)])
+                yield value["mark"], marks.Numbers([notations(value)], pages=[value.get("page", claim["page"])])
             if "row" in value:
                 rows.setdefault(value["row"], []).append(notations(value))
-        yield from ((name, marks.Numbers(numbers, is_row=True)) for name, numbers in rows.items())
+        yield from ((name, marks.Numbers(numbers, is_row=True, pages=[claim["page"]])) for name, numbers in rows.items())
 
 
 def check_pages(root):

@@ -139,12 +139,13 @@ Description<Claim> claim_rows() {
              [](OfClaim c) { return goal::text_of(c.status); })
       .value(percent("wanted", "wanted", "proportion of moves that should meet it"),
              [](OfClaim c) { return c.goal.moves; })
-      .value(percent("predicted", "predicted",
-                     "proportion of the simulated moves that meet it; bounds: 95 % interval for as many "
-                     "machines and moves as are compared"),
-             [](OfClaim c) {
-               return Bounded{c.predicted.moves.value, c.agreement.predicted.low, c.agreement.predicted.high};
-             })
+      .value(
+          percent(
+              "predicted", "predicted",
+              "proportion of the simulated moves that meet it; bounds: 95 % interval for as many machines and moves as are compared"),
+          [](OfClaim c) {
+            return Bounded{c.predicted.moves.value, c.agreement.predicted.low, c.agreement.predicted.high};
+          })
       .value(
           percent("measured", "measured",
                   "proportion of the measured moves that meet it, with one-sided bounds of these machines"),
@@ -167,10 +168,11 @@ Description<Claim> claim_rows() {
           percent("all_machines", "all such machines",
                   "proportion of moves of all machines of which these are a sample, with one-sided bounds"),
           [](OfClaim c) { return goal::bounded(c.measured.moves); })
-      .value(percent("machines_predicted", "machines, predicted",
-                     "proportion of machines that meet it in the wanted proportion of moves, with one-sided "
-                     "bounds; null: the goal does not ask for machines"),
-             [](OfClaim c) { return of_machines(c, c.predicted); })
+      .value(
+          percent(
+              "machines_predicted", "machines, predicted",
+              "proportion of machines that meet it in the wanted proportion of moves, with one-sided bounds; null: the goal does not ask for machines"),
+          [](OfClaim c) { return of_machines(c, c.predicted); })
       .value(percent("machines_measured", "machines, measured",
                      "that proportion of the measured machines, with one-sided bounds"),
              [](OfClaim c) { return of_machines(c, c.measured); });
@@ -261,8 +263,8 @@ document::AnswerDescription<Acceptance> acceptance_answer() {
                         {"all_machines", "these_machines"}),
              [](Of a) { return a.judged == Judged::all_machines ? "all_machines" : "these_machines"; })
       .value(in_data("needed_machines",
-                     "machines, with as many moves each, that would decide the goals for all machines; null: "
-                     "they are decided, or no number is known"),
+                     "machines, with as many moves each, that would decide the goals for all machines; "
+                     "null: they are decided, or no number is known"),
              [](Of a) { return a.needed_machines > 0 ? std::optional(a.needed_machines) : std::nullopt; })
       .value(everywhere("study", "study", "the results file of the prediction"), &Acceptance::study)
       .value(everywhere("point", "point", "label of the design point"), &Acceptance::point)
@@ -272,14 +274,14 @@ document::AnswerDescription<Acceptance> acceptance_answer() {
       .table({.key = "goals", .meaning = "each goal"}, claim_rows(), &Acceptance::claims)
       .sentence(worlds_sentence)
       .table(
-          everywhere("standard", "ISO 230-2, by the encoder",
-                     "values of the axis; empty without a sequence, or without the columns final_error and "
-                     "move in every log"),
+          everywhere(
+              "standard", "ISO 230-2, by the encoder",
+              "values of the axis; empty without a sequence, or without the columns final_error and move in every log"),
           standard_rows(), &Acceptance::standard_values)
       .value(
-          in_data("standard_lacks",
-                  "why there are no values of ISO 230-2: the column that a log lacks; empty: there are, or "
-                  "the study has no sequence"),
+          in_data(
+              "standard_lacks",
+              "why there are no values of ISO 230-2: the column that a log lacks; empty: there are, or the study has no sequence"),
           &Acceptance::standard_lacks)
       .sentence([](Of a) {
         return a.standard_lacks.empty() ? std::string()

@@ -233,12 +233,13 @@ Description<Judgement> requirement_description() {
       .value(in_data("limit", "limit of the value"), &Judgement::margin)
       .value(in_data("value", "value in the file"), &Judgement::current)
       .value(in_data("n", "trials or moves from which the value is computed"), &Judgement::current_n)
-      .value(in_data("bounds",
-                     "one-sided bounds, low and high: of the value, or of the proportion within "
-                     "the limit of a quantile"),
-             [](Judged r) {
-               return std::vector<double>{r.bounds.low, r.bounds.high};
-             })
+      .value(
+          in_data(
+              "bounds",
+              "one-sided bounds, low and high: of the value, or of the proportion within the limit of a quantile"),
+          [](Judged r) {
+            return std::vector<double>{r.bounds.low, r.bounds.high};
+          })
       .value(in_data("trials_to_decide", "trials per design point that decide the requirement"),
              [](Judged r) { return whole(r.trials_to_decide); });
 }

@@ -116,8 +116,7 @@ std::vector<StatisticField> outcome_count_fields() {
       {"", "one_count", "1", "trials whose worst move ended within one count", true,
        [](S s) { return text::to_double(s.outcomes.one_count); }},
       {"", "off_target", "1",
-       "trials whose worst move ended beyond one count without oscillating: neither stable nor shown "
-       "unstable",
+       "trials whose worst move ended beyond one count without oscillating: neither stable nor shown unstable",
        true, [](S s) { return text::to_double(s.outcomes.off_target); }},
       {"", "oscillating", "1", "trials whose worst move ended beyond one count, oscillating", true,
        [](S s) { return text::to_double(s.outcomes.oscillating); }},
@@ -173,8 +172,7 @@ std::vector<StatisticField> machine_fields() {
        "upper 95 % Clopper-Pearson bound of machines_without_failure", false,
        [](S s) { return s.machines.without_failure_bounds.high; }},
       {"machines", "worst_5_percent", "1",
-       "mean success rate of the worst 5 % of the machines (of R machines the R/20 with the lowest, rounded "
-       "up)",
+       "mean success rate of the worst 5 % of the machines (of R machines the R/20 with the lowest, rounded up)",
        false, [](S s) { return s.machines.worst_5_percent; }},
   };
 }

@@ -335,10 +335,11 @@ Description<MeasureState> measure_description() {
   return Description<MeasureState>()
       .value(everywhere("measure", "measure", "name of the measure"), [](State s) { return s.measure.name; })
       .value(everywhere("unit", "unit", "its unit"), &MeasureState::unit)
-      .value(right("baseline", "baseline",
-                   "median of the baseline, of a quality its proportion; null: never, or one for each like: "
-                   "see `likes`"),
-             &MeasureState::baseline_median)
+      .value(
+          right(
+              "baseline", "baseline",
+              "median of the baseline, of a quality its proportion; null: never, or one for each like: see `likes`"),
+          &MeasureState::baseline_median)
       .shown_as(shown(&MeasureState::baseline_median))
       .value(right("moves", "moves",
                    "median of the moves, of a quality its proportion, since the change if there is one; "
@@ -361,26 +362,29 @@ Description<MeasureState> measure_description() {
       .value(in_data("correlation",
                      "rank correlation of successive values of the baseline; null: of a simulated one", "1"),
              &MeasureState::correlation)
-      .value(in_data("dependence",
-                     "p-value of the order of the baseline's values, if they are exchangeable; null: of a "
-                     "simulated one",
-                     "1"),
-             [](State s) { return s.correlation ? std::optional(s.dependence.p) : std::nullopt; })
-      .value(everywhere("seen_after", "seen after",
-                        "moves after which a change of the asked size, added to each value or as a factor of "
-                        "it, would have been seen with 90 %, where there are as many; null: later, or not "
-                        "asked"),
-             &MeasureState::seen_after);
+      .value(
+          in_data(
+              "dependence",
+              "p-value of the order of the baseline's values, if they are exchangeable; null: of a simulated one",
+              "1"),
+          [](State s) { return s.correlation ? std::optional(s.dependence.p) : std::nullopt; })
+      .value(
+          everywhere(
+              "seen_after", "seen after",
+              "moves after which a change of the asked size, added to each value or as a factor of it, would have been seen with 90 %, where there are as many; "
+              "null: later, or not asked"),
+          &MeasureState::seen_after);
 }
 
 Description<NotJudged> not_judged_description() {
   return Description<NotJudged>()
       .value(in_data("measure", "name of the measure"), &NotJudged::measure)
-      .value(with_words(in_data("why",
-                                "missing: the moves have no such column; not_in_baseline: the baseline has "
-                                "none; accumulates: it grows from move to move, and --measure does not name "
-                                "it; no_change_to_see: it has no size of change, see `change`"),
-                        why_words),
+      .value(with_words(
+                 in_data("why",
+                         "missing: the moves have no such column; not_in_baseline: the baseline has none; "
+                         "accumulates: it grows from move to move, and --measure does not name it; "
+                         "no_change_to_see: it has no size of change, see `change`"),
+                 why_words),
              &NotJudged::why)
       .value(in_data("near", "column of the side that lacks the measure whose name resembles it; null: none"),
              &NotJudged::near);

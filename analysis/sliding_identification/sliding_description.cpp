@@ -30,10 +30,11 @@ document::Description<SlidingRecord> record_description() {
       .value(in_data("resolution", "step of the readings, rad or m"), &SlidingRecord::resolution)
       .value(for_people("resolution_text", "read in steps of"),
              [](Of r) { return length_text(r.resolution, r.axis); })
-      .value(in_data("presliding_travel",
-                     "travel after a standstill or a reversal in which the friction is below its level of "
-                     "sliding, which was left out, rad or m"),
-             &SlidingRecord::presliding_travel)
+      .value(
+          in_data(
+              "presliding_travel",
+              "travel after a standstill or a reversal in which the friction is below its level of sliding, which was left out, rad or m"),
+          &SlidingRecord::presliding_travel)
       .value(for_people("presliding_text", "left out after each reversal"),
              [](Of r) { return length_text(r.presliding_travel, r.axis); })
       .value({"strokes", "strokes", "strokes of the record"}, [](Of r) { return r.strokes.size(); })
@@ -159,8 +160,7 @@ document::Description<MissingTorque> missing_description() {
              &MissingTorque::explained)
       .value(
           {"visibility", "over chance",
-           "ratio of its coefficient to the standard error, over the ratio that chance exceeds once in 1000 "
-           "records",
+           "ratio of its coefficient to the standard error, over the ratio that chance exceeds once in 1000 records",
            "1"},
           &MissingTorque::visibility);
 }
@@ -169,8 +169,7 @@ document::Description<RepeatingForce> force_description() {
   return document::Description<RepeatingForce>()
       .value({"with", "with", "what the unexplained torque may repeat with"}, &RepeatingForce::with)
       .value({"predicted", "predicted",
-              "part of its variance that the means over other strokes predict; 0 or "
-              "less: it does not repeat",
+              "part of its variance that the means over other strokes predict; 0 or less: it does not repeat",
               "1"},
              &RepeatingForce::predicted)
       .value({"low", "least mean", "smallest mean over a tenth of the range, N m or N"}, &RepeatingForce::low)

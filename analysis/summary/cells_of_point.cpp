@@ -223,32 +223,36 @@ document::Description<CellOfPoint> cell_description(const goal::Question& questi
                 .optional = true},
                &CellOfPoint::goal);
   const bool of_moves = with_goal && by != CellsBy::condition;
-  cell.value({.key = "rate",
-              .heading = of_moves ? "moves in goal [bounds]" : "rate [bounds]",
-              .meaning = "proportion of moves (under a condition of what the question is about, without a "
-                         "goal of trials), with one-sided bounds; of the worst goal, condition and world",
-              .unit = "1",
-              .notation = document::Notation::percent},
-             [of_moves](Of c) { return goal::bounded(of_moves ? c.rate : c.judged); });
+  cell.value(
+      {.key = "rate",
+       .heading = of_moves ? "moves in goal [bounds]" : "rate [bounds]",
+       .meaning =
+           "proportion of moves (under a condition of what the question is about, without a goal of trials), with one-sided bounds; "
+           "of the worst goal, condition and world",
+       .unit = "1",
+       .notation = document::Notation::percent},
+      [of_moves](Of c) { return goal::bounded(of_moves ? c.rate : c.judged); });
   if (of_moves)
-    cell.value(proportion("machines", "machines in goal [bounds]",
-                          "proportion of machines that meet the goal, at an age under every condition, with "
-                          "one-sided bounds that allow for the few moves in which each was seen"),
-               bounded(&CellOfPoint::machines));
+    cell.value(
+        proportion(
+            "machines", "machines in goal [bounds]",
+            "proportion of machines that meet the goal, at an age under every condition, with one-sided bounds that allow for the few moves in which each was seen"),
+        bounded(&CellOfPoint::machines));
   if (with_goal && by == CellsBy::age)
-    cell.value(proportion("living", "up to here [bounds]",
-                          "proportion of the machines that meet it at every age up to this one, with "
-                          "one-sided bounds of Clopper and Pearson, which take the verdict on each machine "
-                          "as it was seen"),
-               bounded(&CellOfPoint::living));
+    cell.value(
+        proportion(
+            "living", "up to here [bounds]",
+            "proportion of the machines that meet it at every age up to this one, with one-sided bounds of Clopper and Pearson, which take the verdict on each machine as it was seen"),
+        bounded(&CellOfPoint::living));
   if (of_moves)
-    cell.value({.key = "settling_time_p95",
-                .heading = "95 % within",
-                .meaning = "95 % quantile of the settling time, of the goal and condition that the rate is "
-                           "of; none where it is not within the hold",
-                .unit = "s",
-                .optional = true},
-               &CellOfPoint::settling_time_p95);
+    cell.value(
+        {.key = "settling_time_p95",
+         .heading = "95 % within",
+         .meaning =
+             "95 % quantile of the settling time, of the goal and condition that the rate is of; none where it is not within the hold",
+         .unit = "s",
+         .optional = true},
+        &CellOfPoint::settling_time_p95);
   if (claims)
     cell.value({"within", "allowed",
                 "time from the start of a move that the goal allows, the longest of its moves", "s"},

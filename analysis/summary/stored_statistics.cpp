@@ -69,11 +69,11 @@ void add_lives(layout::GroupCounts& ages, layout::GroupCounts& machines, const m
         {"machines", "1", "proportion of machines that meet the goal at the age under every condition", {}},
         {"machines_low", "1", "lower bound of the proportion of machines, one-sided", {}},
         {"machines_high", "1", "upper bound of the proportion of machines, one-sided", {}}};
-    machines.statistics = {{"life",
-                            study.ages.unit,
-                            "last age up to and including which the machine meets the goal under every "
-                            "condition, NaN if it does not at the first",
-                            {}}};
+    machines.statistics = {
+        {"life",
+         study.ages.unit,
+         "last age up to and including which the machine meets the goal under every condition, NaN if it does not at the first",
+         {}}};
   }
   const bool judged = point.judged > 0;
   const goal::Question question = goal::question_of(study);

@@ -49,13 +49,14 @@ document::Description<goal::ClaimVerdict> verdict_description(const goal::Questi
               .meaning = "verdict on the goal",
               .words = goal::status_words()},
              [](Verdict v) { return goal::text_of(v.status); })
-      .value({.key = "rate",
-              .heading = "moves in goal" + where,
-              .meaning = "proportion of moves that meet the goal, with one-sided bounds; with worlds of the "
-                         "worst world",
-              .unit = "1",
-              .notation = document::Notation::percent},
-             [](Verdict v) { return goal::bounded(v.moves); });
+      .value(
+          {.key = "rate",
+           .heading = "moves in goal" + where,
+           .meaning =
+               "proportion of moves that meet the goal, with one-sided bounds; with worlds of the worst world",
+           .unit = "1",
+           .notation = document::Notation::percent},
+          [](Verdict v) { return goal::bounded(v.moves); });
   if (has_machines) {
     const auto of_machines = [question](goal::BoundedProportion goal::ClaimVerdict::*proportion) {
       return [question, proportion](Verdict v) -> std::optional<document::Bounded> {
@@ -64,29 +65,34 @@ document::Description<goal::ClaimVerdict> verdict_description(const goal::Questi
       };
     };
     description
-        .value({.key = "machines",
-                .heading = "machines in goal" + where,
-                .meaning = "proportion of machines that meet the goal, with one-sided bounds; with "
-                           "worlds of the worst world; left out where the goal is not on machines",
-                .unit = "1",
-                .notation = document::Notation::percent,
-                .optional = true},
-               of_machines(&goal::ClaimVerdict::machines))
-        .value({.key = "without_miss",
-                .meaning = "proportion of machines without a miss in as many moves as these have, with "
-                           "one-sided bounds; left out where the goal is not on machines",
-                .unit = "1",
-                .optional = true},
-               of_machines(&goal::ClaimVerdict::without_miss))
-        .value({.key = "trials_of_one_machine",
-                .meaning = "trials without a miss that show of one machine that it meets the goal; left out "
-                           "where the goal is not on machines",
-                .optional = true},
-               [question](Verdict v) -> std::optional<std::int64_t> {
-                 const study::Goal& claim = *question.parts[v.goal].claim;
-                 if (!claim.machines) return std::nullopt;
-                 return statistics::trials_for_claim(claim.moves, claim.confidence, 0);
-               });
+        .value(
+            {.key = "machines",
+             .heading = "machines in goal" + where,
+             .meaning =
+                 "proportion of machines that meet the goal, with one-sided bounds; with worlds of the worst world; "
+                 "left out where the goal is not on machines",
+             .unit = "1",
+             .notation = document::Notation::percent,
+             .optional = true},
+            of_machines(&goal::ClaimVerdict::machines))
+        .value(
+            {.key = "without_miss",
+             .meaning =
+                 "proportion of machines without a miss in as many moves as these have, with one-sided bounds; "
+                 "left out where the goal is not on machines",
+             .unit = "1",
+             .optional = true},
+            of_machines(&goal::ClaimVerdict::without_miss))
+        .value(
+            {.key = "trials_of_one_machine",
+             .meaning =
+                 "trials without a miss that show of one machine that it meets the goal; left out where the goal is not on machines",
+             .optional = true},
+            [question](Verdict v) -> std::optional<std::int64_t> {
+              const study::Goal& claim = *question.parts[v.goal].claim;
+              if (!claim.machines) return std::nullopt;
+              return statistics::trials_for_claim(claim.moves, claim.confidence, 0);
+            });
   }
   if (std::ranges::any_of(question.parts, [](const auto& part) { return part.claim->beside_load; }))
     description.object({.key = "other_mass",
@@ -129,8 +135,7 @@ void add_goal(PointDescription& point, const summary::StudySummary& summary) {
   point.value(
       document::in_data(
           "machines_together",
-          "proportion of machines that meet all goals on machines, as observed; nothing where only one "
-          "claim is on machines",
+          "proportion of machines that meet all goals on machines, as observed; nothing where only one claim is on machines",
           "1"),
       [question](const PointReading& p) -> std::optional<double> {
         const auto all = goal::machines_meeting_all(question, p.statistics());

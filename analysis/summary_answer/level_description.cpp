@@ -75,16 +75,18 @@ void add_people_columns(document::Description<LevelReading>& level, const summar
               "All values are those at the end of a level, means over the trials whose motion was not lost."),
           statistic(&M::holding_torque, [](const measures::MeasureStatistics& s) { return s.mean; }))
       .value(column("trials", ""), trials_of)
-      .value(column("position", small,
-                    "position: of the $rotor from the start, with bounds of the mean after Student; sd: over "
-                    "trials"),
-             [](Level l) { return position_text(l.statistics().of(&M::final_position)); })
+      .value(
+          column(
+              "position", small,
+              "position: of the $rotor from the start, with bounds of the mean after Student; sd: over trials"),
+          [](Level l) { return position_text(l.statistics().of(&M::final_position)); })
       .value(column("sd", small),
              statistic(&M::final_position, [](const measures::MeasureStatistics& s) { return micro * s.sd; }))
-      .value(column("creep", small,
-                    "creep: plastic extension; depth: most reversal points on the stack; broke away: "
-                    "proportion of trials"),
-             statistic(&M::creep, micro_mean))
+      .value(
+          column(
+              "creep", small,
+              "creep: plastic extension; depth: most reversal points on the stack; broke away: proportion of trials"),
+          statistic(&M::creep, micro_mean))
       .value(column("depth", ""), depth_text)
       .value(column("broke away", ""), [](Level l) {
         return text::percentage(l.statistics().of(&M::broke_away).trials, trials_of(l));

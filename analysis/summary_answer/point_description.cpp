@@ -132,10 +132,12 @@ void add_prediction(PointDescription& point, const summary::StudySummary& summar
   object.value(in_json("trials", "trials of the point"), &P::trials)
       .value(in_json("stable", "trials in which criterion (6) holds"), &P::stable)
       .value(in_json("unstable", "trials in which criterion (7) is exceeded"), &P::unstable)
-      .value(proportion("(6) holds", fields[0].name, "stable_share",
-                        "proportion of trials in which the paper's criterion (6) holds, which promises "
-                        "stability before sliding; by the friction where the trial starts"),
-             proportion_of(&P::stable))
+      .value(
+          proportion(
+              "(6) holds", fields[0].name, "stable_share",
+              "proportion of trials in which the paper's criterion (6) holds, which promises stability before sliding; "
+              "by the friction where the trial starts"),
+          proportion_of(&P::stable))
       .value(proportion("(7) exceeded", fields[1].name, "unstable_share",
                         "proportion of trials in which its criterion (7) is exceeded, which rules it out"),
              proportion_of(&P::unstable))
@@ -315,8 +317,7 @@ void add_success(PointDescription& point, const StudySummary& summary) {
   point.value(
       {.heading = fmt::format("zero-count [{}]", bounds_head(summary)),
        .meaning = fmt::format(
-           "zero-count: proportion of trials whose moves all ended at zero error{}; bounds "
-           "of it after {}, in %",
+           "zero-count: proportion of trials whose moves all ended at zero error{}; bounds of it after {}, in %",
            summary.question.of_mass, summary.features.machines ? "Korn and Graubard" : "Clopper and Pearson"),
        .unit = "1",
        .notation = Notation::percent,
@@ -353,10 +354,10 @@ void add_outcomes(PointDescription& point, const StudySummary& summary) {
       "stable: proportion of trials whose moves all arrived and stayed within one count",
       [](Statistics p) { return text::percentage(p.of(&trial::MoveOutcome::stable).trials, p.judged); });
   if (any_undecided(summary)) {
-    add_cells(point, table, "undecided",
-              "undecided: proportion of trials whose worst move ended off target, stalled or still on its "
-              "way: neither stable nor shown unstable",
-              [](Statistics p) { return text::percentage(p.outcomes.off_target, p.judged); });
+    add_cells(
+        point, table, "undecided",
+        "undecided: proportion of trials whose worst move ended off target, stalled or still on its way: neither stable nor shown unstable",
+        [](Statistics p) { return text::percentage(p.outcomes.off_target, p.judged); });
   }
   for (const NotStable& reason : not_stable) {
     if (!is_shown(summary, reason)) continue;
@@ -457,12 +458,12 @@ void add_question_columns(PointDescription& point, const StudySummary& summary) 
           add_measure(point, "", summary, *measure);
       }
     } else {
-      add_cells(point, "", "95 % within",
-                "95 % within: 95 % quantile of the settling time of the moves that a goal asks, s, of the "
-                "worst goal and condition, which the rate is of",
-                [question = summary.question](Statistics p) {
-                  return settling_text(p, settling_of(question, p).p95.value);
-                });
+      add_cells(
+          point, "", "95 % within",
+          "95 % within: 95 % quantile of the settling time of the moves that a goal asks, s, of the worst goal and condition, which the rate is of",
+          [question = summary.question](Statistics p) {
+            return settling_text(p, settling_of(question, p).p95.value);
+          });
     }
     add_machines(point, "", summary, summary.question);
   }

@@ -270,10 +270,11 @@ Description<PointTheory> point_theory_description() {
                [=](Of t) {
                  return (applies(t) || t.free) && !t.approach.time_constant.empty() ? &t.approach : nullptr;
                })
-      .table(in_data("loops",
-                     "the loops in which the machine moves: at k1, at k1 + k2, at the ends of a profile and "
-                     "while the rotor slides, in each state of the load"),
-             loop_description(), &PointTheory::loops)
+      .table(
+          in_data(
+              "loops",
+              "the loops in which the machine moves: at k1, at k1 + k2, at the ends of a profile and while the rotor slides, in each state of the load"),
+          loop_description(), &PointTheory::loops)
       .value(everywhere("cut", "without a loop",
                         "states of the load in which no encoder that the controller reads sees the motor"),
              &PointTheory::cut)

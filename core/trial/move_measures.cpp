@@ -49,9 +49,7 @@ std::string_view meanings_of_settling_time(std::string_view name) {
   if (!name.starts_with(bare)) return {};
   const std::string_view rest = name.substr(bare.size());
   if (!rest.empty() && rest.front() != '.' && rest.front() != '_') return {};
-  return "arrival_time (the error is 0 for the first time, for the dwell) or final_settling_time (the error "
-         "is 0 "
-         "for good)";
+  return "arrival_time (the error is 0 for the first time, for the dwell) or final_settling_time (the error is 0 for good)";
 }
 
 std::span<const std::string_view> named_band_measures() {

@@ -14,15 +14,14 @@ using enum Origin;
 using Numbers = std::vector<GuideNumber>;
 
 constexpr const char* seals =
-    "2 to 5 N a carriage: Nippon Bearing, Frictional Resistance and Required Thrust "
-    "(nbcorporation.com/technology/friction_thrust.html); four carriages are assumed";
+    "2 to 5 N a carriage: Nippon Bearing, Frictional Resistance and Required Thrust (nbcorporation.com/technology/friction_thrust.html); "
+    "four carriages are assumed";
 constexpr const char* thomson =
     "Thomson, coefficient of friction for profile rail carriages (thomsonlinear.com/en/support/tips)";
 constexpr const char* line_contact =
     "shorter than that of balls, as line contacts are narrower; no publication found";
 constexpr const char* marginal =
-    "static and dynamic friction differ marginally (Nippon Bearing, "
-    "nbcorporation.com/technology/friction_thrust.html); "
+    "static and dynamic friction differ marginally (Nippon Bearing, nbcorporation.com/technology/friction_thrust.html); "
     "the number is assumed";
 constexpr const char* grease = "no publication found; below the friction itself up to some 0.1 m/s";
 
@@ -54,11 +53,9 @@ Guide ball_rail() {
           {{friction_coefficient, "1", 0.002, 0.003, published, thomson},
            {constant_resistance, "N", 8, 20, published, seals},
            {presliding_travel, "m", 7e-5, 1.5e-4, published,
-            "rolls normally beyond 100 µm: Futami, Furutani, Yoshida, Nanotechnology 1 (1990) 31, abstract; "
-            "the spread is assumed"},
+            "rolls normally beyond 100 µm: Futami, Furutani, Yoshida, Nanotechnology 1 (1990) 31, abstract; the spread is assumed"},
            {softening_length, "m", 2.5e-7, 1e-6, assumed,
-            "some times the 100 nm in which the balls are a linear spring (Futami et al., Nanotechnology 1 "
-            "(1990) 31)"},
+            "some times the 100 nm in which the balls are a linear spring (Futami et al., Nanotechnology 1 (1990) 31)"},
            {early_part, "1", 0.1, 0.3, assumed,
             "no publication found; a slide of 5 kg then has a natural frequency of some 200 Hz"},
            {"friction.coulomb_ratio", "1", 0.9, 1, assumed, marginal},
@@ -106,17 +103,14 @@ Guide plain() {
       .preload = 100,
       .numbers = contact_numbers(
           {{friction_coefficient, "1", 0.05, 0.1, published,
-            "PTFE, Turcite B, Rulon, dry: Industrial Monitor Direct, PTFE vs UHMWPE Way Bearings "
-            "(industrialmonitordirect.com)"},
+            "PTFE, Turcite B, Rulon, dry: Industrial Monitor Direct, PTFE vs UHMWPE Way Bearings (industrialmonitordirect.com)"},
            {constant_resistance, "N", 1, 5, assumed, "wipers"},
            {presliding_travel, "m", 5e-6, 5e-5, assumed,
-            "around the 15 µm of Fs/sigma0 in the simulations of Canudas de Wit et al., IEEE Trans. "
-            "Automatic Control 40 (1995) 419"},
+            "around the 15 µm of Fs/sigma0 in the simulations of Canudas de Wit et al., IEEE Trans. Automatic Control 40 (1995) 419"},
            {softening_length, "m", 1e-6, 3e-6, assumed, "deflection of asperities; no publication found"},
            {early_part, "1", 0.2, 0.5, assumed, "no publication found"},
            {"friction.coulomb_ratio", "1", 0.83, 1, published,
-            "static friction within 20 % of dynamic: Slocum, Precision Machine Design (1992), as cited at "
-            "hon1.ru/?p=501"},
+            "static friction within 20 % of dynamic: Slocum, Precision Machine Design (1992), as cited at hon1.ru/?p=501"},
            {"plant.sliding_damping", "N s/m", 50, 500, assumed, grease}})};
 }
 
@@ -126,9 +120,9 @@ Guide air_bearing() {
       .description = "aerostatic pads, which have no friction at rest",
       .model = "none",
       .mass = 5,
-      .numbers = {{"plant.presliding_damping", "N s/m", 0.01, 0.15, assumed,
-                   "shear of the film, viscosity·area/gap: 1.8e-5 Pa s, 0.01 to 0.04 m^2 and 5 to 15 µm are "
-                   "assumed"}}};
+      .numbers = {
+          {"plant.presliding_damping", "N s/m", 0.01, 0.15, assumed,
+           "shear of the film, viscosity·area/gap: 1.8e-5 Pa s, 0.01 to 0.04 m^2 and 5 to 15 µm are assumed"}}};
 }
 
 Guide rotary_ball() {

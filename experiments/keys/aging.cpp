@@ -14,8 +14,7 @@ namespace zerocount::keys {
 namespace {
 
 constexpr std::string_view expected_aging =
-    "{exponential: -0.1, scale: 1.0e+6}: a law, linear, exponential or "
-    "logarithmic, with its rate, and the scale of ages";
+    "{exponential: -0.1, scale: 1.0e+6}: a law, linear, exponential or logarithmic, with its rate, and the scale of ages";
 
 /// Phrase that says why the value cannot change with age; empty if it can.
 std::string_view obstacle(const parameters::Parameter& parameter, const study::Value& value,

@@ -281,8 +281,7 @@ std::span<const Shape> general_keys() {
       stored(of(Form::text, {"description", "what the study is for"}), &study::Study::description),
       label(
           {"axis",
-           "rotary (default), or linear: m, N, kg, N/m ... in place of rad, N m, kg m^2, N m/rad (zerocount "
-           "parameters --axis linear)"},
+           "rotary (default), or linear: m, N, kg, N/m ... in place of rad, N m, kg m^2, N m/rad (zerocount parameters --axis linear)"},
           parameters::axis_labels, &parameters::StudyUnits::axis),
       shapes::real(numerics::above(0), {"travel", "period of the friction profiles of a linear axis, m"}),
       stored(Shape{.name = "seed",
@@ -292,25 +291,21 @@ std::span<const Shape> general_keys() {
              &study::Study::seed),
       whole({"trials", "trials at each design point", "the number of trials at each design point"}, 1,
             max_study_trials, &study::Study::trials),
-      whole({"machines",
-             "number of machines; trial i runs on machine i mod machines, and `trials` must be a multiple of "
-             "it "
-             "(default: no trials share a machine)"},
-            2, max_machines, &study::Study::machines),
-      whole({"worlds",
-             "number of worlds, which differ in what all machines share and nobody knows (`per: world`); "
-             "machine r lives in world r mod worlds, without `machines` trial i in world i mod worlds "
-             "(default: "
-             "none)"},
-            2, max_worlds, &study::Study::worlds),
+      whole(
+          {"machines",
+           "number of machines; "
+           "trial i runs on machine i mod machines, and `trials` must be a multiple of it (default: no trials share a machine)"},
+          2, max_machines, &study::Study::machines),
+      whole(
+          {"worlds",
+           "number of worlds, which differ in what all machines share and nobody knows (`per: world`); "
+           "machine r lives in world r mod worlds, without `machines` trial i in world i mod worlds (default: none)"},
+          2, max_worlds, &study::Study::worlds),
       of(Form::entries,
          {.name = "conditions",
           .meaning =
-              "conditions under which every machine has to run, names and overrides of parameters: {empty: "
-              "{}, "
-              "loaded: "
-              "{plant.inertia: 4.6}}; trial i runs under condition floor(i/R) mod C (R machines, or 1), and "
-              "`trials` must be a multiple of R*C",
+              "conditions under which every machine has to run, names and overrides of parameters: {empty: {}, loaded: {plant.inertia: 4.6}}; "
+              "trial i runs under condition floor(i/R) mod C (R machines, or 1), and `trials` must be a multiple of R*C",
           .min_count = 1,
           .max_count = 1000,
           .entry = "condition"},
@@ -318,12 +313,8 @@ std::span<const Shape> general_keys() {
          {{.name = "assignments"}}),
       of(Form::map,
          {"ages",
-          "ages of every machine at which it is simulated, of values that have `aging` beside them: "
-          "{at: [0, "
-          "1.0e+5, "
-          "1.0e+6], unit: cycles}; trial i is at age floor(i/(R*C)) mod A, and `trials` must be a "
-          "multiple of "
-          "R*C*A"},
+          "ages of every machine at which it is simulated, of values that have `aging` beside them: {at: [0, 1.0e+5, 1.0e+6], unit: cycles}; "
+          "trial i is at age floor(i/(R*C)) mod A, and `trials` must be a multiple of R*C*A"},
          ages,
          {stored(of(Form::list,
                     {.name = "at",
@@ -336,54 +327,51 @@ std::span<const Shape> general_keys() {
           stored(of(Form::word, {"unit"}, "a word such as cycles, h or km"), &study::Ages::unit)}),
       label({"design", "sampling design: monte_carlo (default), latin_hypercube, sobol or saltelli"},
             design_labels, &study::Study::design),
-      stored(Shape{.name = "independent_points",
-                   .meaning =
-                       "true: every design point has its own random numbers; false (default): trial i has "
-                       "the same ones at all points",
-                   .form = Shape::Form::boolean},
-             &study::Study::independent_points),
+      stored(
+          Shape{
+              .name = "independent_points",
+              .meaning =
+                  "true: every design point has its own random numbers; false (default): trial i has the same ones at all points",
+              .form = Shape::Form::boolean},
+          &study::Study::independent_points),
       of(Form::map, {"retain", "trials whose sample-by-sample records are kept: {trials: [0, 1]}"},
          "retain: {trials: [..]}",
          {indices({"trials"}, "a list of trial indices, each once", &study::Study::retained_trials)}),
       label(
           {"keep",
-           "what the results file keeps besides the statistics: trials (default), failures (the trials that "
-           "did not succeed) or statistics (no trials)"},
+           "what the results file keeps besides the statistics: trials (default), failures (the trials that did not succeed) or statistics (no trials)"},
           retention_labels, &study::Study::retention),
       of(Form::map,
          {"goal",
-          "what the axis must achieve: {band: 1, within: 0.05, moves: 0.99, machines: 0.99, confidence: "
-          "0.95}: the error is within 1 count for good after 0.05 s in at least 99 % of the moves of at "
-          "least 99 % of the machines, claimed with 95 % confidence; without `machines` (which needs "
-          "`machines`) in at least 99 % of all moves; default band 0, confidence 0.95; `tolerance` (rad) in "
-          "place of band: the position error itself stays within it; `after_profile` (s) in place of within: "
-          "from the end of each move's profile; on: [0, 1]: the moves that it is about "
-          "(default all); limits: {overshoot: 200, peak_torque: 45}: largest values of measures of a move; "
-          "of: "
-          "motor or load: the mass whose position error it is, of two"},
+          "what the axis must achieve: {band: 1, within: 0.05, moves: 0.99, machines: 0.99, confidence: 0.95}: "
+          "the error is within 1 count for good after 0.05 s in at least 99 % of the moves of at least 99 % of the machines, claimed with 95 % confidence; "
+          "without `machines` (which needs `machines`) in at least 99 % of all moves; "
+          "default band 0, confidence 0.95; "
+          "`tolerance` (rad) in place of band: the position error itself stays within it; "
+          "`after_profile` (s) in place of within: from the end of each move's profile; "
+          "on: [0, 1]: the moves that it is about (default all); "
+          "limits: {overshoot: 200, peak_torque: 45}: largest values of measures of a move; "
+          "of: motor or load: the mass whose position error it is, of two"},
          "goal: {band: 1, within: 0.05, moves: 0.99}", keys_of_goal()),
       goals_shape(
           {"goals",
-           "several goals, all of which must be met, by their names: {large: {on: [0, 1], tolerance: 1.0e-8, "
-           "within: 0.03, moves: 0.99}, small: {on: [2, 3], band: 1, within: 0.02, moves: 0.99}}; `goal` is "
-           "for "
-           "one"}),
+           "several goals, all of which must be met, by their names: "
+           "{large: {on: [0, 1], tolerance: 1.0e-8, within: 0.03, moves: 0.99}, small: {on: [2, 3], band: 1, within: 0.02, moves: 0.99}}; "
+           "`goal` is for one"}),
       of(Form::map,
          {"tune",
-          "what zerocount tune may change and must keep: {free: {controller.ki: {log: [5.0e+3, 3.0e+5]}, "
-          "controller.kp: [0, 1000]}, minimise: band_settling_time.p95, margins: {gain: 6, phase: 30, "
-          "delay: 0.5}}: ranges of parameters, the criterion, and margins of the loop (dB, degrees, "
-          "samples; sensitivity: the largest |S|), each off by the word, or `commissioning`: {gain: 6, "
-          "phase: 45, delay: 1, sensitivity: 1.6, spread: typical}; spread: {inertia: 0.1, damping: 0.3, "
-          "torque_constant: 0.05}, or `typical` for these: parts by which machines differ in what the study "
-          "does not draw"},
+          "what zerocount tune may change and must keep: "
+          "{free: {controller.ki: {log: [5.0e+3, 3.0e+5]}, controller.kp: [0, 1000]}, minimise: band_settling_time.p95, margins: {gain: 6, phase: 30, delay: 0.5}}: "
+          "ranges of parameters, the criterion, and margins of the loop (dB, degrees, samples; sensitivity: the largest |S|), each off by the word, or `commissioning`: "
+          "{gain: 6, phase: 45, delay: 1, sensitivity: 1.6, spread: typical}; "
+          "spread: {inertia: 0.1, damping: 0.3, torque_constant: 0.05}, or `typical` for these: parts by which machines differ in what the study does not draw"},
          "tune: {free: {controller.ki: {log: [5.0e+3, 3.0e+5]}}}",
          {free_shape(), stored(of(Form::text, {"minimise"}), &study::Tuning::minimise), margins_shape()}),
       of(Form::map,
          {"stop",
-          "sequential stopping: blocks of `trials` trials are added until the bounds of every success rate "
-          "are narrow enough: {success_rate_halfwidth: 0.005, confidence: 0.95, min_trials: 1000, "
-          "max_trials: 100000}"},
+          "sequential stopping: "
+          "blocks of `trials` trials are added until the bounds of every success rate are narrow enough: "
+          "{success_rate_halfwidth: 0.005, confidence: 0.95, min_trials: 1000, max_trials: 100000}"},
          "stop: {success_rate_halfwidth: 0.005, max_trials: 100000}",
          {real({"success_rate_halfwidth", "",
                 "the half-width of the bounds of the success rate at which the study ends, 0 to 0.5"},
@@ -394,19 +382,17 @@ std::span<const Shape> general_keys() {
                 &study::StoppingRule::max_trials)}),
       of(Form::list,
          {.name = "correlation",
-          .meaning = "correlations of drawn parameters: [[friction.k1, friction.k2, 0.6]], coefficients of "
-                     "the normal "
-                     "scores (Gaussian copula); each parameter keeps its distribution"},
+          .meaning =
+              "correlations of drawn parameters: [[friction.k1, friction.k2, 0.6]], coefficients of the normal scores (Gaussian copula); "
+              "each parameter keeps its distribution"},
          fmt::format("a list of entries {}", pair_of_parameters),
          {of(Form::tuple, {}, pair_of_parameters,
              {of(Form::line), of(Form::line), shapes::real({.low = -1.0, .high = 1.0})})}),
       of(Form::one_of,
          {"samples",
-          "joint draws of several parameters, such as those of zerocount identify --posterior: path of a "
-          "CSV "
-          "table from the folder of the manifest, or {file: FILE, per: machine}; its header has the dotted "
-          "paths "
-          "of the parameters, and each world, machine or trial takes one row"},
+          "joint draws of several parameters, such as those of zerocount identify --posterior: "
+          "path of a CSV table from the folder of the manifest, or {file: FILE, per: machine}; "
+          "its header has the dotted paths of the parameters, and each world, machine or trial takes one row"},
          samples,
          {of(Form::line),
           of(Form::map, {}, samples,
@@ -419,68 +405,64 @@ std::span<const Shape> general_keys() {
          {{"grid"},
           of(Form::entries, {.name = "cases", .entry = "case"}, "a map from names to cases",
              {{.name = "assignments"}})}),
-      label(
-          {"controller.units",
-           "unit of kp, ki and kd, also of the coarse phase: count (default), per count and sample; or si: N "
-           "m/rad, N m/(rad s) and N m s/rad, which give the same control at any sample rate"},
-          parameters::gain_unit_labels, &parameters::StudyUnits::gains),
+      label({"controller.units",
+             "unit of kp, ki and kd, also of the coarse phase: count (default), per count and sample; "
+             "or si: N m/rad, N m/(rad s) and N m s/rad, which give the same control at any sample rate"},
+            parameters::gain_unit_labels, &parameters::StudyUnits::gains),
       of(Form::line,
          {"controller.plugin",
-          "shared library with a controller of your own (docs/your-own-controller.md); path from the "
-          "folder of the manifest"}),
+          "shared library with a controller of your own (docs/your-own-controller.md); path from the folder of the manifest"}),
       {"controller.parameters", "parameters of the plugin, by name"},
       {"controller.filters",
-       "list of filters on the controller's torque, in the order in which they act: {lowpass: {frequency, "
-       "damping}}, {notch: {frequency, damping, depth}}, {lead: {frequency, ratio}}, {biquad: {b: [b0, b1, "
-       "b2], a: [a1, a2]}}; their values are the parameters controller.filters.0.frequency ..."},
+       "list of filters on the controller's torque, in the order in which they act: "
+       "{lowpass: {frequency, damping}}, {notch: {frequency, damping, depth}}, {lead: {frequency, ratio}}, {biquad: {b: [b0, b1, b2], a: [a1, a2]}}; "
+       "their values are the parameters controller.filters.0.frequency ..."},
       {"controller.coarse.filters", "list of filters of the coarse phase, as controller.filters"},
       {"disturbance.ripple",
-       "list of torques that vary along the rotor: {amplitude, periods, phase}, amplitude*sin(periods*(theta "
-       "+ initial.position) + phase), periods per revolution; on a linear axis {amplitude, pitch, phase}"},
+       "list of torques that vary along the rotor: "
+       "{amplitude, periods, phase}, amplitude*sin(periods*(theta + initial.position) + phase), periods per revolution; "
+       "on a linear axis {amplitude, pitch, phase}"},
       {"disturbance.load.ripple", "list of torques on the second mass, by its angle, as disturbance.ripple"},
       {"disturbance.load.vibration",
        "list of torques on the second mass that vary in time, as disturbance.vibration"},
       {"plant.load.error",
-       "kinematic error of the coupling, by the rotor: list of {amplitude, periods, phase} as "
-       "disturbance.ripple, in rad; the twist is theta + the error - theta of the load"},
+       "kinematic error of the coupling, by the rotor: list of {amplitude, periods, phase} as disturbance.ripple, in rad; "
+       "the twist is theta + the error - theta of the load"},
       {"disturbance.vibration",
-       "list of torques that vary in time: {amplitude, frequency, phase}, amplitude*sin(2*pi*frequency*t + "
-       "phase); or {spectrum: [[frequency, density], ...], lines: 100}, a random vibration with this "
-       "one-sided power spectral density, (N m)^2/Hz, drawn anew in each trial"},
+       "list of torques that vary in time: {amplitude, frequency, phase}, amplitude*sin(2*pi*frequency*t + phase); "
+       "or {spectrum: [[frequency, density], ...], lines: 100}, a random vibration with this one-sided power spectral density, (N m)^2/Hz, drawn anew in each trial"},
       record(
           {"command.torque.file",
-           "open loop: a recorded torque in place of levels, as one move: a table with the columns t [s] and "
-           "torque [N m] (force [N] on a linear axis), each value held until the next; or a list of such "
-           "pairs"},
-          "the name of a table, or a list of at least two pairs [time in s, torque], by ascending time from "
-          "0 on",
+           "open loop: a recorded torque in place of levels, as one move: "
+           "a table with the columns t [s] and torque [N m] (force [N] on a linear axis), each value held until the next; "
+           "or a list of such pairs"},
+          "the name of a table, or a list of at least two pairs [time in s, torque], by ascending time from 0 on",
           "a pair [time in s, torque]"),
       record(
           {"command.reference.file",
-           "a recorded reference in place of targets, as one move from the trial's start: a table with the "
-           "columns t [s] and reference [rad] ([m] on a linear axis), straight between its rows; or a list "
-           "of such pairs",
+           "a recorded reference in place of targets, as one move from the trial's start: "
+           "a table with the columns t [s] and reference [rad] ([m] on a linear axis), straight between its rows; "
+           "or a list of such pairs",
            "the name of a table"},
-          "the name of a table, or a list of at least two pairs [time in s, position], by ascending time "
-          "from 0 on",
+          "the name of a table, or a list of at least two pairs [time in s, position], by ascending time from 0 on",
           "a pair [time in s, position]"),
       of(Form::line, {"command.reference.column", "name of the column of the table (default reference)"},
          "the name of a column"),
       label({"command.units",
-             "unit of targets and overrun: counts (default) of the fine encoder; or si: rad (m on a linear "
-             "axis), of which each trial takes the nearest count of its encoder"},
+             "unit of targets and overrun: counts (default) of the fine encoder; "
+             "or si: rad (m on a linear axis), of which each trial takes the nearest count of its encoder"},
             parameters::target_unit_labels, &parameters::StudyUnits::targets),
       whole({"command.sequence.cycles", "number of cycles of a sequence (default 5)"}, 1,
             study::max_sequence_moves, &study::SequenceCycle::cycles),
-      label({"command.sequence.approach",
-             "direction from which a sequence approaches its targets: bidirectional (default: from both "
-             "sides), positive (from below) or negative (from above)"},
-            approach_labels, &study::SequenceCycle::approach),
+      label(
+          {"command.sequence.approach",
+           "direction from which a sequence approaches its targets: bidirectional (default: from both sides), positive (from below) or negative (from above)"},
+          approach_labels, &study::SequenceCycle::approach),
       stored(
           of(Form::list,
              {.name = "verdict.bands",
-              .meaning = "bands of the error, counts, whose first entry and settling are measured: 1 to 8 "
-                         "increasing numbers (default [0, 1])",
+              .meaning =
+                  "bands of the error, counts, whose first entry and settling are measured: 1 to 8 increasing numbers (default [0, 1])",
               .min_count = 1,
               .max_count = trial::max_error_bands,
               .order = Shape::Order::rising},

@@ -67,13 +67,13 @@ std::vector<ListedDistribution> listed_distributions(const parameters::StudyUnit
   rows.push_back(
       {"profile", "{profile: {mean, cv, correlation_length, marginal}}",
        parameters::text_on(units.axis, "friction along the $track") +
-           fmt::format(": a periodic random field; correlation_length in {}, marginal normal or lognormal "
-                       "(default); the mean may be a distribution, drawn for each {}",
-                       parameters::unit_on(units.axis, "rad"), parameters::text_on(units.axis, "$rotor"))});
-  rows.push_back({std::string(keys::per_key),
-                  fmt::format("{{…, per: {}}}", fmt::join(keys::draw_level_labels, " | ")),
-                  "beside any of these: how often the value is drawn; contact only for friction, study or "
-                  "machine only for a profile"});
+           fmt::format(
+               ": a periodic random field; correlation_length in {}, marginal normal or lognormal (default); "
+               "the mean may be a distribution, drawn for each {}",
+               parameters::unit_on(units.axis, "rad"), parameters::text_on(units.axis, "$rotor"))});
+  rows.push_back(
+      {std::string(keys::per_key), fmt::format("{{…, per: {}}}", fmt::join(keys::draw_level_labels, " | ")),
+       "beside any of these: how often the value is drawn; contact only for friction, study or machine only for a profile"});
   return rows;
 }
 

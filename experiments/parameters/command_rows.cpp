@@ -46,11 +46,11 @@ std::vector<Parameter> command_rows() {
       real_row("command.hold", 26, "s",
                "time for which each target is held, or each $torque level after it is reached", assumed,
                numerics::above(0), [](auto& p) { return &p.command.hold; }),
-      word_row("command.profile.shape", beyond_moves(4),
-               "shape of the reference between targets, a sine about the target, or the record of "
-               "command.reference",
-               assumed, {"step", "trapezoidal", "s_curve", "sine", "record"},
-               [](auto& p) { return &p.command.profile.shape; }),
+      word_row(
+          "command.profile.shape", beyond_moves(4),
+          "shape of the reference between targets, a sine about the target, or the record of command.reference",
+          assumed, {"step", "trapezoidal", "s_curve", "sine", "record"},
+          [](auto& p) { return &p.command.profile.shape; }),
       idealised_by(faster_profile, real_row("command.profile.velocity_limit", 53, "rad/s",
                                             "maximum velocity of the reference", assumed, numerics::above(0),
                                             [](auto& p) { return &p.command.profile.velocity_limit; })),

@@ -27,11 +27,11 @@ std::vector<Parameter> error_rows(const std::array<std::size_t, 7>& dimensions, 
               real_row(joined<encoder, ".eccentricity_angle">, angle, "rad",
                        "rotor angle at which that error rises through zero", assumed, numerics::all_numbers(),
                        [](auto& p) { return &Errors{}(p).eccentricity_angle; })),
-      ideal_at(0, joined<"no interpolation error", whose>,
-               real_row(joined<encoder, ".interpolation">, interpolation, "count",
-                        "amplitude of the error that repeats once per signal period, in counts of this "
-                        "encoder",
-                        assumed, numerics::at_least(0), [](auto& p) { return &Errors{}(p).interpolation; })),
+      ideal_at(
+          0, joined<"no interpolation error", whose>,
+          real_row(joined<encoder, ".interpolation">, interpolation, "count",
+                   "amplitude of the error that repeats once per signal period, in counts of this encoder",
+                   assumed, numerics::at_least(0), [](auto& p) { return &Errors{}(p).interpolation; })),
       real_row(joined<encoder, ".interpolation_period">, period, "count",
                "signal period, in counts of this encoder", assumed, numerics::above(0),
                [](auto& p) { return &Errors{}(p).interpolation_period; }),
@@ -78,22 +78,28 @@ std::vector<Parameter> encoder_rows() {
                   real_row("encoder.coarse_resolution", beyond_moves(8), "m/count",
                            "length of a count of the coarse encoder; default: that of the fine one",
                            "required", length_of_count, [](auto& p) { return &p.encoder.coarse_length; })))),
-      none_is(0, only_on(AxisKind::rotary, "encoder.load.resolution, m per count",
-                         idealised_by(
-                             finer_encoder,
-                             whole_row("encoder.load.counts_per_revolution", beyond_moves(295), "count/rev",
-                                       "counts per revolution of an encoder on the second mass, beside "
-                                       "the fine one, which then reads the motor; none: no such encoder",
-                                       assumed, numerics::closed(1, max_count),
-                                       [](auto& p) { return &p.encoder.other.counts; })))),
-      none_is(0,
-              only_on(AxisKind::linear, "encoder.load.counts_per_revolution",
-                      idealised_by(finer_encoder,
-                                   real_row("encoder.load.resolution", beyond_moves(296), "m/count",
-                                            "length of a count of an encoder on the second mass, beside the "
-                                            "fine one, which then reads the motor; none: no such encoder",
-                                            assumed, length_of_count,
-                                            [](auto& p) { return &p.encoder.other.length; })))),
+      none_is(
+          0,
+          only_on(
+              AxisKind::rotary, "encoder.load.resolution, m per count",
+              idealised_by(
+                  finer_encoder,
+                  whole_row(
+                      "encoder.load.counts_per_revolution", beyond_moves(295), "count/rev",
+                      "counts per revolution of an encoder on the second mass, beside the fine one, which then reads the motor; "
+                      "none: no such encoder",
+                      assumed, numerics::closed(1, max_count),
+                      [](auto& p) { return &p.encoder.other.counts; })))),
+      none_is(
+          0,
+          only_on(
+              AxisKind::linear, "encoder.load.counts_per_revolution",
+              idealised_by(
+                  finer_encoder,
+                  real_row(
+                      "encoder.load.resolution", beyond_moves(296), "m/count",
+                      "length of a count of an encoder on the second mass, beside the fine one, which then reads the motor; none: no such encoder",
+                      assumed, length_of_count, [](auto& p) { return &p.encoder.other.length; })))),
   };
   for (const std::vector<Parameter>& errors :
        {error_rows<"encoder.fine_errors", "">(
@@ -121,11 +127,14 @@ std::vector<Parameter> drive_rows() {
           real_row("dac.resolution", 19, "N m", "$torque of one code of the digital-to-analogue converter",
                    "paper, section 4", numerics::above(0), [](auto& p) { return &p.dac.resolution; })),
       none_by_default(
-          0, idealised_by(wider_torque_range,
-                          real_row("dac.range", beyond_moves(16), "N m",
-                                   "largest $torque of the converter, in both directions, in place of its "
-                                   "resolution, which is range / 2^(bits - 1); none: dac.resolution counts",
-                                   assumed, numerics::above(0)))),
+          0,
+          idealised_by(
+              wider_torque_range,
+              real_row(
+                  "dac.range", beyond_moves(16), "N m",
+                  "largest $torque of the converter, in both directions, in place of its resolution, which is range / 2^(bits - 1); "
+                  "none: dac.resolution counts",
+                  assumed, numerics::above(0)))),
       ideal_at(0, "no converter offset",
                real_row("dac.offset", 41, "N m", "offset added to the $torque of every code", assumed,
                         numerics::all_numbers(), [](auto& p) { return &p.dac.offset; })),

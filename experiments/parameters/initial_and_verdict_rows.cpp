@@ -17,10 +17,10 @@ std::vector<Parameter> initial_rows() {
       real_row("initial.preload", 11, "N m",
                "$torque to which the virgin contact is slowly loaded, and unloaded again, before the start",
                assumed, numerics::all_numbers(), [](auto& p) { return &p.initial.preload; }),
-      whole_row("initial.history.reversals", 60, "1",
-                "number of random $torque levels, alternately up and down, to which the contact is loaded "
-                "before the start",
-                assumed, numerics::closed(0, 1000), [](auto& p) { return &p.initial.history.reversals; }),
+      whole_row(
+          "initial.history.reversals", 60, "1",
+          "number of random $torque levels, alternately up and down, to which the contact is loaded before the start",
+          assumed, numerics::closed(0, 1000), [](auto& p) { return &p.initial.history.reversals; }),
       real_row("initial.history.torque", 61, "N m", "maximum |$torque| of these levels", assumed,
                numerics::at_least(0), [](auto& p) { return &p.initial.history.torque; }),
       ideal_at(0, "at rest at the start",

@@ -74,11 +74,12 @@ std::vector<Parameter> plant_rows() {
 std::vector<Parameter> friction_rows() {
   using P = friction::FrictionParameters;
   return {
-      word_row("friction.model", beyond_moves(0),
-               "friction law of the bearing. Pre-sliding motion: a spring with creep (presliding), the "
-               "spring alone (spring) or none (coulomb). Others: no friction (none, an air bearing), Dahl, "
-               "LuGre, generalised Maxwell-slip (gms)",
-               assumed, friction::friction_model_labels(), [](auto& p) { return &p.friction.model; }),
+      word_row(
+          "friction.model", beyond_moves(0),
+          "friction law of the bearing. "
+          "Pre-sliding motion: a spring with creep (presliding), the spring alone (spring) or none (coulomb). "
+          "Others: no friction (none, an air bearing), Dahl, LuGre, generalised Maxwell-slip (gms)",
+          assumed, friction::friction_model_labels(), [](auto& p) { return &p.friction.model; }),
       friction<&P::k1>(real_row("friction.k1", 0, "N m/rad",
                                 "lowest tangent stiffness of the friction spring", "paper, section 4",
                                 numerics::above(0))),
@@ -116,18 +117,20 @@ std::vector<Parameter> friction_rows() {
           real_row("friction.gms.attraction", beyond_moves(11), "N m/s",
                    "rate at which the $torque of a slipping element of gms approaches its level", assumed,
                    numerics::above(0))),
-      list_of(max_gms_elements, "stiffness", "stiffnesses",
-              real_row("friction.gms.stiffness", beyond_moves(80), "N m/rad",
-                       "stiffness kappa of each element of the generalised Maxwell-slip model; default on a "
-                       "rotary axis: 110, 250, 250, 250",
-                       "required", numerics::above(0)),
-              [](auto& p, std::size_t i) { return &p.friction.gms_elements[i].stiffness; }),
-      list_of(max_gms_elements, "weight", "weights",
-              real_row("friction.gms.weight", beyond_moves(80 + max_gms_elements), "1",
-                       "weight eta of each element: its fraction of the friction level, all of which sum to "
-                       "1; default on a rotary axis: 0.9875, 0.0009, 0.0032, 0.0084",
-                       "required", {.low = 0, .high = 1, .high_included = true}),
-              [](auto& p, std::size_t i) { return &p.friction.gms_elements[i].weight; }),
+      list_of(
+          max_gms_elements, "stiffness", "stiffnesses",
+          real_row(
+              "friction.gms.stiffness", beyond_moves(80), "N m/rad",
+              "stiffness kappa of each element of the generalised Maxwell-slip model; default on a rotary axis: 110, 250, 250, 250",
+              "required", numerics::above(0)),
+          [](auto& p, std::size_t i) { return &p.friction.gms_elements[i].stiffness; }),
+      list_of(
+          max_gms_elements, "weight", "weights",
+          real_row("friction.gms.weight", beyond_moves(80 + max_gms_elements), "1",
+                   "weight eta of each element: its fraction of the friction level, all of which sum to 1; "
+                   "default on a rotary axis: 0.9875, 0.0009, 0.0032, 0.0084",
+                   "required", {.low = 0, .high = 1, .high_included = true}),
+          [](auto& p, std::size_t i) { return &p.friction.gms_elements[i].weight; }),
       real_row("friction.measured.initial_stiffness", beyond_moves(272), "N m/rad",
                "stiffness k1 + k2 with which the friction spring begins", instead_of_spring,
                numerics::above(0)),

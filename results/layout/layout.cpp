@@ -62,10 +62,10 @@ const std::vector<RecordField<trial::BandOutcome>>& band_fields() {
       field<B>("band_entry_time", "s",
                "time of the first dwell within the error band from the start of the move, NaN if never",
                &B::entry_time, a_time_or_nan),
-      field<B>("band_settling_time", "s",
-               "time from which the error is within the band to the end, from the start of the move, NaN if "
-               "it ends outside",
-               &B::settling_time, a_time_or_nan),
+      field<B>(
+          "band_settling_time", "s",
+          "time from which the error is within the band to the end, from the start of the move, NaN if it ends outside",
+          &B::settling_time, a_time_or_nan),
       field<B>("band_exits", "1", "times that the error left the band after the first dwell within it",
                &B::exits, {.expected = "a count, or NaN", .nan = true})};
   return fields;
@@ -75,9 +75,7 @@ std::vector<RecordField<ToleranceRecord>> tolerance_fields(const study::StudyFea
   const auto field_of = [](const std::string& mass, double ToleranceRecord::*member) {
     RecordField<ToleranceRecord> one = field<ToleranceRecord>(
         "tolerance_settling_time", "s",
-        "time from which the position error is within the tolerance to the end, from the start of the move, "
-        "NaN "
-        "if it ends outside",
+        "time from which the position error is within the tolerance to the end, from the start of the move, NaN if it ends outside",
         member, {.expected = "a finite time, not negative, or NaN", .nan = true});
     if (mass.empty()) return one;
     one.column.name = mass + "_" + one.column.name;
@@ -133,9 +131,7 @@ std::vector<RecordField<TraceRecord>> trace_fields(const study::StudyFeatures& f
   }
   if (features.load_count)
     fields.push_back(field<T>("load_count", "count",
-                              "reading of the encoder of the second mass, in its "
-                              "counts",
-                              &T::load_count));
+                              "reading of the encoder of the second mass, in its counts", &T::load_count));
   if (features.motor_count)
     fields.push_back(
         field<T>("motor_count", "count", "reading of the motor's encoder, in its counts", &T::motor_count));

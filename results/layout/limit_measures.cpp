@@ -62,47 +62,48 @@ std::vector<Measure> measures_of_band(const trial::ErrorBands& bands, std::size_
        .band = band,
        .values = times,
        .reduction = MoveReduction::largest,
-       .point = {"entry_time",
-                 {{{n}, "moves that entered the error band, of which mean, min and max are"},
-                  {{all}, "moves with a target, of which the quantiles are"},
-                  {{mean, min, max}, "{0} time of entry into the error band of the moves that entered it"},
-                  {{p05, p25, median, p75, p95, median_low, median_high, p95_low, p95_high},
-                   "{0} of the time of entry into the error band of all moves with a target, NaN if not "
-                   "within the hold"}}}});
+       .point = {
+           "entry_time",
+           {{{n}, "moves that entered the error band, of which mean, min and max are"},
+            {{all}, "moves with a target, of which the quantiles are"},
+            {{mean, min, max}, "{0} time of entry into the error band of the moves that entered it"},
+            {{p05, p25, median, p75, p95, median_low, median_high, p95_low, p95_high},
+             "{0} of the time of entry into the error band of all moves with a target, NaN if not within the hold"}}}});
   measures.push_back(
       {.field = field_of_band(band_fields()[1], band, values_of_bands<&B::settling_time>()[slot]),
        .band = band,
        .values = times,
        .reduction = MoveReduction::largest,
-       .point = {"settling_time",
-                 {{{n}, "moves that ended within the error band, of which mean, min and max are"},
-                  {{all}, "moves with a target, of which the quantiles are"},
-                  {{mean, min, max},
-                   "{0} time until the error is within the band for good, of the moves that ended within it"},
-                  {{p05, p25, median, p75, p95, median_low, median_high, p95_low, p95_high},
-                   "{0} of the time until the error is within the band for good, of all moves with a target, "
-                   "NaN if not within the hold"},
-                  {{bootstrap_low, bootstrap_high},
-                   "{1} of the mean settling time: Student and studentised bootstrap"}}},
+       .point =
+           {"settling_time",
+            {{{n}, "moves that ended within the error band, of which mean, min and max are"},
+             {{all}, "moves with a target, of which the quantiles are"},
+             {{mean, min, max},
+              "{0} time until the error is within the band for good, of the moves that ended within it"},
+             {{p05, p25, median, p75, p95, median_low, median_high, p95_low, p95_high},
+              "{0} of the time until the error is within the band for good, of all moves with a target, NaN if not within the hold"},
+             {{bootstrap_low, bootstrap_high},
+              "{1} of the mean settling time: Student and studentised bootstrap"}}},
        .summary = {.columns = {{fmt::format("settled ±{} p95 (s)", band), p95, CellText::settling_time}},
-                   .legend = slot > 0 ? ""
-                                      : "settled ±b: the error stays within b counts from then to the end of "
-                                        "the move; p95 of all moves, those that end outside being later "
-                                        "than any time\n"},
+                   .legend =
+                       slot > 0
+                           ? ""
+                           : "settled ±b: the error stays within b counts from then to the end of the move; "
+                             "p95 of all moves, those that end outside being later than any time\n"},
        .output = {{name_of_band("band_settling_time", band),
-                   "time until the error is within the band for good, the longest of the trial's moves; a "
-                   "move that ends outside counts with its duration"}}});
-  measures.push_back({.field = field_of_band(band_fields()[2], band, values_of_bands<&B::exits>()[slot]),
-                      .band = band,
-                      .values = {.needs_target = true},
-                      .reduction = MoveReduction::sum,
-                      .point = {"exits",
-                                {{{n}, "trials, of which the numbers of exits are"},
-                                 {{mean, sd, p95, max}, "{0} of the exits from the error band per trial"},
-                                 {{total}, "exits from the error band of all trials"},
-                                 {{bootstrap_low, bootstrap_high},
-                                  "{1} of the mean number of exits: Student and studentised bootstrap, "
-                                  "Garwood for few"}}}});
+                   "time until the error is within the band for good, the longest of the trial's moves; "
+                   "a move that ends outside counts with its duration"}}});
+  measures.push_back(
+      {.field = field_of_band(band_fields()[2], band, values_of_bands<&B::exits>()[slot]),
+       .band = band,
+       .values = {.needs_target = true},
+       .reduction = MoveReduction::sum,
+       .point = {"exits",
+                 {{{n}, "trials, of which the numbers of exits are"},
+                  {{mean, sd, p95, max}, "{0} of the exits from the error band per trial"},
+                  {{total}, "exits from the error band of all trials"},
+                  {{bootstrap_low, bootstrap_high},
+                   "{1} of the mean number of exits: Student and studentised bootstrap, Garwood for few"}}}});
   return measures;
 }
 
@@ -119,30 +120,30 @@ std::vector<Measure> measures_of_tolerance(const trial::Tolerances& tolerances, 
         .only_with = only_with,
         .values = {.needs_target = true, .missing = Missing::late},
         .reduction = MoveReduction::largest,
-        .point = {mass.empty()     ? "settling_time"
-                  : mass == "load" ? "load_settling_time"
-                                   : "motor_settling_time",
-                  {{{n}, "moves that ended within the tolerance, of which mean, min and max are"},
-                   {{all}, "moves with a target, of which the quantiles are"},
-                   {{mean, min, max},
-                    "{0} time until the position error is within the tolerance for good, of the moves that "
-                    "ended within it"},
-                   {{p05, p25, median, p75, p95, median_low, median_high, p95_low, p95_high},
-                    "{0} of the time until the position error is within the tolerance for good, of all moves "
-                    "with a target, NaN if not within the hold"},
-                   {{bootstrap_low, bootstrap_high},
-                    "{1} of the mean settling time: Student and studentised bootstrap"}}},
-        .summary = {.use = only_with,
-                    .columns = {{fmt::format("{}{}within ±{:g} p95 (s)", mass, mass.empty() ? "" : " ",
-                                             tolerance),
-                                 p95, CellText::settling_time}},
-                    .legend = slot > 0 || !mass.empty()
-                                  ? ""
-                                  : "within ±t: the position error stays within the tolerance t from "
-                                    "then to the end of the move; p95 of all moves\n"},
-        .output = {{name,
-                    "time until the position error is within the tolerance for good, the longest of the "
-                    "trial's moves; a move that ends outside counts with its duration"}}};
+        .point =
+            {mass.empty()     ? "settling_time"
+             : mass == "load" ? "load_settling_time"
+                              : "motor_settling_time",
+             {{{n}, "moves that ended within the tolerance, of which mean, min and max are"},
+              {{all}, "moves with a target, of which the quantiles are"},
+              {{mean, min, max},
+               "{0} time until the position error is within the tolerance for good, of the moves that ended within it"},
+              {{p05, p25, median, p75, p95, median_low, median_high, p95_low, p95_high},
+               "{0} of the time until the position error is within the tolerance for good, of all moves with a target, NaN if not within the hold"},
+              {{bootstrap_low, bootstrap_high},
+               "{1} of the mean settling time: Student and studentised bootstrap"}}},
+        .summary =
+            {.use = only_with,
+             .columns = {{fmt::format("{}{}within ±{:g} p95 (s)", mass, mass.empty() ? "" : " ", tolerance),
+                          p95, CellText::settling_time}},
+             .legend =
+                 slot > 0 || !mass.empty()
+                     ? ""
+                     : "within ±t: the position error stays within the tolerance t from then to the end of the move; p95 of all moves\n"},
+        .output = {
+            {name,
+             "time until the position error is within the tolerance for good, the longest of the trial's moves; "
+             "a move that ends outside counts with its duration"}}};
   };
   using F = study::StudyFeatures;
   const auto fields = tolerance_fields({.load_error = true, .motor_error = true});

@@ -120,12 +120,12 @@ MeasureTable own_measures() {
                                {"p95 (s)", p95, CellText::settling_time},
                                {"arrived", n, CellText::proportion_of_moves}},
                    .legend =
-                       "arrival: the error is first 0 for the whole dwell; median and p95 of all moves, "
-                       "those that never arrived being later than any time; arrived: proportion of "
-                       "moves\n"},
-       .output = {{"arrival_time",
-                   "time until arrival, the longest of the trial's moves; a move that never arrived counts "
-                   "with its duration"}},
+                       "arrival: the error is first 0 for the whole dwell; "
+                       "median and p95 of all moves, those that never arrived being later than any time; "
+                       "arrived: proportion of moves\n"},
+       .output =
+           {{"arrival_time",
+             "time until arrival, the longest of the trial's moves; a move that never arrived counts with its duration"}},
        .gate = {{"arrival_time", Worse::more, 0.0005, 0.05}}},
       {.field = field<M>("final_settling_time", "s",
                          "settling time at zero error, from the start of the move, NaN if never",
@@ -138,8 +138,7 @@ MeasureTable own_measures() {
              {{mean}, "mean time until the error is zero for good, of the moves that ended at zero error"},
              {{min}, "shortest time until the error is zero for good"},
              {{p05, p25, median, p75, p95},
-              "{0} of the time until the error is zero for good, of all moves with a target, NaN if not "
-              "within the hold"},
+              "{0} of the time until the error is zero for good, of all moves with a target, NaN if not within the hold"},
              {{median_low, median_high}, "{1} of final_settling_time_median, NaN if not within the hold"},
              {{p95_low, p95_high}, "{1} of final_settling_time_p95, NaN if not within the hold"},
              {{max}, "longest time until the error is zero for good"},
@@ -182,10 +181,10 @@ MeasureTable own_measures() {
                  {{{n}, "moves with a target, of which the overshoots are"},
                   {{mean, max}, "{0} overshoot of the moves"}}},
        .output = {{"overshoot", "largest excursion beyond a target"}}},
-      {.field = field<M>("true_overshoot", "rad",
-                         "largest position error beyond the target in the direction of the move, at least 0, "
-                         "NaN of a move that was stopped or lost its motion",
-                         &M::true_overshoot, an_error_or_nan),
+      {.field = field<M>(
+           "true_overshoot", "rad",
+           "largest position error beyond the target in the direction of the move, at least 0, NaN of a move that was stopped or lost its motion",
+           &M::true_overshoot, an_error_or_nan),
        .only_with = &F::position_error,
        .values = {.needs_target = true},
        .reduction = MoveReduction::largest,
@@ -250,13 +249,13 @@ MeasureTable own_measures() {
                   {{mean},
                    "mean distance from the $rotor to the middle of the target's count at the last sample"},
                   {{rms, max}, "{0} distance from the $rotor to the middle of the target's count"}}},
-       .summary = {&F::encoder_errors,
-                   {{"|true e| mean", mean}, {"|true e| max", max}},
-                   "|true e|: distance from the rotor to the middle of the target's count at the last sample "
-                   "of the moves,\nwhatever the encoder says, in counts\n"},
+       .summary =
+           {&F::encoder_errors,
+            {{"|true e| mean", mean}, {"|true e| max", max}},
+            "|true e|: distance from the rotor to the middle of the target's count at the last sample of the moves,\n"
+            "whatever the encoder says, in counts\n"},
        .output = {{"true_error",
-                   "largest distance from the middle of a target's count at the end of a "
-                   "move"}}},
+                   "largest distance from the middle of a target's count at the end of a move"}}},
       {.field = field<M>("travel_time", "s", "time until the reference or the $torque is where it is held",
                          &M::travel_time, a_time_or_nan),
        .values = {.missing = Missing::none},
@@ -287,21 +286,19 @@ MeasureTable own_measures() {
        .summary =
            {&F::coarse_errors,
             {{"disagreeing", trials, CellText::proportion_of_trials}},
-            "disagreeing: proportion of trials in which the coarse count was ever impossible given the "
-            "fine one\n"}},
-      {.field = field<M>("oscillation_amplitude", "count",
-                         "half of the largest minus the smallest count in the last half of an oscillating "
-                         "move, NaN of others",
-                         &M::oscillation_amplitude,
-                         {.expected = "a finite amplitude, not negative, or NaN", .nan = true}),
+            "disagreeing: proportion of trials in which the coarse count was ever impossible given the fine one\n"}},
+      {.field = field<M>(
+           "oscillation_amplitude", "count",
+           "half of the largest minus the smallest count in the last half of an oscillating move, NaN of others",
+           &M::oscillation_amplitude, {.expected = "a finite amplitude, not negative, or NaN", .nan = true}),
        .values = {.missing = Missing::none},
        .point = {"oscillation",
                  {{{n}, "moves that oscillated to their end"},
                   {{median}, "median amplitude of these moves in their last half", "amplitude_median"}}}},
-      {.field = field<M>("oscillation_period", "s",
-                         "mean time between upward crossings of the middle of these counts, NaN if fewer "
-                         "than two",
-                         &M::oscillation_period, a_time_or_nan),
+      {.field =
+           field<M>("oscillation_period", "s",
+                    "mean time between upward crossings of the middle of these counts, NaN if fewer than two",
+                    &M::oscillation_period, a_time_or_nan),
        .values = {.missing = Missing::none},
        .point = {"oscillation",
                  {{{median}, "median period of those of these moves that have one", "period_median"}}}},
@@ -337,8 +334,8 @@ MeasureTable own_measures() {
        .point = {"", {{{count}, "trials that were ended early, because a move had diverged"}}},
        .summary = {&F::stopping,
                    {{"stopped", count, CellText::proportion_of_trials}},
-                   "stopped: proportion of trials that were ended where a move had diverged; they count as "
-                   "oscillating, and what is measured of their moves is up to there\n"}},
+                   "stopped: proportion of trials that were ended where a move had diverged; "
+                   "they count as oscillating, and what is measured of their moves is up to there\n"}},
       {.field = field<M>("controller_failed", "1",
                          "the controller gave no finite $torque, in this move or one before: it is nonfinite",
                          &M::controller_failed),
@@ -348,14 +345,12 @@ MeasureTable own_measures() {
        .summary =
            {&F::own_controller,
             {{"controller failed", count, CellText::proportion_of_trials}},
-            "controller failed: proportion of trials that the controller ended by giving no finite torque; "
-            "they count as nonfinite\n"}},
+            "controller failed: proportion of trials that the controller ended by giving no finite torque; they count as nonfinite\n"}},
       of_motion(
           &F::motion, Missing::never, "rest_error_rms", "count",
           "rms of the true error at rest, NaN if never at rest", &M::rest_error_rms,
           {"rest rms",
-           "rest rms, rest p-p: of the true error (counts) from the entry into the rest band to the end "
-           "of the move, mean over moves\n",
+           "rest rms, rest p-p: of the true error (counts) from the entry into the rest band to the end of the move, mean over moves\n",
            "rms of the true error at rest, the largest of the trial's moves"}),
       of_motion(&F::motion, Missing::never, "rest_error_range", "count",
                 "peak to peak of the true error at rest, NaN if never at rest", &M::rest_error_range,
@@ -364,16 +359,16 @@ MeasureTable own_measures() {
                 "rms of the true error at rest, NaN if never at rest", &M::rest_motion_rms),
       of_motion(&F::motion, Missing::never, "rest_motion_range", "rad",
                 "peak to peak of the true error at rest, NaN if never at rest", &M::rest_motion_range),
-      of_motion(&F::motion, Missing::never, "rest_torque_power", "(N m)^2",
-                "mean square of the $torque at rest, NaN if never at rest", &M::rest_torque_power,
-                {"$torque power",
-                 "$torque power, $torque noise: mean square of the $torque at rest, and of its changes from "
-                 "sample to sample, mean over moves\n",
-                 "mean square of the $torque at rest, the largest of the moves"}),
-      of_motion(&F::motion, Missing::never, "rest_torque_noise", "(N m)^2",
-                "mean square of the changes of the $torque from sample to sample at rest, NaN if never at "
-                "rest",
-                &M::rest_torque_noise, {"$torque noise"}),
+      of_motion(
+          &F::motion, Missing::never, "rest_torque_power", "(N m)^2",
+          "mean square of the $torque at rest, NaN if never at rest", &M::rest_torque_power,
+          {"$torque power",
+           "$torque power, $torque noise: mean square of the $torque at rest, and of its changes from sample to sample, mean over moves\n",
+           "mean square of the $torque at rest, the largest of the moves"}),
+      of_motion(
+          &F::motion, Missing::never, "rest_torque_noise", "(N m)^2",
+          "mean square of the changes of the $torque from sample to sample at rest, NaN if never at rest",
+          &M::rest_torque_noise, {"$torque noise"}),
       {.field = field<M>("step_motion", "count",
                          "mean true position in the window minus that of the move before", &M::step_motion,
                          {.expected = "a finite motion, or NaN",
@@ -386,18 +381,17 @@ MeasureTable own_measures() {
        .only_with = &F::steps,
        .values = {.needs_target = true},
        .reduction = MoveReduction::all,
-       .point = {"step_made",
-                 {{{moves_rate},
-                   "moves whose mean true motion is within half of the commanded step, as a "
-                   "proportion of the moves",
-                   "rate"},
-                  {{moves_rate_low}, "{1} of that proportion (Korn-Graubard)", "rate_low"},
-                  {{moves_rate_high}, "{1} of that proportion (Korn-Graubard)", "rate_high"}}},
-       .summary = {&F::steps,
-                   {{"steps made", moves_rate, CellText::percent,
-                     BoundStatistics{moves_rate_low, moves_rate_high}}},
-                   "steps made: proportion of moves whose mean true motion is within half of the commanded "
-                   "step\n"},
+       .point =
+           {"step_made",
+            {{{moves_rate},
+              "moves whose mean true motion is within half of the commanded step, as a proportion of the moves",
+              "rate"},
+             {{moves_rate_low}, "{1} of that proportion (Korn-Graubard)", "rate_low"},
+             {{moves_rate_high}, "{1} of that proportion (Korn-Graubard)", "rate_high"}}},
+       .summary =
+           {&F::steps,
+            {{"steps made", moves_rate, CellText::percent, BoundStatistics{moves_rate_low, moves_rate_high}}},
+            "steps made: proportion of moves whose mean true motion is within half of the commanded step\n"},
        .output = {{"step_made", "all moves went the commanded step, to half of it"}}},
       of_motion(
           &F::following, Missing::none, "following_error_rms", "count",
@@ -409,12 +403,10 @@ MeasureTable own_measures() {
                 {"following peak", "", "largest magnitude of the true following error"}),
       of_motion(
           &F::reversals, Missing::none, "reversal_spike", "count",
-          "largest magnitude of the true following error in the quarter of a period after a reversal of "
-          "the sine, NaN if none",
+          "largest magnitude of the true following error in the quarter of a period after a reversal of the sine, NaN if none",
           &M::reversal_spike,
           {"reversal spike",
-           "reversal spike: largest magnitude of the true following error (counts) in the quarter of a "
-           "period after a reversal, mean over moves\n"}),
+           "reversal spike: largest magnitude of the true following error (counts) in the quarter of a period after a reversal, mean over moves\n"}),
   };
 }
 

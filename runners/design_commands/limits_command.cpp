@@ -68,10 +68,11 @@ auto gain_of(Member member) {
 document::Description<Limit> limit_columns(const document::Item& effect) {
   return document::Description<Limit>()
       .value(effect, &Limit::effect)
-      .value(proportion("rate", "rate",
-                        "proportion of moves, or of machines, that meet the question; unknown if it is not "
-                        "simulated"),
-             &Limit::rate)
+      .value(
+          proportion(
+              "rate", "rate",
+              "proportion of moves, or of machines, that meet the question; unknown if it is not simulated"),
+          &Limit::rate)
       .include(named_claim_columns("of goal", "condition or age"), &Limit::worst)
       .value({.key = "rates",
               .meaning = "the rates of all goals under all conditions, where there are several",

@@ -353,9 +353,10 @@ std::vector<command_line::OptionSpec> identify_options() {
   for (command_line::OptionSpec& option : law_options()) options.push_back(of_tests(std::move(option)));
   append(
       {{"sliding", "", "identify inertia and sliding friction from motion records"},
-       command_line::needing({"sliding"}, {"pitch", "LENGTH",
-                                           "pitch of the screw or of the magnets of a linear axis, m, with "
-                                           "which a force may repeat"}),
+       command_line::needing(
+           {"sliding"},
+           {"pitch", "LENGTH",
+            "pitch of the screw or of the magnets of a linear axis, m, with which a force may repeat"}),
        {"angle", "COLUMN",
         "count, theta or position, if several exist (default count, if its size is given)"},
        {"torque", "COLUMN", "torque, drive_torque, force or drive_force, if several exist (default drive_…)"},

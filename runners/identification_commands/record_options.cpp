@@ -189,14 +189,14 @@ std::optional<double> delay_option(const command_line::Arguments& arguments) {
 }
 
 std::vector<command_line::OptionSpec> column_options() {
-  return {{"column", "QUANTITY=COLUMN",
-           "column of a quantity, with its unit and factors: time=t[ms], torque=current[A]*0.87; may be "
-           "repeated",
-           true},
-          {"separator", "NAME", "separator of the cells: comma, semicolon, tab or blanks (default: detected)",
-           false, 1, tables::separator_names()},
-          {"sample-time", "T", "sample time of a record without a column for the time, s"},
-          {"exclude", "FROM:TO", "times to leave out, s; may be repeated", true}};
+  return {
+      {"column", "QUANTITY=COLUMN",
+       "column of a quantity, with its unit and factors: time=t[ms], torque=current[A]*0.87; may be repeated",
+       true},
+      {"separator", "NAME", "separator of the cells: comma, semicolon, tab or blanks (default: detected)",
+       false, 1, tables::separator_names()},
+      {"sample-time", "T", "sample time of a record without a column for the time, s"},
+      {"exclude", "FROM:TO", "times to leave out, s; may be repeated", true}};
 }
 
 void set_columns(const command_line::Arguments& arguments, records::SeriesChoice& choice) {

@@ -69,8 +69,7 @@ std::string exit_codes_help() {
 
 std::string overview() {
   std::string text =
-      "zerocount: how often does a positioning axis with friction hold exactly zero encoder counts of "
-      "error?\n\n"
+      "zerocount: how often does a positioning axis with friction hold exactly zero encoder counts of error?\n\n"
       "usage: zerocount COMMAND ...\n\n";
   for (const commands::Command& command : commands())
     text += fmt::format("  {:<12} {}\n", command.spec.name, command.summary);

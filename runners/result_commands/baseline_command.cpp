@@ -21,8 +21,7 @@ constexpr const char* baseline_help =
     "the reason, the build, the trials, the checksums, and a comparison with the replaced\n"
     "baseline. Commit both files together. No --force is needed, because a reason is required.\n"
     "\n"
-    "Example: zerocount baseline new.h5 -o results/baselines/paper-gains.h5 --reason \"ki of case a "
-    "raised\"\n";
+    "Example: zerocount baseline new.h5 -o results/baselines/paper-gains.h5 --reason \"ki of case a raised\"\n";
 
 ExitCode baseline(const command_line::Arguments& arguments) {
   const std::filesystem::path output = command_line::output_place(arguments);

@@ -112,11 +112,10 @@ document::AnswerDescription<Judgement> judge_answer(const goal::Question& questi
                .optional = true},
               goal::load_description(), [](Of j) { return j.judged.verdict.of_load; })
       .sentence([](Of j) { return summary::judgement_details(j.summary, j.judged); })
-      .value(document::in_data(
-                 "missed_saturated",
-                 "proportion of the moves that miss the goal in which the converter clipped; null: the "
-                 "goal is met, or the file does not keep every trial",
-                 "1"),
+      .value(document::in_data("missed_saturated",
+                               "proportion of the moves that miss the goal in which the converter clipped; "
+                               "null: the goal is met, or the file does not keep every trial",
+                               "1"),
              &Judgement::missed_saturated)
       .sentence([](Of j) { return j.saturated ? summary::saturation_sentence(*j.saturated) : ""; })
       .value(

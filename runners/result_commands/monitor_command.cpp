@@ -211,16 +211,14 @@ commands::Command monitor_command() {
        {excluding({"follow"}, answers::format_option()),
         {"alarm", "A", "largest probability of a false alarm, ever (default 0.001)"},
         {"change", "C",
-         "change to be seen: so many times the median, or so much of a proportion (default 0.2, of "
-         "proportions 0.1)"},
+         "change to be seen: so many times the median, or so much of a proportion (default 0.2, of proportions 0.1)"},
         {"measure", "NAME", "a measure to watch; may be repeated (default: all that both have)", true},
         excluding({"group"},
                   {"block", "N", "take N consecutive moves as one value, their median (default 1)"}),
         {"group", "COLUMN",
          "take the moves of each group, by a column such as day, as one value: the groups are exchangeable"},
         {"unchanged", "PATHS",
-         "parameters or sections that cannot have changed, such as encoder,controller.kp; may be repeated "
-         "(beside a results file)",
+         "parameters or sections that cannot have changed, such as encoder,controller.kp; may be repeated (beside a results file)",
          true},
         {"point", "P", "design point of a results file"},
         {"condition", "NAME", "condition of a results file with conditions"},
@@ -228,8 +226,7 @@ commands::Command monitor_command() {
         {"machine", "R", "only this machine of a results file, from 0"},
         {"seed", "N", "seed of ties and of simulated changes (default 1)"},
         {"budget", "B",
-         "budget of the simulations after an alarm: a number of trials, or a time such as 60s (default: as "
-         "many trials as all parameters take, some 20000)"},
+         "budget of the simulations after an alarm: a number of trials, or a time such as 60s (default: as many trials as all parameters take, some 20000)"},
         {"follow", "", "read the log while it grows, and print lines of JSON until the alarm"},
         needing({"follow"}, {"idle", "S", "end after S seconds without new moves (default: never)"})},
        2,

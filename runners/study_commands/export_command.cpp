@@ -14,8 +14,7 @@ namespace {
 
 constexpr const char* export_help =
     "Writes the tables of a results file as CSV: points.csv, trials.csv, outcomes.csv and jerks.csv;\n"
-    "profiles.csv if there are profiles, machines.csv and machine_counts.csv if there are machines, "
-    "worlds.csv and\n"
+    "profiles.csv if there are profiles, machines.csv and machine_counts.csv if there are machines, worlds.csv and\n"
     "world_counts.csv if there are worlds, trace.csv if the study retains trials, levels.csv for an\n"
     "open-loop study, and four tables repeatability_….csv for one with a sequence of moves. A file\n"
     "without its trials (keep) gives the tables that it has. The header row has the units, such as\n"

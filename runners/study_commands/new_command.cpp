@@ -22,14 +22,12 @@ namespace zerocount::study_commands {
 namespace {
 
 constexpr const char* new_help =
-    "Copies a manifest that comes with the program to NAME.yaml in this folder, as the start of your own "
-    "study.\n"
+    "Copies a manifest that comes with the program to NAME.yaml in this folder, as the start of your own study.\n"
     "--list prints the names and questions of these manifests, and the guides.\n"
     "With --guide it writes a manifest of an axis on that guide instead, whose friction nobody has measured\n"
     "yet: each value has a range and its source (zerocount parameters --guides). It is a starting point, to\n"
     "be replaced by what zerocount identify finds. --breakaway, --travel and --secant say what was measured\n"
-    "of its friction spring: the force at which it slides, the travel up to there, and the force over "
-    "travel\n"
+    "of its friction spring: the force at which it slides, the travel up to there, and the force over travel\n"
     "at a shorter one. The stiffness to which it softens is drawn within what these allow.\n"
     "\n"
     "Examples:\n"

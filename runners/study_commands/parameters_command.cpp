@@ -163,33 +163,34 @@ ExitCode print_parameters(const command_line::Arguments& arguments) {
 }  // namespace
 
 commands::Command parameters_command() {
-  return {{"parameters",
-           "",
-           {answers::format_option(),
-            command_line::excluding(
-                {"guides"},
-                command_line::read_file({"manifest", "FILE",
-                                         "list the parameters of this study, which decides the units, "
-                                         "including each value of its lists"})),
-            command_line::needing(
-                {"manifest"}, {"set", "KEY=VALUE", "override a key of that manifest; may be repeated", true}),
-            command_line::excluding({"manifest", "guides"},
-                                    command_line::choice_option("axis", "AXIS", {"rotary", "linear"},
-                                                                "units on this kind of axis")),
-            command_line::excluding({"manifest", "guides"},
-                                    command_line::choice_option("units", "UNITS", {"count", "si"},
-                                                                "unit of the gains (controller.units)")),
-            {"guides", "", "list the starting values of guides and bearings, with their sources"}},
-           0,
-           0},
-          "list every parameter: unit, default, range, source",
-          "Every physical value of a manifest is a number or a distribution. Missing values take the\n"
-          "default, unless its unit differs: on a linear axis most values are required, and with\n"
-          "--units si the integral gain. Such values of friction show the range of common guides.\n",
-          print_parameters,
-          [] {
-            return std::vector{parameters_answer().complete_type(), guides_answer().complete_type()};
-          }};
+  return {
+      {"parameters",
+       "",
+       {answers::format_option(),
+        command_line::excluding(
+            {"guides"},
+            command_line::read_file(
+                {"manifest", "FILE",
+                 "list the parameters of this study, which decides the units, including each value of its lists"})),
+        command_line::needing({"manifest"},
+                              {"set", "KEY=VALUE", "override a key of that manifest; may be repeated", true}),
+        command_line::excluding(
+            {"manifest", "guides"},
+            command_line::choice_option("axis", "AXIS", {"rotary", "linear"}, "units on this kind of axis")),
+        command_line::excluding({"manifest", "guides"},
+                                command_line::choice_option("units", "UNITS", {"count", "si"},
+                                                            "unit of the gains (controller.units)")),
+        {"guides", "", "list the starting values of guides and bearings, with their sources"}},
+       0,
+       0},
+      "list every parameter: unit, default, range, source",
+      "Every physical value of a manifest is a number or a distribution. Missing values take the\n"
+      "default, unless its unit differs: on a linear axis most values are required, and with\n"
+      "--units si the integral gain. Such values of friction show the range of common guides.\n",
+      print_parameters,
+      [] {
+        return std::vector{parameters_answer().complete_type(), guides_answer().complete_type()};
+      }};
 }
 
 }  // namespace zerocount::study_commands

@@ -1,14 +1,13 @@
-#!/usr/bin/env python3
 """Checks the documented numbers: each claim of claims.yaml is simulated again with other seeds and with its premises.
 
-    claims.py pages ROOT                    each sentence of a claim, and each shared figure, stands in its pages
+    claims.py pages ROOT                    the marked numbers of the pages are those of the claims (marks.py); nothing is simulated
     claims.py run PROGRAM ROOT [PATTERN] [--seeds FIRST LAST]
                                             runs the claims whose name contains PATTERN; prints what it finds
 
-A value with a range fails where it lies outside with one of the seeds. One with `counts`, the successes and trials behind the page,
-fails where the successes of all seeds together differ from them by more than chance (Fisher's exact test). What is allowed follows from
-the numbers of trials, and not from the lowest and the highest seed that made the page. Pages have the counts of seeds 11 to 20
-(--seeds 11 20), and claims run others. Trials must be independent: set as many `machines` as `trials`.
+A value with `is` fails where it differs with one of the seeds, after rounding to the digits that the page has. One with `counts`, the
+successes and trials behind the page, fails where the successes of all seeds together differ from them by more than chance (Fisher's exact
+test). What is allowed follows from the numbers of trials, and not from the lowest and the highest seed that made the page. Pages have the
+counts of seeds 11 to 20 (--seeds 11 20), and claims run others. Trials must be independent: set as many `machines` as `trials`.
 """
 import argparse
 import json
@@ -22,34 +21,19 @@ import tempfile
 import yaml
 from scipy import stats
 
+import marks
+
 LEVEL = 1e-4   # of Fisher's test: with a hundred values that are right, one fails with a probability of 1 %
-
-
-def plain(text):
-    """The text of a page without the line breaks and emphasis that a quotation does not repeat."""
-    return re.sub(r"\s+", " ", text.replace("**", ""))
+CODE = 2.4e-4  # N m, a code of the converter of the paper's axis
+UNITS = {"%": lambda value: 100 * value,
+         "ms": lambda value: 1000 * value,
+         "codes": lambda value: math.sqrt(value) / CODE}  # rms of a torque from its mean square
+NUMBER = re.compile(r"\d[\d ]*(?:\.\d+)?")
 
 
 def load(root):
-    """The claims and the shared figures of claims.yaml."""
+    """The contents of claims.yaml."""
     return yaml.safe_load((root / "tests/claims/claims.yaml").read_text(encoding="utf-8"))
-
-
-def stated_sentences(documented):
-    """Each (name, page, sentence) that must stand in a page."""
-    for name, claim in documented["claims"].items():
-        for page, sentences in claim["says"].items():
-            yield from ((name, page, sentence) for sentence in sentences)
-    for name, figure in documented["figures"].items():
-        for page, sentence in figure["pages"].items():
-            yield name, page, sentence.replace("{}", figure["value"])
-
-
-def unsupported_numbers(claim):
-    """The numbers of the claim's result that are in none of its sentences and settings."""
-    number = re.compile(r"\d+(?:\.\d+)?")
-    known = number.findall(json.dumps([claim["says"], claim.get("set"), claim["checks"]]))
-    return sorted(set(number.findall(claim.get("result", ""))) - set(known))
 
 
 def cell(successes, trials):
@@ -65,23 +49,71 @@ def cell(successes, trials):
     return f"{shown} [{text(math.floor(1000 * low))}, {text(math.ceil(1000 * high))}]"
 
 
-def unstated_values(claim):
-    """The cells of the claim's counts that none of its sentences has."""
-    sentences = " ".join(sentence for page in claim["says"].values() for sentence in page)
-    cells = [cell(*value["counts"]) for check in claim["checks"] for value in check["values"] if "counts" in value]
-    return [text for text in cells if text not in sentences]
+def values_of(claim):
+    """All values of the claim's checks."""
+    return [value for check in claim["checks"] for value in check["values"]]
+
+
+def notations(value):
+    """How a page may write the value: with bounds or without, if it has counts."""
+    if "counts" not in value:
+        return [str(value["is"])]
+    with_bounds = cell(*value["counts"])
+    return [with_bounds, with_bounds.partition(" [")[0]]
+
+
+def is_word(value):
+    """Whether the value is a word, such as the status of a goal."""
+    return "counts" not in value and not NUMBER.match(str(value["is"]))
+
+
+def limits_of(value):
+    """The range of numbers, in the unit of the page, that agree with the value: those that are rounded to it, or `within`."""
+    if "within" in value:
+        return tuple(map(float, value["within"]))
+    stated = NUMBER.findall(str(value["is"]))
+    half = 0.5 * 10.0 ** -max(len(number.partition(".")[2]) for number in stated)
+    numbers = [float(number.replace(" ", "")) for number in stated]
+    return min(numbers) - half, max(numbers) + half
+
+
+def unclear_values(name, claim):
+    """Values that have no mark and are not said in words either, and those that disagree with their own limits; a message each."""
+    for value in values_of(claim):
+        if not is_word(value) and not {"mark", "row", "in_words"} & set(value):
+            yield f"{name}: {value['of']} has no `mark`, `row` or `in_words`"
+        if "within" in value:
+            low, high = value["within"]
+            outside = [number for number in NUMBER.findall(str(value["is"])) if not low <= float(number.replace(" ", "")) <= high]
+            if outside:
+                yield f"{name}: {', '.join(outside)} is not within {low} to {high}"
+
+
+def claimed_numbers(documented):
+    """What claims.yaml says must stand beside each mark: (name, marks.Numbers)."""
+    for name, figure in documented["figures"].items():
+        yield name, marks.Numbers([[str(figure["is"])]], pages=figure["pages"])
+    for command in documented["read_by_commands"].values():
+        yield from ((name, marks.Numbers([])) for name in command)
+    for claim in documented["claims"].values():
+        rows = {}
+        for value in values_of(claim):
+            if "mark" in value:
+                yield value["mark"], marks.Numbers([notations(value)], pages=[value.get("page", claim["page"])])
+            if "row" in value:
+                rows.setdefault(value["row"], []).append(notations(value))
+        yield from ((name, marks.Numbers(numbers, is_row=True, pages=[claim["page"]])) for name, numbers in rows.items())
 
 
 def check_pages(root):
-    """The sentences that a page no longer has, and the results with other numbers than the sentences; one message each."""
-    documented = load(root)
-    missing = [f"{page} does not say what claims.yaml has as {name}: {sentence}"
-               for name, page, sentence in stated_sentences(documented)
-               if plain(sentence) not in plain((root / page).read_text(encoding="utf-8"))]
-    missing += [f"{name}: no sentence of it says {text}"
-                for name, claim in documented["claims"].items() for text in unstated_values(claim)]
-    return missing + [f"{name}: its result has {', '.join(numbers)}, which no sentence or setting of it has"
-                      for name, claim in documented["claims"].items() if (numbers := unsupported_numbers(claim))]
+    """What differs between the pages and claims.yaml; one message each."""
+    documented, claims, messages = load(root), {}, []
+    for name, numbers in claimed_numbers(documented):
+        if claims.setdefault(name, numbers) != numbers:
+            messages.append(f"{name}: claims.yaml has two numbers with this name")
+    for name, claim in documented["claims"].items():
+        messages += unclear_values(name, claim)
+    return messages + list(marks.problems(marks.marks_of(root), claims))
 
 
 def manifest_of(claim, root):
@@ -125,12 +157,10 @@ def value_at(summary, wanted, path):
     return value
 
 
-def is_within(value, expected):
-    """A word must be equal; a number must lie in the range [low, high]. null is later than any time."""
-    if isinstance(expected, str):
-        return value == expected
-    low, high = expected
-    return low <= (float("inf") if value is None else value) <= high
+def in_unit_of_page(found, value):
+    """The value that was found, in the unit in which the page states it. None, which is later than any time, is infinite."""
+    convert = UNITS.get(value.get("unit"), lambda number: number)
+    return float("inf") if found is None else value.get("times", 1) * convert(found)
 
 
 def judged_counts(points, value):
@@ -142,10 +172,14 @@ def judged_counts(points, value):
 
 
 def judged_range(points, value):
-    """Whether the value of each seed lies within the stated range, and all as text."""
-    values = [found for found, _ in points]
-    shown = ", ".join("–" if v is None else v if isinstance(v, str) else f"{v:.4g}" for v in values)
-    return all(is_within(v, value["is"]) for v in values), f"{shown}; stated {value['is']}"
+    """Whether the value of each seed is what is stated, and all as text."""
+    if is_word(value):
+        values = [found for found, _ in points]
+        return all(found == value["is"] for found in values), f"{', '.join(values)}; stated {value['is']}"
+    low, high = limits_of(value)
+    values = [in_unit_of_page(found, value) for found, _ in points]
+    shown = ", ".join(f"{number:.4g}" for number in values)
+    return all(low <= number <= high for number in values), f"{shown}; stated {value['is']} ({low:.6g} to {high:.6g})"
 
 
 def run_claim(program, root, name, claim, seeds):

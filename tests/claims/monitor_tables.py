@@ -1,16 +1,15 @@
 #!/usr/bin/env python3
 """Rates and delays of `zerocount monitor`: false alarms by --block, of days and of exchangeable moves, and delays of detection.
 
-usage: monitor_tables.py PROGRAM MONITOR_RATES [--machines N]
+usage: monitor_tables.py PROGRAM MONITOR_RATES ROOT [--machines N]
 
-Compares what it finds with the tables of monitor_tables.txt.
+Compares what it finds with the marked tables of docs/monitor.md (marks.py).
 
 False alarms of exchangeable moves must not exceed what --alarm allows, and all must be near those stated; delays must be within a factor of
 1.5 and 4 moves.
 """
 import argparse
 import csv
-import itertools
 import json
 import math
 import pathlib
@@ -20,6 +19,8 @@ import sys
 import tempfile
 
 import numpy as np
+
+import marks
 
 STUDY = """zerocount: 1
 name: blocks
@@ -32,17 +33,6 @@ initial: {{encoder_phase: {{uniform: [0, 1]}}}}
 """
 MEASURES = ["arrival_time", "band_settling_time[1]", "overshoot", "outcome", "holding_torque"]
 BASELINE, MOVES = 300, 1000
-
-
-def cells_of(line):
-    return [cell.strip() for cell in line.strip().strip("|").split("|")]
-
-
-def stated_rows(head):
-    """Rows of the stated table with this head."""
-    lines = pathlib.Path(__file__).with_name("monitor_tables.txt").read_text(encoding="utf-8").splitlines()
-    first = next(i for i, line in enumerate(lines) if line.startswith(head)) + 2
-    return [cells_of(line) for line in itertools.takewhile(lambda line: line.startswith("|"), lines[first:])]
 
 
 def spread_of(count, of, all_of):
@@ -77,10 +67,10 @@ def machines_by_blocks(program, machines):
     return alarms
 
 
-def check_blocks(program, machines):
+def check_blocks(program, root, machines):
     failed = False
     found = machines_by_blocks(program, machines)
-    for row in stated_rows("| `--block` |"):
+    for row in marks.rows_below(root, "monitor-blocks"):
         block = int(row[0])
         for measure, cell in zip(MEASURES, row[1:]):
             said, here = int(cell.split()[0]), found[measure][block]
@@ -90,19 +80,19 @@ def check_blocks(program, machines):
     return failed
 
 
-def check_rates(rates):
+def check_rates(rates, root):
     """The tables that monitor_rates prints: false alarms of exchangeable moves, and delays of lognormal values."""
     failed = False
     printed = subprocess.run([rates], capture_output=True, text=True, check=True).stdout.splitlines()
-    rows = {tuple(cells_of(line)[:2]): cells_of(line)[2:] for line in printed if line.startswith("|")}
-    for row in stated_rows("| values | baseline |"):
+    rows = {tuple(marks.cells_of(line)[:2]): marks.cells_of(line)[2:] for line in printed if line.startswith("|")}
+    for row in marks.rows_below(root, "monitor-exchangeable"):
         kind = next(key for key in rows if key[1] == row[1] and key[0] in (row[0], {"continuous": "lognormal"}.get(row[0])))
         for alarm, said, here in zip((0.05, 0.01, 0.001), row[2:], rows[kind]):
             most = 1000 * alarm + 3 * math.sqrt(1000 * alarm)
             good = int(here) <= most and abs(int(here) - int(said)) <= spread_of(int(said), 1000, 1000)
             print(f"{row[0]}, baseline {row[1]}, --alarm {alarm}: {here} of 1000; stated: {said}{'' if good else '  <- differs'}", flush=True)
             failed = failed or not good
-    for row in stated_rows("| correlation |"):
+    for row in marks.rows_below(root, "monitor-days"):
         for said, here in zip(row[2:5], rows[tuple(row[:2])]):
             near = abs(int(here) - int(said)) <= spread_of(int(said), 200, 200)
             print(f"days, {row[0]}, {row[1]}: {here} of 200; stated: {said}{'' if near else '  <- differs'}", flush=True)
@@ -110,8 +100,8 @@ def check_rates(rates):
     first = {}
     for line in printed:                       # the first table of delays is of lognormal values
         if line.startswith("|") and re.match(r"\| [+-]", line):
-            first.setdefault(tuple(cells_of(line)[:2]), cells_of(line)[2:])
-    for row in stated_rows("| change | baseline |"):
+            first.setdefault(tuple(marks.cells_of(line)[:2]), marks.cells_of(line)[2:])
+    for row in marks.rows_below(root, "monitor-delays"):
         here = first[(row[0].replace("−", "-"), row[1])]
         for said, found in zip(row[2:], here):
             pairs = list(zip(np.fromstring(said, sep=","), np.fromstring(found, sep=",")))
@@ -125,10 +115,11 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("program")
     parser.add_argument("rates")
+    parser.add_argument("root", type=pathlib.Path)
     parser.add_argument("--machines", type=int, default=200)
     arguments = parser.parse_args()
-    failed = check_rates(arguments.rates) if arguments.rates != "-" else False
-    failed = check_blocks(arguments.program, arguments.machines) or failed
+    failed = check_rates(arguments.rates, arguments.root) if arguments.rates != "-" else False
+    failed = check_blocks(arguments.program, arguments.root, arguments.machines) or failed
     return 1 if failed else 0
 
 

@@ -3,7 +3,7 @@
 
 usage: monitors.py PROGRAM ROOT [--rows PATTERN]
 
-Prints each row, and fails where a delay that the page states is off by more than a factor of 1.5 and 4 moves.
+Prints each row, and fails where a delay that the page states beside its mark is off by more than a factor of 1.5 and 4 moves.
 """
 import argparse
 import csv
@@ -17,6 +17,8 @@ import tempfile
 import numpy as np
 from scipy.stats import mannwhitneyu
 
+import marks
+
 MACHINE = """zerocount: 1
 name: watched
 seed: 31
@@ -26,15 +28,16 @@ controller: {{ki: 4.0e-5, sample_rate: 2000}}
 command: {{targets: [{{integers: [-40, 40]}}], hold: 0.25}}
 initial: {{encoder_phase: {{uniform: [0, 1]}}}}
 """
+# The settings of each change, by the mark in its row.
 CHANGES = {
-    "k1 −5 %": ["friction.k1=104.5"],
-    "k1 −10 %": ["friction.k1=99"],
-    "k1 −20 %": ["friction.k1=88"],
-    "creep (alpha) × 2": ["friction.alpha=1"],
-    "encoder noise 0 → 0.2 counts": ["encoder.fine_errors.noise=0.2"],
-    "encoder scale that swings: 0.5 counts rms below 50 Hz": ["encoder.fine_errors={noise: 0.5, noise_bandwidth: 50}"],
-    "encoder scale that skips 1 % of the counts": ["encoder.fine_errors.missed=0.01"],
-    "breakaway −10 %": ["friction.breakaway=0.27"],
+    "monitor-k1-5": ["friction.k1=104.5"],
+    "monitor-k1-10": ["friction.k1=99"],
+    "monitor-k1-20": ["friction.k1=88"],
+    "monitor-creep": ["friction.alpha=1"],
+    "monitor-noise": ["encoder.fine_errors.noise=0.2"],
+    "monitor-scale-swings": ["encoder.fine_errors={noise: 0.5, noise_bandwidth: 50}"],
+    "monitor-scale-skips": ["encoder.fine_errors.missed=0.01"],
+    "monitor-breakaway": ["friction.breakaway=0.27"],
 }
 MEASURES = ["arrival_time", "band_settling_time[1]", "overshoot", "outcome", "holding_torque"]
 SEQUENCES, BASELINE, UNCHANGED, LONGEST, ALARM = 40, 500, 300, 2500, 0.001
@@ -113,12 +116,11 @@ def row_of(program, name, same, heads):
 
 
 def stated_delays(root, name):
-    """The two delays of the page's row; None where it says that they are not within the longest sequence."""
-    page = (root / "docs/monitor.md").read_text(encoding="utf-8")
-    line = next((line for line in page.splitlines() if line.startswith(f"| {name} |")), None)
-    if line is None:
-        sys.exit(f"docs/monitor.md has no row '{name}'")
-    cell = line.split("|")[2].strip()
+    """The two delays that the page has before the mark; None where it says that they are not within the longest sequence."""
+    row = next((mark.before for mark in marks.marks_of(root) if mark.name == name), None)
+    if row is None:
+        sys.exit(f"no page has the mark {name}")
+    cell = row.split("|")[-1].strip()
     return None if cell.startswith("not within") else [float(number) for number in cell.split(",")]
 
 

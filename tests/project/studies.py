@@ -1,11 +1,12 @@
-"""The list of shipped studies in docs/studies.md, from the manifests, the pages and the claims.
+"""The list of shipped studies in docs/studies.md, from the manifests and the pages.
 
 usage: studies.py ROOT            fails where the page has another list, or no page answers a study
        studies.py ROOT --write    writes the list into the page
 
-A study of which tests/claims/claims.yaml runs a result again has a row: the question of the manifest's first comment (its description where
-that asks none), and the result. Others are links. Each leads to the first heading of docs that names the study, or to the one above a
-table with it.
+A study with a result has a row: a link, the question of the manifest's first comment (its description where that asks none), and the
+result, which is written in the page. It states a number that is a claim of the study (tests/claims/marks.py), so that it is simulated again.
+Others are links. Each leads to the first heading of docs that names the study, or to the one above a table with it. To give a study a row,
+add `| [`NAME`]() | | RESULT |`.
 """
 
 import pathlib
@@ -17,10 +18,12 @@ import yaml
 
 from links import FENCED, HEADING, anchor_of
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+sys.path += [str(pathlib.Path(__file__).resolve().parents[1] / folder) for folder in ("support", "claims")]
+from marks import MARK  # noqa: E402
 from page_table import replace_table, table_in  # noqa: E402
 
 PAGE = "docs/studies.md"
+ROW = re.compile(r"^\| \[`([\w-]+)`\]\([^)]*\) \|.*\| (.*) \|$", re.MULTILINE)
 
 
 def question_of(text, manifest):
@@ -44,13 +47,30 @@ def answering_place(pages, name):
     return None
 
 
+def claimed_studies(root):
+    """The study of which each mark states a number."""
+    claims = yaml.safe_load((root / "tests/claims/claims.yaml").read_text(encoding="utf-8"))["claims"]
+    return {value[kind]: claim["manifest"] for claim in claims.values() for check in claim["checks"] for value in check["values"]
+            for kind in ("mark", "row") if kind in value}
+
+
+def results_of(root):
+    """The result of each study that has one in the page."""
+    studies = claimed_studies(root)
+    results = dict(ROW.findall(table_in(root / PAGE, "studies")))
+    for name, result in results.items():
+        marks = [mark if mark in studies else mark.rpartition(".")[0] for mark in MARK.findall(result)]
+        if name not in [studies.get(mark) for mark in marks]:
+            sys.exit(f"{PAGE}: {name}: its result has no number with the mark of a claim about this study (tests/claims)")
+    return results
+
+
 def lists(root):
     """The rows of the studies with a result, and the links of the others."""
     docs = root / "docs"
     pages = {page.relative_to(docs).as_posix(): FENCED.sub("", page.read_text(encoding="utf-8"))
              for page in sorted(docs.rglob("*.md")) if page != root / PAGE}
-    claims = yaml.safe_load((root / "tests/claims/claims.yaml").read_text(encoding="utf-8"))["claims"]
-    results = {claim["manifest"]: claim["result"] for claim in claims.values() if "result" in claim}
+    results = results_of(root)
     rows, links = [], []
     for path in sorted((root / "experiments/manifests").glob("*.yaml")):
         text = path.read_text(encoding="utf-8")

@@ -85,10 +85,10 @@ document::Description<IdentifiedLaw> law_description() {
       .value(in_data("misfit", "root mean square of the residuals, rad or m"), &IdentifiedLaw::misfit)
       .value(in_data("misfit_over_travel", "the same over the travel of the records", "1"),
              &IdentifiedLaw::misfit_over_travel)
-      .value({"bic_above_least", "BIC − best",
-              "Schwarz's criterion less that of the best law, the first one; negative for one that does not "
-              "explain the records"},
-             &IdentifiedLaw::information_criterion)
+      .value(
+          {"bic_above_least", "BIC − best",
+           "Schwarz's criterion less that of the best law, the first one; negative for one that does not explain the records"},
+          &IdentifiedLaw::information_criterion)
       .value({"explained", "encoder and noise explain it", "whether they explain the residuals"},
              [](Of r) { return r.checks.passed; })
       .value(in_data("spread", "root mean square of the residuals over their standard deviations", "1"),

@@ -62,15 +62,16 @@ document::Description<LostRow> lost_columns() {
                  if (!conditions.empty()) names.condition = conditions[row.claim.claim.condition];
                  return names;
                })
-      .value(document::everywhere(
-                 "lost", "seems lost from",
-                 "youngest age that was tried at which less than asked for meets the goal, to 10 %; null: "
-                 "none; in the unit of ages"),
-             [](Row row) { return row.claim.lost; })
-      .value(document::everywhere("met_until", "shown to be met up to",
-                                  "age up to and including which the goal is shown to be met, at its "
-                                  "confidence; null: not at the first"),
-             [](Row row) { return row.claim.met_until; })
+      .value(
+          document::everywhere(
+              "lost", "seems lost from",
+              "youngest age that was tried at which less than asked for meets the goal, to 10 %; null: none; in the unit of ages"),
+          [](Row row) { return row.claim.lost; })
+      .value(
+          document::everywhere(
+              "met_until", "shown to be met up to",
+              "age up to and including which the goal is shown to be met, at its confidence; null: not at the first"),
+          [](Row row) { return row.claim.met_until; })
       .value(document::everywhere(
                  "missed_from", "shown to be missed from",
                  "age from which on the goal is shown to be missed, at its confidence; null: none"),

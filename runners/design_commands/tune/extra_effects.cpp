@@ -94,15 +94,16 @@ void describe_delay(Items& items) {
                         "rate of the goal with a band one count wider, where it is not met"),
              [](Of t) { return found_by_extra<MoreDelay>(t).wider_band_rate; })
       .sentence(borne_delay_sentence)
-      .value(document::in_data("delay_lost",
-                               "controller.delay from which on the goal seems lost; with conditions that of "
-                               "the condition under which it is lost first",
-                               "samples"),
-             [](Of t) -> std::optional<double> {
-               const MoreDelay& delay = found_by_extra<MoreDelay>(t);
-               if (!delay.lost) return {};
-               return delay.delays[delayed_condition(delay, t)] + *delay.lost;
-             })
+      .value(
+          document::in_data(
+              "delay_lost",
+              "controller.delay from which on the goal seems lost; with conditions that of the condition under which it is lost first",
+              "samples"),
+          [](Of t) -> std::optional<double> {
+            const MoreDelay& delay = found_by_extra<MoreDelay>(t);
+            if (!delay.lost) return {};
+            return delay.delays[delayed_condition(delay, t)] + *delay.lost;
+          })
       .value(optional(document::in_data("delay_lost_condition", "that condition, with conditions")),
              [](Of t) -> std::optional<std::string> {
                const MoreDelay& delay = found_by_extra<MoreDelay>(t);

@@ -123,11 +123,10 @@ Description<Tuning> search_description() {
   return Description<Tuning>()
       .value(everywhere("points", "points", "points that were simulated"),
              [](Of t) { return t.answer.searched.result.points; })
-      .value(
-          in_data("telling_points",
-                  "points at which some moves meet the worst goal, more than 1 %, and too few; where hardly "
-                  "any point is one, the goal is not shown to be out of reach"),
-          [](Of t) { return t.answer.searched.landscape.telling; })
+      .value(in_data("telling_points",
+                     "points at which some moves meet the worst goal, more than 1 %, and too few; "
+                     "where hardly any point is one, the goal is not shown to be out of reach"),
+             [](Of t) { return t.answer.searched.landscape.telling; })
       .value(everywhere("trials", "trials", "trials of the search, and of those for other controls"),
              [](Of t) { return t.answer.searched.result.trials; })
       .value(in_data("seconds", "time", "s"), [](Of t) { return t.answer.seconds; })

@@ -327,8 +327,7 @@ void add_refusals(Items& items) {
   items.table(
       {.key = "refusals",
        .heading = "a drive engineer would refuse this",
-       .meaning = "what a drive engineer would refuse of the tuned values, although they may meet "
-                  "the goal"},
+       .meaning = "what a drive engineer would refuse of the tuned values, although they may meet the goal"},
       Description<Refusal>()
           .value({.key = "finding",
                   .meaning = "what an engineer would refuse",
@@ -336,8 +335,7 @@ void add_refusals(Items& items) {
                  &Refusal::finding)
           .value(everywhere("text", "finding", "the finding in a sentence"), &Refusal::text)
           .value(in_data("value",
-                         "proportion of the step, of the moves, of the converter's largest "
-                         "torque; degrees"),
+                         "proportion of the step, of the moves, of the converter's largest torque; degrees"),
                  &Refusal::value)
           .value(in_data("passes", "the value that passes"), &Refusal::largest)
           .value(everywhere("remedy", "to exclude it add", "what excludes it, as it stands in a manifest"),
@@ -349,8 +347,8 @@ void add_behaviour(Description<Tuning>& items) {
   items.table(
       {.key = "behaviour",
        .heading = "what the moves of the proof do",
-       .meaning = "what the moves of the proof do, by goal and condition; the torque at rest is of machines "
-                  "of the search where the study does not measure it"},
+       .meaning = "what the moves of the proof do, by goal and condition; "
+                  "the torque at rest is of machines of the search where the study does not measure it"},
       behaviour_columns(), [](Of t) -> const std::vector<MoveBehaviour>& { return t.answer.moves(); });
 }
 

@@ -1,4 +1,4 @@
-// Tables of tests/claims/monitor_tables.txt: false alarms, and delays beside a test of fixed length.
+// Tables of docs/monitor.md: false alarms, and delays beside a test of fixed length.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -151,8 +151,7 @@ ValueRule what_holds_the_axis(const study::StudyPlan& plan) {
         double largest = max_abs(l[torque]);
         if (l[load].high > 0.0)
           for (const study::ValueLimits& on_load : l.subspan(load_torque)) largest += max_abs(on_load);
-        // The bristle of dahl yields at the Coulomb level.
-        const double level = l[breakaway].low * (law == friction::FrictionModel::dahl ? l[ratio].low : 1.0);
+        const double level = friction::holding_limit(law, l[breakaway].low, l[ratio].low);
         if (!has_integral && level == 0.0 && largest > 0.0)
           faults.push_back({fmt::format("a disturbance of {} {} can reach the friction that is to hold it: "
                                         "friction.breakaway is drawn without a smallest value above 0",

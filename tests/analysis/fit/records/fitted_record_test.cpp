@@ -6,7 +6,7 @@
 
 #include "analysis/fit/presliding/identification.hpp"
 #include "analysis/fit/records/checked_record.hpp"
-#include "tests/analysis/identification/material_tests.hpp"
+#include "tests/analysis/fit/presliding/material_tests.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -6,7 +6,7 @@
 #include "analysis/fit/laws/law_identification.hpp"
 #include "analysis/fit/model.hpp"
 #include "core/friction/law.hpp"
-#include "tests/analysis/identification/material_tests.hpp"
+#include "tests/analysis/fit/presliding/material_tests.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "analysis/fit/model.hpp"
 #include "core/plant/plant.hpp"
-#include "tests/analysis/identification/material_tests.hpp"
+#include "tests/analysis/fit/presliding/material_tests.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "analysis/fit/observations.hpp"
-#include "tests/analysis/record_fit/wandering_path.hpp"
+#include "tests/analysis/fit/wandering_path.hpp"
 
 namespace zerocount::testing {
 namespace {

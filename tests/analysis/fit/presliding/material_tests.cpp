@@ -1,4 +1,4 @@
-#include "tests/analysis/identification/material_tests.hpp"
+#include "tests/analysis/fit/presliding/material_tests.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -10,7 +10,7 @@
 #include "analysis/fit/records/checked_record.hpp"
 #include "core/failure/failure.hpp"
 #include "core/plant/plant.hpp"
-#include "tests/analysis/identification/material_tests.hpp"
+#include "tests/analysis/fit/presliding/material_tests.hpp"
 
 namespace zerocount::testing {
 namespace {

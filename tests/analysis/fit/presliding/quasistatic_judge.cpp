@@ -1,4 +1,4 @@
-#include "tests/analysis/identification/quasistatic_judge.hpp"
+#include "tests/analysis/fit/presliding/quasistatic_judge.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "analysis/fit/record.hpp"
-#include "tests/analysis/identification/material_tests.hpp"
+#include "tests/analysis/fit/presliding/material_tests.hpp"
 
 namespace zerocount::testing {
 namespace {

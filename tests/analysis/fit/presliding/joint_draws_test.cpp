@@ -10,7 +10,7 @@
 #include "analysis/fit/presliding/identification.hpp"
 #include "core/numerics/interval.hpp"
 #include "experiments/parameters/parameter_table.hpp"
-#include "tests/analysis/identification/material_tests.hpp"
+#include "tests/analysis/fit/presliding/material_tests.hpp"
 
 namespace zerocount::testing {
 namespace {

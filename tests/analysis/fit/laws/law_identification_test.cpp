@@ -13,7 +13,7 @@
 
 #include "core/failure/failure.hpp"
 #include "core/friction/law.hpp"
-#include "tests/analysis/identification/material_tests.hpp"
+#include "tests/analysis/fit/presliding/material_tests.hpp"
 
 namespace zerocount::testing {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "analysis/fit/record.hpp"
 #include "core/friction/parameters.hpp"
-#include "tests/analysis/identification/material_tests.hpp"
+#include "tests/analysis/fit/presliding/material_tests.hpp"
 
 namespace zerocount::testing {
 

@@ -11,8 +11,8 @@
 
 #include "analysis/parallel/parallel.hpp"
 #include "core/failure/failure.hpp"
-#include "tests/analysis/identification/material_tests.hpp"
-#include "tests/analysis/identification/quasistatic_judge.hpp"
+#include "tests/analysis/fit/presliding/material_tests.hpp"
+#include "tests/analysis/fit/presliding/quasistatic_judge.hpp"
 
 namespace zerocount::testing {
 namespace {

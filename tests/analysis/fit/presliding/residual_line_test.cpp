@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "analysis/fit/presliding/identification.hpp"
-#include "tests/analysis/identification/material_tests.hpp"
+#include "tests/analysis/fit/presliding/material_tests.hpp"
 
 namespace zerocount {
 namespace {

@@ -135,9 +135,6 @@ inline const char* zero_count_table(const summary::StudySummary& summary) {
 /// A function that returns the short label of a point.
 std::function<std::string(const PointReading&)> short_label(const summary::StudySummary& summary);
 
-/// The description of a part's table, begun with the column "point".
-PointDescription labelled_points(const summary::StudySummary& summary);
-
 void add_goal(PointDescription& point, const summary::StudySummary& summary);
 document::Description<goal::ClaimVerdict> verdict_description(const goal::Question& question,
                                                               bool on_machines);

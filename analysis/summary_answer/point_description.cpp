@@ -175,10 +175,6 @@ std::function<std::string(Point)> short_label(const summary::StudySummary& summa
               summary.labels, summary.axes))](Point p) { return text::printable((*labels)[p.index()]); };
 }
 
-PointDescription labelled_points(const summary::StudySummary& summary) {
-  return PointDescription().value({.heading = "point"}, short_label(summary));
-}
-
 void add_axes(PointDescription& point, const summary::StudySummary& summary) {
   std::vector<const study::SweepAxis*> shown = summary::varying_parameters(summary.axes);
   if (shown.size() > max_swept_columns) shown.clear();

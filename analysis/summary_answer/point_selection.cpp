@@ -244,10 +244,6 @@ std::vector<std::int64_t> first_points(std::vector<std::int64_t> points, const P
   return points;
 }
 
-std::vector<std::int64_t> selected_points(const StudySummary& summary, const PointSelection& selection) {
-  return first_points(matching_points(summary, selection), selection);
-}
-
 namespace {
 
 using summary::StudySummary;

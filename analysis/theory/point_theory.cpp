@@ -319,11 +319,6 @@ void examine_springs(const ExaminedPoint& at, std::vector<KnownRotor>& known, Po
 
 }  // namespace
 
-PointTheory examine(const study::Study& study, std::int64_t point) {
-  std::vector<KnownRotor> none;
-  return examine(study, point, 0, none);
-}
-
 PointTheory examine(const study::Study& study, std::int64_t point, std::int64_t condition,
                     std::vector<KnownRotor>& rotors) {
   PointTheory theory;

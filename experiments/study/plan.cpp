@@ -51,11 +51,6 @@ std::string condition_text(const Study& study, std::int64_t condition) {
          study.conditions[static_cast<std::size_t>(condition)];
 }
 
-std::string_view turn_word(const Study& study) {
-  if (study.ages.at.empty()) return "condition";
-  return study.condition_names.empty() ? "age" : "condition and age";
-}
-
 bool changes_with_age(const StudyPlan& plan, std::size_t slot) {
   if (plan.agings.empty()) return false;
   const Value& base = plan.base[slot];

@@ -88,13 +88,6 @@ std::vector<double> AllTrialsFile::measure(std::string_view name, layout::RowRan
   return chosen(range, trials()->measure(name, local(range)), moves());
 }
 
-std::vector<double> AllTrialsFile::inputs_of(std::int64_t row) const {
-  std::vector<double> values;
-  for (std::size_t column = 0; column < input_columns().size(); ++column)
-    values.push_back(input(column, {row, 1}).front());
-  return values;
-}
-
 std::vector<layout::JerkRecord> AllTrialsFile::jerks_at(std::int64_t first, std::int64_t count) const {
   std::vector<layout::JerkRecord> found = trials()->jerks_at(first, count);
   if (!condition_) return found;

@@ -3,6 +3,7 @@
 #include <hdf5.h>
 
 #include "results/storage/file_contents.hpp"
+#include "tests/support/checksum.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount::testing {
@@ -113,7 +114,7 @@ void replace(const std::filesystem::path& path, const std::string& name, hid_t t
   H5Awrite(attribute, type, value);
   H5Sclose(space);
   H5Fclose(file);
-  storage::append_checksum(path);
+  append_checksum(path);
 }
 
 }  // namespace
@@ -134,7 +135,7 @@ void replace_by_texts(const std::filesystem::path& path, const std::string& data
   H5Sclose(space);
   H5Tclose(type);
   H5Fclose(file);
-  storage::append_checksum(path);
+  append_checksum(path);
 }
 
 std::map<std::string, std::string> stored_datasets(const std::filesystem::path& path) {
@@ -193,7 +194,7 @@ void rewrite_element(const std::filesystem::path& path, const std::string& name,
   H5Tclose(type);
   H5Dclose(dataset);
   H5Fclose(file);
-  storage::append_checksum(path);
+  append_checksum(path);
 }
 
 }  // namespace
@@ -240,7 +241,7 @@ void remove_attribute(const std::filesystem::path& path, const std::string& name
   const hid_t file = open_file(path, H5F_ACC_RDWR);
   H5Adelete(file, name.c_str());
   H5Fclose(file);
-  storage::append_checksum(path);
+  append_checksum(path);
 }
 
 void write_empty_hdf5(const std::filesystem::path& path) {

@@ -4,6 +4,7 @@
 #include "experiments/study/point_limits.hpp"
 #include "experiments/study/study_trial.hpp"
 #include "tests/experiments/manifest_texts.hpp"
+#include "tests/support/branch_law.hpp"
 
 namespace zerocount::manifest {
 namespace {
@@ -167,7 +168,7 @@ double drawn(const study::Study& study, std::int64_t index, const std::string& n
 }
 
 double virgin_torque(const friction::FrictionParameters& contact, double travel) {
-  return 0.5 * friction::branch_law(contact, 2.0 * travel);
+  return 0.5 * testing::branch_law(contact, 2.0 * travel);
 }
 
 /// Expects that the contact of the trial has the measured values, and that the stored inputs equal those of

@@ -6,9 +6,9 @@
 #include "results/hdf5/hdf5.hpp"
 #include "results/reading/export.hpp"
 #include "results/reading/first_difference.hpp"
-#include "results/storage/file_contents.hpp"
 #include "tests/results/failures.hpp"
 #include "tests/results/samples.hpp"
+#include "tests/support/checksum.hpp"
 #include "tests/support/merged_file.hpp"
 #include "tests/support/raw_hdf5.hpp"
 #include "tests/support/test.hpp"
@@ -210,7 +210,7 @@ std::filesystem::path with_world_count(const std::filesystem::path& original, co
     counts.write(point, 1, row.data());
   }
   file.close();
-  storage::append_checksum(path);
+  append_checksum(path);
   return path;
 }
 

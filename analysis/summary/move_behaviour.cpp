@@ -123,7 +123,7 @@ MoveBehaviour BehaviourCounter::behaviour_of(const RowValues& values, std::size_
 std::vector<MoveBehaviour> behaviour_in(const reading::AllTrialsFile& file, const study::Study& study,
                                         std::int64_t point) {
   BehaviourCounter counter(study);
-  const study::TrialTurns turns = study::turns_of(study);
+  const study::TrialIndices indices = study::trial_indices(study);
   const auto moves = static_cast<std::size_t>(file.moves());
   const std::int64_t trials = file.header().trials;
   const layout::RowRange rows{point * trials, trials};
@@ -136,7 +136,7 @@ std::vector<MoveBehaviour> behaviour_in(const reading::AllTrialsFile& file, cons
                              scales[i] = scale_of(study::commanded_trial(study, point, trial).parameters);
                            });
                            for (std::size_t i = 0; i < scales.size(); ++i)
-                             counter.add(scales[i], turns.condition_of(first + static_cast<std::int64_t>(i)),
+                             counter.add(scales[i], indices.condition_of(first + static_cast<std::int64_t>(i)),
                                          outcomes.subspan(i * moves, moves));
                          });
   return counter.behaviour();

@@ -200,9 +200,9 @@ struct ExaminedPoint {
   std::int64_t point;
   std::int64_t condition;
 
-  /// Parameters of the trial of this point and condition with the given draw (TrialTurns).
+  /// Parameters of the trial of this point and condition with the given draw (TrialIndices).
   trial::TrialParameters trial(std::int64_t draw) const {
-    return study::study_trial(study, point, study::turns_of(study).trial_of(draw, condition)).parameters;
+    return study::study_trial(study, point, study::trial_indices(study).trial_of(draw, condition)).parameters;
   }
 };
 

@@ -123,7 +123,7 @@ class MeasuredDraws {
   /// The contradiction in the measured values of a draw; empty if there is none.
   /// @param draw index of the draw under the condition of this point of the plan
   std::optional<study::MeasuredFault> fault_of(std::size_t point, std::int64_t draw) const {
-    const std::int64_t trial = study::turns_of(study_).trial_of(draw, study::condition_at(plan_, point));
+    const std::int64_t trial = study::trial_indices(study_).trial_of(draw, study::condition_at(plan_, point));
     const std::vector<double> numbers =
         study::drawn_numbers(study_, study::design_point(plan_, point), trial, measured_.slots);
     return study::fault_of_machine(plan_, point, measured_, [&](std::uint32_t slot) {

@@ -24,7 +24,7 @@ std::int64_t group_count(const Study& study, Grouping grouping) {
   return std::ssize(study.ages.at);
 }
 
-TrialTurns turns_of(const Study& study) {
+TrialIndices trial_indices(const Study& study) {
   const auto at_least_one = [](std::int64_t count) { return std::max<std::int64_t>(count, 1); };
   return {at_least_one(study.machines), condition_count(study), at_least_one(study.worlds),
           at_least_one(group_count(study, Grouping::age))};

@@ -124,11 +124,11 @@ std::string condition_text(const Study& study, std::int64_t condition);
 /// Number of groups; 0 if the study does not have the grouping.
 std::int64_t group_count(const Study& study, Grouping grouping);
 
-TrialTurns turns_of(const Study& study);
+TrialIndices trial_indices(const Study& study);
 
 /// The group of trial `trial_index` at every point.
 inline std::int64_t group_of(const Study& study, Grouping grouping, std::int64_t trial_index) {
-  return turns_of(study).group_of(grouping, trial_index);
+  return trial_indices(study).group_of(grouping, trial_index);
 }
 
 /// Number of draws per point: its number of trials under one condition.

@@ -70,7 +70,7 @@ class AllTrialsFile : public ResultsFile {
  private:
   /// The condition whose trials are read.
   struct OneCondition {
-    study::TrialTurns turns;
+    study::TrialIndices indices;
     std::int64_t number{0};
     std::int64_t trials{0};  ///< Trials of a design point, of all conditions together
   };

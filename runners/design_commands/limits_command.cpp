@@ -298,7 +298,7 @@ ExitCode limits(const command_line::Arguments& arguments) {
   const ExaminedPoint examined = point_to_examine(arguments);
   const command_line::Budget budget = command_line::budget_option(arguments);
   const status::InterruptionWatch interruption(status::InterruptionWatch::Unstopped::end);
-  const trials::Effort effort = trials::Effort(interruption.token()).share(budget.trials, budget.seconds);
+  const trials::Effort effort = trials::Effort(interruption.token()).limited_to(budget.trials, budget.seconds);
   commands::StageProgress progress("zerocount limits", false);
   std::optional<document::Answer> answer;
   const bool ended = unless_interrupted([&] {

@@ -28,9 +28,9 @@ constexpr double bytes_of_dataset = 3050.0;
 std::function<std::int64_t(std::int64_t)> twins_of(const study::Study& study, study::DrawLevel level) {
   const bool has_twins =
       level != study::DrawLevel::study && (level < study::DrawLevel::trial || !study.independent_points);
-  return [&study, level, has_twins, turns = study::turns_of(study)](std::int64_t row) {
+  return [&study, level, has_twins, indices = study::trial_indices(study)](std::int64_t row) {
     if (!has_twins) return row;
-    return turns.trial_of(turns.draw_of(row % study.trials) % study::draw_count(study, level), 0);
+    return indices.trial_of(indices.draw_of(row % study.trials) % study::draw_count(study, level), 0);
   };
 }
 

@@ -109,7 +109,7 @@ std::optional<monitor::ChangeExplanation> explanation_of(const command_line::Arg
                                                          const std::stop_token& stop) {
   if (!baseline.file || state.alarm == nullptr || baseline.file->header().plugin) return std::nullopt;
   const command_line::Budget budget = command_line::budget_option(arguments);
-  const trials::Effort effort = trials::Effort(stop).share(budget.trials, budget.seconds);
+  const trials::Effort effort = trials::Effort(stop).limited_to(budget.trials, budget.seconds);
   std::optional<monitor::ChangeExplanation> explanation;
   commands::with_progress("zerocount monitor", "simulating what may have changed", [&] {
     explanation = explain_alarm(*baseline.file, baseline.of_file, machine, log, baseline.unchanged, effort);

@@ -216,7 +216,7 @@ std::vector<report::PageSection> part_sections(const PartsSubject& subject,
   if (names.empty()) return sections;
   const summary::StudySummary summary = summary::summarise(subject.file);
   const Asked asked{subject.file, summary, summary::choose_point(summary, subject.point)};
-  const trials::Effort effort = trials::Effort(stop).share(budget.trials, budget.seconds);
+  const trials::Effort effort = trials::Effort(stop).limited_to(budget.trials, budget.seconds);
   const bool simulates =
       std::ranges::any_of(names, [&](std::string_view name) { return part_named(name).trials(asked) > 0; });
   const std::optional<double> speed = simulates ? speed_of(asked, effort) : std::nullopt;

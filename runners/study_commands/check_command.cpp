@@ -384,7 +384,7 @@ std::vector<PointReading> examined_points(const study::Study& study, std::int64_
     const std::int64_t condition = static_cast<std::int64_t>(i) % conditions;
     const auto index = static_cast<std::size_t>(point);
     const study::StudyTrial trial =
-        study::study_trial(study, point, study::turns_of(study).trial_of(0, condition));
+        study::study_trial(study, point, study::trial_indices(study).trial_of(0, condition));
     points[i] = {point,
                  study.points.labels[index],
                  names.size() == 1 ? std::nullopt : std::optional(names[index]),

@@ -48,7 +48,7 @@ Effort::Effort(std::stop_token stop) : account_(std::make_shared<Account>()) {
 
 Effort::Effort(std::shared_ptr<Account> account) : account_(std::move(account)) {}
 
-Effort Effort::share(std::optional<std::int64_t> trials, std::optional<double> seconds) const {
+Effort Effort::limited_to(std::optional<std::int64_t> trials, std::optional<double> seconds) const {
   auto account = std::make_shared<Account>();
   account->whole = account_;
   account->stopped = stop();
@@ -64,7 +64,7 @@ Effort Effort::share(std::optional<std::int64_t> trials, std::optional<double> s
 Effort Effort::part(std::int64_t parts) const {
   const std::int64_t trials = trials_left();
   const double seconds = seconds_left();
-  return share(
+  return limited_to(
       trials == std::numeric_limits<std::int64_t>::max() ? std::nullopt : std::optional(trials / parts),
       std::isinf(seconds) ? std::nullopt : std::optional(seconds / static_cast<double>(parts)));
 }

@@ -82,14 +82,14 @@ std::optional<std::size_t> TunedAxis::lost_claim(const study::Study& of, const C
   return reaches(aim_of(tuned), estimate) ? std::nullopt : std::optional(estimate.worst);
 }
 
-trials::Effort TunedAxis::one_of_shares(double parts, std::int64_t by_default) const {
+trials::Effort TunedAxis::one_of_parts(double parts, std::int64_t by_default) const {
   parts = std::max(parts, 1.0);
   if (budget.trials) {
     const std::int64_t left = std::max<std::int64_t>(effort.trials_left() - later, 0);
-    return effort.share(std::llround(static_cast<double>(left) / parts), {});
+    return effort.limited_to(std::llround(static_cast<double>(left) / parts), {});
   }
-  if (!budget.seconds) return effort.share(by_default, {});
-  return effort.share({}, (effort.seconds_left() - static_cast<double>(later) / speed) / parts);
+  if (!budget.seconds) return effort.limited_to(by_default, {});
+  return effort.limited_to({}, (effort.seconds_left() - static_cast<double>(later) / speed) / parts);
 }
 
 void make_extras(const std::vector<const Extra*>& wanted, TunedAxis& axis, bool quiet,

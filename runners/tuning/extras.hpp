@@ -43,7 +43,7 @@ struct TunedAxis : Space {
   std::optional<std::size_t> lost_claim(const study::Study& study, const Change* change) const;
   /// Effort for one of `parts` equal parts of what the budget leaves after the later extras are paid. Without
   /// a budget: `by_default` trials.
-  trials::Effort one_of_shares(double parts, std::int64_t by_default) const;
+  trials::Effort one_of_parts(double parts, std::int64_t by_default) const;
 };
 
 /// Cost of an extra.

@@ -59,7 +59,7 @@ double measured_speed(const study::Study& study, const trials::Effort& effort) {
   const bool limited = !std::isinf(effort.seconds_left());
   const trials::Effort whole = limited ? effort : trials::Effort(effort.stop());
   const trials::Effort part =
-      whole.share({}, limited ? part_of_time * whole.seconds_left() : longest_without_limit);
+      whole.limited_to({}, limited ? part_of_time * whole.seconds_left() : longest_without_limit);
   double fastest = 0.0;
   for (std::int64_t count = 8; count <= units.count; count *= 2) {
     const Clock::time_point start = Clock::now();
@@ -89,7 +89,7 @@ SearchPlan plan_search(const study::Study& study, const TuneBudget& budget, cons
   const std::int64_t each = search_trials_of_machine(study);
   const SearchScope scope = scope_of(study, free, max_units);
   if (!budget.trials && !budget.seconds)
-    return {default_search_size(study), whole.share(default_search_trials, {})};
+    return {default_search_size(study), whole.limited_to(default_search_trials, {})};
   const std::int64_t search = min_search_trials(study, free);
   const std::int64_t proof = min_proof_trials(study, 1);  // in its first attempt
   const std::int64_t left = affordable_trials(whole, spendable_part * speed);
@@ -107,23 +107,23 @@ SearchPlan plan_search(const study::Study& study, const TuneBudget& budget, cons
   }
   const auto half = static_cast<std::int64_t>(search_part * static_cast<double>(left));
   const std::int64_t trials = std::clamp(half, search, left - proof);
-  if (budget.trials) return {search_size(scope, trials / each), whole.share(trials, {})};
+  if (budget.trials) return {search_size(scope, trials / each), whole.limited_to(trials, {})};
   const auto simulated = static_cast<std::int64_t>(simulating_part * static_cast<double>(trials));
-  return {search_size(scope, simulated / each), whole.share({}, search_part * whole.seconds_left())};
+  return {search_size(scope, simulated / each), whole.limited_to({}, search_part * whole.seconds_left())};
 }
 
 SearchPlan plan_other_search(const study::Study& study, std::span<const study::FreeParameter> free,
-                             const trials::Effort& share, double speed) {
+                             const trials::Effort& effort, double speed) {
   const std::int64_t each = search_trials_of_machine(study);
   const std::int64_t judgement = std::min(
-      static_cast<std::int64_t>(judgement_part * static_cast<double>(affordable_trials(share, speed))),
+      static_cast<std::int64_t>(judgement_part * static_cast<double>(affordable_trials(effort, speed))),
       max_units_of_judgement * trials_of_machine(study));
-  const std::int64_t trials = affordable_trials(share, speed) - judgement;
+  const std::int64_t trials = affordable_trials(effort, speed) - judgement;
   if (trials < min_search_trials(study, free)) throw trials::Spent{};
-  const std::optional<double> seconds = std::isinf(share.seconds_left())
+  const std::optional<double> seconds = std::isinf(effort.seconds_left())
                                             ? std::nullopt
-                                            : std::optional((1.0 - judgement_part) * share.seconds_left());
-  return {search_size(scope_of(study, free, max_units / 2), trials / each), share.share(trials, seconds)};
+                                            : std::optional((1.0 - judgement_part) * effort.seconds_left());
+  return {search_size(scope_of(study, free, max_units / 2), trials / each), effort.limited_to(trials, seconds)};
 }
 
 std::int64_t least_trials_of_other_search(const study::Study& study,
@@ -142,10 +142,10 @@ RestPlan plan_rest(const study::Study& study, std::int64_t points, std::int64_t 
   return {std::clamp((left - trials_of_maps) / each, least, most), trials_of_maps};
 }
 
-std::int64_t units_of_judgement(const study::Study& study, const trials::Effort& share, double speed) {
+std::int64_t units_of_judgement(const study::Study& study, const trials::Effort& effort, double speed) {
   const std::int64_t worlds = std::max<std::int64_t>(study.worlds, 1);
   const std::int64_t most = std::min(trials::in_equal_worlds(study, max_units_of_judgement),
-                                     affordable_trials(share, speed) / trials_of_machine(study));
+                                     affordable_trials(effort, speed) / trials_of_machine(study));
   if (most < min_units_of_judgement) throw trials::Spent{};
   return most / worlds * worlds;
 }

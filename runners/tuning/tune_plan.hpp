@@ -52,7 +52,7 @@ SearchPlan plan_search(const study::Study& study, const TuneBudget& budget, cons
 /// Plans the search for another control so that the control can be judged on fresh machines afterwards.
 /// @throws trials::Spent if the effort is not enough for both
 SearchPlan plan_other_search(const study::Study& study, std::span<const study::FreeParameter> free,
-                             const trials::Effort& share, double speed);
+                             const trials::Effort& effort, double speed);
 
 /// Number of trials of the smallest search for another control, including its judgement.
 std::int64_t least_trials_of_other_search(const study::Study& study,
@@ -72,6 +72,6 @@ RestPlan plan_rest(const study::Study& study, std::int64_t points, std::int64_t 
 
 /// Number of machines on which another control is judged: 1000, or as many as the effort is enough for.
 /// @throws trials::Spent if the effort is not enough for 50 machines
-std::int64_t units_of_judgement(const study::Study& study, const trials::Effort& share, double speed);
+std::int64_t units_of_judgement(const study::Study& study, const trials::Effort& effort, double speed);
 
 }  // namespace zerocount::tuning

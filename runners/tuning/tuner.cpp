@@ -41,9 +41,9 @@ TuningJournal open_journal(const study::Study& study, const TuneSettings& settin
 /// page.
 trials::Effort whole_effort(const TuneSettings& settings, double elapsed, const std::stop_token& stop) {
   const TuneBudget& budget = settings.budget;
-  if (!budget.seconds) return trials::Effort(stop).share(budget.trials, {});
+  if (!budget.seconds) return trials::Effort(stop).limited_to(budget.trials, {});
   const double page = settings.page ? std::min(0.8, 0.2 * *budget.seconds) : 0.0;
-  return trials::Effort(stop).share({}, 0.97 * *budget.seconds - 0.05 - page - elapsed);
+  return trials::Effort(stop).limited_to({}, 0.97 * *budget.seconds - 0.05 - page - elapsed);
 }
 
 Failure out_of_time(TuningJournal& journal, const TuneBudget& budget, const std::string& what) {

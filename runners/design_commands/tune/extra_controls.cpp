@@ -31,7 +31,7 @@ tuning::ExtraCost cost_of_controls(const TunedAxis& axis) {
     least += tuning::least_trials_of_other_search(axis.study, one.free);
     ++searches;
   }
-  const trials::Effort each = axis.one_of_shares(static_cast<double>(searches), trials_of_control);
+  const trials::Effort each = axis.one_of_parts(static_cast<double>(searches), trials_of_control);
   return {.searches = least,
           .trials = searches * std::min(trials_of_control, tuning::affordable_trials(each, axis.speed)),
           .usual_part = 0.0};
@@ -96,9 +96,9 @@ std::any find_controls(TunedAxis& axis) {
   std::vector<TunedValues> tuned{values_by_name(axis.free(), axis.values)};
   Alternatives found;
   for (std::size_t i = 0; i < controls.size(); ++i) {
-    const trials::Effort share =
-        axis.one_of_shares(static_cast<double>(controls.size() - i), trials_of_control);
-    if (!tuning::ended(axis.effort, [&] { found.push_back(find_control(axis, controls[i], share, tuned)); }))
+    const trials::Effort part =
+        axis.one_of_parts(static_cast<double>(controls.size() - i), trials_of_control);
+    if (!tuning::ended(axis.effort, [&] { found.push_back(find_control(axis, controls[i], part, tuned)); }))
       axis.extras.left_out.push_back({fmt::format("controls ({})", controls[i].name), "controls"});
   }
   return found;

@@ -23,10 +23,10 @@ tuning::ExtraCost cost_of_delay(const tuning::TunedAxis& axis) {
 
 /// controller.delay of the first machine under each condition, samples.
 std::vector<double> delays_of(const study::Study& study) {
-  const study::TrialTurns turns = study::turns_of(study);
+  const study::TrialIndices indices = study::trial_indices(study);
   std::vector<double> delays;
-  for (std::int64_t condition = 0; condition < turns.conditions; ++condition)
-    delays.push_back(study::study_trial(study, 0, turns.trial_of(0, condition)).parameters.controller.delay);
+  for (std::int64_t condition = 0; condition < indices.conditions; ++condition)
+    delays.push_back(study::study_trial(study, 0, indices.trial_of(0, condition)).parameters.controller.delay);
   return delays;
 }
 

@@ -21,16 +21,16 @@ tuning::ExtraCost cost_of_room(const tuning::TunedAxis& axis) {
 
 Room room_of(std::size_t parameter, const tuning::TunedAxis& axis) {
   const tuning::UnitCubePoint place = tuning::place_of(axis.free(), axis.values);
-  const auto values = [&](double share) {
+  const auto values = [&](double fraction) {
     tuning::UnitCubePoint moved = place;
-    moved[parameter] = share;
+    moved[parameter] = fraction;
     Values at = axis.values;
     at[parameter] = tuning::values_at(axis.free(), moved)[parameter];
     return at;
   };
   std::optional<std::size_t> lost;
-  const auto holds = [&](double share) {
-    const std::optional<study::Study> study = tuning::at_values(axis.tuned, axis.free(), values(share));
+  const auto holds = [&](double fraction) {
+    const std::optional<study::Study> study = tuning::at_values(axis.tuned, axis.free(), values(fraction));
     if (!study) return false;
     const std::optional<std::size_t> claim = axis.lost_claim(*study, nullptr);
     if (claim) lost = claim;

@@ -80,7 +80,7 @@ trials::Effort before_final_race(const SearchProblem& problem, const trials::Eff
       (size.max_units - size.climbing_units) * (size.elites + 2) * problem.trials_of_unit;
   const std::int64_t least = std::min(size.max_units * problem.trials_of_unit, whole.trials_left());
   const double seconds = whole.seconds_left();
-  return whole.share(std::max(whole.trials_left() - final_trials, least),
+  return whole.limited_to(std::max(whole.trials_left() - final_trials, least),
                      std::isinf(seconds) ? std::nullopt : std::optional((1.0 - final_part) * seconds));
 }
 

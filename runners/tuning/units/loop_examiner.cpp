@@ -120,9 +120,9 @@ friction::LinearContacts contacts_of(const trial::TrialParameters& p, const Exam
   std::erase_if(contacts, [](const friction::LinearContact& contact) { return !contact.slides; });
   const int count = machine.softest == machine.stiffest ? 1 : stiffnesses;
   for (int i = 0; i < count; ++i) {
-    const double share = static_cast<double>(i) / (stiffnesses - 1);
+    const double fraction = static_cast<double>(i) / (stiffnesses - 1);
     contacts.insert(contacts.begin() + i,
-                    {"before sliding", machine.softest * std::pow(machine.stiffest / machine.softest, share),
+                    {"before sliding", machine.softest * std::pow(machine.stiffest / machine.softest, fraction),
                      p.plant.presliding_damping});
   }
   return contacts;
@@ -186,8 +186,8 @@ double missing_of(const theory::FrozenLoop& loop, const study::LoopMargins& marg
 bool keeps_margins(const Examination& machine, const study::LoopMargins& margins) {
   const Loops of = loops_of(machine);
   if (!none_unstable(of)) return false;
-  for (const double share : {0.5, 1.0}) {
-    if (margins.delay && !none_unstable(loops_of(machine, share * *margins.delay))) return false;
+  for (const double fraction : {0.5, 1.0}) {
+    if (margins.delay && !none_unstable(loops_of(machine, fraction * *margins.delay))) return false;
   }
   return parallel::holds_for_all(
       of.loops.size(), [&](std::size_t i) { return missing_of(of.loops[i].loop, margins) == 0.0; },
@@ -208,9 +208,9 @@ double shortfall_of(const Examination& machine, const study::LoopMargins& margin
   const Loops of = loops_of(machine);
   if (const double fastest = instability(of); fastest > 0.0) return 1.0 + fastest;
   double missing = 0.0;
-  for (const double share : {0.5, 1.0}) {
+  for (const double fraction : {0.5, 1.0}) {
     if (!margins.delay) break;
-    const double fastest = instability(loops_of(machine, share * *margins.delay));
+    const double fastest = instability(loops_of(machine, fraction * *margins.delay));
     missing = std::max(missing, fastest / (1.0 + fastest));
   }
   for (const theory::TrialLoop& one : of.loops) missing = std::max(missing, missing_of(one.loop, margins));
@@ -306,17 +306,17 @@ LoopExaminer::LoopExaminer(const study::Study& study, std::int64_t machines)
     : conditions_(std::ssize(study.conditions)) {
   const trial::TrialParameters first = study::study_trial(study, 0, 0).parameters;
   if (theory::has_no_linear_loop(first)) return;
-  const study::TrialTurns turns = study::turns_of(study);
+  const study::TrialIndices indices = study::trial_indices(study);
   std::vector<char> alike;  // [condition]
-  for (std::int64_t condition = 0; condition < turns.conditions; ++condition)
+  for (std::int64_t condition = 0; condition < indices.conditions; ++condition)
     alike.push_back(differ_in_stiffness_alone(study, condition, first.friction.model) ? 1 : 0);
   examined_ = std::ranges::count(alike, 0) == 0 ? machines : std::min(machines, max_unlike_machines);
-  std::vector<ExaminedMachine> all(static_cast<std::size_t>(examined_ * turns.conditions));
+  std::vector<ExaminedMachine> all(static_cast<std::size_t>(examined_ * indices.conditions));
   parallel::for_each_index(all.size(), [&](std::size_t i) {
-    const std::int64_t condition = static_cast<std::int64_t>(i) % turns.conditions;
-    const std::int64_t trial = turns.trial_of(static_cast<std::int64_t>(i) / turns.conditions, condition);
+    const std::int64_t condition = static_cast<std::int64_t>(i) % indices.conditions;
+    const std::int64_t trial = indices.trial_of(static_cast<std::int64_t>(i) / indices.conditions, condition);
     const auto [softest, stiffest] = theory::stiffness_range(study::study_trial(study, 0, trial).parameters);
-    const std::int64_t draw = static_cast<std::int64_t>(i) / turns.conditions;
+    const std::int64_t draw = static_cast<std::int64_t>(i) / indices.conditions;
     all[i] = {trial, condition, draw, spread_of_undrawn(study, condition), softest, stiffest};
   });
   for (const ExaminedMachine& one : all) {
@@ -331,7 +331,7 @@ LoopExaminer::LoopExaminer(const study::Study& study, std::int64_t machines)
     }
   }
   // The softest and the stiffest under each condition.
-  for (std::int64_t condition = 0; condition < turns.conditions; ++condition) {
+  for (std::int64_t condition = 0; condition < indices.conditions; ++condition) {
     std::optional<std::size_t> softest, stiffest;
     for (std::size_t i = 0; i < machines_.size(); ++i) {
       if (machines_[i].condition != condition) continue;

@@ -339,11 +339,11 @@ std::vector<UnitResult> results_of(const study::Study& study, const trials::Repl
 std::vector<UnitResult> results_in(const reading::AllTrialsFile& file, const study::Study& study,
                                    const trials::Replicates& units) {
   const TrialCounter counter(study);
-  const study::TrialTurns turns = study::turns_of(study);
+  const study::TrialIndices indices = study::trial_indices(study);
   std::vector<UnitResult> results(static_cast<std::size_t>(units.count));
   measures::visit_trials(file, file.rows(), [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
-    counter.add(moves, turns.condition_of(row),
-                results[static_cast<std::size_t>(turns.draw_of(row) % units.count)]);
+    counter.add(moves, indices.condition_of(row),
+                results[static_cast<std::size_t>(indices.draw_of(row) % units.count)]);
   });
   return results;
 }

@@ -419,7 +419,7 @@ WorstMachines worst_machines(const study::Study& study, const trials::Replicates
         MachineSearch(under_condition(study, condition), alone, name, folder, effort).run(likely_met));
     likely_met = std::min(likely_met, found.likely.met);
     found.of_study.claim.condition = static_cast<std::size_t>(condition);
-    found.of_study.trial = study::turns_of(study).trial_of(found.of_study.trial, condition);
+    found.of_study.trial = study::trial_indices(study).trial_of(found.of_study.trial, condition);
     found.of_study.names = names_of(study, found.of_study.claim);
     for (JudgedMachine* one : {&found.again, &found.in_box, &found.likely}) {
       one->condition = condition;

@@ -184,7 +184,7 @@ TEST_F(Worst, IsAskedAtOneAge) {
   ASSERT_EQ(one.code, 0) << one.err;
   const Json found = Json::parse(one.out);
   EXPECT_EQ(found["condition"], "cold, 1000000 cycles");
-  // Trials of the last turn, of the whole study.
+  // Trials of the last condition and age, of the whole study.
   EXPECT_GE(found["trial"].get<int>() / 8 % 4, 3);
   EXPECT_LE(Json::parse(all.out)["box"]["met"], found["box"]["met"]);
   EXPECT_EQ(program({"limits", "aging.yaml", "--age", "2"}).code, 2);

@@ -24,7 +24,7 @@ study::Study axis_study(const std::vector<std::string>& overrides = {}) {
 struct Searching {
   explicit Searching(std::int64_t trials, const std::vector<std::string>& overrides = {})
       : study(axis_study(overrides)),
-        space(space_of(study, {.trials = trials}, trials::Effort().share(trials, {}), {})),
+        space(space_of(study, {.trials = trials}, trials::Effort().limited_to(trials, {}), {})),
         plan(plan_search(study, space.budget, space.effort, space.speed)),
         search(study, space.free(), plan.size, journal, space.effort) {}
 

@@ -1,4 +1,4 @@
-// Coverage: of machines drawn at random, 95 % of the intervals hold the truth. A small share of what
+// Coverage: of machines drawn at random, 95 % of the intervals hold the truth. A small part of what
 // identification_coverage does at length.
 #include <cmath>
 

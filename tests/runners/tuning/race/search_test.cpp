@@ -22,7 +22,7 @@ double best_time(const MadeUpProblem& truth) {
 }
 
 trials::Effort effort_of(std::int64_t trials) {
-  return trials::Effort().share(trials, {});
+  return trials::Effort().limited_to(trials, {});
 }
 
 TEST(Search, FindsTheFastestPointThatMeetsTheGoal) {
@@ -50,8 +50,8 @@ TEST(Search, SpendsNoMoreThanItsEffort) {
   for (std::int64_t trials = 500; trials < 60'000; trials = trials * 3 / 2) {
     SearchProblem problem = truth.problem(2048);
     problem.size = search_size({.free = 2}, trials);
-    const trials::Effort whole = trials::Effort().share(trials + 77, {});
-    const SearchResult result = search(problem, {.seed = 3, .effort = whole.share(trials, {})});
+    const trials::Effort whole = trials::Effort().limited_to(trials + 77, {});
+    const SearchResult result = search(problem, {.seed = 3, .effort = whole.limited_to(trials, {})});
     EXPECT_LE(result.trials, trials);
     EXPECT_EQ(result.trials, whole.spent_trials());
     EXPECT_GT(result.trials, last / 2);

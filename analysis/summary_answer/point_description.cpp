@@ -301,8 +301,8 @@ bool has_several_trials_of_machines(const StudySummary& summary) {
 /// Adds a column of text made from the statistics of a point. @param table title of the table; empty: the
 /// table of points
 template <typename Cell>
-void add_cells(PointDescription& point, const std::string& table, const std::string& heading,
-               const std::string& meaning, Cell cell) {
+void add_text_column(PointDescription& point, const std::string& table, const std::string& heading,
+                     const std::string& meaning, Cell cell) {
   point.value({.heading = heading, .meaning = meaning, .numeric = true, .own_table = table},
               [cell](Point p) { return cell(p.statistics()); });
 }
@@ -344,20 +344,21 @@ void add_machines(PointDescription& point, const std::string& table, const Study
 
 void add_outcomes(PointDescription& point, const StudySummary& summary) {
   const std::string table = zero_count_table(summary);
-  add_cells(
+  add_text_column(
       point, table, "stable",
       "stable: proportion of trials whose moves all arrived and stayed within one count",
       [](Statistics p) { return text::percentage(p.of(&trial::MoveOutcome::stable).trials, p.judged); });
   if (any_undecided(summary)) {
-    add_cells(point, table, "undecided",
-              "undecided: proportion of trials whose worst move ended off target, stalled or still on its "
-              "way: neither stable nor shown unstable",
-              [](Statistics p) { return text::percentage(p.outcomes.off_target, p.judged); });
+    add_text_column(
+        point, table, "undecided",
+        "undecided: proportion of trials whose worst move ended off target, stalled or still on its "
+        "way: neither stable nor shown unstable",
+        [](Statistics p) { return text::percentage(p.outcomes.off_target, p.judged); });
   }
   for (const NotStable& reason : not_stable) {
     if (!is_shown(summary, reason)) continue;
-    add_cells(point, table, reason.head, reason.legend,
-              [trials = reason.trials](Statistics p) { return text::percentage(trials(p), p.judged); });
+    add_text_column(point, table, reason.head, reason.legend,
+                    [trials = reason.trials](Statistics p) { return text::percentage(trials(p), p.judged); });
   }
   add_machines(point, table, summary, goal::success(summary.question));
 }
@@ -421,12 +422,12 @@ void add_measure(PointDescription& point, const std::string& table, const StudyS
   const parameters::AxisKind axis = summary.features.axis;
   std::string legend = legend_line(summary, measure);
   for (const layout::SummaryColumn& column : measure.summary.columns) {
-    add_cells(point, table, parameters::text_on(axis, column.head), std::exchange(legend, ""),
-              [&measure, column](Statistics p) {
-                const measures::MeasureStatistics& of = p.of(measure);
-                return cell_text(column.text, p, measures::value_of(column.statistic, of)) +
-                       bounds_text(column, of);
-              });
+    add_text_column(point, table, parameters::text_on(axis, column.head), std::exchange(legend, ""),
+                    [&measure, column](Statistics p) {
+                      const measures::MeasureStatistics& of = p.of(measure);
+                      return cell_text(column.text, p, measures::value_of(column.statistic, of)) +
+                             bounds_text(column, of);
+                    });
   }
 }
 
@@ -453,12 +454,13 @@ void add_question_columns(PointDescription& point, const StudySummary& summary) 
           add_measure(point, "", summary, *measure);
       }
     } else {
-      add_cells(point, "", "95 % within",
-                "95 % within: 95 % quantile of the settling time of the moves that a goal asks, s, of the "
-                "worst goal and condition, which the rate is of",
-                [question = summary.question](Statistics p) {
-                  return settling_text(p, settling_of(question, p).p95.value);
-                });
+      add_text_column(
+          point, "", "95 % within",
+          "95 % within: 95 % quantile of the settling time of the moves that a goal asks, s, of the "
+          "worst goal and condition, which the rate is of",
+          [question = summary.question](Statistics p) {
+            return settling_text(p, settling_of(question, p).p95.value);
+          });
     }
     add_machines(point, "", summary, summary.question);
   }

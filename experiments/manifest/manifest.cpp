@@ -169,9 +169,9 @@ void require_equal_groups(Manifest& m, const yaml::Field& field, std::int64_t tr
   const study::TrialIndices indices = study::trial_indices(m.study());
   const std::int64_t round = indices.machines * indices.conditions;
   if (trials % round == 0) return;
-  m.problems().add(field,
-                   fmt::format("{} trials cannot be divided equally among {}", trials, groups_text(m.study())),
-                   fmt::format("a multiple of {}, such as {}", round, nearest_multiples(trials, round)));
+  m.problems().add(
+      field, fmt::format("{} trials cannot be divided equally among {}", trials, groups_text(m.study())),
+      fmt::format("a multiple of {}, such as {}", round, nearest_multiples(trials, round)));
 }
 
 // Every machine must have the same number of trials under each condition, also after each block of sequential
@@ -243,8 +243,9 @@ void read_observed(Manifest& m) {
 
 }  // namespace
 
-study::Study read_manifest(const yaml::YamlNode& root, bool recorded, const sections::Companions& companions,
-                           const sections::SamplesTable* samples, yaml::Problems& problems) {
+study::Study read_manifest(const yaml::YamlNode& root, bool recorded,
+                           const sections::ExternalInputs& external, const sections::SamplesTable* samples,
+                           yaml::Problems& problems) {
   auto plan = std::make_shared<study::StudyPlan>();
   study::Study study;
   Manifest m{.root = {&root, ""}, .reading = {problems, *plan, study, recorded}};
@@ -256,7 +257,7 @@ study::Study read_manifest(const yaml::YamlNode& root, bool recorded, const sect
   read_values(m);
   read_study_units(m.root, m.reading);
   sections::read_ages(m.root, m.reading);
-  sections::read_plugin(m.root, companions.plugin, m.reading);
+  sections::read_plugin(m.root, external.plugin, m.reading);
   sections::read_sections(m.root, m.reading, m.places);
   read_axes(m);
   read_conditions(m);
@@ -274,7 +275,7 @@ study::Study read_manifest(const yaml::YamlNode& root, bool recorded, const sect
   check_equal_groups(m);
   check_worlds(m);
   read_observed(m);
-  realise_profiles(m.reading.profiles, study, companions.rotors, *plan);
+  realise_profiles(m.reading.profiles, study, external.rotors, *plan);
   keys::check_profiles(m.reading);
   check_what_follows(m.places, m.reading);
   check_points(m.places, m.reading);

@@ -1,4 +1,4 @@
-#include "experiments/sections/companions.hpp"
+#include "experiments/sections/external_inputs.hpp"
 
 #include <utility>
 
@@ -35,8 +35,8 @@ void read_plugin(const yaml::Field& root, const PluginLoader& load, keys::Readin
   }
 }
 
-Companions known_companions(std::shared_ptr<const plugin::ControllerPlugin> plugin,
-                            std::optional<std::string> samples) {
+ExternalInputs known_external_inputs(std::shared_ptr<const plugin::ControllerPlugin> plugin,
+                                     std::optional<std::string> samples) {
   return {.plugin = known_plugin(std::move(plugin)),
           .samples = [samples = std::move(samples)](const std::string& path, std::string_view) {
             if (samples) return *samples;
@@ -45,12 +45,12 @@ Companions known_companions(std::shared_ptr<const plugin::ControllerPlugin> plug
           }};
 }
 
-Companions companions_of(const study::Study& study) {
+ExternalInputs external_inputs_of(const study::Study& study) {
   std::optional<std::string> samples;
   if (study.samples) samples = study.samples->text;
-  Companions companions = known_companions(study.plugin, std::move(samples));
-  companions.rotors = study.plan->profiles;
-  return companions;
+  ExternalInputs external = known_external_inputs(study.plugin, std::move(samples));
+  external.rotors = study.plan->profiles;
+  return external;
 }
 
 }  // namespace zerocount::sections

@@ -33,7 +33,7 @@ void read_plugin(const yaml::Field& root, const PluginLoader& load, keys::Readin
 using SamplesReader = std::function<std::string(const std::string& path, std::string_view what)>;
 
 /// Access to files and plugins that a manifest names. If a member is empty, the corresponding key is refused.
-struct Companions {
+struct ExternalInputs {
   PluginLoader plugin{};
   SamplesReader samples{};
   /// Profiles of a similar study. Equal profiles are shared, because realising the profiles of thousands of
@@ -41,11 +41,11 @@ struct Companions {
   std::vector<std::shared_ptr<const study::Rotors>> rotors{};
 };
 
-/// Companions of a study whose plugin and table of samples are known already.
-Companions known_companions(std::shared_ptr<const plugin::ControllerPlugin> plugin,
-                            std::optional<std::string> samples);
+/// ExternalInputs of a study whose plugin and table of samples are known already.
+ExternalInputs known_external_inputs(std::shared_ptr<const plugin::ControllerPlugin> plugin,
+                                     std::optional<std::string> samples);
 
-/// Companions for a variant of the study: its plugin, its samples and its profiles.
-Companions companions_of(const study::Study& study);
+/// ExternalInputs for a variant of the study: its plugin, its samples and its profiles.
+ExternalInputs external_inputs_of(const study::Study& study);
 
 }  // namespace zerocount::sections

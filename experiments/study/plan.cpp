@@ -54,8 +54,8 @@ std::string condition_text(const Study& study, std::int64_t condition) {
 bool changes_with_age(const StudyPlan& plan, std::size_t slot) {
   if (plan.agings.empty()) return false;
   const Value& base = plan.base[slot];
-  if (base.kind == Value::Kind::following) {
-    return std::ranges::any_of(plan.following[base.index].from,
+  if (base.kind == Value::Kind::derived) {
+    return std::ranges::any_of(plan.derived[base.index].from,
                                [&](std::uint32_t source) { return changes_with_age(plan, source); });
   }
   return base.aging || std::ranges::any_of(plan.axes, [slot](const PlanAxis& axis) {

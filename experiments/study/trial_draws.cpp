@@ -149,9 +149,9 @@ double drawn_number(const TrialDraws& draws, std::uint32_t slot, const Value& va
 
 double number_at(const TrialDraws& draws, std::uint32_t slot, std::size_t point) {
   const Value& value = *value_at_point(draws.plan(), slot, point);
-  return value.kind == Value::Kind::following
-             ? following_value(draws.plan().following[value.index],
-                               [&](std::uint32_t source) { return number_at(draws, source, point); })
+  return value.kind == Value::Kind::derived
+             ? derived_value(draws.plan().derived[value.index],
+                             [&](std::uint32_t source) { return number_at(draws, source, point); })
              : drawn_number(draws, slot, value, point);
 }
 

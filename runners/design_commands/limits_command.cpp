@@ -248,7 +248,7 @@ document::AnswerDescription<PointLimits> limits_answer() {
 /// About how often the units are run.
 double runs_of(const study::Study& study, const trials::Replicates& units) {
   constexpr double additions = 10.0;  // two, and the modes that are tried
-  return tuning::runs_of_limits(study, units.point, units.count) + additions;
+  return tuning::runs_of_causes(study, units.point, units.count) + additions;
 }
 
 constexpr std::int64_t fewest_units = 16;
@@ -290,7 +290,7 @@ Failure too_small(const command_line::Budget& budget, const study::Study& study,
   return {budget.trials ? ExitCode::bad_input : ExitCode::inconclusive,
           fmt::format("option '--budget': it is not enough: the causes of failures of this point take about "
                       "{} trials on all its {}; expected {} or more, for the first {}",
-                      trials_of_limits(study, point), study.machines > 0 ? "machines" : "trials", least,
+                      trials_of_causes(study, point), study.machines > 0 ? "machines" : "trials", least,
                       units.count)};
 }
 
@@ -298,13 +298,14 @@ ExitCode limits(const command_line::Arguments& arguments) {
   const ExaminedPoint examined = point_to_examine(arguments);
   const command_line::Budget budget = command_line::budget_option(arguments);
   const status::InterruptionWatch interruption(status::InterruptionWatch::Unstopped::end);
-  const trials::Effort effort = trials::Effort(interruption.token()).limited_to(budget.trials, budget.seconds);
+  const trials::Effort effort =
+      trials::Effort(interruption.token()).limited_to(budget.trials, budget.seconds);
   commands::StageProgress progress("zerocount limits", false);
   std::optional<document::Answer> answer;
   const bool ended = unless_interrupted([&] {
     return trials::within(effort, [&] {
-      answer = limits_of(examined.study, examined.point, effort,
-                         [&](const std::string& stage) { progress.enter(stage); });
+      answer = causes_answer(examined.study, examined.point, effort,
+                             [&](const std::string& stage) { progress.enter(stage); });
     });
   });
   if (ended) return answers::print(arguments, *answer);
@@ -313,19 +314,19 @@ ExitCode limits(const command_line::Arguments& arguments) {
 
 }  // namespace
 
-document::Answer limits_of(const study::Study& study, std::int64_t point, const trials::Effort& effort,
-                           const tuning::TellStage& tell) {
+document::Answer causes_answer(const study::Study& study, std::int64_t point, const trials::Effort& effort,
+                               const tuning::TellStage& tell) {
   if (tell) tell("the point as it is");
   const trials::Replicates units = affordable_units(study, point, effort);
   const tuning::EffectRuns runs(study, units, effort);
-  std::vector<Limit> found = tuning::limits_of(runs, tell);
+  std::vector<Limit> found = tuning::find_causes(runs, tell);
   std::vector<Limit> additions;
   if (!trials::within(effort, [&] { additions = tuning::additions_to(runs, tell); }))
     additions = {{"what a study may assume away", std::nullopt, "the budget ended"}};
   return limits_answer().of({study, units, std::move(found), std::move(additions)});
 }
 
-std::int64_t trials_of_limits(const study::Study& study, std::int64_t point) {
+std::int64_t trials_of_causes(const study::Study& study, std::int64_t point) {
   const trials::Replicates units = trials::replicates_of(study, point);
   return std::llround(runs_of(study, units) * static_cast<double>(units.trials()));
 }

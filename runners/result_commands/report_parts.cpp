@@ -43,7 +43,7 @@ struct TitledAnswer {
 using Answers = std::vector<TitledAnswer>;
 
 Answers limits_part(const Asked& asked, const trials::Effort& effort) {
-  return {{"", design_commands::limits_of(asked.study(), asked.chosen.point, effort)}};
+  return {{"", design_commands::causes_answer(asked.study(), asked.chosen.point, effort)}};
 }
 
 Answers worst_part(const Asked& asked, const trials::Effort& effort) {
@@ -96,7 +96,7 @@ struct Part {
 
 constexpr std::array<Part, 4> all_parts{{
     {"limits", "What limits it?", true, limits_part,
-     [](const Asked& a) { return design_commands::trials_of_limits(a.study(), a.chosen.point); }},
+     [](const Asked& a) { return design_commands::trials_of_causes(a.study(), a.chosen.point); }},
     {"worst", "Which machine does it suit worst?", true, worst_part,
      [](const Asked& a) {
        return tuning::trials_of_worst_machines(a.study(), trials::replicates_of(a.study(), a.chosen.point));

@@ -38,7 +38,7 @@ std::uint64_t fresh_seed(std::uint64_t seed, std::string_view purpose) {
 study::Study variant_of(const study::Study& study, const std::vector<std::string>& overrides) {
   std::vector<std::string> all = study.manifest.overrides;
   all.insert(all.end(), overrides.begin(), overrides.end());
-  return manifest::parse_study(study.manifest.text, study.name, all, sections::companions_of(study));
+  return manifest::parse_study(study.manifest.text, study.name, all, sections::external_inputs_of(study));
 }
 
 study::Study restricted_to(const study::Study& study, const std::optional<std::string>& condition,
@@ -75,7 +75,7 @@ study::PointEdit edited(const study::Study& study, std::span<const std::string> 
 std::string refusal_of_edit(const study::Study& study, const study::PointEdit& edit) {
   std::string refusal = rules::refusal_of(edit);
   for (std::int64_t condition = 0; condition < study::condition_count(study); ++condition) {
-    const study::ValueLimits hold = edit.limits("command.hold", condition);
+    const study::ParameterRange hold = edit.limits("command.hold", condition);
     for (const study::Goal& goal : study.goals) {
       for (const auto& fault : rules::longer_than_the_move(goal.within.time, hold))
         if (refusal.empty()) refusal = fmt::format("goal: {}; expected {}", fault.what, fault.expected);

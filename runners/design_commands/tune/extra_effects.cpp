@@ -26,7 +26,8 @@ std::vector<double> delays_of(const study::Study& study) {
   const study::TrialIndices indices = study::trial_indices(study);
   std::vector<double> delays;
   for (std::int64_t condition = 0; condition < indices.conditions; ++condition)
-    delays.push_back(study::study_trial(study, 0, indices.trial_of(0, condition)).parameters.controller.delay);
+    delays.push_back(
+        study::study_trial(study, 0, indices.trial_of(0, condition)).parameters.controller.delay);
   return delays;
 }
 
@@ -151,13 +152,13 @@ void describe_robustness(Items& items) {
 }
 
 tuning::ExtraCost cost_of_limits(const tuning::TunedAxis& axis) {
-  const std::int64_t points = std::llround(tuning::runs_of_limits(axis.tuned, 0, axis.search.units().count));
+  const std::int64_t points = std::llround(tuning::runs_of_causes(axis.tuned, 0, axis.search.units().count));
   return {.points = points, .trials = points * axis.units().trials()};
 }
 
 std::any find_limits(tuning::TunedAxis& axis) {
   const study::Study tuned = axis.on_units();
-  return tuning::limits_of(tuning::EffectRuns(tuned, axis.units(), axis.effort));
+  return tuning::find_causes(tuning::EffectRuns(tuned, axis.units(), axis.effort));
 }
 
 void describe_limits(Items& items) {

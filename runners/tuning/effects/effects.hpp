@@ -171,10 +171,10 @@ Estimate estimate_on(const study::Study& study, const trials::Replicates& units,
 /// If several pairs have nearly equal rates, another pair may be the best one.
 /// @param tell gets the name of the running stage
 /// @throws trial::Interrupted, trials::Spent
-std::vector<Limit> limits_of(const EffectRuns& runs, const TellStage& tell = {});
+std::vector<Limit> find_causes(const EffectRuns& runs, const TellStage& tell = {});
 
-/// Approximate cost of limits_of(), as a multiple of running `units` machines once.
-double runs_of_limits(const study::Study& study, std::int64_t point, std::int64_t units);
+/// Approximate cost of find_causes(), as a multiple of running `units` machines once.
+double runs_of_causes(const study::Study& study, std::int64_t point, std::int64_t units);
 
 /// The shown cause, or pair of causes, with the highest rate; null if none is shown.
 const Limit* main_cause(const std::vector<Limit>& limits);

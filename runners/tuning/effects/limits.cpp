@@ -186,7 +186,7 @@ Estimate estimate_on(const study::Study& study, const trials::Replicates& units,
   return estimate_of(aim_of(study), results_of(study, units, count, change, effort), count);
 }
 
-std::vector<Limit> limits_of(const EffectRuns& runs, const TellStage& tell) {
+std::vector<Limit> find_causes(const EffectRuns& runs, const TellStage& tell) {
   std::vector<Limit> limits{limit_of(runs, runs.base())};
   std::vector<ChangedPoint> alone = runs.points(idealisations_of);
   if (misses_nothing(limits.front())) {
@@ -202,7 +202,7 @@ std::vector<Limit> limits_of(const EffectRuns& runs, const TellStage& tell) {
   return limits;
 }
 
-double runs_of_limits(const study::Study& study, std::int64_t point, std::int64_t units) {
+double runs_of_causes(const study::Study& study, std::int64_t point, std::int64_t units) {
   const auto causes = static_cast<double>(idealisations_of(under_condition(study, 0), point).size());
   // Half of the pairs remain whenever their units double.
   const double part = static_cast<double>(first_units_of_pairs(units)) /

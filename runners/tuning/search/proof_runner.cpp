@@ -208,7 +208,8 @@ study::Study with_values_in_text(const study::Study& study, const std::vector<st
       overrides.push_back(one);
     }
   }
-  study::Study edited = manifest::parse_study(text, study.name, overrides, sections::companions_of(study));
+  study::Study edited =
+      manifest::parse_study(text, study.name, overrides, sections::external_inputs_of(study));
   edited.engine = study.engine;
   return edited;
 }

@@ -59,7 +59,7 @@ double age_factor(const MachineBox& box, const study::Value& value, const NamedV
   const auto drawn =
       std::ranges::find(values, plan.table.rows[aging.rate].name, &NamedValues::value_type::first);
   return study::factor_at_age(
-      aging, drawn != values.end() ? drawn->second : study::limits_of_slot(plan, aging.rate, point).typical,
+      aging, drawn != values.end() ? drawn->second : study::range_of_slot(plan, aging.rate, point).typical,
       study::age_at(plan, point));
 }
 

@@ -194,8 +194,8 @@ NamedValues inputs_of_machine(const study::Study& study, std::int64_t point, con
 std::vector<trial::TrialParameters> trials_of_manifest(const JudgedMachine& machine, const MachineBox& box,
                                                        std::int64_t first, std::int64_t step,
                                                        std::int64_t count) {
-  const study::Study alone =
-      manifest::parse_study(machine.manifest, box.study().name, {}, sections::companions_of(box.study()));
+  const study::Study alone = manifest::parse_study(machine.manifest, box.study().name, {},
+                                                   sections::external_inputs_of(box.study()));
   std::vector<trial::TrialParameters> trials;
   for (std::int64_t i = 0; i < count; ++i)
     trials.push_back(study::study_trial(alone, 0, first + i * step).parameters);

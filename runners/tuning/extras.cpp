@@ -15,7 +15,7 @@ namespace {
 
 using Wanted = std::span<const Extra* const>;
 
-/// Plans the units of a point and the maps.
+/// Plans the machines of a point and the maps.
 RestPlan plan_of(Wanted wanted, const TunedAxis& axis) {
   ExtraCost all;
   for (const Extra* one : wanted) {
@@ -66,19 +66,19 @@ void tell_all(Wanted wanted, const TunedAxis& axis, status::StatusLine& line) {
 
 }  // namespace
 
-trials::Replicates TunedAxis::units() const {
-  const trials::Replicates& all = search.units();
+trials::Replicates TunedAxis::machines() const {
+  const trials::Replicates& all = search.machines();
   if (!has_budget()) return all;
-  return {std::min(trials::in_equal_worlds(study, plan.units), all.count), all.trials_each};
+  return {std::min(trials::in_equal_worlds(study, plan.machines), all.count), all.trials_each};
 }
 
-study::Study TunedAxis::on_units(std::vector<std::string> overrides) const {
-  for (std::string& one : trials::overrides_for(study, units())) overrides.push_back(std::move(one));
+study::Study TunedAxis::on_machines(std::vector<std::string> overrides) const {
+  for (std::string& one : trials::overrides_for(study, machines())) overrides.push_back(std::move(one));
   return at_values(trials::variant_of(study, overrides), free(), values).value();
 }
 
 std::optional<std::size_t> TunedAxis::lost_claim(const study::Study& of, const Change* change) const {
-  const Estimate estimate = estimate_on(of, search.units(), plan.units, change, effort);
+  const Estimate estimate = estimate_on(of, search.machines(), plan.machines, change, effort);
   return reaches(aim_of(tuned), estimate) ? std::nullopt : std::optional(estimate.worst);
 }
 

@@ -31,11 +31,11 @@ struct TunedAxis : Space {
   std::int64_t later{0};  ///< Planned trials of the extras after the current one.
 
   /// Number of trials of a point on the planned machines.
-  std::int64_t trials_of_point() const { return plan.units * search.units().trials_each; }
+  std::int64_t trials_of_point() const { return plan.machines * search.machines().trials_each; }
   /// Machines of the extras: all machines of the search or, with a budget, the planned ones.
-  trials::Replicates units() const;
-  /// The tuned study on units().
-  study::Study on_units(std::vector<std::string> overrides = {}) const;
+  trials::Replicates machines() const;
+  /// The tuned study on machines().
+  study::Study on_machines(std::vector<std::string> overrides = {}) const;
   /// Index in Aim::claims of the worst claim if the first planned machines miss any claim. Nothing if they
   /// meet all.
   /// @param study the tuned study, or the study with other values

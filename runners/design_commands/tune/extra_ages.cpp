@@ -17,9 +17,9 @@ using document::Shown;
 using tuning::LostAges;
 using tuning::LostClaim;
 
-/// Machines of one age, as many as take the trials of the planned units, and enough to show that the goals
+/// Machines of one age, as many as take the trials of the planned machines, and enough to show that the goals
 /// are met if no move misses them.
-trials::Replicates units_of_ages(const tuning::TunedAxis& axis) {
+trials::Replicates machines_of_ages(const tuning::TunedAxis& axis) {
   const std::int64_t each = tuning::trials_of_machine(axis.study);
   const std::int64_t least = tuning::min_proof_trials(axis.study, 1) / each;
   return {trials::in_equal_worlds(axis.study, std::max(axis.trials_of_point() / each, least)),
@@ -30,12 +30,12 @@ tuning::ExtraCost cost_of_ages(const tuning::TunedAxis& axis) {
   const std::int64_t ages = std::ssize(axis.study.ages.at);
   const std::int64_t runs = tuning::points_of_lost_ages(axis.study);
   // A point has all ages.
-  return {.points = (runs + ages - 1) / ages, .trials = runs * units_of_ages(axis).trials()};
+  return {.points = (runs + ages - 1) / ages, .trials = runs * machines_of_ages(axis).trials()};
 }
 
 std::any find_lost_ages(tuning::TunedAxis& axis) {
   const study::Study tuned = trials::variant_of(axis.study, tuning::overrides_of(axis.free(), axis.values));
-  return tuning::lost_ages(tuned, units_of_ages(axis), axis.effort);
+  return tuning::lost_ages(tuned, machines_of_ages(axis), axis.effort);
 }
 
 struct LostRow {
@@ -85,7 +85,7 @@ std::string tried_ages_sentence(Of tuning) {
   return fmt::format(
       "simulated: {} machines, which the search did not use, at each of {} ages up to {}; the laws of aging "
       "are extrapolated beyond {}{}",
-      life->units, life->tried.size(), study::age_text(ages, life->tried.back().age),
+      life->machines, life->tried.size(), study::age_text(ages, life->tried.back().age),
       study::age_text(ages, ages.at.back()),
       life->refusal.empty() ? "" : "\nno older machines are simulated: " + life->refusal);
 }
@@ -118,7 +118,7 @@ std::vector<document::Figure> lost_ages_figures(Of tuning) {
       fmt::format("Proportions at each age that was tried, by {} machines that the search did not use, with "
                   "one-sided bounds at the goal's confidence. Dashed: what is asked. Beyond {}, the last age "
                   "of the study, the laws of aging are extrapolated.",
-                  life->units, study::age_text(study.ages, study.ages.at.back())),
+                  life->machines, study::age_text(study.ages, study.ages.at.back())),
       {std::move(data)});
   std::vector<double> ages;
   for (const tuning::AgeVerdict& at : life->tried) ages.push_back(at.age);

@@ -62,14 +62,14 @@ tuning::SearchResult search_control(TunedAxis& axis, const study::Study& study, 
 void judge_control(const TunedAxis& axis, const study::Study& study, const OtherControl& control,
                    const Values& values, const trials::Effort& effort, Alternative& alternative) {
   alternative.gains = named(control.free, values);
-  const trials::Replicates units{tuning::units_of_judgement(study, effort, axis.speed),
-                                 tuning::trials_of_machine(study)};
+  const trials::Replicates machines{tuning::machines_of_judgement(study, effort, axis.speed),
+                                    tuning::trials_of_machine(study)};
   std::vector<std::string> fresh = tuning::overrides_of(control.free, values);
   fresh.push_back(fmt::format("seed={}", trials::fresh_seed(study.seed, "tuning, alternative")));
-  for (const std::string& one : trials::overrides_for(study, units)) fresh.push_back(one);
+  for (const std::string& one : trials::overrides_for(study, machines)) fresh.push_back(one);
   tuning::Judged judged = tuning::judged(
-      study, units,
-      tuning::results_of(trials::variant_of(study, fresh), units, units.count, nullptr, effort));
+      study, machines,
+      tuning::results_of(trials::variant_of(study, fresh), machines, machines.count, nullptr, effort));
   alternative.criterion = judged.criterion;
   alternative.worst = tuning::names_of(study, {judged.verdict.goal, judged.verdict.condition});
   alternative.verdict = std::move(judged.verdict);

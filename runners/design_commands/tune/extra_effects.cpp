@@ -17,7 +17,7 @@ constexpr std::int64_t points_of_delay = 13;
 constexpr double max_more_delay = 5.0;  // samples
 
 tuning::ExtraCost cost_of_delay(const tuning::TunedAxis& axis) {
-  if (!axis.is_met) return {.trials = axis.units().trials()};
+  if (!axis.is_met) return {.trials = axis.machines().trials()};
   return {.points = points_of_delay, .trials = points_of_delay * axis.trials_of_point()};
 }
 
@@ -58,7 +58,7 @@ std::optional<double> rate_in_wider_band(const tuning::TunedAxis& axis, std::siz
     for (std::size_t b = *slot; b < p.verdict.bands.count; ++b) ++p.verdict.bands.limits[b];
   };
   const tuning::Estimate estimate =
-      tuning::estimate_on(axis.tuned, axis.search.units(), axis.units().count, &wider, axis.effort);
+      tuning::estimate_on(axis.tuned, axis.search.machines(), axis.machines().count, &wider, axis.effort);
   const std::size_t conditions = tuning::aim_of(axis.tuned).conditions;
   return std::ranges::min(std::span(estimate.rates).subspan(goal * conditions, conditions));
 }
@@ -117,7 +117,7 @@ constexpr std::int64_t points_of_robustness = 14;
 tuning::ExtraCost cost_of_robustness(const tuning::TunedAxis& axis) {
   return {.applies = axis.is_met,
           .points = points_of_robustness,
-          .trials = points_of_robustness * axis.units().trials()};
+          .trials = points_of_robustness * axis.machines().trials()};
 }
 
 /// The rates at the tuned values with other premises.
@@ -126,10 +126,10 @@ struct OtherPremises {
 };
 
 std::any find_robustness(tuning::TunedAxis& axis) {
-  const study::Study tuned = axis.on_units();
+  const study::Study tuned = axis.on_machines();
   return OtherPremises{tuning::variations_of(
-      tuning::EffectRuns(tuned, axis.units(), axis.effort), axis.units(),
-      [&](std::uint64_t seed) { return axis.on_units({fmt::format("seed={}", seed)}); })};
+      tuning::EffectRuns(tuned, axis.machines(), axis.effort), axis.machines(),
+      [&](std::uint64_t seed) { return axis.on_machines({fmt::format("seed={}", seed)}); })};
 }
 
 void describe_robustness(Items& items) {
@@ -152,13 +152,14 @@ void describe_robustness(Items& items) {
 }
 
 tuning::ExtraCost cost_of_limits(const tuning::TunedAxis& axis) {
-  const std::int64_t points = std::llround(tuning::runs_of_causes(axis.tuned, 0, axis.search.units().count));
-  return {.points = points, .trials = points * axis.units().trials()};
+  const std::int64_t points =
+      std::llround(tuning::runs_of_causes(axis.tuned, 0, axis.search.machines().count));
+  return {.points = points, .trials = points * axis.machines().trials()};
 }
 
 std::any find_limits(tuning::TunedAxis& axis) {
-  const study::Study tuned = axis.on_units();
-  return tuning::find_causes(tuning::EffectRuns(tuned, axis.units(), axis.effort));
+  const study::Study tuned = axis.on_machines();
+  return tuning::find_causes(tuning::EffectRuns(tuned, axis.machines(), axis.effort));
 }
 
 void describe_limits(Items& items) {

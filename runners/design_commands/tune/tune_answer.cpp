@@ -179,7 +179,7 @@ document::FigureData points_data(std::string name, const TuneAnswer& answer,
        {{"values", "values", ""},
         [&](const TriedPoint& one) { return ordered_json(values_text(named(answer.free, one.values))); }},
        {{"units", "machines or trials", "1"},
-        [](const TriedPoint& one) { return ordered_json(one.estimate.units); }}});
+        [](const TriedPoint& one) { return ordered_json(one.estimate.machines); }}});
 }
 
 std::vector<document::Figure> frontier_figures(Of tuning) {

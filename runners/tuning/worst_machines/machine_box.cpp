@@ -133,8 +133,8 @@ MachineBox::MachineBox(study::Study study, std::int64_t point)
   }
 }
 
-BoxPoint MachineBox::machine_of(std::int64_t unit) const {
-  return {given_.machines > 0 ? unit : 0, study::drawn_quantiles(given_, point_, unit, inputs_)};
+BoxPoint MachineBox::machine_of(std::int64_t machine) const {
+  return {given_.machines > 0 ? machine : 0, study::drawn_quantiles(given_, point_, machine, inputs_)};
 }
 
 /// Σ z² of the normal scores, divided by its limit for likely machines; above 1 the machine is outside the

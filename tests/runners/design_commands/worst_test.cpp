@@ -4,7 +4,7 @@
 #include "experiments/study/plan.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/all_trials_file.hpp"
-#include "runners/tuning/units/unit_runner.hpp"
+#include "runners/tuning/machine_runs/machine_runner.hpp"
 #include "tests/runners/design_commands/tune_fixture.hpp"
 #include "tests/runners/program.hpp"
 

@@ -1,5 +1,5 @@
 // Margins hold for every loop in which the machines of a study move.
-#include "runners/tuning/units/loop_examiner.hpp"
+#include "runners/tuning/machine_runs/loop_examiner.hpp"
 
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/study/condition_study.hpp"

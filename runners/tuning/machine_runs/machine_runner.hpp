@@ -15,8 +15,8 @@
 #include "results/reading/all_trials_file.hpp"
 #include "runners/trials/effort.hpp"
 #include "runners/trials/variant.hpp"
+#include "runners/tuning/machine_runs/finer_units.hpp"
 #include "runners/tuning/race/candidate.hpp"
-#include "runners/tuning/units/finer_units.hpp"
 
 /// Tuning of a study: the search on machines of its own, the proof on other machines, and the sensitivity of
 /// the answer to its premises.
@@ -79,33 +79,33 @@ ClaimNames names_of(const study::Study& study, const ClaimPlace& place);
 /// Changes the parameters of a trial after they are drawn.
 using Change = std::function<void(trial::TrialParameters&)>;
 
-/// Machines (units) [from, to) of a study that are to run.
-struct UnitsToRun {
+/// Machines [from, to) of a study that are to run.
+struct MachinesToRun {
   const study::Study* study{nullptr};
   std::int64_t from{0};
   std::int64_t to{0};
-  std::vector<UnitResult>* results{nullptr};  ///< [unit] Results, with one claim for each of aim_of().
-  const Change* change{nullptr};              ///< Changes each drawn trial; null: no change.
-  FinerUnits finer{};                         ///< Units of the changed trials.
+  std::vector<MachineResult>* results{nullptr};  ///< [machine] Results, with one claim for each of aim_of().
+  const Change* change{nullptr};                 ///< Changes each drawn trial; null: no change.
+  FinerUnits finer{};                            ///< Units of the changed trials.
 };
 
 /// Result of trials that all belong to one machine, under the first condition.
-UnitResult result_of(const study::Study& study, std::span<const trial::TrialOutcome> outcomes);
+MachineResult result_of(const study::Study& study, std::span<const trial::TrialOutcome> outcomes);
 
 /// Runs the trials of all entries on all cores. The results do not depend on the number of cores.
-/// @param units machines of each study, with their trials
+/// @param machines machines of each study, with their trials
 /// @throws trial::Interrupted, trials::Spent
-void run_units(std::span<const UnitsToRun> entries, const trials::Replicates& units,
-               const trials::Effort& effort);
+void run_machines(std::span<const MachinesToRun> entries, const trials::Replicates& machines,
+                  const trials::Effort& effort);
 
 /// Runs the first `count` machines of a study. Returns their results.
 /// @param change changes each drawn trial; null: no change
 /// @throws trial::Interrupted, trials::Spent
-std::vector<UnitResult> results_of(const study::Study& study, const trials::Replicates& units,
-                                   std::int64_t count, const Change* change, const trials::Effort& effort);
+std::vector<MachineResult> results_of(const study::Study& study, const trials::Replicates& machines,
+                                      std::int64_t count, const Change* change, const trials::Effort& effort);
 
 /// Results of all machines of a study with one design point, from its results file.
-std::vector<UnitResult> results_in(const reading::AllTrialsFile& file, const study::Study& study,
-                                   const trials::Replicates& units);
+std::vector<MachineResult> results_in(const reading::AllTrialsFile& file, const study::Study& study,
+                                      const trials::Replicates& machines);
 
 }  // namespace zerocount::tuning

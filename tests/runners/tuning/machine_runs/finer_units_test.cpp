@@ -1,5 +1,5 @@
 // A move that is judged by an encoder with finer counts, and told in counts of the study.
-#include "runners/tuning/units/finer_units.hpp"
+#include "runners/tuning/machine_runs/finer_units.hpp"
 
 #include "experiments/study/features.hpp"
 #include "results/layout/fields.hpp"

@@ -1,4 +1,4 @@
-#include "runners/tuning/units/finer_units.hpp"
+#include "runners/tuning/machine_runs/finer_units.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "runners/tuning/units/unit_runner.hpp"
+#include "runners/tuning/machine_runs/machine_runner.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -25,14 +25,14 @@ namespace {
 
 constexpr std::int64_t trials_of_reference = 8;  // of a block that lanes do not run
 
-/// A machine (unit) of an entry.
-struct UnitOfEntry {
-  const UnitsToRun* entry;
-  std::int64_t unit;
+/// A machine of an entry.
+struct MachineOfEntry {
+  const MachinesToRun* entry;
+  std::int64_t machine;
 };
 
 /// Machines that one thread runs at once. They belong to one or several entries.
-using Block = std::vector<UnitOfEntry>;
+using Block = std::vector<MachineOfEntry>;
 
 /// Adds the criterion's value of a move; infinity for "never". Adds nothing if the move has no such value.
 void add_value(std::vector<double>& values, const Criterion& criterion, const trial::MoveOutcome& move) {
@@ -52,7 +52,7 @@ class TrialCounter {
         criteria_(criteria_of(study)),
         conditions_(static_cast<std::size_t>(study::condition_count(study))) {}
 
-  void add(std::span<const trial::MoveOutcome> moves, std::int64_t condition, UnitResult& result) const {
+  void add(std::span<const trial::MoveOutcome> moves, std::int64_t condition, MachineResult& result) const {
     result.claims.resize(goals_.size() * conditions_);
     for (std::size_t goal = 0; goal < goals_.size(); ++goal) {
       ClaimResult& claim = result.claims[goal * conditions_ + static_cast<std::size_t>(condition)];
@@ -73,51 +73,52 @@ class TrialCounter {
 };
 
 /// Parameters of trial i of a machine, with the change of the entry applied.
-trial::TrialParameters trial_of(const UnitsToRun& entry, const trials::Replicates& units, std::int64_t unit,
-                                std::int64_t i) {
-  const std::int64_t trial = trials::trial_of_replicate(*entry.study, units, unit, i);
-  trial::TrialParameters parameters = study::study_trial(*entry.study, units.point, trial).parameters;
+trial::TrialParameters trial_of(const MachinesToRun& entry, const trials::Replicates& machines,
+                                std::int64_t machine, std::int64_t i) {
+  const std::int64_t trial = trials::trial_of_replicate(*entry.study, machines, machine, i);
+  trial::TrialParameters parameters = study::study_trial(*entry.study, machines.point, trial).parameters;
   if (entry.change != nullptr) (*entry.change)(parameters);
   return parameters;
 }
 
-std::vector<trial::TrialParameters> trials_of(const Block& block, const trials::Replicates& units) {
+std::vector<trial::TrialParameters> trials_of(const Block& block, const trials::Replicates& machines) {
   std::vector<trial::TrialParameters> trials;
-  for (const UnitOfEntry& one : block) {
-    for (std::int64_t i = 0; i < units.trials_each; ++i)
-      trials.push_back(trial_of(*one.entry, units, one.unit, i));
+  for (const MachineOfEntry& one : block) {
+    for (std::int64_t i = 0; i < machines.trials_each; ++i)
+      trials.push_back(trial_of(*one.entry, machines, one.machine, i));
   }
   return trials;
 }
 
 /// Number of machines in a block.
 /// @param all number of trials that are run together
-std::size_t units_of_block(const UnitsToRun& entry, const trials::Replicates& units, std::int64_t all) {
-  const bool in_lanes = batch::runs_in_lanes(trial_of(entry, units, entry.from, 0));
+std::size_t machines_of_block(const MachinesToRun& entry, const trials::Replicates& machines,
+                              std::int64_t all) {
+  const bool in_lanes = batch::runs_in_lanes(trial_of(entry, machines, entry.from, 0));
   const std::int64_t trials = in_lanes ? trials::block_for_lanes(all) : trials_of_reference;
-  return static_cast<std::size_t>(std::max<std::int64_t>(1, trials / units.trials_each));
+  return static_cast<std::size_t>(std::max<std::int64_t>(1, trials / machines.trials_each));
 }
 
 /// Divides the machines into the smallest number n of blocks of at most `size` machines. Block b gets the
 /// machines b, b + n, b + 2n, …, so it has machines of every entry with at least n machines. The time of a
 /// trial depends on its entry, so blocks with machines of a single entry would take different times.
-void add_blocks(std::span<const UnitOfEntry> units, std::size_t size, std::vector<Block>& blocks) {
-  const std::size_t count = (units.size() + size - 1) / size;
+void add_blocks(std::span<const MachineOfEntry> machines, std::size_t size, std::vector<Block>& blocks) {
+  const std::size_t count = (machines.size() + size - 1) / size;
   for (std::size_t block = 0; block < count; ++block) {
     blocks.emplace_back();
-    for (std::size_t i = block; i < units.size(); i += count) blocks.back().push_back(units[i]);
+    for (std::size_t i = block; i < machines.size(); i += count) blocks.back().push_back(machines[i]);
   }
 }
 
 /// Divides the machines of all entries into blocks of about equal work, however few machines each entry has.
 /// @param all number of trials of all entries
-std::vector<Block> blocks_of(std::span<const UnitsToRun> entries, const trials::Replicates& units,
+std::vector<Block> blocks_of(std::span<const MachinesToRun> entries, const trials::Replicates& machines,
                              std::int64_t all) {
-  std::map<std::size_t, std::vector<UnitOfEntry>> by_size;
-  for (const UnitsToRun& entry : entries) {
+  std::map<std::size_t, std::vector<MachineOfEntry>> by_size;
+  for (const MachinesToRun& entry : entries) {
     if (entry.from >= entry.to) continue;
-    std::vector<UnitOfEntry>& same = by_size[units_of_block(entry, units, all)];
-    for (std::int64_t unit = entry.from; unit < entry.to; ++unit) same.push_back({&entry, unit});
+    std::vector<MachineOfEntry>& same = by_size[machines_of_block(entry, machines, all)];
+    for (std::int64_t machine = entry.from; machine < entry.to; ++machine) same.push_back({&entry, machine});
   }
   std::vector<Block> blocks;
   for (const auto& [size, same] : by_size) add_blocks(same, size, blocks);
@@ -125,10 +126,10 @@ std::vector<Block> blocks_of(std::span<const UnitsToRun> entries, const trials::
 }
 
 /// Moves of trial i of a machine, converted to the units of its study.
-std::vector<trial::MoveOutcome> moves_in_study_units(const UnitOfEntry& one, const trials::Replicates& units,
-                                                     std::int64_t i,
+std::vector<trial::MoveOutcome> moves_in_study_units(const MachineOfEntry& one,
+                                                     const trials::Replicates& machines, std::int64_t i,
                                                      std::span<const trial::MoveOutcome> finer) {
-  const trial::TrialParameters parameters = trial_of(*one.entry, units, one.unit, i);
+  const trial::TrialParameters parameters = trial_of(*one.entry, machines, one.machine, i);
   std::vector<trial::MoveOutcome> moves;
   for (std::size_t move = 0; move < finer.size(); ++move)
     moves.push_back(in_study_units(finer[move], one.entry->finer, one.entry->study->features.bands,
@@ -136,14 +137,14 @@ std::vector<trial::MoveOutcome> moves_in_study_units(const UnitOfEntry& one, con
   return moves;
 }
 
-void add_outcomes(const Block& block, const trials::Replicates& units,
+void add_outcomes(const Block& block, const trials::Replicates& machines,
                   std::span<const trial::TrialOutcome> outcomes) {
   std::optional<TrialCounter> counter;
-  const UnitsToRun* entry = nullptr;
+  const MachinesToRun* entry = nullptr;
   std::int64_t conditions = 1;
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     const auto trial = static_cast<std::int64_t>(i);
-    const UnitOfEntry& one = block[i / static_cast<std::size_t>(units.trials_each)];
+    const MachineOfEntry& one = block[i / static_cast<std::size_t>(machines.trials_each)];
     if (one.entry != std::exchange(entry, one.entry)) {
       counter.emplace(*entry->study);
       conditions = study::condition_count(*entry->study);
@@ -151,9 +152,9 @@ void add_outcomes(const Block& block, const trials::Replicates& units,
     const bool same_units = entry->finer == FinerUnits{};
     const std::vector<trial::MoveOutcome> converted =
         same_units ? std::vector<trial::MoveOutcome>{}
-                   : moves_in_study_units(one, units, trial % units.trials_each, outcomes[i].moves);
-    counter->add(same_units ? outcomes[i].moves : converted, trial % units.trials_each % conditions,
-                 (*entry->results)[static_cast<std::size_t>(one.unit)]);
+                   : moves_in_study_units(one, machines, trial % machines.trials_each, outcomes[i].moves);
+    counter->add(same_units ? outcomes[i].moves : converted, trial % machines.trials_each % conditions,
+                 (*entry->results)[static_cast<std::size_t>(one.machine)]);
   }
 }
 
@@ -306,44 +307,45 @@ std::string claim_text(const study::Study& study, const ClaimPlace& place) {
          study::condition_text(study, static_cast<std::int64_t>(place.condition));
 }
 
-UnitResult result_of(const study::Study& study, std::span<const trial::TrialOutcome> outcomes) {
+MachineResult result_of(const study::Study& study, std::span<const trial::TrialOutcome> outcomes) {
   const TrialCounter counter(study);
-  UnitResult result;
+  MachineResult result;
   for (const trial::TrialOutcome& one : outcomes) counter.add(one.moves, 0, result);
   return result;
 }
 
-void run_units(std::span<const UnitsToRun> entries, const trials::Replicates& units,
-               const trials::Effort& effort) {
+void run_machines(std::span<const MachinesToRun> entries, const trials::Replicates& machines,
+                  const trials::Effort& effort) {
   trials::TrialSet set;
-  for (const UnitsToRun& entry : entries) {
+  for (const MachinesToRun& entry : entries) {
     entry.results->resize(static_cast<std::size_t>(entry.to));
-    set.count += (entry.to - entry.from) * units.trials_each;
+    set.count += (entry.to - entry.from) * machines.trials_each;
   }
-  const std::vector<Block> blocks = blocks_of(entries, units, set.count);
+  const std::vector<Block> blocks = blocks_of(entries, machines, set.count);
   set.blocks = blocks.size();
-  set.draw = [&](std::size_t block) { return trials_of(blocks[block], units); };
+  set.draw = [&](std::size_t block) { return trials_of(blocks[block], machines); };
   trials::run(set, effort, [&](std::size_t block, std::span<const trial::TrialOutcome> outcomes) {
-    add_outcomes(blocks[block], units, outcomes);
+    add_outcomes(blocks[block], machines, outcomes);
   });
 }
 
-std::vector<UnitResult> results_of(const study::Study& study, const trials::Replicates& units,
-                                   std::int64_t count, const Change* change, const trials::Effort& effort) {
-  std::vector<UnitResult> results;
-  const UnitsToRun all{&study, 0, std::min(count, units.count), &results, change};
-  run_units({&all, 1}, units, effort);
+std::vector<MachineResult> results_of(const study::Study& study, const trials::Replicates& machines,
+                                      std::int64_t count, const Change* change,
+                                      const trials::Effort& effort) {
+  std::vector<MachineResult> results;
+  const MachinesToRun all{&study, 0, std::min(count, machines.count), &results, change};
+  run_machines({&all, 1}, machines, effort);
   return results;
 }
 
-std::vector<UnitResult> results_in(const reading::AllTrialsFile& file, const study::Study& study,
-                                   const trials::Replicates& units) {
+std::vector<MachineResult> results_in(const reading::AllTrialsFile& file, const study::Study& study,
+                                      const trials::Replicates& machines) {
   const TrialCounter counter(study);
   const study::TrialIndices indices = study::trial_indices(study);
-  std::vector<UnitResult> results(static_cast<std::size_t>(units.count));
+  std::vector<MachineResult> results(static_cast<std::size_t>(machines.count));
   measures::visit_trials(file, file.rows(), [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
     counter.add(moves, indices.condition_of(row),
-                results[static_cast<std::size_t>(indices.draw_of(row) % units.count)]);
+                results[static_cast<std::size_t>(indices.draw_of(row) % machines.count)]);
   });
   return results;
 }

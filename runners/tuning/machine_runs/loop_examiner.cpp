@@ -1,4 +1,4 @@
-#include "runners/tuning/units/loop_examiner.hpp"
+#include "runners/tuning/machine_runs/loop_examiner.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -121,9 +121,10 @@ friction::LinearContacts contacts_of(const trial::TrialParameters& p, const Exam
   const int count = machine.softest == machine.stiffest ? 1 : stiffnesses;
   for (int i = 0; i < count; ++i) {
     const double fraction = static_cast<double>(i) / (stiffnesses - 1);
-    contacts.insert(contacts.begin() + i,
-                    {"before sliding", machine.softest * std::pow(machine.stiffest / machine.softest, fraction),
-                     p.plant.presliding_damping});
+    contacts.insert(
+        contacts.begin() + i,
+        {"before sliding", machine.softest * std::pow(machine.stiffest / machine.softest, fraction),
+         p.plant.presliding_damping});
   }
   return contacts;
 }

@@ -1,6 +1,6 @@
-// The units of many candidates run together: each gets the results that it has alone, for any number of
+// The machines of many candidates run together: each gets the results that it has alone, for any number of
 // threads.
-#include "runners/tuning/units/unit_runner.hpp"
+#include "runners/tuning/machine_runs/machine_runner.hpp"
 
 #include <oneapi/tbb/task_arena.h>
 
@@ -14,7 +14,7 @@ bool operator==(const ClaimResult& a, const ClaimResult& b) {
   return a.moves == b.moves && a.met == b.met && a.values == b.values;
 }
 
-bool operator==(const UnitResult& a, const UnitResult& b) {
+bool operator==(const MachineResult& a, const MachineResult& b) {
   return a.claims == b.claims && a.slid == b.slid;
 }
 
@@ -23,8 +23,8 @@ bool operator==(const UnitResult& a, const UnitResult& b) {
 namespace zerocount::testing {
 namespace {
 
-using tuning::UnitResult;
-using Results = std::vector<std::vector<UnitResult>>;
+using tuning::MachineResult;
+using Results = std::vector<std::vector<MachineResult>>;
 
 /// Two conditions. @param section a further one of the manifest.
 study::Study study_with(double ki, const std::string& section) {
@@ -69,11 +69,11 @@ Entries random_entries(std::mt19937_64& random) {
 
 Results together(const Entries& of, int threads) {
   Results results(of.studies.size());
-  std::vector<tuning::UnitsToRun> entries;
+  std::vector<tuning::MachinesToRun> entries;
   for (std::size_t i = 0; i < results.size(); ++i)
     entries.push_back({&of.studies[i], of.from[i], of.to[i], &results[i], nullptr});
   const parallel::ThreadLimit limit(threads);
-  oneapi::tbb::task_arena(threads).execute([&] { tuning::run_units(entries, {200, 2}, {}); });
+  oneapi::tbb::task_arena(threads).execute([&] { tuning::run_machines(entries, {200, 2}, {}); });
   return results;
 }
 
@@ -84,12 +84,12 @@ TEST(UnitRunner, ResultsAreThoseOfEachCandidateAloneOnAnyNumberOfThreads) {
     const Results results = together(entries, 1);
     for (const int threads : {2, 5, 16}) EXPECT_TRUE(together(entries, threads) == results) << threads;
     for (std::size_t i = 0; i < results.size(); ++i) {
-      std::vector<UnitResult> alone =
+      std::vector<MachineResult> alone =
           tuning::results_of(entries.studies[i], {200, 2}, entries.to[i], nullptr, {});
       ASSERT_EQ(std::ssize(results[i]), entries.to[i]);
-      for (std::int64_t unit = entries.from[i]; unit < entries.to[i]; ++unit) {
-        const auto at = static_cast<std::size_t>(unit);
-        ASSERT_TRUE(results[i][at] == alone[at]) << round << " " << i << " " << unit;
+      for (std::int64_t machine = entries.from[i]; machine < entries.to[i]; ++machine) {
+        const auto at = static_cast<std::size_t>(machine);
+        ASSERT_TRUE(results[i][at] == alone[at]) << round << " " << i << " " << machine;
         EXPECT_EQ(alone[at].claims.size(), 2);
       }
     }

@@ -262,7 +262,7 @@ Description<PointComparison> point_description() {
   const auto several = Description<PointComparison>().table(
       {.key = "goals",
        .meaning = "verdicts on each of several goals",
-       .shown = document::Shown::in_json,
+       .shown = document::Visibility::in_json,
        .optional = true},
       Description<GoalStatuses>()
           .value(in_data("name", "name of the goal"), &GoalStatuses::name)
@@ -273,7 +273,7 @@ Description<PointComparison> point_description() {
       .value(in_data("label", "label of the design point, with the condition"), &PointComparison::label)
       .value({.key = "condition",
               .meaning = "condition that the trials are under",
-              .shown = document::Shown::in_json,
+              .shown = document::Visibility::in_json,
               .optional = true},
              [](Point p) { return p.condition.empty() ? std::nullopt : std::optional(p.condition); })
       .value(gate_item("verdict", "verdict of the gate"), [](Point p) { return to_string(p.verdict); })

@@ -81,7 +81,8 @@ std::vector<const layout::Measure*> counted_qualities(const study::StudyFeatures
 /// Adds one field as a value. @param subject_of function that returns the subject of a row by reference
 template <class Row, class Subject, class Get>
 void add_field(document::Description<Row>& description, const text::ReportField<Subject>& field,
-               const std::string& key, parameters::AxisKind axis, document::Shown shown, Get subject_of) {
+               const std::string& key, parameters::AxisKind axis, document::Visibility shown,
+               Get subject_of) {
   document::Item item{.key = key,
                       .meaning = parameters::text_on(axis, field.long_name),
                       .unit = parameters::unit_on(axis, field.unit),
@@ -108,7 +109,7 @@ void add_fields(document::Description<Row>& description,
   std::vector<std::string> groups;
   for (const Field& field : fields) {
     if (field.group.empty()) {
-      add_field(description, field, field.name, axis, document::Shown::in_data, subject_of);
+      add_field(description, field, field.name, axis, document::Visibility::in_data, subject_of);
       continue;
     }
     if (std::ranges::find(groups, field.group) != groups.end()) continue;
@@ -116,13 +117,14 @@ void add_fields(document::Description<Row>& description,
     document::Description<Subject> group;
     for (const Field& member : fields) {
       if (member.group != field.group) continue;
-      add_field(group, member, member.name, axis, document::Shown::in_data,
+      add_field(group, member, member.name, axis, document::Visibility::in_data,
                 [](const Subject& subject) -> const Subject& { return subject; });
     }
     std::string meaning = "statistics of " + field.group;
     std::ranges::replace(meaning, '_', ' ');
-    description.object({.key = field.group, .meaning = std::move(meaning), .shown = document::Shown::in_data},
-                       std::move(group), subject_of);
+    description.object(
+        {.key = field.group, .meaning = std::move(meaning), .shown = document::Visibility::in_data},
+        std::move(group), subject_of);
   }
 }
 
@@ -140,13 +142,13 @@ struct LimitList {
 };
 
 inline LimitList list_of_bands() {
-  return {{.key = "bands", .meaning = "statistics by error band", .shown = document::Shown::in_json},
+  return {{.key = "bands", .meaning = "statistics by error band", .shown = document::Visibility::in_json},
           {.key = "band", .meaning = "largest error of the band", .unit = "count"}};
 }
 inline LimitList list_of_tolerances(parameters::AxisKind axis) {
   return {{.key = "tolerances",
            .meaning = "statistics by tolerance of the position error",
-           .shown = document::Shown::in_json},
+           .shown = document::Visibility::in_json},
           {.key = "tolerance",
            .meaning = "largest position error within the tolerance",
            .unit = parameters::unit_on(axis, "rad")}};
@@ -191,7 +193,7 @@ void add_by_limit(document::Description<Row>& description,
                       return readings;
                     });
   for (const text::ReportField<Subject>& field : fields)
-    add_field(description, field, text::flat_name(field), axis, document::Shown::in_csv, subject_of);
+    add_field(description, field, text::flat_name(field), axis, document::Visibility::in_csv, subject_of);
 }
 
 }  // namespace zerocount::measures

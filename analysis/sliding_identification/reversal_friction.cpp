@@ -22,7 +22,7 @@ double friction_near(const SlidingRecord& record, const SlidingPoint& point, std
     of_position += record.shape[k][j] * point[static_cast<Eigen::Index>(position_amplitudes + j)];
   const double interval = (record.time[k + half] - record.time[k - half]) / (2.0 * half);
   double slope = 0.0;
-  double bend = 0.0;
+  double weighted_sum = 0.0;
   double squares = 0.0;
   double quartics = 0.0;
   double torque = 0.0;
@@ -32,13 +32,14 @@ double friction_near(const SlidingRecord& record, const SlidingPoint& point, std
     slope += at * moved;
     squares += at * at;
     quartics += at * at * at * at;
-    bend += at * at * moved;
+    weighted_sum += at * at * moved;
     if (i < 2 * half) torque += record.torque[k - half + i].now / (2.0 * half);
   }
   const double count = 2.0 * half + 1.0;
   double sum = 0.0;
   for (std::size_t i = 0; i <= 2 * half; ++i) sum += record.position[k - half + i] - record.position[k];
-  const double acceleration = 2.0 * (count * bend - squares * sum) / (count * quartics - squares * squares);
+  const double acceleration =
+      2.0 * (count * weighted_sum - squares * sum) / (count * quartics - squares * squares);
   const double velocity = slope / squares;
   return torque - point[offset_torque] - of_position -
          std::exp(point[log_inertia]) * acceleration / (interval * interval) -

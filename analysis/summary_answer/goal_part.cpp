@@ -13,7 +13,7 @@
 namespace zerocount::summary_answer {
 namespace {
 
-using document::Shown;
+using document::Visibility;
 using Point = const PointReading&;
 using Verdict = const goal::ClaimVerdict&;
 
@@ -90,7 +90,7 @@ document::Description<goal::ClaimVerdict> verdict_description(const goal::Questi
   if (std::ranges::any_of(question.parts, [](const auto& part) { return part.claim->beside_load; }))
     description.object({.key = "other_mass",
                         .meaning = "the same of the load, which the goal of the motor does not ask",
-                        .shown = Shown::in_data,
+                        .shown = Visibility::in_data,
                         .optional = true},
                        goal::load_description(), &goal::ClaimVerdict::of_load);
   if (on_machines)
@@ -121,9 +121,11 @@ void add_goal(PointDescription& point, const summary::StudySummary& summary) {
       verdict_description(question, summary.features.machines), &PointReading::verdict);
   const bool several = has_names(question);
   if (several)
-    point.object(
-        {.key = "goals", .meaning = "each of the goals, by name", .shown = Shown::in_data, .free_keys = true},
-        goals_description(question, summary.features.machines), &PointReading::verdict);
+    point.object({.key = "goals",
+                  .meaning = "each of the goals, by name",
+                  .shown = Visibility::in_data,
+                  .free_keys = true},
+                 goals_description(question, summary.features.machines), &PointReading::verdict);
   if (!several && question.conditions.empty()) return;
   point.value(
       document::in_data(
@@ -162,7 +164,7 @@ void add_cells(PointDescription& point, const summary::StudySummary& summary) {
   if (!summary.conditions.empty())  // with a goal the table of claims has them for people
     point.table({.key = "conditions",
                  .meaning = "the point under each condition",
-                 .shown = question.claim() ? Shown::in_json : Shown::not_in_csv,
+                 .shown = question.claim() ? Visibility::in_json : Visibility::not_in_csv,
                  .own_table = "by condition",
                  .note = "bounds of one side each with " + confidence},
                 summary::cell_description(question, summary::CellsBy::condition),
@@ -170,7 +172,7 @@ void add_cells(PointDescription& point, const summary::StudySummary& summary) {
   if (!question.ages.at.empty())
     point.table({.key = "ages",
                  .meaning = "the point at each age",
-                 .shown = Shown::not_in_csv,
+                 .shown = Visibility::not_in_csv,
                  .own_table = "by age"},
                 summary::cell_description(question, summary::CellsBy::age),
                 [](Point p) { return summary::ages_of_point(p.summary, p.point); });

@@ -11,7 +11,7 @@
 namespace zerocount::summary_answer {
 namespace {
 
-using document::Shown;
+using document::Visibility;
 using Level = const LevelReading&;
 
 constexpr double micro = 1e6;
@@ -97,16 +97,17 @@ document::Description<LevelReading> level_description(const summary::StudySummar
   const parameters::AxisKind axis = summary.features.axis;
   document::Description<LevelReading> level;
   level
-      .value({.key = "point", .meaning = "number of the design point", .shown = Shown::in_csv},
+      .value({.key = "point", .meaning = "number of the design point", .shown = Visibility::in_csv},
              [](Level l) { return l.point.point; })
       .value({.key = "label",
               .heading = "point",
               .meaning = "label of the design point",
-              .shown = Shown::not_in_json},
+              .shown = Visibility::not_in_json},
              [](Level l) { return l.point.label(); });
   for (const study::SweepAxis& swept : summary.axes)
-    level.value({.key = swept.name, .meaning = swept.meaning, .unit = swept.unit, .shown = Shown::in_csv},
-                [&swept](Level l) { return value_at(swept, l.point); });
+    level.value(
+        {.key = swept.name, .meaning = swept.meaning, .unit = swept.unit, .shown = Visibility::in_csv},
+        [&swept](Level l) { return value_at(swept, l.point); });
   level.value({"level", "level", "number of the torque level"}, &LevelReading::level);
   measures::add_fields(level, measures::level_fields(summary.table()), axis,
                        [](Level l) -> const measures::LevelStatistics& { return l.statistics(); });
@@ -115,7 +116,7 @@ document::Description<LevelReading> level_description(const summary::StudySummar
       .value({.key = "observed",
               .heading = "observed",
               .meaning = "what was observed on the real machine",
-              .shown = Shown::not_in_json},
+              .shown = Visibility::not_in_json},
              [](Level l) { return summary::observed_at(l.point.summary, l.point.point); })
       .shown_as(
           [](Level l) { return l.level == 0 ? summary::observed_at(l.point.summary, l.point.point) : ""; });

@@ -82,7 +82,7 @@ inline document::Item in_json(std::string key, std::string meaning, std::string 
   return {.key = std::move(key),
           .meaning = std::move(meaning),
           .unit = std::move(unit),
-          .shown = document::Shown::in_json};
+          .shown = document::Visibility::in_json};
 }
 
 using PointDescription = document::Description<PointReading>;

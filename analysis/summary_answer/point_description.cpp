@@ -25,7 +25,7 @@
 namespace zerocount::summary_answer {
 namespace {
 
-using document::Shown;
+using document::Visibility;
 using Point = const PointReading&;
 
 /// Largest number of swept parameters with columns of their own. With more, the table would be too wide, and
@@ -143,7 +143,7 @@ void add_prediction(PointDescription& point, const summary::StudySummary& summar
              [](const P& prediction) { return theory::verdict(prediction); });
   point.object({.key = "prediction",
                 .meaning = "by the paper's criteria",
-                .shown = summary.predictions.empty() ? Shown::in_csv : Shown::everywhere,
+                .shown = summary.predictions.empty() ? Visibility::in_csv : Visibility::everywhere,
                 .optional = true,
                 .own_table = zero_count_table(summary)},
                object, prediction_at);
@@ -162,8 +162,9 @@ void add_legend(std::string& legend, const std::vector<document::Item>& columns)
       add_legend(legend, column.members);
     } else if (column.kind != document::Kind::table && !column.heading.empty() && !column.meaning.empty() &&
                !column.names_row) {
-      legend += column.shown == Shown::to_people ? column.meaning + '\n'
-                                                 : fmt::format("{}: {}\n", column.heading, column.meaning);
+      legend += column.shown == Visibility::to_people
+                    ? column.meaning + '\n'
+                    : fmt::format("{}: {}\n", column.heading, column.meaning);
     }
   }
 }
@@ -204,7 +205,7 @@ void add_axes(PointDescription& point, const summary::StudySummary& summary) {
                 .heading = is_shown ? summary::short_name(summary.axes, axis) : "",
                 .meaning = axis.meaning,
                 .unit = axis.unit,
-                .shown = is_shown ? document::Shown::not_in_json : document::Shown::in_csv,
+                .shown = is_shown ? document::Visibility::not_in_json : document::Visibility::in_csv,
                 .numeric = axis.kind == study::SweepAxis::Kind::number},
                [&axis](Point p) { return value_at(axis, p); })
         .shown_as([&axis](Point p) { return shown_value(axis, p); });

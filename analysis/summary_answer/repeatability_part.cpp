@@ -18,7 +18,7 @@
 namespace zerocount::summary_answer {
 namespace {
 
-using document::Shown;
+using document::Visibility;
 using iso230::AxisRepeatability;
 using iso230::DeviationSource;
 using iso230::PointRepeatability;
@@ -130,7 +130,7 @@ void add_csv_columns(PointDescription& point, const iso230::RepeatabilitySummary
       point.value({.key = prefix + column.name.substr(name),
                    .meaning = parameters::text_on(summary.axis, column.long_name),
                    .unit = parameters::unit_on(summary.axis, column.unit),
-                   .shown = Shown::in_csv},
+                   .shown = Visibility::in_csv},
                   [value = table.values[i], target](Point p) { return value(repeatability_of(p), target); });
     }
   };
@@ -319,9 +319,10 @@ void add_repeatability(PointDescription& point, const summary::StudySummary& sum
 void add_repeatability(SummaryDescription& answer, const summary::StudySummary& summary) {
   if (!summary.repeatability) return;
   answer
-      .table({.heading = title_of_repeatability(summary.repeatability->shape), .shown = Shown::to_people},
-             columns_of_axis(summary), [](const SummaryReading& s) { return rows_of(s, 1); })
-      .table({.heading = "repeatability at the targets", .shown = Shown::to_people},
+      .table(
+          {.heading = title_of_repeatability(summary.repeatability->shape), .shown = Visibility::to_people},
+          columns_of_axis(summary), [](const SummaryReading& s) { return rows_of(s, 1); })
+      .table({.heading = "repeatability at the targets", .shown = Visibility::to_people},
              columns_of_targets(summary),
              [](const SummaryReading& s) {
                return rows_of(s, static_cast<std::size_t>(s.summary.repeatability->shape.targets));

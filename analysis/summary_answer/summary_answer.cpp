@@ -20,7 +20,7 @@
 namespace zerocount::summary_answer {
 namespace {
 
-using document::Shown;
+using document::Visibility;
 using summary::StudySummary;
 using Summary = const SummaryReading&;
 
@@ -316,11 +316,12 @@ SummaryDescription point_tables(const StudySummary& summary) {
   tables.table({.key = "points",
                 .heading = has_several_claims(summary) ? "by point" : "",  // after the table "by claim"
                 .meaning = "the design points",
-                .shown = levels ? Shown::in_json : Shown::everywhere},
+                .shown = levels ? Visibility::in_json : Visibility::everywhere},
                point, &SummaryReading::points);
   if (levels)
-    tables.table({.key = "levels", .meaning = "the torque levels of the points", .shown = Shown::not_in_json},
-                 level, &SummaryReading::levels);
+    tables.table(
+        {.key = "levels", .meaning = "the torque levels of the points", .shown = Visibility::not_in_json},
+        level, &SummaryReading::levels);
   tables.sentence(
       [legend](Summary s) { return nonfinite_lines(s) + points_shown(s) + (s.legend ? legend : ""); });
   add_repeatability(tables, summary);

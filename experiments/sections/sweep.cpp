@@ -130,7 +130,7 @@ void read_grid(const yaml::Field& sweep, const yaml::Field& grid, std::vector<Sw
     SweptAxis axis{.name = entry.key, .place = field.node->place};
     note_slots(axis, *slots);
     if (!take_for_grid(grid, entry, axis.slots, state)) continue;
-    const std::size_t taken = axis.slots.size();
+    const std::size_t slot_count = axis.slots.size();
     if (field.node->kind == yaml::YamlNode::Kind::map) {
       read_spaced(sweep, field, *slots, axis, state);
     } else if (yaml::check_list(field, "a list of values, such as [1, 2]", state.reading.problems)) {
@@ -140,7 +140,7 @@ void read_grid(const yaml::Field& sweep, const yaml::Field& grid, std::vector<Sw
         read_listed(field, *slots, axis, state);
       }
     }
-    take_for_grid(grid, entry, std::span(axis.slots).subspan(taken), state);  // rates of aging
+    take_for_grid(grid, entry, std::span(axis.slots).subspan(slot_count), state);  // rates of aging
     axes.push_back(std::move(axis));
   }
 }

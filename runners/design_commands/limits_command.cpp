@@ -29,7 +29,7 @@ namespace {
 
 using document::everywhere;
 using document::Notation;
-using document::Shown;
+using document::Visibility;
 using tuning::Limit;
 
 constexpr const char* limits_help =
@@ -76,10 +76,10 @@ document::Description<Limit> limit_columns(const document::Item& effect) {
       .value({.key = "rates",
               .meaning = "the rates of all goals under all conditions, where there are several",
               .unit = "1",
-              .shown = Shown::in_json,
+              .shown = Visibility::in_json,
               .optional = true},
              &Limit::rates)
-      .value({.heading = "failures", .shown = Shown::to_people, .numeric = true}, failures_text)
+      .value({.heading = "failures", .shown = Visibility::to_people, .numeric = true}, failures_text)
       .value(
           optional(everywhere("gained", "gained",
                               "machines, or trials, that meet the worst goal more often without the cause")),
@@ -96,7 +96,7 @@ document::Description<Limit> limit_columns(const document::Item& effect) {
           gain_of(&tuning::PairedGain::p_value))
       .value({.key = "shown",
               .meaning = "whether it is shown to raise the rate, allowing for the number of causes",
-              .shown = Shown::in_json,
+              .shown = Visibility::in_json,
               .optional = true},
              gain_of(&tuning::PairedGain::shown))
       .value(document::to_people("shown to raise the rate"),

@@ -129,11 +129,11 @@ std::vector<std::span<const shards::TrialResult>> trials_by_place(const study::S
                                                                   const TrialSample& sample) {
   constexpr std::size_t max_of_place = 4;
   const std::size_t each = std::max<std::size_t>(sample.trials.size() / sampled_places, 1);
-  const std::size_t taken = std::min<std::size_t>(each, static_cast<std::size_t>(study.trials));
+  const std::size_t size = std::min<std::size_t>(each, static_cast<std::size_t>(study.trials));
   std::vector<std::span<const shards::TrialResult>> all;
   for (std::size_t place = 0; place + each <= sample.trials.size(); place += each) {
-    for (std::size_t i = 0; i < std::min(each / taken, max_of_place); ++i)
-      all.push_back(std::span(sample.trials).subspan(place + i * taken, taken));
+    for (std::size_t i = 0; i < std::min(each / size, max_of_place); ++i)
+      all.push_back(std::span(sample.trials).subspan(place + i * size, size));
   }
   return all;
 }

@@ -32,7 +32,7 @@ struct Retrial {
 constexpr std::array<Retrial, 2> retrials{{{200, 50}, {20, 500}}};
 constexpr std::int64_t min_failures_of_pinned = 2;
 constexpr double enrichment_of_pinned = 5.0;  // of failures at a value, over those of plain trials
-constexpr double proportion_of_pinned = 0.5;       // of the proposal, beside a mixture
+constexpr double proportion_of_pinned = 0.5;  // of the proposal, beside a mixture
 constexpr std::int64_t enough_plain_failures = 30;
 constexpr int searches_of_first_score = 2;
 constexpr double min_probability = 1e-11;
@@ -343,7 +343,9 @@ class Estimator {
     Proposal& proposal = state_.proposal;
     proposal.natural = natural_proportion;
     proposal.components = std::move(components);
-    proposal.pinned = proposal.values.empty() ? 0.0 : proposal.components.empty() ? 1.0 : proportion_of_pinned;
+    proposal.pinned = proposal.values.empty()       ? 0.0
+                      : proposal.components.empty() ? 1.0
+                                                    : proportion_of_pinned;
   }
 
   double ratio_at(std::span<const double> z) const {
@@ -371,10 +373,10 @@ class Estimator {
     for (std::size_t i = 0; i < points.z.size(); ++i)
       ratios.emplace_back(ratio_at(points.z[i]), points.weights[i]);
     std::ranges::sort(ratios);
-    double left = quantile_of_cap * sum_of(points.weights);
+    double remaining = quantile_of_cap * sum_of(points.weights);
     for (const auto& [ratio, weight] : ratios) {
-      left -= weight;
-      if (left <= 0.0) return ratio;
+      remaining -= weight;
+      if (remaining <= 0.0) return ratio;
     }
     return ratios.empty() ? 0.0 : ratios.back().first;
   }

@@ -243,7 +243,8 @@ document::Description<PointReading> point_description() {
   return document::Description<PointReading>()
       .value(in_data("point", "number of the design point"), &PointReading::point)
       .value(in_data("label", "label of the design point"), &PointReading::label)
-      .value({.key = "name", .heading = "point", .shown = document::Shown::to_people}, &PointReading::name)
+      .value({.key = "name", .heading = "point", .shown = document::Visibility::to_people},
+             &PointReading::name)
       .value({.key = "condition",
               .heading = "condition",
               .meaning = "what every machine bears",
@@ -258,25 +259,24 @@ document::Description<PointReading> point_description() {
 document::Description<Plan> plan_description() {
   using document::in_data;
   using forecast::StudyCost;
-  using Of = const Plan&;
   document::Description<Plan> plan;
   plan.headline(plan_headline)
-      .sentence([](Of p) { return p.study.description; })
-      .value(in_data("name", "name of the study"), [](Of p) { return p.study.name; })
+      .sentence([](const Plan& p) { return p.study.description; })
+      .value(in_data("name", "name of the study"), [](const Plan& p) { return p.study.name; })
       .value(in_data("points", "design points"), &Plan::all_points)
       .value(in_data("trials", "trials of each point, or the most of them"),
-             [](Of p) { return p.study.trials; })
-      .value(in_data("moves", "moves of a trial"), [](Of p) { return p.study.moves; })
+             [](const Plan& p) { return p.study.trials; })
+      .value(in_data("moves", "moves of a trial"), [](const Plan& p) { return p.study.moves; })
       .value({"machine_count", "machines at each point", "number of machines at each point; 0: none"},
-             [](Of p) { return p.study.machines; })
+             [](const Plan& p) { return p.study.machines; })
       .shown_as(machines_text)
-      .value({"worlds", "worlds", "worlds; 0: none"}, [](Of p) { return p.study.worlds; })
+      .value({"worlds", "worlds", "worlds; 0: none"}, [](const Plan& p) { return p.study.worlds; })
       .shown_as(worlds_text)
       .value({"conditions", "under the conditions",
               "names of the conditions that every machine bears; empty: none"},
-             [](Of p) { return p.study.conditions; })
+             [](const Plan& p) { return p.study.conditions; })
       .shown_as(conditions_text)
-      .value({.heading = "at the ages", .shown = document::Shown::to_people}, ages_text)
+      .value({.heading = "at the ages", .shown = document::Visibility::to_people}, ages_text)
       .sentence(stop_text)
       .value({"judged_by", "judged by", "what the moves are judged by; null without targets"}, judged_by)
       .table({"stopping", "Trials that the stopping rule takes", "trials that the stopping rule takes"},
@@ -290,10 +290,11 @@ document::Description<Plan> plan_description() {
                   .value(in_data("seconds", "with all cores", "s"), &StudyCost::seconds),
               &Plan::cost)
       .value(in_data("file_bytes", "size of the results file", "byte"),
-             [](Of p) { return p.size.file_bytes; })
+             [](const Plan& p) { return p.size.file_bytes; })
       .value(in_data("disk_bytes", "most space on the disk while it runs", "byte"), &Plan::disk_bytes)
-      .value(in_data("memory_bytes", "most memory", "byte"), [](Of p) { return p.size.memory_bytes; })
-      .sentence([](Of p) {
+      .value(in_data("memory_bytes", "most memory", "byte"),
+             [](const Plan& p) { return p.size.memory_bytes; })
+      .sentence([](const Plan& p) {
         return p.study.columns.inputs.empty() ? std::string("differing between trials: nothing") : "";
       });
   using study::DrawLevel;
@@ -312,19 +313,19 @@ document::Description<Plan> plan_description() {
       {DrawLevel::study});
   return plan
       .value({"sampled_together", "sampled together", "inputs of a table of samples"},
-             [](Of p) {
+             [](const Plan& p) {
                return p.study.samples ? study::samples_text(*p.study.samples) : std::optional<std::string>();
              })
       .value({"correlated", "correlated", "correlated inputs"},
-             [](Of p) {
+             [](const Plan& p) {
                return p.study.correlations.empty() ? std::optional<std::string>()
                                                    : study::correlations_text(p.study.correlations);
              })
       .value(
           {"assumed_away", "assumes away", "effects of a real axis that the study leaves out without a word"},
-          [](Of p) { return assumptions(p, study::PremiseState::assumed); })
+          [](const Plan& p) { return assumptions(p, study::PremiseState::assumed); })
       .value({"stated_none", "states as absent", "effects of a real axis whose keys the manifest gives as 0"},
-             [](Of p) { return assumptions(p, study::PremiseState::stated_none); })
+             [](const Plan& p) { return assumptions(p, study::PremiseState::stated_none); })
       .sentence(theory_text)
       .value(in_data("points_left_out", "points without their theory here"), &Plan::points_left_out)
       .table({.key = "theory",
@@ -332,7 +333,7 @@ document::Description<Plan> plan_description() {
               .meaning = "theory of the first points",
               .common_above = true},
              point_description(), &Plan::points)
-      .table({.key = "loops", .heading = "Loops", .shown = document::Shown::to_people},
+      .table({.key = "loops", .heading = "Loops", .shown = document::Visibility::to_people},
              document::Description<PointLoop>()
                  .value({.key = "point", .heading = "point"}, &PointLoop::point)
                  .value({.key = "condition", .heading = "condition"}, &PointLoop::condition)

@@ -123,7 +123,7 @@ document::AnswerDescription<StatusReading> status_answer(const summary::StudySum
       .sentence(problem_lines)
       .sentence([](Status s) { return s.no_summary; });
   if (summary != nullptr)
-    answer.items.object({.heading = "the trials that are finished", .shown = document::Shown::to_people},
+    answer.items.object({.heading = "the trials that are finished", .shown = document::Visibility::to_people},
                         summary_answer::summary_description(*summary).items, &StatusReading::summary);
   return answer;
 }

@@ -47,10 +47,10 @@ void Turns::take(std::int64_t count) {
   while (count > 0) {
     PointRows& point = points_[*current_];
     layout::RowRange& rows = point.remaining.back();
-    const std::int64_t taken = std::min(count, rows.count);
-    rows = {rows.first + taken, rows.count - taken};
-    point.trials_run += taken;
-    count -= taken;
+    const std::int64_t size = std::min(count, rows.count);
+    rows = {rows.first + size, rows.count - size};
+    point.trials_run += size;
+    count -= size;
     if (rows.count > 0) continue;
     point.remaining.pop_back();
     at_new_point_ = point.remaining.empty();

@@ -70,18 +70,19 @@ Effort Effort::part(std::int64_t parts) const {
 }
 
 std::int64_t Effort::trials_left() const {
-  std::int64_t left = std::numeric_limits<std::int64_t>::max();
+  std::int64_t remaining = std::numeric_limits<std::int64_t>::max();
   for (const Account* one = account_.get(); one != nullptr; one = one->whole.get())
-    left = std::min(left, one->limit - one->spent);
-  return left;
+    remaining = std::min(remaining, one->limit - one->spent);
+  return remaining;
 }
 
 double Effort::seconds_left() const {
-  double left = std::numeric_limits<double>::infinity();
+  double remaining = std::numeric_limits<double>::infinity();
   for (const Account* one = account_.get(); one != nullptr; one = one->whole.get()) {
-    if (one->end) left = std::min(left, std::chrono::duration<double>(*one->end - Clock::now()).count());
+    if (one->end)
+      remaining = std::min(remaining, std::chrono::duration<double>(*one->end - Clock::now()).count());
   }
-  return left;
+  return remaining;
 }
 
 bool Effort::is_spent() const {

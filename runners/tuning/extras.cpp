@@ -85,8 +85,8 @@ std::optional<std::size_t> TunedAxis::lost_claim(const study::Study& of, const C
 trials::Effort TunedAxis::one_of_parts(double parts, std::int64_t by_default) const {
   parts = std::max(parts, 1.0);
   if (budget.trials) {
-    const std::int64_t left = std::max<std::int64_t>(effort.trials_left() - later, 0);
-    return effort.limited_to(std::llround(static_cast<double>(left) / parts), {});
+    const std::int64_t remaining = std::max<std::int64_t>(effort.trials_left() - later, 0);
+    return effort.limited_to(std::llround(static_cast<double>(remaining) / parts), {});
   }
   if (!budget.seconds) return effort.limited_to(by_default, {});
   return effort.limited_to({}, (effort.seconds_left() - static_cast<double>(later) / speed) / parts);

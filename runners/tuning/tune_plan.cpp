@@ -92,8 +92,8 @@ SearchPlan plan_search(const study::Study& study, const TuneBudget& budget, cons
     return {default_search_size(study), whole.limited_to(default_search_trials, {})};
   const std::int64_t search = min_search_trials(study, free);
   const std::int64_t proof = min_proof_trials(study, 1);  // in its first attempt
-  const std::int64_t left = affordable_trials(whole, spendable_part * speed);
-  if (left < search + proof) {
+  const std::int64_t remaining = affordable_trials(whole, spendable_part * speed);
+  if (remaining < search + proof) {
     const std::string needs = fmt::format(
         "the smallest search takes {} trials and the smallest proof of this goal {}", search, proof);
     if (budget.trials)
@@ -105,8 +105,8 @@ SearchPlan plan_search(const study::Study& study, const TuneBudget& budget, cons
         fmt::format("option '--budget': {:.3g} s are not enough: {}, about {:.3g} s on this machine",
                     *budget.seconds, needs, static_cast<double>(search + proof) / (spendable_part * speed)));
   }
-  const auto half = static_cast<std::int64_t>(search_part * static_cast<double>(left));
-  const std::int64_t trials = std::clamp(half, search, left - proof);
+  const auto half = static_cast<std::int64_t>(search_part * static_cast<double>(remaining));
+  const std::int64_t trials = std::clamp(half, search, remaining - proof);
   if (budget.trials) return {search_size(scope, trials / each), whole.limited_to(trials, {})};
   const auto simulated = static_cast<std::int64_t>(simulating_part * static_cast<double>(trials));
   return {search_size(scope, simulated / each), whole.limited_to({}, search_part * whole.seconds_left())};
@@ -138,9 +138,9 @@ RestPlan plan_rest(const study::Study& study, std::int64_t points, std::int64_t 
   constexpr std::int64_t most = 1024;
   constexpr std::int64_t least = 32;
   const std::int64_t each = std::max<std::int64_t>(points, 1) * search_trials_of_machine(study);
-  const std::int64_t left = affordable_trials(effort, speed) - searches;
-  if ((left - trials_of_maps) / each < least) trials_of_maps = 0;
-  return {std::clamp((left - trials_of_maps) / each, least, most), trials_of_maps};
+  const std::int64_t remaining = affordable_trials(effort, speed) - searches;
+  if ((remaining - trials_of_maps) / each < least) trials_of_maps = 0;
+  return {std::clamp((remaining - trials_of_maps) / each, least, most), trials_of_maps};
 }
 
 std::int64_t machines_of_judgement(const study::Study& study, const trials::Effort& effort, double speed) {

@@ -131,9 +131,10 @@ void examine(Work& work, const Candidate& finalist) {
   // As many as a tenth of what the smallest proof leaves is enough for.
   constexpr std::int64_t part = 10;
   const study::Study& study = work.space.study;
-  const std::int64_t left =
+  const std::int64_t remaining =
       affordable_trials(work.space.effort, work.space.speed) - min_proof_trials(study, 1);
-  const std::int64_t count = std::min(machines_of_behaviour, left / part / study::condition_count(study));
+  const std::int64_t count =
+      std::min(machines_of_behaviour, remaining / part / study::condition_count(study));
   work.find_part("torque at rest", [&] {
     if (count <= 0) throw trials::Spent{};
     work.answer.tuned.moves = simulated_behaviour(work.search.candidate(finalist.values),

@@ -13,7 +13,7 @@
 namespace zerocount::design_commands {
 namespace {
 
-using document::Shown;
+using document::Visibility;
 using tuning::LostAges;
 using tuning::LostClaim;
 
@@ -43,7 +43,7 @@ struct LostRow {
   const study::Study& study;
 };
 
-std::vector<LostRow> lost_rows(Of tuning) {
+std::vector<LostRow> lost_rows(const Tuning& tuning) {
   std::vector<LostRow> rows;
   if (const auto* const life = tuning.answer.extra<LostAges>()) {
     for (const LostClaim& one : life->claims) rows.push_back({one, tuning.study});
@@ -52,10 +52,9 @@ std::vector<LostRow> lost_rows(Of tuning) {
 }
 
 document::Description<LostRow> lost_columns() {
-  using Row = const LostRow&;
   return document::Description<LostRow>()
       .include(named_claim_columns("goal", "condition"),
-               [](Row row) {
+               [](const LostRow& row) {
                  const auto& [goals, conditions] = std::tie(row.study.goals, row.study.condition_names);
                  tuning::ClaimNames names;
                  if (goals.size() > 1) names.goal = goals[row.claim.claim.goal].name;
@@ -66,19 +65,19 @@ document::Description<LostRow> lost_columns() {
                  "lost", "seems lost from",
                  "youngest age that was tried at which less than asked for meets the goal, to 10 %; null: "
                  "none; in the unit of ages"),
-             [](Row row) { return row.claim.lost; })
+             [](const LostRow& row) { return row.claim.lost; })
       .value(document::everywhere("met_until", "shown to be met up to",
                                   "age up to and including which the goal is shown to be met, at its "
                                   "confidence; null: not at the first"),
-             [](Row row) { return row.claim.met_until; })
+             [](const LostRow& row) { return row.claim.met_until; })
       .value(document::everywhere(
                  "missed_from", "shown to be missed from",
                  "age from which on the goal is shown to be missed, at its confidence; null: none"),
-             [](Row row) { return row.claim.missed_from; })
-      .value(document::to_people("unit"), [](Row row) { return row.study.ages.unit; });
+             [](const LostRow& row) { return row.claim.missed_from; })
+      .value(document::to_people("unit"), [](const LostRow& row) { return row.study.ages.unit; });
 }
 
-std::string tried_ages_sentence(Of tuning) {
+std::string tried_ages_sentence(const Tuning& tuning) {
   const auto* const life = tuning.answer.extra<LostAges>();
   if (life == nullptr) return "";
   const study::Ages& ages = tuning.study.ages;
@@ -90,7 +89,7 @@ std::string tried_ages_sentence(Of tuning) {
       life->refusal.empty() ? "" : "\nno older machines are simulated: " + life->refusal);
 }
 
-std::vector<document::Figure> lost_ages_figures(Of tuning) {
+std::vector<document::Figure> lost_ages_figures(const Tuning& tuning) {
   const auto* const life = tuning.answer.extra<LostAges>();
   if (!is_drawn(tuning) || life == nullptr) return {};
   const study::Study& study = tuning.study;
@@ -134,7 +133,7 @@ void describe_lost_ages(Items& items) {
              lost_columns(), lost_rows)
       .value(optional(document::in_data(
                  "ages_tried_to", "oldest age that was tried, of a study with ages, in the unit of ages")),
-             [](Of t) -> std::optional<double> {
+             [](const Tuning& t) -> std::optional<double> {
                const auto* const life = t.answer.extra<LostAges>();
                return life == nullptr ? std::nullopt : std::optional(life->tried.back().age);
              })

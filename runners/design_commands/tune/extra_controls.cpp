@@ -105,35 +105,37 @@ std::any find_controls(TunedAxis& axis) {
 }
 
 document::Description<Alternative> alternative_columns() {
-  using document::Shown;
-  using Row = const Alternative&;
+  using document::Visibility;
   return document::Description<Alternative>()
       .value(document::to_people("control"), &Alternative::name)
       .value(in_data("fixed", "parameters that are not tuned, with their values"), &Alternative::fixed)
       .value(document::everywhere("gains", "best values",
                                   "its best values by parameter; none if none keeps the margins"),
              &Alternative::gains)
-      .shown_as([](Row row) { return row.verdict ? values_text(row.gains) : "none keeps the margins"; })
+      .shown_as([](const Alternative& row) {
+        return row.verdict ? values_text(row.gains) : "none keeps the margins";
+      })
       .value({.key = "status",
               .heading = "goal",
               .meaning = "verdict on the goal",
               .words = goal::status_words()},
-             [](Row row) {
+             [](const Alternative& row) {
                return row.verdict ? std::optional(goal::text_of(row.verdict->status)) : std::nullopt;
              })
       .value(proportion("rate", "moves that meet it",
                         "proportion of moves that meet the goal, with one-sided bounds"),
-             [](Row row) {
+             [](const Alternative& row) {
                return row.verdict ? std::optional(goal::bounded(row.verdict->moves)) : std::nullopt;
              })
       .include(named_claim_columns("worst goal", "worst condition or age", "goal_name"), &Alternative::worst)
-      .value(criterion_item(),
-             [](Row row) { return row.verdict ? std::optional(row.criterion) : std::nullopt; });
+      .value(criterion_item(), [](const Alternative& row) {
+        return row.verdict ? std::optional(row.criterion) : std::nullopt;
+      });
 }
 
 /// Whether the control does clearly better than the proven values, which could be the same: its other
 /// parameters are 0 in their ranges.
-bool is_better_within_ranges(const Alternative& one, Of tuning) {
+bool is_better_within_ranges(const Alternative& one, const Tuning& tuning) {
   constexpr double clearly = 0.95;
   if (one.fixed.empty() || !one.verdict || !tuning.answer.proof) return false;
   const goal::Verdict& proven = tuning.answer.proof->verdict;
@@ -144,7 +146,7 @@ bool is_better_within_ranges(const Alternative& one, Of tuning) {
   return tuning::judged_rate(goal, *one.verdict).low > tuning::judged_rate(goal, proven).high;
 }
 
-std::string better_control_sentence(Of tuning) {
+std::string better_control_sentence(const Tuning& tuning) {
   std::string lines;
   for (const Alternative& one : found_by_extra<Alternatives>(tuning)) {
     if (!is_better_within_ranges(one, tuning)) continue;

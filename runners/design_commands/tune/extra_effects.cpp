@@ -75,11 +75,11 @@ std::any find_delay(tuning::TunedAxis& axis) {
 }
 
 /// The condition under which a goal is lost first by more delay; 0 without conditions.
-std::size_t delayed_condition(const MoreDelay& delay, Of tuning) {
+std::size_t delayed_condition(const MoreDelay& delay, const Tuning& tuning) {
   return tuning::place_of_claim(tuning.study, delay.claim).condition;
 }
 
-std::string borne_delay_sentence(Of tuning) {
+std::string borne_delay_sentence(const Tuning& tuning) {
   const MoreDelay& delay = found_by_extra<MoreDelay>(tuning);
   if (delay.delays.empty()) return "";
   if (!delay.lost)
@@ -93,19 +93,19 @@ void describe_delay(Items& items) {
   items
       .value(proportion("wider_band_rate", "rate of the goal with a band one count wider",
                         "rate of the goal with a band one count wider, where it is not met"),
-             [](Of t) { return found_by_extra<MoreDelay>(t).wider_band_rate; })
+             [](const Tuning& t) { return found_by_extra<MoreDelay>(t).wider_band_rate; })
       .sentence(borne_delay_sentence)
       .value(document::in_data("delay_lost",
                                "controller.delay from which on the goal seems lost; with conditions that of "
                                "the condition under which it is lost first",
                                "samples"),
-             [](Of t) -> std::optional<double> {
+             [](const Tuning& t) -> std::optional<double> {
                const MoreDelay& delay = found_by_extra<MoreDelay>(t);
                if (!delay.lost) return {};
                return delay.delays[delayed_condition(delay, t)] + *delay.lost;
              })
       .value(optional(document::in_data("delay_lost_condition", "that condition, with conditions")),
-             [](Of t) -> std::optional<std::string> {
+             [](const Tuning& t) -> std::optional<std::string> {
                const MoreDelay& delay = found_by_extra<MoreDelay>(t);
                if (!delay.lost) return {};
                return tuning::names_of(t.study, {0, delayed_condition(delay, t)}).condition;
@@ -134,21 +134,22 @@ std::any find_robustness(tuning::TunedAxis& axis) {
 
 void describe_robustness(Items& items) {
   using document::everywhere;
-  using Row = const tuning::Limit&;
   items.table(
       everywhere("robustness", "at the tuned values, with other premises",
                  "rates at the tuned values with other seeds, spreads and delays"),
       document::Description<tuning::Limit>()
           .value(everywhere("premise", "premise", "what differs from the study"), &tuning::Limit::effect)
           .value(everywhere("holds", "holds", "whether every goal is met under every condition"),
-                 [](Row one) { return one.rate ? std::optional(one.holds) : std::nullopt; })
+                 [](const tuning::Limit& one) { return one.rate ? std::optional(one.holds) : std::nullopt; })
           .value(proportion(
                      "rate", "rate",
                      "proportion of moves, or of machines, that meet the worst goal; of seeds the lowest"),
                  &tuning::Limit::rate)
           .value(optional(everywhere("note", "note", "what stayed, or why there is no rate")),
-                 [](Row one) { return one.note.empty() ? std::nullopt : std::optional(one.note); }),
-      [](Of t) { return found_by_extra<OtherPremises>(t).rates; });
+                 [](const tuning::Limit& one) {
+                   return one.note.empty() ? std::nullopt : std::optional(one.note);
+                 }),
+      [](const Tuning& t) { return found_by_extra<OtherPremises>(t).rates; });
 }
 
 tuning::ExtraCost cost_of_limits(const tuning::TunedAxis& axis) {

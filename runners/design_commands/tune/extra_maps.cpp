@@ -158,7 +158,7 @@ Figure map_figure(const TuneAnswer& answer, const TuningMap& map) {
 }
 
 void describe_maps(Items& items) {
-  items.figures([](Of tuning) {
+  items.figures([](const Tuning& tuning) {
     std::vector<Figure> figures;
     if (!is_drawn(tuning)) return figures;
     for (const TuningMap& map : found_by_extra<Maps>(tuning))

@@ -181,9 +181,9 @@ TEST(Effort, NeverSpendsMoreTrialsThanItHas) {
       const Effort one = efforts[static_cast<std::size_t>(number(random)) % efforts.size()];
       if (i % 3 == 0) efforts.push_back(one.limited_to(number(random), {}));
       const std::int64_t trials = number(random) / 8;
-      const std::int64_t left = one.trials_left();
+      const std::int64_t remaining = one.trials_left();
       const bool enough = within(one, [&] { one.spend(trials); });
-      EXPECT_EQ(enough, trials <= left);
+      EXPECT_EQ(enough, trials <= remaining);
       counted += enough ? trials : 0;
     }
     EXPECT_LE(counted, limit);

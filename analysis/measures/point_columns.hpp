@@ -130,7 +130,7 @@ void add_fields(document::Description<Row>& description,
 
 /// One row of a LimitList: a subject and one of its error bands or tolerances.
 template <class Subject>
-struct LimitReading {
+struct LimitEntry {
   const Subject& subject;
   std::size_t limit;  ///< Index of the band or tolerance, in rising order of their sizes.
 };
@@ -159,7 +159,7 @@ template <class Row, class Subject, class Get>
 void add_by_limit(document::Description<Row>& description,
                   const std::vector<text::ReportField<Subject>>& fields, LimitList list,
                   parameters::AxisKind axis, Get subject_of) {
-  using Reading = LimitReading<Subject>;
+  using Entry = LimitEntry<Subject>;
   std::map<double, std::vector<text::ReportField<Subject>>> by_limit;
   for (const text::ReportField<Subject>& field : fields)
     by_limit[text::limit_of(field).value()].push_back(field);
@@ -167,27 +167,27 @@ void add_by_limit(document::Description<Row>& description,
   const auto limits =
       std::make_shared<const std::vector<std::pair<double, std::vector<text::ReportField<Subject>>>>>(
           by_limit.begin(), by_limit.end());
-  std::vector<text::ReportField<Reading>> columns;
+  std::vector<text::ReportField<Entry>> columns;
   for (std::size_t i = 0; i < limits->front().second.size(); ++i) {
     const text::ReportField<Subject>& first = limits->front().second[i];
     columns.push_back({first.group, first.name, first.unit, first.long_name, first.whole,
-                       [limits, i](const Reading& reading) {
+                       [limits, i](const Entry& reading) {
                          return (*limits)[reading.limit].second.at(i).value(reading.subject);
                        }});
   }
-  document::Description<Reading> row;
+  document::Description<Entry> row;
   if (fields.front().band) {
-    row.value(std::move(list.limit), [limits](const Reading& reading) {
+    row.value(std::move(list.limit), [limits](const Entry& reading) {
       return static_cast<std::int64_t>((*limits)[reading.limit].first);
     });
   } else {
     row.value(std::move(list.limit),
-              [limits](const Reading& reading) { return (*limits)[reading.limit].first; });
+              [limits](const Entry& reading) { return (*limits)[reading.limit].first; });
   }
-  add_fields(row, columns, axis, [](const Reading& reading) -> const Reading& { return reading; });
+  add_fields(row, columns, axis, [](const Entry& reading) -> const Entry& { return reading; });
   description.table(std::move(list.list), std::move(row),
                     [number = limits->size(), subject_of](const Row& of) {
-                      std::vector<Reading> readings;
+                      std::vector<Entry> readings;
                       for (std::size_t limit = 0; limit < number; ++limit)
                         readings.push_back({subject_of(of), limit});
                       return readings;

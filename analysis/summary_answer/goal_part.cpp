@@ -14,12 +14,12 @@ namespace zerocount::summary_answer {
 namespace {
 
 using document::Visibility;
-using Point = const PointReading&;
+using Point = const DescribedPoint&;
 using Verdict = const goal::ClaimVerdict&;
 
-std::optional<summary::WorldsReading> worlds_at(Point p) {
+std::optional<summary::WorldsAtPoint> worlds_at(Point p) {
   if (!p.worlds) return std::nullopt;
-  return summary::WorldsReading{*p.worlds, summary::world_inputs_of(p.summary, p.point), p.summary.question};
+  return summary::WorldsAtPoint{*p.worlds, summary::world_inputs_of(p.summary, p.point), p.summary.question};
 }
 
 }  // namespace
@@ -118,14 +118,14 @@ void add_goal(PointDescription& point, const summary::StudySummary& summary) {
   const goal::Question& question = summary.question;
   point.object(
       {.key = "goal", .meaning = "whether the point meets the goal, with bounds of this point alone"},
-      verdict_description(question, summary.features.machines), &PointReading::verdict);
+      verdict_description(question, summary.features.machines), &DescribedPoint::verdict);
   const bool several = has_names(question);
   if (several)
     point.object({.key = "goals",
                   .meaning = "each of the goals, by name",
                   .shown = Visibility::in_data,
                   .free_keys = true},
-                 goals_description(question, summary.features.machines), &PointReading::verdict);
+                 goals_description(question, summary.features.machines), &DescribedPoint::verdict);
   if (!several && question.conditions.empty()) return;
   point.value(
       document::in_data(
@@ -133,7 +133,7 @@ void add_goal(PointDescription& point, const summary::StudySummary& summary) {
           "proportion of machines that meet all goals on machines, as observed; nothing where only one "
           "claim is on machines",
           "1"),
-      [question](const PointReading& p) -> std::optional<double> {
+      [question](const DescribedPoint& p) -> std::optional<double> {
         const auto all = goal::machines_meeting_all(question, p.statistics());
         if (!all) return std::nullopt;
         return statistics::rate(all->machines, all->of);
@@ -182,8 +182,8 @@ void add_claims(SummaryDescription& answer, const summary::StudySummary& summary
   if (!has_several_claims(summary)) return;
   answer.table({.heading = summary.points.size() > 1 ? "by claim, at the chosen point" : "by claim"},
                summary::cell_description({}, summary::CellsBy::claim),
-               [](const SummaryReading& s) { return summary::claims_of_point(s.summary, s.chosen.point); });
-  answer.sentence([](const SummaryReading& s) {
+               [](const SummaryResults& s) { return summary::claims_of_point(s.summary, s.chosen.point); });
+  answer.sentence([](const SummaryResults& s) {
     return fmt::format("bounds of one side each with {} confidence",
                        text::percent(s.summary.question.claim()->confidence));
   });

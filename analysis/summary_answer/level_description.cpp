@@ -12,7 +12,7 @@ namespace zerocount::summary_answer {
 namespace {
 
 using document::Visibility;
-using Level = const LevelReading&;
+using Level = const LevelAtPoint&;
 
 constexpr double micro = 1e6;
 
@@ -58,7 +58,7 @@ std::string depth_text(Level l) {
              : fmt::format("{:.0f}", l.statistics().of(&trial::MoveOutcome::reversal_depth).max);
 }
 
-void add_people_columns(document::Description<LevelReading>& level, const summary::StudySummary& summary) {
+void add_people_columns(document::Description<LevelAtPoint>& level, const summary::StudySummary& summary) {
   using M = trial::MoveOutcome;
   const parameters::AxisKind axis = summary.features.axis;
   const std::string small = parameters::unit_on(axis, "µrad");
@@ -93,9 +93,9 @@ void add_people_columns(document::Description<LevelReading>& level, const summar
 
 }  // namespace
 
-document::Description<LevelReading> level_description(const summary::StudySummary& summary) {
+document::Description<LevelAtPoint> level_description(const summary::StudySummary& summary) {
   const parameters::AxisKind axis = summary.features.axis;
-  document::Description<LevelReading> level;
+  document::Description<LevelAtPoint> level;
   level
       .value({.key = "point", .meaning = "number of the design point", .shown = Visibility::in_csv},
              [](Level l) { return l.point.point; })
@@ -108,7 +108,7 @@ document::Description<LevelReading> level_description(const summary::StudySummar
     level.value(
         {.key = swept.name, .meaning = swept.meaning, .unit = swept.unit, .shown = Visibility::in_csv},
         [&swept](Level l) { return value_at(swept, l.point); });
-  level.value({"level", "level", "number of the torque level"}, &LevelReading::level);
+  level.value({"level", "level", "number of the torque level"}, &LevelAtPoint::level);
   measures::add_fields(level, measures::level_fields(summary.table()), axis,
                        [](Level l) -> const measures::LevelStatistics& { return l.statistics(); });
   add_people_columns(level, summary);

@@ -26,7 +26,7 @@ namespace zerocount::summary_answer {
 namespace {
 
 using document::Visibility;
-using Point = const PointReading&;
+using Point = const DescribedPoint&;
 
 /// Largest number of swept parameters with columns of their own. With more, the table would be too wide, and
 /// only the labels identify the points.
@@ -70,14 +70,14 @@ void add_statistics(PointDescription& point, const summary::StudySummary& summar
 }
 
 /// A move, over all trials of a point.
-struct MoveReading {
+struct MoveAtPoint {
   const measures::PointSummary& point;
   std::size_t move;
 };
 
 void add_moves(PointDescription& point, const summary::StudySummary& summary) {
-  using Move = const MoveReading&;
-  document::Description<MoveReading> move;
+  using Move = const MoveAtPoint&;
+  document::Description<MoveAtPoint> move;
   for (const layout::FlagMeaning& outcome : layout::outcome_labels()) {
     move.value(document::in_data(outcome.word, "trials with this outcome of the move"),
                [counter = measures::counter_of(static_cast<trial::Outcome>(outcome.value))](Move m) {
@@ -89,7 +89,7 @@ void add_moves(PointDescription& point, const summary::StudySummary& summary) {
                [quality](Move m) { return m.point.of(*quality).by_move.at(m.move); });
   }
   point.table(in_json("moves", "counts of trials by move"), move, [](Point p) {
-    std::vector<MoveReading> moves;
+    std::vector<MoveAtPoint> moves;
     for (std::size_t i = 0; i < p.statistics().by_move.size(); ++i) moves.push_back({p.statistics(), i});
     return moves;
   });
@@ -98,7 +98,7 @@ void add_moves(PointDescription& point, const summary::StudySummary& summary) {
 void add_levels(PointDescription& point, const summary::StudySummary& summary) {
   if (!summary.features.open_loop) return;
   point.table(in_json("levels", "the torque levels"), level_description(summary), [](Point p) {
-    std::vector<LevelReading> levels;
+    std::vector<LevelAtPoint> levels;
     for (std::size_t i = 0; i < p.statistics().levels.size(); ++i) levels.push_back({p, i});
     return levels;
   });
@@ -184,12 +184,12 @@ void add_axes(PointDescription& point, const summary::StudySummary& summary) {
   point
       .value({"point", "point",
               "number of the design point, for people its label; *: the headline speaks of it"},
-             &PointReading::point)
+             &DescribedPoint::point)
       .shown_as([by_number, label](Point p) {
         return (by_number ? fmt::format("{}", p.point) : label(p)) + (p.marked ? " *" : "");
       })
       .value({.key = "label", .heading = "point", .meaning = "label of the design point", .names_row = true},
-             &PointReading::label)
+             &DescribedPoint::label)
       .shown_as(label)
       .value(in_json("axes", "values of the swept parameters; null where one has a distribution"),
              [](Point p) {
@@ -246,7 +246,7 @@ namespace {
 
 using document::Bounded;
 using document::Notation;
-using Point = const PointReading&;
+using Point = const DescribedPoint&;
 using Statistics = const measures::PointSummary&;
 using summary::StudySummary;
 

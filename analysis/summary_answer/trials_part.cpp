@@ -20,9 +20,9 @@ namespace zerocount::summary_answer {
 namespace {
 
 using document::Visibility;
-using Point = const PointReading&;
+using Point = const DescribedPoint&;
 
-const PointReading& same_point(Point p) {
+const DescribedPoint& same_point(Point p) {
   return p;
 }
 

@@ -60,9 +60,9 @@ struct Judgement {
   std::optional<double> of_machines(double bound) const {
     return worst_goal().claim->machines ? std::optional(bound) : std::nullopt;
   }
-  std::optional<summary::WorldsReading> worlds_reading() const {
+  std::optional<summary::WorldsAtPoint> worlds_reading() const {
     if (!worlds) return {};
-    return summary::WorldsReading{*worlds, summary::world_inputs_of(summary, judged.chosen.point),
+    return summary::WorldsAtPoint{*worlds, summary::world_inputs_of(summary, judged.chosen.point),
                                   summary.question};
   }
 };

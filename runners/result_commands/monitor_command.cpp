@@ -143,12 +143,12 @@ ExitCode print_state(const command_line::Arguments& arguments, monitor::MachineM
   machine.update(log);
   const monitor::MonitorState state = machine.state();
   const auto explanation = explanation_of(arguments, baseline, machine, state, log, stop);
-  const monitor::MonitorReading reading{machine,
-                                        baseline.moves,
-                                        state,
-                                        log.name,
-                                        explanation ? &*explanation : nullptr,
-                                        baseline.file ? 0 : monitor::equal_moves(baseline.moves, log)};
+  const monitor::MonitorResult reading{machine,
+                                       baseline.moves,
+                                       state,
+                                       log.name,
+                                       explanation ? &*explanation : nullptr,
+                                       baseline.file ? 0 : monitor::equal_moves(baseline.moves, log)};
   const ExitCode code = monitor::exit_code_of(state.status);
   if (!arguments.has("follow")) return answers::print(arguments, monitor::monitor_answer(), reading, code);
   const document::Answer answer = monitor::monitor_answer().of(reading, code, document::Audience::json);

@@ -55,7 +55,7 @@ constexpr const char* check_help =
 constexpr std::int64_t points_shown = 20;
 
 /// Theory of a design point under a condition.
-struct PointReading {
+struct ConditionTheory {
   std::int64_t point{0};
   std::string label;
   std::optional<std::string> name;       ///< Short label; nothing in a study with one point.
@@ -78,7 +78,7 @@ struct Plan {
   const study::Study& study;
   forecast::StudyCost cost;
   forecast::StudySize size;
-  std::vector<PointReading> points;  ///< Readings of the first design points.
+  std::vector<ConditionTheory> points;  ///< Readings of the first design points.
 
   std::int64_t all_points() const { return study::point_count(study); }
   std::int64_t points_shown() const { return std::ssize(points) / study::condition_count(study); }
@@ -86,7 +86,7 @@ struct Plan {
   double disk_bytes() const { return size.file_bytes + size.shard_bytes; }
   std::vector<PointLoop> loops() const {
     std::vector<PointLoop> all;
-    for (const PointReading& point : points) {
+    for (const ConditionTheory& point : points) {
       for (const theory::LoopRanges& loop : point.theory.loops)
         all.push_back({point.name, point.condition, &loop});
     }
@@ -175,7 +175,7 @@ std::string theory_text(const Plan& plan) {
                                                plan.points_shown(), plan.all_points());
   // Outside the paper's theory nothing but the loops is examined.
   const bool loops_alone = std::ranges::none_of(
-      plan.points, [](const PointReading& point) { return point.theory.outside.empty(); });
+      plan.points, [](const ConditionTheory& point) { return point.theory.outside.empty(); });
   const std::string close =
       loops_alone || trials <= theory::max_trials_examined_closely
           ? ""
@@ -238,22 +238,22 @@ std::vector<std::string_view> assumptions(const Plan& plan, study::PremiseState 
   return found;
 }
 
-document::Description<PointReading> point_description() {
+document::Description<ConditionTheory> point_description() {
   using document::in_data;
-  return document::Description<PointReading>()
-      .value(in_data("point", "number of the design point"), &PointReading::point)
-      .value(in_data("label", "label of the design point"), &PointReading::label)
+  return document::Description<ConditionTheory>()
+      .value(in_data("point", "number of the design point"), &ConditionTheory::point)
+      .value(in_data("label", "label of the design point"), &ConditionTheory::label)
       .value({.key = "name", .heading = "point", .shown = document::Visibility::to_people},
-             &PointReading::name)
+             &ConditionTheory::name)
       .value({.key = "condition",
               .heading = "condition",
               .meaning = "what every machine bears",
               .optional = true},
-             &PointReading::condition)
-      .include(theory::point_theory_description(), &PointReading::theory)
-      .include(theory::hunting_description(), &PointReading::hunting)
+             &ConditionTheory::condition)
+      .include(theory::point_theory_description(), &ConditionTheory::theory)
+      .include(theory::hunting_description(), &ConditionTheory::hunting)
       .value({"targets", "targets of trial 0", "targets of trial 0 in SI units, and their counts"},
-             &PointReading::targets);
+             &ConditionTheory::targets);
 }
 
 document::Description<Plan> plan_description() {
@@ -364,8 +364,8 @@ std::optional<std::string> targets_text(const study::Study& study, const study::
 }
 
 /// Warns of the first point whose moves may end before they arrive, and says how many there are.
-void warn_of_short_moves(std::span<const PointReading> points) {
-  const auto is_short = [](const PointReading& point) { return point.theory.approach.exceeds_hold(); };
+void warn_of_short_moves(std::span<const ConditionTheory> points) {
+  const auto is_short = [](const ConditionTheory& point) { return point.theory.approach.exceeds_hold(); };
   const auto first = std::ranges::find_if(points, is_short);
   if (first == points.end()) return;
   const auto others = std::ranges::count_if(points, is_short) - 1;
@@ -376,10 +376,10 @@ void warn_of_short_moves(std::span<const PointReading> points) {
       others > 0 ? fmt::format("; likewise {} more of the {} examined", others, points.size()) : "");
 }
 
-std::vector<PointReading> examined_points(const study::Study& study, std::int64_t count) {
+std::vector<ConditionTheory> examined_points(const study::Study& study, std::int64_t count) {
   const std::vector<std::string> names = summary::short_labels(study.points.labels, study.points.axes);
   const std::int64_t conditions = study::condition_count(study);
-  std::vector<PointReading> points(static_cast<std::size_t>(count * conditions));
+  std::vector<ConditionTheory> points(static_cast<std::size_t>(count * conditions));
   const auto examine = [&](std::size_t i, std::vector<theory::KnownRotor>& rotors) {
     const std::int64_t point = static_cast<std::int64_t>(i) / conditions;
     const std::int64_t condition = static_cast<std::int64_t>(i) % conditions;

@@ -148,15 +148,15 @@ document::Description<JointErrors> errors_description() {
       });
 }
 
-struct LineReading {
+struct LineOfRecord {
   std::string record;
   double frequency;
 };
 
-std::optional<LineReading> line_of(const Identification& identification) {
+std::optional<LineOfRecord> line_of(const Identification& identification) {
   if (!identification.residual_line) return {};
   const ResidualLine& line = *identification.residual_line;
-  return LineReading{text::printable(identification.records[line.record].name), line.frequency};
+  return LineOfRecord{text::printable(identification.records[line.record].name), line.frequency};
 }
 
 }  // namespace
@@ -198,9 +198,9 @@ document::AnswerDescription<Identification> identification_answer() {
       .object(in_data("residuals", "checks of the residuals"), checks_description(), &Identification::checks)
       .sentence([](const Identification& i) { return checks_text(i.checks); })
       .object(in_data("residual_line", "spectral line of the residuals that a second mass may make"),
-              document::Description<LineReading>()
-                  .value(in_data("record", "record with the line"), &LineReading::record)
-                  .value(in_data("frequency", "its frequency", "Hz"), &LineReading::frequency),
+              document::Description<LineOfRecord>()
+                  .value(in_data("record", "record with the line"), &LineOfRecord::record)
+                  .value(in_data("frequency", "its frequency", "Hz"), &LineOfRecord::frequency),
               line_of)
       .sentence([](const Identification& i) { return i.residual_line ? second_mass_text(i) + "." : ""; })
       .value(in_data("search_ended", "whether the search ended because of --effort"),

@@ -129,22 +129,22 @@ std::string mode_sentence(const Tuning& tuning) {
           : "");
 }
 
-struct LoopReading {
+struct LoopOfStudy {
   const CriticalLoop& loop;
   const study::Study& study;
 };
 
-Description<LoopReading> loop_description() {
-  return Description<LoopReading>()
-      .value(in_data("loop", "the loop in words"), [](const LoopReading& r) { return r.loop.name; })
+Description<LoopOfStudy> loop_description() {
+  return Description<LoopOfStudy>()
+      .value(in_data("loop", "the loop in words"), [](const LoopOfStudy& r) { return r.loop.name; })
       .value(
           in_data("stiffness",
                   "of the contact before it slides, N m/rad (N/m on a linear axis); unknown while sliding"),
-          [](const LoopReading& r) { return r.loop.stiffness; })
+          [](const LoopOfStudy& r) { return r.loop.stiffness; })
       .value(in_data("machine", "number of the machine; unknown where the stiffness says all of it"),
-             [](const LoopReading& r) { return r.loop.machine; })
+             [](const LoopOfStudy& r) { return r.loop.machine; })
       .value(optional(in_data("condition", "the condition that it bears, with conditions")),
-             [](const LoopReading& r) {
+             [](const LoopOfStudy& r) {
                return tuning::names_of(r.study, {0, static_cast<std::size_t>(r.loop.condition)}).condition;
              });
 }
@@ -227,9 +227,9 @@ void add_margins(Items& items) {
       [](const Tuning& t) { return t.answer.tuned.lowest_mode; });
   for (const Margin& one : all_margins) {
     items.object(in_data(std::string(one.loop_key), fmt::format("the loop that has the worst {}", one.title)),
-                 loop_description(), [found = one.found](const Tuning& t) -> std::optional<LoopReading> {
+                 loop_description(), [found = one.found](const Tuning& t) -> std::optional<LoopOfStudy> {
                    if (!t.answer.tuned.margins || !((*t.answer.tuned.margins).*found).loop) return {};
-                   return LoopReading{*((*t.answer.tuned.margins).*found).loop, t.study};
+                   return LoopOfStudy{*((*t.answer.tuned.margins).*found).loop, t.study};
                  });
   }
   items.table(optional(everywhere("margins_by_condition", "smallest margins under each condition",

@@ -37,7 +37,7 @@ class SoundValues : public ::testing::Test {
   fs::path forged(const std::string& dataset, std::int64_t row, Value value) const {
     fs::path path = directory / "forged.h5";
     fs::copy_file(original, path, fs::copy_options::overwrite_existing);
-    unseal(path);
+    remove_checksum(path);
     hdf5::File file = hdf5::File::open_to_change(path);
     write_row(file.open_dataset(dataset), row, value);
     file.close();
@@ -265,7 +265,7 @@ TEST_F(DamagedFile, WithOneFlippedBitOfAColumnFailsItsChecksums) {
     damaged[chunk_address(original, column) + 5] ^= 4;
     write_bytes(path, damaged);
     expect_bad(path, "changed since it was written, or damaged");
-    unseal(path);
+    remove_checksum(path);
     append_checksum(path);
     expect_bad(path, column);
     expect_bad(path, "their checksum is wrong");

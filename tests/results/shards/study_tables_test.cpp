@@ -200,7 +200,7 @@ std::filesystem::path with_world_count(const std::filesystem::path& original, co
                                        std::int64_t point, std::size_t world, std::int64_t count) {
   const std::filesystem::path path = original.parent_path() / "forged.h5";
   std::filesystem::copy_file(original, path, std::filesystem::copy_options::overwrite_existing);
-  unseal(path);
+  remove_checksum(path);
   hdf5::File file = hdf5::File::open_to_change(path);
   {
     hdf5::Dataset counts = file.open_dataset(dataset);

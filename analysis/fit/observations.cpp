@@ -196,8 +196,8 @@ double counting_noise(const TestRecord& record, const Eigen::VectorXd& path,
   const auto excess = [&](double noise) {
     return travels.sum([&](double distance) { return expected_square(distance, noise); }) - observed;
   };
-  // Without noise, a stretch of the path between two reversals has what is expected, to within the square of an
-  // edge, and exactly what the path has, except near the reversals.
+  // Without noise, a stretch of the path between two reversals has what is expected, to within the square of
+  // an edge, and exactly what the path has, except near the reversals.
   const double by_chance = 3.0 + 2.0 * std::sqrt(reversals);
   if (-excess(0.0) < by_chance || observed - noiseless < by_chance) return 0.0;
   constexpr double max_noise = 100.0;

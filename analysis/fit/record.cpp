@@ -175,7 +175,7 @@ SampledPath sampled_path(const TestRecord& record, plant::Plant plant, double of
 
 namespace {
 
-constexpr double reversal_threshold = 0.02;       // of the range
+constexpr double reversal_threshold = 0.02;   // of the range
 constexpr double hold_tolerance = 1e-3;       // of the range
 constexpr double step_threshold = 0.05;       // of the range
 constexpr double slow_threshold = 0.2;        // of the range

@@ -150,9 +150,10 @@ std::vector<SettlingTimes> GoalSettling::statistics(double confidence) const {
     one.median = statistics::clustered_quantile(sample, 0.5, confidence);
     one.p95 = statistics::clustered_quantile(sample, 0.95, confidence);
     all.back().allowed = allowed_.empty() ? within_.time : allowed_[i];
-    all.back().time_ratio = lateness(
-        time_ratios_.empty() ? one.p95.value / within_.time
-                        : statistics::clustered_quantile(time_ratios_[i].sample(), 0.95, confidence).value);
+    all.back().time_ratio =
+        lateness(time_ratios_.empty()
+                     ? one.p95.value / within_.time
+                     : statistics::clustered_quantile(time_ratios_[i].sample(), 0.95, confidence).value);
   }
   return all;
 }

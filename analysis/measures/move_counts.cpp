@@ -29,7 +29,7 @@ std::int64_t CellCounts::cell_of(std::size_t condition, std::size_t within) cons
 
 void CellCounts::add(std::int64_t trial, std::int64_t moves, std::int64_t met) {
   const study::TrialIndices indices{std::max<std::int64_t>(shape_.machines, 1),
-                                static_cast<std::int64_t>(conditions())};
+                                    static_cast<std::int64_t>(conditions())};
   const auto condition = static_cast<std::size_t>(indices.condition_of(trial));
   const auto within = static_cast<std::size_t>(indices.draw_of(trial) % cells_of_condition());
   if (shape_.machines > 0) {

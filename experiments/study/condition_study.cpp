@@ -82,7 +82,7 @@ std::string label_under(std::string_view label, std::string_view condition) {
 }
 
 std::int64_t setting_named(const Study& study, const std::optional<std::string>& condition,
-                        const std::optional<double>& age) {
+                           const std::optional<double>& age) {
   const auto place_in = [&study](const auto& all, const auto& wanted, std::string_view noun,
                                  std::string_view option) -> std::int64_t {
     if (all.empty() && wanted)

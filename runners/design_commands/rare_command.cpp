@@ -71,7 +71,7 @@ std::optional<std::int64_t> world_to_ask(const command_line::Arguments& argument
 std::optional<std::int64_t> condition_to_ask(const command_line::Arguments& arguments,
                                              const study::Study& study) {
   const std::int64_t setting = study::setting_named(study, arguments.value("condition"),
-                                              command_line::number_option(arguments, "age", 0.0));
+                                                    command_line::number_option(arguments, "age", 0.0));
   return study.conditions.empty() ? std::nullopt : std::optional(setting);
 }
 

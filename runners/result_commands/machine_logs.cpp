@@ -102,7 +102,7 @@ void GrowingLog::remember(std::string_view text) {
 
 reading::AllTrialsFile with_condition(const command_line::Arguments& arguments, reading::AllTrialsFile file) {
   const std::int64_t condition = study::setting_named(file.study(), arguments.value("condition"),
-                                                   command_line::number_option(arguments, "age", 0.0));
+                                                      command_line::number_option(arguments, "age", 0.0));
   if (file.study().conditions.empty()) return file;
   return file.under_condition(condition);
 }

@@ -24,8 +24,8 @@ TEST(DacResolution, UpToTheConditionAllMovesAreStableAndAllJerksAreOfCreep) {
   const study::Study study = shipped_study("dac-resolution");
   for (const char* resolution : {"4.27e-05", "0.000107", "0.000213"}) {
     const auto outcomes = outcomes_of(study, with_step(resolution), dac_trials);
-    EXPECT_TRUE(
-        proportion_above(0.96, moves_with(outcomes, [](const auto& move) { return move.stable; }), dac_trials));
+    EXPECT_TRUE(proportion_above(0.96, moves_with(outcomes, [](const auto& move) { return move.stable; }),
+                                 dac_trials));
     EXPECT_TRUE(proportion_above(0.86, moves_with(outcomes, reaches_zero_counts), dac_trials));
     const auto jerks = moves_with(outcomes, [](const auto& move) { return move.jerk_count > 0; });
     EXPECT_TRUE(proportion_above(0.3, jerks, dac_trials)) << "otherwise nothing is said of them";
@@ -81,8 +81,10 @@ std::int64_t stable_count(const std::vector<trial::TrialOutcome>& outcomes) {
 
 TEST(EncoderResolution, ThePapersConverterServesAnEncoderUpToFiveTimesAsFine) {
   EXPECT_TRUE(proportion_above(0.93, zero_count_moves(outcomes_with("tenth", "0.00024")), encoder_trials));
-  EXPECT_TRUE(proportion_above(0.85, zero_count_moves(outcomes_with("five-times", "0.00024")), encoder_trials));
-  EXPECT_TRUE(proportion_below(0.82, zero_count_moves(outcomes_with("ten-times", "0.00024")), encoder_trials));
+  EXPECT_TRUE(
+      proportion_above(0.85, zero_count_moves(outcomes_with("five-times", "0.00024")), encoder_trials));
+  EXPECT_TRUE(
+      proportion_below(0.82, zero_count_moves(outcomes_with("ten-times", "0.00024")), encoder_trials));
 }
 
 TEST(EncoderResolution, AFinerConverterKeepsTheLoopStable) {
@@ -92,7 +94,8 @@ TEST(EncoderResolution, AFinerConverterKeepsTheLoopStable) {
 
 // A finer count is crossed by creep more often: without creep, all moves end in zero counts.
 TEST(EncoderResolution, WhatIsLeftToAFineEncoderIsCreep) {
-  EXPECT_TRUE(proportion_below(0.80, zero_count_moves(outcomes_with("ten-times", "2.4e-05")), encoder_trials));
+  EXPECT_TRUE(
+      proportion_below(0.80, zero_count_moves(outcomes_with("ten-times", "2.4e-05")), encoder_trials));
   const study::Study study = shipped_study("encoder-resolution", {"friction.alpha=0"});
   EXPECT_TRUE(proportion_above(
       0.95, zero_count_moves(outcomes_of(study, "ten-times, dac.resolution=2.4e-05", encoder_trials)),
@@ -179,7 +182,7 @@ TEST(Derivative, ChattersWhereItsKickLeavesTheCountOnTheOtherSide) {
   const study::Study study = shipped_study("derivative");
   const auto outcomes = outcomes_of(study, "a, controller.kd=0.0128", derivative_trials);
   EXPECT_TRUE(proportion_below(0.85, moves_with(outcomes, [](const auto& move) { return move.stable; }),
-                          derivative_trials));
+                               derivative_trials));
   const auto chatters = [](const trial::MoveOutcome& move) {
     return move.outcome == trial::Outcome::one_count;
   };

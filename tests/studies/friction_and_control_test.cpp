@@ -134,11 +134,13 @@ std::int64_t moves_ending_in(const std::string& bearing, trial::Outcome outcome)
 
 TEST(AirBearing, HoldsZeroCountsOnlyWhereNothingDisturbsIt) {
   EXPECT_TRUE(proportion_above(0.95, moves_ending_in("air", trial::Outcome::zero_count), air_trials));
-  EXPECT_TRUE(proportion_below(0.10, moves_ending_in("air-disturbed", trial::Outcome::zero_count), air_trials));
+  EXPECT_TRUE(
+      proportion_below(0.10, moves_ending_in("air-disturbed", trial::Outcome::zero_count), air_trials));
 }
 
 TEST(AirBearing, HuntsByOneCountUnderATorqueThatNoCodeBalances) {
-  EXPECT_TRUE(proportion_above(0.90, moves_ending_in("air-disturbed", trial::Outcome::one_count), air_trials));
+  EXPECT_TRUE(
+      proportion_above(0.90, moves_ending_in("air-disturbed", trial::Outcome::one_count), air_trials));
   EXPECT_TRUE(proportion_above(0.70, moves_ending_in("air-fine-dac", trial::Outcome::one_count), air_trials))
       << "nor does a fine converter help";
 }
@@ -157,7 +159,8 @@ INSTANTIATE_TEST_SUITE_P(ContactVariation, Contacts, ::testing::Values("same", "
 TEST_P(Contacts, EndTheirMovesInZeroCounts) {
   const auto outcomes = outcomes_of(shipped_study("contact-variation"), GetParam(), contact_trials);
   const std::int64_t moves = 6 * contact_trials;
-  EXPECT_TRUE(proportion_above(0.97, moves_with(outcomes, [](const auto& move) { return move.stable; }), moves));
+  EXPECT_TRUE(
+      proportion_above(0.97, moves_with(outcomes, [](const auto& move) { return move.stable; }), moves));
   EXPECT_TRUE(proportion_above(
       0.93, moves_with(outcomes, [](const auto& move) { return move.outcome == trial::Outcome::zero_count; }),
       moves));
@@ -170,7 +173,8 @@ TEST_P(Contacts, EndTheirMovesInZeroCounts) {
 constexpr std::int64_t machine_trials = 100;
 
 TEST(EncoderNoise, HidesZeroCountsWhateverTheGains) {
-  EXPECT_TRUE(proportion_below(0.45, moves_at_zero("encoder-noise", "x1-zero", machine_trials), machine_trials))
+  EXPECT_TRUE(
+      proportion_below(0.45, moves_at_zero("encoder-noise", "x1-zero", machine_trials), machine_trials))
       << "an axis in the middle of its count shows 100 zeros in a row with a probability of 0.287";
 }
 
@@ -182,9 +186,10 @@ TEST(EncoderNoise, LeavesOneCountAtTheResolutionOfThePaper) {
 
 TEST(Compensators, LoseZeroCountsInAZoneOfOneCount) {
   EXPECT_TRUE(proportion_above(0.8, moves_at_zero("compensators", "plain", machine_trials), machine_trials));
-  EXPECT_TRUE(proportion_above(0.8, moves_at_zero("compensators", "standstill", machine_trials), machine_trials));
   EXPECT_TRUE(
-      proportion_below(0.45, moves_at_zero("compensators", "integral-zone-1", machine_trials), machine_trials));
+      proportion_above(0.8, moves_at_zero("compensators", "standstill", machine_trials), machine_trials));
+  EXPECT_TRUE(proportion_below(0.45, moves_at_zero("compensators", "integral-zone-1", machine_trials),
+                               machine_trials));
 }
 
 }  // namespace

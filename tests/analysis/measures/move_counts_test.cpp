@@ -58,7 +58,8 @@ struct CountsInCells {
       // All machines, one after the other, under one condition after the other.
       const std::int64_t machine_count = std::max<std::int64_t>(shape.machines, 1);
       const std::int64_t conditions = std::max<std::int64_t>(shape.conditions, 1);
-      const std::int64_t draw = trial % machine_count + machine_count * (trial / (machine_count * conditions));
+      const std::int64_t draw =
+          trial % machine_count + machine_count * (trial / (machine_count * conditions));
       if (cells.condition && !std::cmp_equal(trial / machine_count % conditions, *cells.condition)) continue;
       if (cells.world && !std::cmp_equal(draw % shape.worlds, *cells.world)) continue;
       const std::int64_t hits = met[static_cast<std::size_t>(trial)];

@@ -164,7 +164,8 @@ TEST(Groupings, DivideTheTrialsEquallyAndIndependently) {
       EXPECT_EQ(indices.group_of(Grouping::condition, i) + 3 * indices.group_of(Grouping::age, i),
                 indices.condition_of(i));
       for (const Grouping of_draw : {Grouping::machine, Grouping::world})
-        EXPECT_EQ(indices.group_of(of_draw, indices.trial_of(indices.draw_of(i), 0)), indices.group_of(of_draw, i));
+        EXPECT_EQ(indices.group_of(of_draw, indices.trial_of(indices.draw_of(i), 0)),
+                  indices.group_of(of_draw, i));
     }
   }
 }

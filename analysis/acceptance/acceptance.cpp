@@ -296,10 +296,10 @@ constexpr int draws = 9999;
 /// replacement.
 std::int64_t thinned(const statistics::MachineMoves& machine, std::int64_t wanted,
                      random::NumberSource& numbers) {
-  std::int64_t left = machine.moves;
+  std::int64_t remaining = machine.moves;
   std::int64_t met = machine.met;
-  for (std::int64_t i = 0; i < wanted; ++i, --left)
-    if (numbers.uniform() * static_cast<double>(left) < static_cast<double>(met)) --met;
+  for (std::int64_t i = 0; i < wanted; ++i, --remaining)
+    if (numbers.uniform() * static_cast<double>(remaining) < static_cast<double>(met)) --met;
   return machine.met - met;
 }
 

@@ -23,8 +23,6 @@ using document::in_data;
 using document::Item;
 using document::Notation;
 using document::with_words;
-using Of = const Acceptance&;
-using OfClaim = const Claim&;
 
 /// [Status]
 std::vector<std::string> status_words() {
@@ -36,12 +34,12 @@ std::string word_of(Status status) {
 }
 
 /// The words of Summary's comparison with what was observed.
-std::string_view agreement_word(OfClaim c) {
+std::string_view agreement_word(const Claim& c) {
   if (c.agreement.p <= c.significance) return "differs";
   return c.agreement.lowest_p <= c.significance ? "consistent" : "too_few";
 }
 
-std::string name_of(OfClaim claim) {
+std::string name_of(const Claim& claim) {
   return claim.goal.name.empty() ? "goal" : claim.goal.name;
 }
 
@@ -54,7 +52,7 @@ std::string judged_text(const Acceptance& a) {
 }
 
 /// "missed: fast; met less often than predicted: near (80 % of the moves, predicted 97 %)".
-std::string reasons_to_reject(Of a) {
+std::string reasons_to_reject(const Acceptance& a) {
   std::vector<std::string> missed, fewer;
   for (const Claim& claim : a.claims) {
     if (claim.status == goal::Status::missed) missed.push_back(name_of(claim));
@@ -72,7 +70,7 @@ std::string reasons_to_reject(Of a) {
 
 /// Moves of these machines, those that there are included, that show each undecided goal without another
 /// miss; 0 where a goal is about machines, each of which has its own number.
-std::int64_t moves_needed(Of a) {
+std::int64_t moves_needed(const Acceptance& a) {
   std::int64_t needed = 0;
   for (const Claim& claim : a.claims) {
     if (claim.goal.machines) return 0;
@@ -83,7 +81,7 @@ std::int64_t moves_needed(Of a) {
   return needed;
 }
 
-std::string headline_of(Of a) {
+std::string headline_of(const Acceptance& a) {
   const std::string of = judged_text(a);
   const char* const whose = a.judged == Judged::all_machines ? "all such machines" : "these machines";
   const char* const goals = a.claims.size() > 1 ? "every goal" : "the goal";
@@ -103,20 +101,20 @@ std::string headline_of(Of a) {
   return fmt::format("undecided: {} are too few to show {} for {}{}", of, goals, whose, needed);
 }
 
-std::string sentences_of_goals(Of a) {
+std::string sentences_of_goals(const Acceptance& a) {
   std::string text;
   for (const Claim& claim : a.claims)
     text += (claim.goal.name.empty() ? "goal: " : "") + goal::goal_sentence(claim.goal) + '\n';
   return text;
 }
 
-std::string comparison_of(OfClaim c) {
+std::string comparison_of(const Claim& c) {
   const std::string_view word = agreement_word(c);
   return fmt::format("{} (p = {})", word == "too_few" ? "too few to decide" : word,
                      text::short_number(c.agreement.p));
 }
 
-std::optional<Bounded> of_machines(OfClaim c, const goal::ClaimVerdict& verdict) {
+std::optional<Bounded> of_machines(const Claim& c, const goal::ClaimVerdict& verdict) {
   if (!c.goal.machines) return std::nullopt;
   return goal::bounded(verdict.machines);
 }
@@ -133,23 +131,23 @@ Description<Claim> claim_rows() {
       .value(
           with_words(everywhere("status", "status", "verdict on the machines by the goal and its prediction"),
                      status_words()),
-          [](OfClaim c) { return word_of(status_of(c)); })
+          [](const Claim& c) { return word_of(status_of(c)); })
       .value(with_words(in_data("goal_status", "verdict on the goal alone, whatever was predicted"),
                         goal::status_words()),
-             [](OfClaim c) { return goal::text_of(c.status); })
+             [](const Claim& c) { return goal::text_of(c.status); })
       .value(percent("wanted", "wanted", "proportion of moves that should meet it"),
-             [](OfClaim c) { return c.goal.moves; })
+             [](const Claim& c) { return c.goal.moves; })
       .value(
           percent(
               "predicted", "predicted",
               "proportion of the simulated moves that meet it; bounds: 95 % interval for as many machines and moves as are compared"),
-          [](OfClaim c) {
+          [](const Claim& c) {
             return Bounded{c.predicted.moves.value, c.agreement.predicted.low, c.agreement.predicted.high};
           })
       .value(
           percent("measured", "measured",
                   "proportion of the measured moves that meet it, with one-sided bounds of these machines"),
-          [](OfClaim c) { return goal::bounded(c.rate); })
+          [](const Claim& c) { return goal::bounded(c.rate); })
       .value(in_data("met", "measured moves that meet it"), &Claim::met)
       .value(in_data("moves", "measured moves"), &Claim::moves)
       .value(
@@ -158,24 +156,24 @@ Description<Claim> claim_rows() {
           agreement_word)
       .shown_as(comparison_of)
       .value(in_data("p_value", "two-sided p-value of the agreement", "1"),
-             [](OfClaim c) { return c.agreement.p; })
+             [](const Claim& c) { return c.agreement.p; })
       .value(everywhere("like_worlds", "like worlds",
                         "worlds of the study that agree with the machines; null: it has no worlds"),
              &Claim::like_worlds)
       .value(in_data("compared_moves", "first moves of each machine that are compared"),
-             [](OfClaim c) { return c.agreement.moves; })
+             [](const Claim& c) { return c.agreement.moves; })
       .value(
           percent("all_machines", "all such machines",
                   "proportion of moves of all machines of which these are a sample, with one-sided bounds"),
-          [](OfClaim c) { return goal::bounded(c.measured.moves); })
+          [](const Claim& c) { return goal::bounded(c.measured.moves); })
       .value(
           percent(
               "machines_predicted", "machines, predicted",
               "proportion of machines that meet it in the wanted proportion of moves, with one-sided bounds; null: the goal does not ask for machines"),
-          [](OfClaim c) { return of_machines(c, c.predicted); })
+          [](const Claim& c) { return of_machines(c, c.predicted); })
       .value(percent("machines_measured", "machines, measured",
                      "that proportion of the measured machines, with one-sided bounds"),
-             [](OfClaim c) { return of_machines(c, c.measured); });
+             [](const Claim& c) { return of_machines(c, c.measured); });
 }
 
 /// "20 of 20" for each goal.
@@ -235,7 +233,7 @@ Description<StandardValue> standard_rows() {
       .value(in_data("runs", "measured runs"), [](const StandardValue& v) { return v.measured.size(); });
 }
 
-std::string worlds_sentence(Of a) {
+std::string worlds_sentence(const Acceptance& a) {
   if (a.worlds == 0) return "";
   return fmt::format(
       "with {} worlds, the prediction is that of the world that agrees best with the machines, and the "
@@ -243,7 +241,7 @@ std::string worlds_sentence(Of a) {
       a.worlds);
 }
 
-std::string assumed_sentence(Of a) {
+std::string assumed_sentence(const Acceptance& a) {
   if (a.assumed.empty()) return "";
   return fmt::format("the prediction assumes: {}", fmt::join(a.assumed, ", "));
 }
@@ -258,14 +256,18 @@ document::AnswerDescription<Acceptance> acceptance_answer() {
       {}};
   answer.items.headline(headline_of)
       .value(with_words(in_data("status", "verdict on the machines"), status_words()),
-             [](Of a) { return word_of(status_of(a)); })
+             [](const Acceptance& a) { return word_of(status_of(a)); })
       .value(with_words(in_data("judged", "machines that the goals are judged for"),
                         {"all_machines", "these_machines"}),
-             [](Of a) { return a.judged == Judged::all_machines ? "all_machines" : "these_machines"; })
+             [](const Acceptance& a) {
+               return a.judged == Judged::all_machines ? "all_machines" : "these_machines";
+             })
       .value(in_data("needed_machines",
                      "machines, with as many moves each, that would decide the goals for all machines; "
                      "null: they are decided, or no number is known"),
-             [](Of a) { return a.needed_machines > 0 ? std::optional(a.needed_machines) : std::nullopt; })
+             [](const Acceptance& a) {
+               return a.needed_machines > 0 ? std::optional(a.needed_machines) : std::nullopt;
+             })
       .value(everywhere("study", "study", "the results file of the prediction"), &Acceptance::study)
       .value(everywhere("point", "point", "label of the design point"), &Acceptance::point)
       .value(everywhere("simulated_machines", "simulated machines", "machines of the prediction"),
@@ -283,7 +285,7 @@ document::AnswerDescription<Acceptance> acceptance_answer() {
               "standard_lacks",
               "why there are no values of ISO 230-2: the column that a log lacks; empty: there are, or the study has no sequence"),
           &Acceptance::standard_lacks)
-      .sentence([](Of a) {
+      .sentence([](const Acceptance& a) {
         return a.standard_lacks.empty() ? std::string()
                                         : fmt::format("the values of ISO 230-2 are not judged, because {}",
                                                       text::printable(a.standard_lacks));
@@ -292,15 +294,15 @@ document::AnswerDescription<Acceptance> acceptance_answer() {
              &Acceptance::machines)
       .value({.key = "assumed",
               .meaning = "effects that the prediction leaves out because its manifest does not name them",
-              .shown = document::Shown::in_json},
+              .shown = document::Visibility::in_json},
              &Acceptance::assumed)
       .sentence(assumed_sentence)
-      .sentence([](Of) {
+      .sentence([](const Acceptance&) {
         return std::string(
             "measured bounds hold for moves that do not depend on each other; those of the measured machines "
             "hold for these machines alone, the others for all machines of which they are a sample");
       })
-      .sentence([](Of) { return std::string("date, name, signature: ____________________"); });
+      .sentence([](const Acceptance&) { return std::string("date, name, signature: ____________________"); });
   return answer;
 }
 

@@ -29,7 +29,7 @@ using document::with_words;
 using Comparison = const StudyComparison&;
 
 /// A judgement with its texts for people: a row of the table, and a case of JUnit.
-struct Row {
+struct JudgementRow {
   const StudyComparison& comparison;
   const PointComparison& point;
   const Judgement& one;
@@ -54,8 +54,8 @@ struct Row {
   bool is_noteworthy() const { return !has(GateVerdict::passed) || one.change == ChangeVerdict::better; }
 };
 
-std::vector<Row> all_rows(Comparison comparison) {
-  std::vector<Row> rows;
+std::vector<JudgementRow> all_rows(Comparison comparison) {
+  std::vector<JudgementRow> rows;
   for (const PointComparison& point : comparison.points)
     for (const Judgement& one : point.judgements) rows.push_back({comparison, point, one});
   return rows;
@@ -64,7 +64,8 @@ std::vector<Row> all_rows(Comparison comparison) {
 /// Number of judgements with this verdict: a GateVerdict, or a ChangeVerdict of a measure.
 template <class Verdict>
 std::int64_t count(Comparison comparison, Verdict verdict) {
-  return std::ranges::count_if(all_rows(comparison), [&](const Row& row) { return row.has(verdict); });
+  return std::ranges::count_if(all_rows(comparison),
+                               [&](const JudgementRow& row) { return row.has(verdict); });
 }
 
 std::int64_t failed(Comparison comparison) {
@@ -74,7 +75,7 @@ std::int64_t failed(Comparison comparison) {
 /// Number of judgements that have enough values.
 std::int64_t judged(Comparison comparison) {
   return std::ranges::count_if(all_rows(comparison),
-                               [](const Row& row) { return !row.has(GateVerdict::not_measured); });
+                               [](const JudgementRow& row) { return !row.has(GateVerdict::not_measured); });
 }
 
 /// "3 of 40 judgements failed (1 worse, 2 better)"; empty if none failed.
@@ -94,7 +95,7 @@ std::string advice_text(Comparison comparison) {
                        trials_text(*comparison.trials_to_decide), 100.0 * decision_probability);
   if (std::isnan(comparison.max_trials_to_decide)) return "";
   std::vector<std::string> open;
-  for (const Row& row : all_rows(comparison)) {
+  for (const JudgementRow& row : all_rows(comparison)) {
     if (row.one.is_measure() && !std::isnan(row.one.max_trials_margin))
       open.push_back(fmt::format("{} at {} (margin {}; {} would be decided)", row.one.measure, row.place(),
                                  row.text(row.one.margin), row.text(row.one.max_trials_margin)));
@@ -114,7 +115,7 @@ std::string answer_text(Comparison comparison) {
   for (const ChangeVerdict change : {ChangeVerdict::better, ChangeVerdict::worse, ChangeVerdict::equivalent,
                                      ChangeVerdict::not_worse, ChangeVerdict::undecided}) {
     std::vector<std::string> names;
-    for (const Row& row : all_rows(comparison)) {
+    for (const JudgementRow& row : all_rows(comparison)) {
       if (!row.has(change)) continue;
       names.push_back(row.one.measure);
       if (!row.point.condition.empty()) names.back() += " under " + text::printable(row.point.condition);
@@ -129,14 +130,14 @@ std::string answer_text(Comparison comparison) {
 /// measured.
 std::string detectable_sentence(Comparison comparison) {
   std::vector<std::string> names;
-  std::map<std::string, std::vector<Row>> measured;
-  for (const Row& row : all_rows(comparison)) {
+  std::map<std::string, std::vector<JudgementRow>> measured;
+  for (const JudgementRow& row : all_rows(comparison)) {
     if (std::isnan(row.one.detectable_change)) continue;
     if (measured[row.one.measure].empty()) names.push_back(row.one.measure);
     measured[row.one.measure].push_back(row);
   }
   for (std::string& name : names) {
-    const auto change = [](const Row& row) { return row.one.detectable_change; };
+    const auto change = [](const JudgementRow& row) { return row.one.detectable_change; };
     const auto lowest = std::ranges::min_element(measured[name], {}, change)->detects();
     const auto highest = std::ranges::max_element(measured[name], {}, change)->detects();
     name += " " + lowest + (lowest == highest ? "" : " to " + highest);
@@ -263,7 +264,7 @@ Description<PointComparison> point_description() {
   const auto several = Description<PointComparison>().table(
       {.key = "goals",
        .meaning = "verdicts on each of several goals",
-       .shown = document::Shown::in_json,
+       .shown = document::Visibility::in_json,
        .optional = true},
       Description<GoalStatuses>()
           .value(in_data("name", "name of the goal"), &GoalStatuses::name)
@@ -274,7 +275,7 @@ Description<PointComparison> point_description() {
       .value(in_data("label", "label of the design point, with the condition"), &PointComparison::label)
       .value({.key = "condition",
               .meaning = "condition that the trials are under",
-              .shown = document::Shown::in_json,
+              .shown = document::Visibility::in_json,
               .optional = true},
              [](Point p) { return p.condition.empty() ? std::nullopt : std::optional(p.condition); })
       .value(gate_item("verdict", "verdict of the gate"), [](Point p) { return to_string(p.verdict); })
@@ -317,7 +318,7 @@ Description<StudyComparison> counts_description() {
 
 /// Text of the bounds. For a requirement on a quantile these are bounds of the proportion of trials within
 /// the limit.
-std::string Row::bounds() const {
+std::string JudgementRow::bounds() const {
   if (std::isnan(one.bounds.low)) return "–";
   if (one.is_measure() || one.measure.find('.') == std::string::npos)
     return fmt::format("[{}, {}]", text(one.bounds.low), text(one.bounds.high));
@@ -325,7 +326,7 @@ std::string Row::bounds() const {
   return fmt::format("[{}, {}] within", percent(one.bounds.low), percent(one.bounds.high));
 }
 
-std::string Row::margin() const {
+std::string JudgementRow::margin() const {
   const char* const relation = !one.is_measure() ? one.at_least ? "≥ " : "≤ " : one.changed_fails ? "± " : "";
   return relation + text(one.margin);
 }
@@ -336,7 +337,7 @@ double shown_p(const Judgement& measure) {
   return measure.change == ChangeVerdict::better ? measure.adjusted_improvement_p : measure.adjusted_p;
 }
 
-std::string Row::p() const {
+std::string JudgementRow::p() const {
   const double p = shown_p(one);
   if (std::isnan(p)) return "–";
   return p < 1e-4 ? "< 1e-4" : fmt::format("{:.2g}", p);
@@ -344,7 +345,7 @@ std::string Row::p() const {
 
 /// The remarks on the judgement: its reason, the verdicts on the goal for the proportion of moves in the
 /// goal, the undecided moves for the proportion of stable trials, and what would decide it.
-std::string Row::note() const {
+std::string JudgementRow::note() const {
   std::vector<std::string> notes;
   if (!one.note.empty()) notes.push_back(one.note);
   for (const GoalStatuses& goal : point.goals) {
@@ -367,20 +368,20 @@ std::string Row::note() const {
   return fmt::format("{}", fmt::join(notes, "; "));
 }
 
-Description<Row> row_description() {
+Description<JudgementRow> row_description() {
   // One column names the rows, so that every part of a divided table has it.
-  return Description<Row>()
+  return Description<JudgementRow>()
       .value(to_people("point, measure"),
-             [](const Row& row) { return fmt::format("{} {}", row.place(), row.name()); })
-      .value(to_people("verdict"), &Row::verdict)
-      .value(to_people("baseline"), &Row::baseline)
-      .value(to_people("file"), &Row::current)
-      .value(to_people("worse by"), &Row::effect)
-      .value(to_people("bounds"), &Row::bounds)
-      .value(to_people("margin"), &Row::margin)
-      .value(to_people("detects"), &Row::detects)
-      .value(to_people("p"), &Row::p)
-      .value(to_people("note"), &Row::note);
+             [](const JudgementRow& row) { return fmt::format("{} {}", row.place(), row.name()); })
+      .value(to_people("verdict"), &JudgementRow::verdict)
+      .value(to_people("baseline"), &JudgementRow::baseline)
+      .value(to_people("file"), &JudgementRow::current)
+      .value(to_people("worse by"), &JudgementRow::effect)
+      .value(to_people("bounds"), &JudgementRow::bounds)
+      .value(to_people("margin"), &JudgementRow::margin)
+      .value(to_people("detects"), &JudgementRow::detects)
+      .value(to_people("p"), &JudgementRow::p)
+      .value(to_people("note"), &JudgementRow::note);
 }
 
 std::string file_text(const ComparedFile& file) {
@@ -408,11 +409,11 @@ Description<manifest_text::ManifestDifference> difference_description() {
 }
 
 /// All rows; only the noteworthy ones if there are more than max_rows.
-std::vector<Row> rows_shown(Comparison comparison) {
-  std::vector<Row> all = all_rows(comparison);
+std::vector<JudgementRow> rows_shown(Comparison comparison) {
+  std::vector<JudgementRow> all = all_rows(comparison);
   if (all.size() <= max_rows) return all;
-  std::vector<Row> noteworthy;
-  std::ranges::copy_if(all, std::back_inserter(noteworthy), &Row::is_noteworthy);
+  std::vector<JudgementRow> noteworthy;
+  std::ranges::copy_if(all, std::back_inserter(noteworthy), &JudgementRow::is_noteworthy);
   return noteworthy;
 }
 
@@ -423,7 +424,7 @@ std::string omitted_sentence(Comparison comparison) {
 
 /// Whether any test is significant although its bounds leave the direction of the change open.
 bool any_contrast(Comparison comparison) {
-  return std::ranges::any_of(all_rows(comparison), [&](const Row& row) {
+  return std::ranges::any_of(all_rows(comparison), [&](const JudgementRow& row) {
     return shown_p(row.one) < comparison.false_discovery_rate && row.one.bounds.low < 0.0 &&
            row.one.bounds.high > 0.0;
   });
@@ -592,7 +593,7 @@ std::string comparison_junit(const StudyComparison& comparison) {
     }
     cases += "</testcase>\n";
   };
-  for (const Row& row : all_rows(comparison)) {
+  for (const JudgementRow& row : all_rows(comparison)) {
     const std::string note = row.note();
     add(fmt::format("{}: {}", row.place(), row.name()), row.one.verdict,
         fmt::format("{}: baseline {}, file {}, worse by {} {}, margin {}, p {}{}", row.verdict(),

@@ -101,7 +101,7 @@ class CsvLine {
     if (content.is_empty()) return item.kind == Kind::number || item.kind == Kind::whole ? "nan" : "";
     if (const auto* const number = std::get_if<std::int64_t>(&content.value)) return std::to_string(*number);
     Item alone = item;
-    alone.shown = Shown::in_json;
+    alone.shown = Visibility::in_json;
     return json(std::vector{std::move(alone)}, {{content}})[item.key].dump();
   }
 

@@ -65,7 +65,7 @@ struct ValueType<Range> {
   static void describe(Item& item) {
     item.kind = Kind::object;
     item.nullable = true;
-    if (item.heading.empty()) item.shown = Shown::in_data;
+    if (item.heading.empty()) item.shown = Visibility::in_data;
     item.members = {in_data("low", "smallest over the trials", item.unit),
                     in_data("high", "largest over the trials", item.unit)};
     for (Item& end : item.members) end.kind = Kind::number;
@@ -261,19 +261,19 @@ class Description {
   /// Adds the title of a section.
   template <class Get>
   Description& title(Get get) {
-    return add_text({.shown = Shown::to_people, .kind = Kind::title}, std::move(get));
+    return add_text({.shown = Visibility::to_people, .kind = Kind::title}, std::move(get));
   }
 
   /// Adds sentences for people, each on a line of its own; none if `get` returns an empty text.
   template <class Get>
   Description& sentence(Get get) {
-    return add_text({.shown = Shown::to_people, .kind = Kind::sentence}, std::move(get));
+    return add_text({.shown = Visibility::to_people, .kind = Kind::sentence}, std::move(get));
   }
 
   /// Adds figures. `get` returns a vector of Figure.
   template <class Get>
   Description& figures(Get get) {
-    return add({.shown = Shown::to_people, .kind = Kind::figure},
+    return add({.shown = Visibility::to_people, .kind = Kind::figure},
                [get = std::move(get)](const Row& row, Audience) -> Content {
                  List list;
                  for (Figure& figure : std::invoke(get, row))
@@ -299,8 +299,9 @@ class Description {
   Description& add(Item item, ContentOf content) {
     const bool is_value = item.kind != Kind::object && item.kind != Kind::table &&
                           item.kind != Kind::sections && item.kind != Kind::headline;
-    if (item.shown == Shown::everywhere && item.key.empty()) item.shown = Shown::to_people;
-    if (item.shown == Shown::everywhere && item.heading.empty() && is_value) item.shown = Shown::in_data;
+    if (item.shown == Visibility::everywhere && item.key.empty()) item.shown = Visibility::to_people;
+    if (item.shown == Visibility::everywhere && item.heading.empty() && is_value)
+      item.shown = Visibility::in_data;
     items_.push_back(std::move(item));
     contents_.push_back(std::move(content));
     return *this;

@@ -29,7 +29,7 @@ enum class Kind {
 
 /// The formats that show an item. People read text, Markdown and HTML; data are JSON and CSV. An item without
 /// a key is shown to people only. A value without a heading is not shown to people.
-enum class Shown {
+enum class Visibility {
   everywhere,
   in_data,      ///< JSON and CSV only
   in_json,      ///< JSON only
@@ -43,10 +43,13 @@ enum class Shown {
 enum class Audience { all, people, json, csv };
 
 /// Whether the audience is shown an item with this `shown`.
-constexpr bool is_shown(Shown shown, Audience audience) {
-  const bool people = shown != Shown::in_data && shown != Shown::in_json && shown != Shown::in_csv;
-  const bool json = shown != Shown::in_csv && shown != Shown::not_in_json && shown != Shown::to_people;
-  const bool csv = shown != Shown::in_json && shown != Shown::not_in_csv && shown != Shown::to_people;
+constexpr bool is_shown(Visibility shown, Audience audience) {
+  const bool people =
+      shown != Visibility::in_data && shown != Visibility::in_json && shown != Visibility::in_csv;
+  const bool json =
+      shown != Visibility::in_csv && shown != Visibility::not_in_json && shown != Visibility::to_people;
+  const bool csv =
+      shown != Visibility::in_json && shown != Visibility::not_in_csv && shown != Visibility::to_people;
   switch (audience) {
     case Audience::people:
       return people;
@@ -78,7 +81,7 @@ struct Item {
   std::string meaning{};  ///< Description for the schema and for legends, a phrase without a full stop.
   std::string unit{};     ///< "1" for dimensionless numbers; empty if a unit makes no sense
   Notation notation{Notation::four_digits};
-  Shown shown{Shown::everywhere};
+  Visibility shown{Visibility::everywhere};
   bool numeric{false};               ///< The text is aligned in tables like a number: "> 1 s".
   std::vector<std::string> words{};  ///< All values that the text can have; empty: any text.
   std::string column{};              ///< Name in CSV; empty: "<object>_<key>", or the key outside an object.
@@ -116,13 +119,15 @@ inline Item everywhere(std::string key, std::string heading, std::string meaning
 
 /// An item that is shown in text, Markdown and HTML only.
 inline Item to_people(std::string heading) {
-  return {.heading = std::move(heading), .shown = Shown::to_people};
+  return {.heading = std::move(heading), .shown = Visibility::to_people};
 }
 
 /// An item that is shown in JSON and CSV only.
 inline Item in_data(std::string key, std::string meaning, std::string unit = {}) {
-  return {
-      .key = std::move(key), .meaning = std::move(meaning), .unit = std::move(unit), .shown = Shown::in_data};
+  return {.key = std::move(key),
+          .meaning = std::move(meaning),
+          .unit = std::move(unit),
+          .shown = Visibility::in_data};
 }
 
 /// The item with Item::words set. @param words all values that the text can have

@@ -110,63 +110,68 @@ std::string safety_text(const ExperimentDesign& design) {
 
 document::Description<ExpectedParameter> expected_description() {
   using document::in_data;
-  using Of = const ExpectedParameter&;
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   return document::Description<ExpectedParameter>()
       .value({"key", "parameter", "dotted path in a manifest"}, &ExpectedParameter::key)
       .value({"guess", "guess", "value of the median machine, in the unit"}, &ExpectedParameter::guess)
       .value({"unit", "unit", "unit of the parameter"}, &ExpectedParameter::unit)
-      .value(with_words(in_data("status", "whether the record determines it"),
-                        {"estimated", "not_identifiable"}),
-             [](Of p) { return is_estimated(p.found) ? "estimated" : "not_identifiable"; })
-      .value(in_data("low", "lower end of the 95 % interval to expect"), [](Of p) { return p.found.low; })
-      .value(in_data("high", "its upper end"), [](Of p) { return p.found.high; })
+      .value(
+          with_words(in_data("status", "whether the record determines it"),
+                     {"estimated", "not_identifiable"}),
+          [](const ExpectedParameter& p) { return is_estimated(p.found) ? "estimated" : "not_identifiable"; })
+      .value(in_data("low", "lower end of the 95 % interval to expect"),
+             [](const ExpectedParameter& p) { return p.found.low; })
+      .value(in_data("high", "its upper end"), [](const ExpectedParameter& p) { return p.found.high; })
       .value(fit::for_people("interval", "expected 95 % interval"),
-             [](Of p) { return fit::interval_text(p.found); })
+             [](const ExpectedParameter& p) { return fit::interval_text(p.found); })
       .value(fit::for_people("width", "±"),
-             [](Of p) -> std::optional<std::string> {
+             [](const ExpectedParameter& p) -> std::optional<std::string> {
                if (!is_estimated(p.found)) return {};
                return percent(p.found.half_width() / p.guess);
              })
       .value(in_data("told", "machines on which the record determines it"), &ExpectedParameter::told)
       .value(in_data("narrowest", "least half-width of the interval over the machines, relative", "1"),
-             [=](Of p) { return p.told > 0 ? p.narrowest : unknown; })
+             [=](const ExpectedParameter& p) { return p.told > 0 ? p.narrowest : unknown; })
       .value(in_data("widest", "largest half-width of the interval over the machines, relative", "1"),
-             [=](Of p) { return p.told > 0 ? p.widest : unknown; })
+             [=](const ExpectedParameter& p) { return p.told > 0 ? p.widest : unknown; })
       .value(fit::for_people("widths", "± over the machines"),
-             [](Of p) -> std::optional<std::string> {
+             [](const ExpectedParameter& p) -> std::optional<std::string> {
                if (p.told == 0) return {};
                return fmt::format("{} to {}", percent(p.narrowest), percent(p.widest));
              })
       .value(in_data("reason", "why the record does not determine it; empty: it does"),
-             [](Of p) { return p.found.reason; });
+             [](const ExpectedParameter& p) { return p.found.reason; });
 }
 
 }  // namespace
 
 document::Description<ExperimentDesign> design_description() {
   using document::in_data;
-  using Of = const ExperimentDesign&;
   return document::Description<ExperimentDesign>()
       .headline(headline_of)
       .value(in_data("name", "name of the study"), &ExperimentDesign::study)
       .value(with_words(in_data("axis", "kind of axis"),
                         {parameters::axis_labels.begin(), parameters::axis_labels.end()}),
-             [](Of d) { return parameters::axis_labels.at(static_cast<std::size_t>(d.frame.axis)); })
-      .value(in_data("sample_time", "time between samples", "s"), [](Of d) { return d.frame.sample_time; })
-      .value(in_data("samples", "samples of the record"), [](Of d) { return d.frame.samples; })
+             [](const ExperimentDesign& d) {
+               return parameters::axis_labels.at(static_cast<std::size_t>(d.frame.axis));
+             })
+      .value(in_data("sample_time", "time between samples", "s"),
+             [](const ExperimentDesign& d) { return d.frame.sample_time; })
+      .value(in_data("samples", "samples of the record"),
+             [](const ExperimentDesign& d) { return d.frame.samples; })
       .value(in_data("max_torque", "largest torque or force, N m or N"),
-             [](Of d) { return d.frame.max_torque; })
+             [](const ExperimentDesign& d) { return d.frame.max_torque; })
       .value(in_data("least_breakaway", "least breakaway of the machines, N m or N"),
              &ExperimentDesign::least_breakaway)
       .value(in_data("travel", "largest distance from the start on any machine, rad or m"),
              &ExperimentDesign::travel)
       .value(in_data("machines", "machines on which it is safe"), &ExperimentDesign::machines)
-      .value(in_data("protocols", "protocols that were tried"), [](Of d) { return d.search.protocols; })
+      .value(in_data("protocols", "protocols that were tried"),
+             [](const ExperimentDesign& d) { return d.search.protocols; })
       .value(in_data("converged", "whether no change of the protocol was better"),
-             [](Of d) { return d.search.converged; })
+             [](const ExperimentDesign& d) { return d.search.converged; })
       .value(in_data("residuals_passed", "whether identify explains the simulated record"),
-             [](Of d) { return d.identification.checks.passed; })
+             [](const ExperimentDesign& d) { return d.identification.checks.passed; })
       .sentence(protocol_text)
       .sentence(safety_text)
       .table(in_data("segments", "parts of the record"),

@@ -20,7 +20,7 @@ std::vector<ProtocolSegment> ramps_and_holds(const ProtocolShape& shape, double 
                                              std::int64_t hold_samples) {
   std::vector<ProtocolSegment> ramps;
   double level = amplitude;
-  for (int turn = 0; turn <= static_cast<int>(shape.reversals); ++turn) {
+  for (int reversal = 0; reversal <= static_cast<int>(shape.reversals); ++reversal) {
     ramps.push_back({level, 0});
     level *= -shape.nesting;
   }

@@ -175,7 +175,7 @@ SampledPath sampled_path(const TestRecord& record, plant::Plant plant, double of
 
 namespace {
 
-constexpr double turn_threshold = 0.02;       // of the range
+constexpr double reversal_threshold = 0.02;   // of the range
 constexpr double hold_tolerance = 1e-3;       // of the range
 constexpr double step_threshold = 0.05;       // of the range
 constexpr double slow_threshold = 0.2;        // of the range
@@ -190,7 +190,7 @@ double torque_at(const TestRecord& record, std::ptrdiff_t sample) {
 /// The branches between turning points. A turning point is an extreme after which the torque returns by more
 /// than the threshold.
 std::vector<LoadingBranch> branches_of(const TestRecord& record, double range) {
-  const double threshold = turn_threshold * range;
+  const double threshold = reversal_threshold * range;
   std::vector<LoadingBranch> branches;
   LoadingBranch branch;  // from the last turning point to the extreme torque since then
   int direction = 0;

@@ -69,17 +69,16 @@ document::Description<FitReport> estimates_description() {
 }
 
 document::Description<ParameterEstimate> estimate_description() {
-  using Of = const ParameterEstimate&;
   using Text = std::optional<std::string>;
   return document::Description<ParameterEstimate>()
       .value({"name", "parameter", "name of the parameter"}, &ParameterEstimate::name)
       .value(in_data("key", "dotted path in a manifest; null: it has none"),
-             [](Of p) { return p.key.empty() ? Text() : p.key; })
+             [](const ParameterEstimate& p) { return p.key.empty() ? Text() : p.key; })
       .value(for_people("value_text", "value"), value_text)
       .value({"unit", "unit", "unit of its numbers"}, &ParameterEstimate::unit)
       .value(with_words(in_data("status", "whether the records determine it"),
                         {"estimated", "given", "kept", "not_identifiable"}),
-             [](Of p) { return to_string(p.status); })
+             [](const ParameterEstimate& p) { return to_string(p.status); })
       .value(in_data("value", "estimate, in the unit"), &ParameterEstimate::value)
       .value(in_data("standard_error", "its standard error, in the unit"), &ParameterEstimate::standard_error)
       .value(in_data("low", "lower end of its 95 % interval, in the unit"), &ParameterEstimate::low)
@@ -87,19 +86,21 @@ document::Description<ParameterEstimate> estimate_description() {
       .value(for_people("interval", "95 % interval"), interval_text)
       .value(for_people("half_width", "±"), half_width_text)
       .value(for_people("status_text", "status", false),
-             [](Of p) {
+             [](const ParameterEstimate& p) {
                return p.status == EstimateStatus::not_identifiable ? "not identifiable" : to_string(p.status);
              })
       .value({.key = "reason",
               .meaning = "why it is not identifiable, or kept",
-              .shown = document::Shown::in_data,
+              .shown = document::Visibility::in_data,
               .optional = true},
-             [](Of p) { return p.reason.empty() ? Text() : p.reason; })
+             [](const ParameterEstimate& p) { return p.reason.empty() ? Text() : p.reason; })
       .value({.key = "distribution",
               .meaning = "distribution in a manifest whose central 95 % are the interval",
-              .shown = document::Shown::in_data,
+              .shown = document::Visibility::in_data,
               .optional = true},
-             [](Of p) { return is_estimated(p) && !p.key.empty() ? distribution_text(p) : Text(); });
+             [](const ParameterEstimate& p) {
+               return is_estimated(p) && !p.key.empty() ? distribution_text(p) : Text();
+             });
 }
 
 std::string missing_parameters_text(std::span<const ParameterEstimate> parameters) {

@@ -74,7 +74,7 @@ std::string missing_parameters_text(std::span<const ParameterEstimate> parameter
 
 /// An item that is shown to people only and does not appear in data output.
 inline document::Item for_people(const char* key, const char* heading, bool numeric = true) {
-  return {.key = key, .heading = heading, .shown = document::Shown::to_people, .numeric = numeric};
+  return {.key = key, .heading = heading, .shown = document::Visibility::to_people, .numeric = numeric};
 }
 
 /// "1.23e-06 m", a length on an axis.

@@ -222,7 +222,7 @@ Verdict verdict_on(const Question& question, const measures::PointSummary& point
   if (verdict.claims.size() > 1 && has_settling_times(question, point)) {
     const std::vector<GoalTimes> times = goal_times(question, point);
     for (ClaimVerdict& claim : verdict.claims)
-      claim.standing.earliness = -measures::lateness(times_of_claim(times, claim).share);
+      claim.standing.earliness = -measures::lateness(times_of_claim(times, claim).time_ratio);
   }
   static_cast<ClaimVerdict&>(verdict) = *std::ranges::min_element(verdict.claims, is_worse);
   return verdict;
@@ -259,14 +259,14 @@ std::vector<GoalTimes> goal_times(const Question& question, const measures::Poin
     }
     for (const measures::SettlingTimes& own : point.goal_settling[part.number]) {
       const auto condition = static_cast<std::size_t>(&own - point.goal_settling[part.number].data());
-      all.push_back({i, condition, &own.times, own.allowed, own.share});
+      all.push_back({i, condition, &own.times, own.allowed, own.time_ratio});
     }
   }
   return all;
 }
 
 GoalTimes slowest_goal_times(const Question& question, const measures::PointSummary& point) {
-  return std::ranges::max(goal_times(question, point), {}, &GoalTimes::share);
+  return std::ranges::max(goal_times(question, point), {}, &GoalTimes::time_ratio);
 }
 
 const GoalTimes& times_of_claim(const std::vector<GoalTimes>& times, const ClaimVerdict& claim) {
@@ -317,7 +317,7 @@ std::vector<double> merits_of(const Question& question, const measures::PointSum
           worst.observed,
           worst.bound_of_moves,
           worst.observed_of_moves,
-          -slowest_goal_times(question, point).share};
+          -slowest_goal_times(question, point).time_ratio};
 }
 
 QuestionRate rate_of(const Question& question, const measures::PointSummary& point, std::size_t points,

@@ -131,12 +131,12 @@ struct GoalTimes {
   const measures::MeasureStatistics* statistics{nullptr};
   double allowed{statistics::unknown};  ///< Longest time allowed to a judged move, s from its start.
   /// 95 % quantile of settling time / allowed time; infinite if it is never reached.
-  double share{statistics::unknown};
+  double time_ratio{statistics::unknown};
 };
 /// Settling times for each pair of goal and condition. Only moves that the goal judges are counted.
 /// @param question with a claim
 std::vector<GoalTimes> goal_times(const Question& question, const measures::PointSummary& point);
-/// The settling times with the largest GoalTimes::share. @param question with a claim
+/// The settling times with the largest GoalTimes::time_ratio. @param question with a claim
 GoalTimes slowest_goal_times(const Question& question, const measures::PointSummary& point);
 
 /// The element of `times` for the goal and the condition of the claim. @param times goal_times() of the same

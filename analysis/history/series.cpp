@@ -278,7 +278,6 @@ Description<SeriesChange> change_description() {
 }
 
 Description<Series> series_description() {
-  using Of = const Series&;
   return Description<Series>()
       .value(everywhere("study", "study", "name of the study"), &Series::study)
       .value(in_data("series_sha256", "hash of the question, equal for all runs"), &Series::series_sha256)
@@ -286,12 +285,14 @@ Description<Series> series_description() {
       .value(everywhere("measure", "measure", "name of the measure"), &Series::measure)
       .value(in_data("unit", "unit of the values"), &Series::unit)
       .value(document::with_words(in_data("test", "how the series is tested"), {"levels", "baseline"}),
-             [](Of s) { return s.test == SeriesTest::levels ? "levels" : "baseline"; })
-      .value(to_people("since"), [](Of s) { return s.runs.front().run->created.substr(0, 10); })
-      .value(to_people("runs"), [](Of s) { return s.runs.size(); })
-      .value(to_people("first"), [](Of s) { return value_text(s.runs[0].value, s.runs[0].value.value); })
-      .value(to_people("last, with 95 % bounds"), [](Of s) { return bounded_text(s.runs.back().value); })
-      .value(to_people("changes"), [](Of s) { return s.changes.size(); })
+             [](const Series& s) { return s.test == SeriesTest::levels ? "levels" : "baseline"; })
+      .value(to_people("since"), [](const Series& s) { return s.runs.front().run->created.substr(0, 10); })
+      .value(to_people("runs"), [](const Series& s) { return s.runs.size(); })
+      .value(to_people("first"),
+             [](const Series& s) { return value_text(s.runs[0].value, s.runs[0].value.value); })
+      .value(to_people("last, with 95 % bounds"),
+             [](const Series& s) { return bounded_text(s.runs.back().value); })
+      .value(to_people("changes"), [](const Series& s) { return s.changes.size(); })
       .table(in_data("runs", "runs by time"), run_description(), &Series::runs)
       .table(in_data("changes", "changes that are significant"), change_description(), &Series::changes);
 }
@@ -341,22 +342,22 @@ History history_of(const std::vector<RunRecord>& runs, const SeriesFilter& filte
 }
 
 document::AnswerDescription<History> history_answer() {
-  using Of = const History&;
   document::AnswerDescription<History> answer{
       {.name = "history", .meaning = "results over time, and when they changed", .csv_table = "series.runs"},
       {}};
   answer.items.headline(headline)
       .sentence(sentences)
       .value(in_data("false_alarm_probability", "probability of a change in any series without cause", "1"),
-             [](Of) { return false_alarm_probability; })
+             [](const History&) { return false_alarm_probability; })
       .value(in_data("false_alarm_runs", "runs within which it has this probability", "1"),
-             [](Of) { return false_alarm_runs; })
+             [](const History&) { return false_alarm_runs; })
       .value(in_data("threshold", "limit of |z| of the test levels", "1"), &History::threshold)
       .value(in_data("max_p", "limit of p of the test baseline", "1"), &History::max_p)
       .table(everywhere("series", "Series", "a measure at a point in all runs"), series_description(),
              &History::series)
-      .table(to_people("Runs"), run_description(),
-             [](Of h) { return h.series.size() == 1 ? h.series.front().runs : std::vector<SeriesRun>(); });
+      .table(to_people("Runs"), run_description(), [](const History& h) {
+        return h.series.size() == 1 ? h.series.front().runs : std::vector<SeriesRun>();
+      });
   return answer;
 }
 

@@ -56,7 +56,7 @@ const DeviationSources& stored_sources(const hdf5::Group& root, const study::Stu
 void find_masses(const study::Study& study, std::int64_t number, PointRepeatability& point) {
   bool differ = false;
   for (std::int64_t condition = 0; condition < study::condition_count(study); ++condition) {
-    const std::int64_t trial = condition * std::max<std::int64_t>(study.machines, 1);  // TrialTurns
+    const std::int64_t trial = condition * std::max<std::int64_t>(study.machines, 1);  // TrialIndices
     const motion::PlantParameters plant = study::commanded_trial(study, number, trial).parameters.plant;
     if (!motion::has_load(plant)) continue;
     differ = differ || (point.has_load && point.closing != plant.load.encoder);

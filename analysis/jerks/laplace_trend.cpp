@@ -35,9 +35,10 @@ std::int64_t laplace_sum(std::span<const std::int64_t> intervals) {
 
 /// Puts the intervals into a random order (Fisher and Yates); a function of the stream and the round.
 void shuffle(std::vector<std::int64_t>& intervals, const random::RandomStream& stream, std::uint64_t round) {
-  for (std::size_t left = intervals.size(); left > 1; --left) {
-    const std::uint64_t bits = random::random_bits(stream, round, static_cast<std::uint32_t>(left)) >> 32U;
-    std::swap(intervals[left - 1], intervals[static_cast<std::size_t>(bits * left >> 32U)]);
+  for (std::size_t remaining = intervals.size(); remaining > 1; --remaining) {
+    const std::uint64_t bits =
+        random::random_bits(stream, round, static_cast<std::uint32_t>(remaining)) >> 32U;
+    std::swap(intervals[remaining - 1], intervals[static_cast<std::size_t>(bits * remaining >> 32U)]);
   }
 }
 

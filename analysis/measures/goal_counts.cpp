@@ -94,24 +94,24 @@ GoalSettling::GoalSettling(const CountedGoal& goal, const Shape& shape)
   times_.assign(static_cast<std::size_t>(std::max<std::int64_t>(shape.conditions, 1)),
                 statistics::TrialClusters(shape.machines));
   if (!within_.after_profile) return;
-  shares_ = times_;
+  time_ratios_ = times_;
   allowed_.assign(times_.size(), 0.0);
 }
 
 void GoalSettling::add(std::int64_t trial, const CountedGoal& goal,
                        std::span<const trial::MoveOutcome> moves) {
   if (times_.empty()) return;
-  const study::TrialTurns turns{std::max<std::int64_t>(machines_, 1), std::ssize(times_)};
-  const auto condition = static_cast<std::size_t>(turns.condition_of(trial));
+  const study::TrialIndices indices{std::max<std::int64_t>(machines_, 1), std::ssize(times_)};
+  const auto condition = static_cast<std::size_t>(indices.condition_of(trial));
   const auto add_to = [&](statistics::TrialClusters& clusters, auto value) {
     values_.clear();
     for (const trial::MoveOutcome& move : moves)
       if (asks(goal, move) && !std::isnan(settling_time(goal, move))) values_.push_back(value(move));
-    clusters.add_trial(turns.draw_of(trial), values_, asked_moves(goal, std::ssize(moves)));
+    clusters.add_trial(indices.draw_of(trial), values_, asked_moves(goal, std::ssize(moves)));
   };
   add_to(times_[condition], [&](const trial::MoveOutcome& move) { return settling_time(goal, move); });
-  if (shares_.empty()) return;
-  add_to(shares_[condition], [&](const trial::MoveOutcome& move) {
+  if (time_ratios_.empty()) return;
+  add_to(time_ratios_[condition], [&](const trial::MoveOutcome& move) {
     return settling_time(goal, move) / allowed_time(goal, move);
   });
   for (const trial::MoveOutcome& move : moves)
@@ -120,8 +120,8 @@ void GoalSettling::add(std::int64_t trial, const CountedGoal& goal,
 
 GoalSettling& GoalSettling::operator+=(const GoalSettling& next) {
   for (std::size_t i = 0; i < times_.size(); ++i) times_[i] += next.times_[i];
-  for (std::size_t i = 0; i < shares_.size(); ++i) {
-    shares_[i] += next.shares_[i];
+  for (std::size_t i = 0; i < time_ratios_.size(); ++i) {
+    time_ratios_[i] += next.time_ratios_[i];
     allowed_[i] = std::max(allowed_[i], next.allowed_[i]);
   }
   return *this;
@@ -129,8 +129,8 @@ GoalSettling& GoalSettling::operator+=(const GoalSettling& next) {
 
 bool GoalSettling::is_valid(std::int64_t moves) const {
   std::int64_t sum = 0;
-  for (std::size_t i = 0; i < shares_.size(); ++i)
-    if (shares_[i].size() != times_[i].size()) return false;
+  for (std::size_t i = 0; i < time_ratios_.size(); ++i)
+    if (time_ratios_[i].size() != times_[i].size()) return false;
   for (const statistics::TrialClusters& times : times_) {
     if (times.size() < 0 || times.size() > moves - sum) return false;
     sum += times.size();
@@ -150,9 +150,10 @@ std::vector<SettlingTimes> GoalSettling::statistics(double confidence) const {
     one.median = statistics::clustered_quantile(sample, 0.5, confidence);
     one.p95 = statistics::clustered_quantile(sample, 0.95, confidence);
     all.back().allowed = allowed_.empty() ? within_.time : allowed_[i];
-    all.back().share = lateness(
-        shares_.empty() ? one.p95.value / within_.time
-                        : statistics::clustered_quantile(shares_[i].sample(), 0.95, confidence).value);
+    all.back().time_ratio =
+        lateness(time_ratios_.empty()
+                     ? one.p95.value / within_.time
+                     : statistics::clustered_quantile(time_ratios_[i].sample(), 0.95, confidence).value);
   }
   return all;
 }
@@ -184,12 +185,12 @@ bool allows_several_times(const MoveEvent& event) {
 /// The settling time of the move for the event's goal, s. If moves may be allowed different times: the
 /// largest ratio of settling time and allowed time over the goals. NaN if never.
 double lateness_of(const MoveEvent& event, const trial::MoveOutcome& move) {
-  const bool by_share = allows_several_times(event);
+  const bool by_ratio = allows_several_times(event);
   double latest = event.goals.size() > 1 ? 0.0 : statistics::unknown;
   for (const CountedGoal& goal : event.goals) {
     if (!asks(goal, move)) continue;
     const double time = settling_time(goal, move);
-    if (!by_share || std::isnan(time)) return time;
+    if (!by_ratio || std::isnan(time)) return time;
     latest = std::fmax(latest, time / allowed_time(goal, move));
   }
   return latest;

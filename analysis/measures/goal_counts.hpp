@@ -103,7 +103,7 @@ struct SettlingTimes {
   MeasureStatistics times;              ///< number of moves, their extremes, median and 95 % quantile, s
   double allowed{statistics::unknown};  ///< Longest time allowed to a move, s from its start.
   /// 95 % quantile of settling time / allowed time; infinite if it is never reached.
-  double share{statistics::unknown};
+  double time_ratio{statistics::unknown};
 };
 
 /// Collects the settling times of the moves that one goal judges, under each condition. Nothing is collected
@@ -123,7 +123,7 @@ class GoalSettling {
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
     for (auto& times : self.times_) archive(times);
-    for (auto& shares : self.shares_) archive(shares);
+    for (auto& ratios : self.time_ratios_) archive(ratios);
     for (auto& allowed : self.allowed_) archive(allowed);
   }
   /// Whether the restored times are possible for this number of moves.
@@ -135,7 +135,7 @@ class GoalSettling {
   std::vector<double> values_{};                    ///< Values of the current trial.
   std::vector<statistics::TrialClusters> times_{};  ///< [condition] settling times
   /// [condition] settling time / allowed time; empty if all moves are allowed the same time.
-  std::vector<statistics::TrialClusters> shares_{};
+  std::vector<statistics::TrialClusters> time_ratios_{};
   /// [condition] longest allowed time, s; empty if all moves are allowed the same time.
   std::vector<double> allowed_{};
 };

@@ -28,10 +28,10 @@ std::int64_t CellCounts::cell_of(std::size_t condition, std::size_t within) cons
 }
 
 void CellCounts::add(std::int64_t trial, std::int64_t moves, std::int64_t met) {
-  const study::TrialTurns turns{std::max<std::int64_t>(shape_.machines, 1),
-                                static_cast<std::int64_t>(conditions())};
-  const auto condition = static_cast<std::size_t>(turns.condition_of(trial));
-  const auto within = static_cast<std::size_t>(turns.draw_of(trial) % cells_of_condition());
+  const study::TrialIndices indices{std::max<std::int64_t>(shape_.machines, 1),
+                                    static_cast<std::int64_t>(conditions())};
+  const auto condition = static_cast<std::size_t>(indices.condition_of(trial));
+  const auto within = static_cast<std::size_t>(indices.draw_of(trial) % cells_of_condition());
   if (shape_.machines > 0) {
     add_machine(within, condition, {1, moves, met});
   } else {

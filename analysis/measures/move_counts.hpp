@@ -32,7 +32,7 @@ statistics::ClusterSums clusters_of(const MoveCounts& counts);
 struct Shape {
   std::int64_t machines{0};    ///< Draw j is on machine j mod machines.
   std::int64_t worlds{0};      ///< Draw j is in world j mod worlds, and machine r in world r mod worlds.
-  std::int64_t conditions{0};  ///< Number of conditions at all ages together; see study::TrialTurns.
+  std::int64_t conditions{0};  ///< Number of conditions at all ages together; see study::TrialIndices.
 
   bool operator==(const Shape&) const = default;
 };

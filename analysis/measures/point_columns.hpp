@@ -81,7 +81,8 @@ std::vector<const layout::Measure*> counted_qualities(const study::StudyFeatures
 /// Adds one field as a value. @param subject_of function that returns the subject of a row by reference
 template <class Row, class Subject, class Get>
 void add_field(document::Description<Row>& description, const text::ReportField<Subject>& field,
-               const std::string& key, parameters::AxisKind axis, document::Shown shown, Get subject_of) {
+               const std::string& key, parameters::AxisKind axis, document::Visibility shown,
+               Get subject_of) {
   document::Item item{.key = key,
                       .meaning = parameters::text_on(axis, field.long_name),
                       .unit = parameters::unit_on(axis, field.unit),
@@ -108,7 +109,7 @@ void add_fields(document::Description<Row>& description,
   std::vector<std::string> groups;
   for (const Field& field : fields) {
     if (field.group.empty()) {
-      add_field(description, field, field.name, axis, document::Shown::in_data, subject_of);
+      add_field(description, field, field.name, axis, document::Visibility::in_data, subject_of);
       continue;
     }
     if (std::ranges::find(groups, field.group) != groups.end()) continue;
@@ -116,19 +117,20 @@ void add_fields(document::Description<Row>& description,
     document::Description<Subject> group;
     for (const Field& member : fields) {
       if (member.group != field.group) continue;
-      add_field(group, member, member.name, axis, document::Shown::in_data,
+      add_field(group, member, member.name, axis, document::Visibility::in_data,
                 [](const Subject& subject) -> const Subject& { return subject; });
     }
     std::string meaning = "statistics of " + field.group;
     std::ranges::replace(meaning, '_', ' ');
-    description.object({.key = field.group, .meaning = std::move(meaning), .shown = document::Shown::in_data},
-                       std::move(group), subject_of);
+    description.object(
+        {.key = field.group, .meaning = std::move(meaning), .shown = document::Visibility::in_data},
+        std::move(group), subject_of);
   }
 }
 
 /// One row of a LimitList: a subject and one of its error bands or tolerances.
 template <class Subject>
-struct LimitReading {
+struct LimitEntry {
   const Subject& subject;
   std::size_t limit;  ///< Index of the band or tolerance, in rising order of their sizes.
 };
@@ -140,13 +142,13 @@ struct LimitList {
 };
 
 inline LimitList list_of_bands() {
-  return {{.key = "bands", .meaning = "statistics by error band", .shown = document::Shown::in_json},
+  return {{.key = "bands", .meaning = "statistics by error band", .shown = document::Visibility::in_json},
           {.key = "band", .meaning = "largest error of the band", .unit = "count"}};
 }
 inline LimitList list_of_tolerances(parameters::AxisKind axis) {
   return {{.key = "tolerances",
            .meaning = "statistics by tolerance of the position error",
-           .shown = document::Shown::in_json},
+           .shown = document::Visibility::in_json},
           {.key = "tolerance",
            .meaning = "largest position error within the tolerance",
            .unit = parameters::unit_on(axis, "rad")}};
@@ -157,7 +159,7 @@ template <class Row, class Subject, class Get>
 void add_by_limit(document::Description<Row>& description,
                   const std::vector<text::ReportField<Subject>>& fields, LimitList list,
                   parameters::AxisKind axis, Get subject_of) {
-  using Reading = LimitReading<Subject>;
+  using Entry = LimitEntry<Subject>;
   std::map<double, std::vector<text::ReportField<Subject>>> by_limit;
   for (const text::ReportField<Subject>& field : fields)
     by_limit[text::limit_of(field).value()].push_back(field);
@@ -165,33 +167,33 @@ void add_by_limit(document::Description<Row>& description,
   const auto limits =
       std::make_shared<const std::vector<std::pair<double, std::vector<text::ReportField<Subject>>>>>(
           by_limit.begin(), by_limit.end());
-  std::vector<text::ReportField<Reading>> columns;
+  std::vector<text::ReportField<Entry>> columns;
   for (std::size_t i = 0; i < limits->front().second.size(); ++i) {
     const text::ReportField<Subject>& first = limits->front().second[i];
     columns.push_back({first.group, first.name, first.unit, first.long_name, first.whole,
-                       [limits, i](const Reading& reading) {
+                       [limits, i](const Entry& reading) {
                          return (*limits)[reading.limit].second.at(i).value(reading.subject);
                        }});
   }
-  document::Description<Reading> row;
+  document::Description<Entry> row;
   if (fields.front().band) {
-    row.value(std::move(list.limit), [limits](const Reading& reading) {
+    row.value(std::move(list.limit), [limits](const Entry& reading) {
       return static_cast<std::int64_t>((*limits)[reading.limit].first);
     });
   } else {
     row.value(std::move(list.limit),
-              [limits](const Reading& reading) { return (*limits)[reading.limit].first; });
+              [limits](const Entry& reading) { return (*limits)[reading.limit].first; });
   }
-  add_fields(row, columns, axis, [](const Reading& reading) -> const Reading& { return reading; });
+  add_fields(row, columns, axis, [](const Entry& reading) -> const Entry& { return reading; });
   description.table(std::move(list.list), std::move(row),
                     [number = limits->size(), subject_of](const Row& of) {
-                      std::vector<Reading> readings;
+                      std::vector<Entry> readings;
                       for (std::size_t limit = 0; limit < number; ++limit)
                         readings.push_back({subject_of(of), limit});
                       return readings;
                     });
   for (const text::ReportField<Subject>& field : fields)
-    add_field(description, field, text::flat_name(field), axis, document::Shown::in_csv, subject_of);
+    add_field(description, field, text::flat_name(field), axis, document::Visibility::in_csv, subject_of);
 }
 
 }  // namespace zerocount::measures

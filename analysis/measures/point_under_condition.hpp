@@ -32,7 +32,7 @@ inline document::Description<PointUnderCondition> name_of_point() {
              &PointUnderCondition::label)
       .value({.key = "condition",
               .meaning = "condition that the trials are under",
-              .shown = document::Shown::in_json,
+              .shown = document::Visibility::in_json,
               .optional = true},
              &PointUnderCondition::condition);
 }

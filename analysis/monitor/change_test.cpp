@@ -310,9 +310,9 @@ Dependence dependence_of(std::span<const double> values, std::span<const std::si
   random::NumberSource numbers(key);
   for (std::size_t order = 0; order < orders; ++order) {
     for (const std::vector<std::size_t>& alike : places)
-      for (std::size_t left = alike.size(); left > 1; --left) {
-        const auto other = static_cast<std::size_t>(numbers.uniform() * static_cast<double>(left));
-        std::swap(x[alike[left - 1]], x[alike[std::min(other, left - 1)]]);
+      for (std::size_t remaining = alike.size(); remaining > 1; --remaining) {
+        const auto other = static_cast<std::size_t>(numbers.uniform() * static_cast<double>(remaining));
+        std::swap(x[alike[remaining - 1]], x[alike[std::min(other, remaining - 1)]]);
       }
     add_windows(x, windows, t);
   }

@@ -255,7 +255,7 @@ class MachineMonitor {
 };
 
 /// Everything that the answer of `monitor` describes: a monitored machine, its baseline and its state.
-struct MonitorReading {
+struct MonitorResult {
   const MachineMonitor& monitor;
   const Baseline& baseline;
   MonitorState state;
@@ -266,7 +266,7 @@ struct MonitorReading {
   std::int64_t repeated{0};
 };
 
-document::AnswerDescription<MonitorReading> monitor_answer();
+document::AnswerDescription<MonitorResult> monitor_answer();
 
 /// Exit code of a status: regression if changed, success if unchanged, inconclusive if undecided.
 ExitCode exit_code_of(MachineStatus status);

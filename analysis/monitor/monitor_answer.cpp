@@ -20,7 +20,6 @@ using document::everywhere;
 using document::in_data;
 using document::Notation;
 using document::with_words;
-using Of = const MonitorReading&;
 
 // Words in the order of the enumerations.
 const std::vector<std::string> directions{"higher", "lower"};
@@ -66,7 +65,7 @@ std::string medians_text(const MeasureState& state) {
 
 /// Names of the measures for which is_named(state) is true, separated by commas.
 template <class IsNamed>
-std::string names_of(Of r, IsNamed is_named) {
+std::string names_of(const MonitorResult& r, IsNamed is_named) {
   std::vector<std::string> names;
   for (const MeasureState& state : r.monitor.measures())
     if (is_named(state)) names.push_back(state.measure.name);
@@ -87,7 +86,7 @@ struct NotJudged {
 
 /// The measures that are not watched. Without an alarm, also the watched measures without a change to be
 /// seen.
-std::vector<NotJudged> not_judged(Of r) {
+std::vector<NotJudged> not_judged(const MonitorResult& r) {
   std::vector<NotJudged> all;
   for (const UnwatchedMeasure& one : r.monitor.unwatched())
     all.push_back({one.measure, word_of(why_words, one.why), one.near});
@@ -99,7 +98,7 @@ std::vector<NotJudged> not_judged(Of r) {
 
 /// Names of the measures that are not watched for this reason, as text: "jerk_count, arrival_time (its column
 /// 'Arrival_Time' looks like it)".
-std::string names_not_judged(Of r, WhyUnwatched why) {
+std::string names_not_judged(const MonitorResult& r, WhyUnwatched why) {
   std::vector<std::string> names;
   for (const UnwatchedMeasure& one : r.monitor.unwatched())
     if (one.why == why)
@@ -110,7 +109,7 @@ std::string names_not_judged(Of r, WhyUnwatched why) {
 
 /// Names of the baseline's measures that are not judged, for the headline: "; not judged: jerk_count,
 /// overshoot and 3 more". Empty if all are judged.
-std::string not_judged_text(Of r) {
+std::string not_judged_text(const MonitorResult& r) {
   constexpr std::size_t max_shown = 3;
   std::vector<std::string> names;
   for (const NotJudged& one : not_judged(r))
@@ -124,7 +123,7 @@ std::string not_judged_text(Of r) {
 
 /// Columns of the log that are not measures and are not used. A column that seems to mean a measure is
 /// followed by the name of this measure.
-std::string unused_columns(Of r) {
+std::string unused_columns(const MonitorResult& r) {
   std::vector<std::string> columns;
   for (const std::string& column : r.monitor.unused()) {
     if (measure_named(column_head(column).name)) continue;  // see unwatched()
@@ -136,7 +135,7 @@ std::string unused_columns(Of r) {
 
 /// Size of the change to be seen as text: "20 % of the baseline's median (added to each value, or as a factor
 /// of it) or 0.1 of a proportion". The text has only those of its parts that apply to the judged measures.
-std::string asked_change(Of r) {
+std::string asked_change(const MonitorResult& r) {
   const std::optional<double>& size = r.monitor.settings().change;
   bool any_proportion = false;
   bool any_other = false;
@@ -153,7 +152,7 @@ std::string asked_change(Of r) {
   return fmt::format("{}", fmt::join(parts, " or "));
 }
 
-std::string headline_of(Of r) {
+std::string headline_of(const MonitorResult& r) {
   if (const MeasureState* const alarm = r.state.alarm)
     return fmt::format("changed: {} is {} since move {} ({}); alarm at move {} of {}", alarm->measure.name,
                        word_of(directions, *alarm->direction), *alarm->since, medians_text(*alarm),
@@ -211,13 +210,13 @@ std::string untried_text(const ChangeExplanation& explanation) {
 }
 
 std::string explanation_text(const ChangeExplanation& explanation) {
-  if (explanation.told == ChangeTold::unknown)
+  if (explanation.told == ExplanationKind::unknown)
     return "it is unknown which parameter changed: " + explanation.reason + untried_text(explanation);
   const std::string since =
       explanation.since > 1
           ? fmt::format("since move {}, compared with the machine's own moves before", explanation.since)
           : std::string("compared with the simulated machines, from the first move on");
-  if (explanation.told == ChangeTold::none)
+  if (explanation.told == ExplanationKind::none)
     return fmt::format(
         "no single parameter of those tried explains these moves (the misfit of the nearest is {:.1f} times "
         "its 99 % limit); {}{}",
@@ -226,7 +225,7 @@ std::string explanation_text(const ChangeExplanation& explanation) {
   for (const ParameterChange& change : explanation.parameters)
     texts.push_back(fmt::format("{} ({})", change_text(change), text::percent_near(change.probability)));
   return fmt::format("{} {}; {}{}",
-                     explanation.told == ChangeTold::one
+                     explanation.told == ExplanationKind::one
                          ? "if one parameter of the model differs, it is"
                          : "these measures do not show which parameter differs:",
                      fmt::join(texts, ", or "), since, untried_text(explanation));
@@ -234,7 +233,7 @@ std::string explanation_text(const ChangeExplanation& explanation) {
 
 /// Notes on the answer, one per line: the explanation of the alarm, what was not compared, and the
 /// assumptions under which the answer holds.
-std::string notes_of(Of r) {
+std::string notes_of(const MonitorResult& r) {
   const MachineMonitor& monitor = r.monitor;
   const MonitorSettings& settings = monitor.settings();
   const Likes& likes = monitor.likes();
@@ -428,7 +427,7 @@ Description<ParameterChange> parameter_description() {
       &ParameterChange::probability);
 }
 
-std::vector<LikeValue> like_values(Of r) {
+std::vector<LikeValue> like_values(const MonitorResult& r) {
   std::vector<LikeValue> all;
   for (const MeasureState& state : r.monitor.measures())
     all.insert(all.end(), state.by_like.begin(), state.by_like.end());
@@ -451,13 +450,12 @@ Description<MeasureState> alarm_description() {
 
 /// Items that say what is known of the parameters of the model that may have changed.
 Description<ChangeExplanation> explanation_description() {
-  using Told = const ChangeExplanation&;
   return Description<ChangeExplanation>()
       .value(
           with_words(
               in_data("told", "what is known of the parameters of the model after an alarm; null: not asked"),
               told_words),
-          [](Told e) { return word_of(told_words, e.told); })
+          [](const ChangeExplanation& e) { return word_of(told_words, e.told); })
       .value(in_data("parameters_since",
                      "first move of those that the parameters explain, from 1; null: not asked"),
              &ChangeExplanation::since);
@@ -465,60 +463,70 @@ Description<ChangeExplanation> explanation_description() {
 
 }  // namespace
 
-document::AnswerDescription<MonitorReading> monitor_answer() {
-  document::AnswerDescription<MonitorReading> answer{
+document::AnswerDescription<MonitorResult> monitor_answer() {
+  document::AnswerDescription<MonitorResult> answer{
       {.name = "monitor", .meaning = "whether a machine has changed", .csv_table = "measures"}, {}};
   answer.items.headline(headline_of)
       .value(with_words(in_data("status", "whether the machine changed"), statuses),
-             [](Of r) { return word_of(statuses, r.state.status); })
-      .include(alarm_description(), [](Of r) { return r.state.alarm; })
-      .value(in_data("moves", "moves seen"), [](Of r) { return r.state.moves; })
+             [](const MonitorResult& r) { return word_of(statuses, r.state.status); })
+      .include(alarm_description(), [](const MonitorResult& r) { return r.state.alarm; })
+      .value(in_data("moves", "moves seen"), [](const MonitorResult& r) { return r.state.moves; })
       .value(in_data("evidence", "e-value against no change, the largest until now; the alarm is at 1/alarm",
                      "1"),
-             [](Of r) { return r.state.evidence; })
+             [](const MonitorResult& r) { return r.state.evidence; })
       .value(in_data("alarm", "largest probability of a false alarm within any number of moves", "1"),
-             [](Of r) { return r.monitor.settings().alarm; })
+             [](const MonitorResult& r) { return r.monitor.settings().alarm; })
       .value(in_data("block", "consecutive moves that are one value"),
-             [](Of r) { return r.monitor.settings().block; })
+             [](const MonitorResult& r) { return r.monitor.settings().block; })
       .value(in_data("group", "column of the groups that are one value each; null: none"),
-             [](Of r) {
+             [](const MonitorResult& r) {
                const std::string& group = r.monitor.settings().group;
                return group.empty() ? std::nullopt : std::optional(group);
              })
       .value(in_data("values", "values that were compared: moves, blocks or groups"),
-             [](Of r) { return r.monitor.values(); })
-      .value(in_data("baseline", "file of the baseline"), [](Of r) { return r.baseline.name; })
-      .value(in_data("log", "file of the moves"), &MonitorReading::log)
-      .value(in_data("baseline_moves", "moves of the baseline"), [](Of r) { return r.baseline.moves; })
+             [](const MonitorResult& r) { return r.monitor.values(); })
+      .value(in_data("baseline", "file of the baseline"),
+             [](const MonitorResult& r) { return r.baseline.name; })
+      .value(in_data("log", "file of the moves"), &MonitorResult::log)
+      .value(in_data("baseline_moves", "moves of the baseline"),
+             [](const MonitorResult& r) { return r.baseline.moves; })
       .value(in_data("baseline_machines", "simulated machines of the baseline; null: it was measured"),
-             [](Of r) { return r.baseline.is_model ? std::optional(r.baseline.machines) : std::nullopt; })
+             [](const MonitorResult& r) {
+               return r.baseline.is_model ? std::optional(r.baseline.machines) : std::nullopt;
+             })
       .value(in_data("repeated",
                      "first moves that have the same values as the first ones of a measured baseline"),
-             &MonitorReading::repeated)
+             &MonitorResult::repeated)
       .value(in_data("unused", "columns of the moves that nothing is compared with"),
-             [](Of r) { return r.monitor.unused(); })
+             [](const MonitorResult& r) { return r.monitor.unused(); })
       .value(in_data("alike", "what moves are compared by; empty: all with all"),
-             [](Of r) { return word_of(like_words, r.monitor.likes().by()); })
+             [](const MonitorResult& r) { return word_of(like_words, r.monitor.likes().by()); })
       .value(in_data("unlike", "moves that the baseline has none like, which are not compared"),
-             [](Of r) { return r.monitor.unlike(); })
+             [](const MonitorResult& r) { return r.monitor.unlike(); })
       .table({.key = "measures", .meaning = "each measure"}, measure_description(),
-             [](Of r) { return r.monitor.measures(); })
+             [](const MonitorResult& r) { return r.monitor.measures(); })
       .table({.key = "not_judged",
               .meaning = "measures about which 'unchanged' says nothing",
-              .shown = document::Shown::in_json},
+              .shown = document::Visibility::in_json},
              not_judged_description(), not_judged)
       .table(
           {.key = "likes",
            .meaning = "medians of measures that differ from one kind of moves to another more than within"},
           like_description(), like_values)
-      .include(explanation_description(), [](Of r) { return r.explanation; })
+      .include(explanation_description(), [](const MonitorResult& r) { return r.explanation; })
       .value(in_data("tried", "parameters of the model that were tried and act on the measures"),
-             [](Of r) { return r.explanation ? r.explanation->tried : std::vector<std::string>{}; })
+             [](const MonitorResult& r) {
+               return r.explanation ? r.explanation->tried : std::vector<std::string>{};
+             })
       .value(in_data("untried", "parameters for which the budget did not suffice"),
-             [](Of r) { return r.explanation ? r.explanation->untried : std::vector<std::string>{}; })
+             [](const MonitorResult& r) {
+               return r.explanation ? r.explanation->untried : std::vector<std::string>{};
+             })
       .table({.key = "parameters", .meaning = "parameters of the model that explain the change"},
              parameter_description(),
-             [](Of r) { return r.explanation ? r.explanation->parameters : std::vector<ParameterChange>{}; })
+             [](const MonitorResult& r) {
+               return r.explanation ? r.explanation->parameters : std::vector<ParameterChange>{};
+             })
       .sentence(notes_of);
   return answer;
 }

@@ -405,7 +405,7 @@ bool is_beginning_of(const std::vector<MoveValues>& these, const std::vector<Mov
 }
 
 ChangeExplanation unknown_because(std::string reason) {
-  return {.told = ChangeTold::unknown, .reason = std::move(reason)};
+  return {.told = ExplanationKind::unknown, .reason = std::move(reason)};
 }
 
 }  // namespace
@@ -463,9 +463,9 @@ ChangeExplanation explain_change(std::span<const ChangeCandidate> candidates, co
       [](const ParameterChange& change) { return change.misfit / change.max_misfit; });
   explanation.misfit = nearest.misfit;
   explanation.max_misfit = nearest.max_misfit;
-  explanation.told = explanation.parameters.empty()       ? ChangeTold::none
-                     : explanation.parameters.size() == 1 ? ChangeTold::one
-                                                          : ChangeTold::several;
+  explanation.told = explanation.parameters.empty()       ? ExplanationKind::none
+                     : explanation.parameters.size() == 1 ? ExplanationKind::one
+                                                          : ExplanationKind::several;
   return explanation;
 }
 

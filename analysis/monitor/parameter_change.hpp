@@ -60,7 +60,7 @@ struct ParameterChange {
   bool fits() const { return misfit <= max_misfit; }
 };
 
-enum class ChangeTold {
+enum class ExplanationKind {
   one,  ///< One parameter explains the moves.
   /// Several parameters explain the moves, or one does and others were not tried.
   several,
@@ -69,7 +69,7 @@ enum class ChangeTold {
 };
 
 struct ChangeExplanation {
-  ChangeTold told{ChangeTold::unknown};
+  ExplanationKind told{ExplanationKind::unknown};
   std::vector<ParameterChange> parameters{};  ///< Parameters that explain the moves, most likely first.
   /// All parameters that act on the measures, most likely first.
   std::vector<ParameterChange> ranked{};
@@ -77,7 +77,7 @@ struct ChangeExplanation {
   std::int64_t since{1};
   double misfit{0.0};                ///< Smallest misfit of all parameters.
   double max_misfit{0.0};            ///< Limit of that misfit, see ParameterChange::max_misfit.
-  std::string reason{};              ///< Reason for ChangeTold::unknown.
+  std::string reason{};              ///< Reason for ExplanationKind::unknown.
   std::vector<std::string> tried{};  ///< Names of the parameters that act on the measures.
   /// Names of the parameters for which the budget did not suffice.
   std::vector<std::string> untried{};

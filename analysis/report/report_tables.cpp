@@ -32,7 +32,7 @@ std::vector<std::int64_t> first_points(const ReportedStudy& reported) {
 
 std::string points_html(const ReportedStudy& reported) {
   const summary::StudySummary& summary = reported.summary;
-  document::AnswerDescription<summary_answer::SummaryReading> answer;
+  document::AnswerDescription<summary_answer::SummaryResults> answer;
   answer.items.sentence([&](const auto& s) { return summary_answer::design_line(s.summary); })
       .include(
           summary_answer::point_tables(summary), [](const auto& s) -> const auto& { return s; });

@@ -215,7 +215,7 @@ OutputSensitivity between_worlds(const study::Study& study, const PointInputs& w
 }
 
 /// The question that is asked of the points of a study.
-struct PointsAsked {
+struct PointQuestion {
   const SensitivityQuestion& question;
   std::vector<SensitivityOutput> outputs;
   /// Random stream for resampling, the same for all outputs and points, because the trials are the same.
@@ -225,7 +225,7 @@ struct PointsAsked {
 
 /// @param file of the trials under the condition
 PointSensitivity sensitivity_at(const reading::AllTrialsFile& file,
-                                const measures::PointUnderCondition& place, const PointsAsked& asked) {
+                                const measures::PointUnderCondition& place, const PointQuestion& asked) {
   const study::Study& study = file.study();
   const std::int64_t point = place.point;
   const std::int64_t trials = trials_read(study, asked.question);
@@ -304,10 +304,10 @@ StudySensitivity study_sensitivity(const reading::AllTrialsFile& file, const Sen
                                .from_saltelli = study.design == study::Design::saltelli,
                                .confidence = question.confidence,
                                .points = {}};
-  PointsAsked asked{.question = question,
-                    .outputs = outputs_asked(question, file.table(), goal::question_of(study)),
-                    .bootstrap = {designs::random_key(header.seed, "sensitivity/bootstrap"), 0},
-                    .done = {}};
+  PointQuestion asked{.question = question,
+                      .outputs = outputs_asked(question, file.table(), goal::question_of(study)),
+                      .bootstrap = {designs::random_key(header.seed, "sensitivity/bootstrap"), 0},
+                      .done = {}};
   const std::int64_t points =
       question.points.empty() ? study::point_count(study) : std::ssize(question.points);
   const std::int64_t all = study::condition_count(study) * points * std::ssize(asked.outputs);

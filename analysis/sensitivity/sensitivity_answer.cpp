@@ -39,7 +39,7 @@ std::string why_nothing(const OutputSensitivity& sensitivity) {
 using document::Description;
 using document::everywhere;
 using document::in_data;
-using document::Shown;
+using document::Visibility;
 
 Description<FactorSensitivity> factor_description() {
   Description<FactorSensitivity> description;
@@ -87,13 +87,13 @@ Description<OutputSensitivity> output_description() {
       .value({.key = "meaning",
               .heading = "meaning",
               .meaning = "what the output is",
-              .shown = Shown::not_in_csv},
+              .shown = Visibility::not_in_csv},
              &OutputSensitivity::meaning)
       .value(in_data("estimated", "whether the factors could be estimated"), &OutputSensitivity::estimated)
       .value({.key = "conclusion",
               .heading = "conclusion",
               .meaning = "which factors matter, which do not, and what stays open",
-              .shown = Shown::not_in_csv},
+              .shown = Visibility::not_in_csv},
              &OutputSensitivity::conclusion)
       .sentence(notes_sentences)
       .value(in_data("notes", "what limits these numbers"), &OutputSensitivity::notes)

@@ -150,9 +150,9 @@ std::optional<PositionWave> strongest_wave(const SlidingFit& fit) {
   constexpr double better = 1.2;  // over a part of a revolution, waves of few periods look alike
   double to_beat = has_usual ? least : least / better;
   for (std::size_t i = 1; i < waves.size(); ++i) {
-    const double left = squares_left(with_usual, &waves[i]);
-    if (!(left < to_beat)) continue;
-    least = to_beat = left;
+    const double squares = squares_left(with_usual, &waves[i]);
+    if (!(squares < to_beat)) continue;
+    least = to_beat = squares;
     found = waves[i];
   }
   const double ratio = (without - least) / 2.0 / (least / static_cast<double>(without_usual.size() - terms));

@@ -22,7 +22,7 @@ double friction_near(const SlidingRecord& record, const SlidingPoint& point, std
     of_position += record.shape[k][j] * point[static_cast<Eigen::Index>(position_amplitudes + j)];
   const double interval = (record.time[k + half] - record.time[k - half]) / (2.0 * half);
   double slope = 0.0;
-  double bend = 0.0;
+  double weighted_sum = 0.0;
   double squares = 0.0;
   double quartics = 0.0;
   double torque = 0.0;
@@ -32,13 +32,14 @@ double friction_near(const SlidingRecord& record, const SlidingPoint& point, std
     slope += at * moved;
     squares += at * at;
     quartics += at * at * at * at;
-    bend += at * at * moved;
+    weighted_sum += at * at * moved;
     if (i < 2 * half) torque += record.torque[k - half + i].now / (2.0 * half);
   }
   const double count = 2.0 * half + 1.0;
   double sum = 0.0;
   for (std::size_t i = 0; i <= 2 * half; ++i) sum += record.position[k - half + i] - record.position[k];
-  const double acceleration = 2.0 * (count * bend - squares * sum) / (count * quartics - squares * squares);
+  const double acceleration =
+      2.0 * (count * weighted_sum - squares * sum) / (count * quartics - squares * squares);
   const double velocity = slope / squares;
   return torque - point[offset_torque] - of_position -
          std::exp(point[log_inertia]) * acceleration / (interval * interval) -
@@ -63,20 +64,20 @@ bool rests_at(const SlidingRecord& record, std::size_t k) {
 std::optional<Reversal> reversal_between(const SlidingRecord& record, const SlidingPoint& point,
                                          const Window& before, const Window& after) {
   if (before.direction == after.direction || after.first > before.last + max_gap) return std::nullopt;
-  std::size_t turn = before.last;
+  std::size_t extreme = before.last;
   for (std::size_t k = before.last; k <= after.first; ++k)
-    if (before.direction * record.position[k] > before.direction * record.position[turn]) turn = k;
-  if (turn < before.first + far_level + half || turn + far_level > after.last) return std::nullopt;
-  if (turn < far_level + half || turn + far_level + half >= record.time.size()) return std::nullopt;
-  if (rests_at(record, turn)) return std::nullopt;
-  const double start = median_friction(record, point, turn - far_level, turn - near_level);
-  const double end = median_friction(record, point, turn + near_level, turn + far_level);
-  Reversal reversal{.time = record.time[turn], .swing = after.direction * (end - start)};
+    if (before.direction * record.position[k] > before.direction * record.position[extreme]) extreme = k;
+  if (extreme < before.first + far_level + half || extreme + far_level > after.last) return std::nullopt;
+  if (extreme < far_level + half || extreme + far_level + half >= record.time.size()) return std::nullopt;
+  if (rests_at(record, extreme)) return std::nullopt;
+  const double start = median_friction(record, point, extreme - far_level, extreme - near_level);
+  const double end = median_friction(record, point, extreme + near_level, extreme + far_level);
+  Reversal reversal{.time = record.time[extreme], .swing = after.direction * (end - start)};
   if (!(reversal.swing > 0.0)) return std::nullopt;
-  for (std::size_t k = turn; k <= turn + far_level; ++k) {
+  for (std::size_t k = extreme; k <= extreme + far_level; ++k) {
     const double part = after.direction * (friction_near(record, point, k) - start) / reversal.swing;
-    reversal.travel = std::abs(record.position[k] - record.position[turn]);
-    reversal.samples = k - turn;
+    reversal.travel = std::abs(record.position[k] - record.position[extreme]);
+    reversal.samples = k - extreme;
     if (part >= turned) return reversal;
   }
   return std::nullopt;

@@ -26,8 +26,8 @@ struct SecondMass {
 /// follows from the torque, so errors of the readings do not drive it. For many ω and ζ, A is fitted with the
 /// parameters of the fit, by one step of Gauss and Newton, with free initial states of q in each window.
 ///
-/// Shown is an A that explains 3 % or more of the squares and exceeds its standard error by what happens by
-/// chance once in 1000 records, in any of 100 places, and no torque of tried_torques() explains more. The
+/// Visibility is an A that explains 3 % or more of the squares and exceeds its standard error by what happens
+/// by chance once in 1000 records, in any of 100 places, and no torque of tried_torques() explains more. The
 /// error is the larger of that of independent residuals and of the jackknife over windows. Windows are tried
 /// of a twentieth of the samples and of 256 and 128: in long ones forces that the law lacks hide A, and in
 /// closed loop shorter ones imitate a small A, because both the torque and the free initial states depend on

@@ -22,27 +22,31 @@ std::size_t used_samples(const SlidingRecord& record) {
 
 document::Description<SlidingRecord> record_description() {
   using document::in_data;
-  using Of = const SlidingRecord&;
   return document::Description<SlidingRecord>()
-      .value({"name", "record", "file, and part of it"}, [](Of r) { return text::printable(r.name); })
-      .value({"samples", "samples", "samples of the record"}, [](Of r) { return r.time.size(); })
-      .value({"duration", "duration", "its duration", "s"}, [](Of r) { return r.time.back(); })
+      .value({"name", "record", "file, and part of it"},
+             [](const SlidingRecord& r) { return text::printable(r.name); })
+      .value({"samples", "samples", "samples of the record"},
+             [](const SlidingRecord& r) { return r.time.size(); })
+      .value({"duration", "duration", "its duration", "s"},
+             [](const SlidingRecord& r) { return r.time.back(); })
       .value(in_data("resolution", "step of the readings, rad or m"), &SlidingRecord::resolution)
       .value(for_people("resolution_text", "read in steps of"),
-             [](Of r) { return length_text(r.resolution, r.axis); })
+             [](const SlidingRecord& r) { return length_text(r.resolution, r.axis); })
       .value(
           in_data(
               "presliding_travel",
               "travel after a standstill or a reversal in which the friction is below its level of sliding, which was left out, rad or m"),
           &SlidingRecord::presliding_travel)
       .value(for_people("presliding_text", "left out after each reversal"),
-             [](Of r) { return length_text(r.presliding_travel, r.axis); })
-      .value({"strokes", "strokes", "strokes of the record"}, [](Of r) { return r.strokes.size(); })
-      .value({"windows", "windows", "windows of the fit"}, [](Of r) { return r.windows.size(); })
+             [](const SlidingRecord& r) { return length_text(r.presliding_travel, r.axis); })
+      .value({"strokes", "strokes", "strokes of the record"},
+             [](const SlidingRecord& r) { return r.strokes.size(); })
+      .value({"windows", "windows", "windows of the fit"},
+             [](const SlidingRecord& r) { return r.windows.size(); })
       .value({"used", "samples used", "samples in the windows"}, used_samples)
       .value(in_data("min_velocity", "least speed, rad/s or m/s"), &SlidingRecord::min_velocity)
       .value(in_data("max_velocity", "largest speed, rad/s or m/s"), &SlidingRecord::max_velocity)
-      .value(for_people("velocities", "speeds"), [](Of r) {
+      .value(for_people("velocities", "speeds"), [](const SlidingRecord& r) {
         return fmt::format("{:.3g} to {:.3g} {}/s", r.min_velocity, r.max_velocity,
                            parameters::unit_on(r.axis, "rad"));
       });
@@ -50,23 +54,23 @@ document::Description<SlidingRecord> record_description() {
 
 document::Description<FreeRun> run_description() {
   using document::in_data;
-  using Of = const FreeRun&;
   return document::Description<FreeRun>()
-      .value({"name", "record", "file, and part of it"}, [](Of r) { return text::printable(r.name); })
+      .value({"name", "record", "file, and part of it"},
+             [](const FreeRun& r) { return text::printable(r.name); })
       .value({"start", "from", "time at which the simulation begins with the measured state", "s"},
              &FreeRun::start)
       .value({"duration", "duration", "simulated time without a restart", "s"}, &FreeRun::duration)
       .value(in_data("rms", "root mean square of simulated less read positions, rad or m"), &FreeRun::rms)
-      .value(for_people("rms_text", "error rms"), [](Of r) { return length_text(r.rms, r.axis); })
+      .value(for_people("rms_text", "error rms"), [](const FreeRun& r) { return length_text(r.rms, r.axis); })
       .value(in_data("max", "largest difference, rad or m"), &FreeRun::max)
-      .value(for_people("max_text", "largest"), [](Of r) { return length_text(r.max, r.axis); })
+      .value(for_people("max_text", "largest"), [](const FreeRun& r) { return length_text(r.max, r.axis); })
       .value(in_data("stroke", "largest less smallest reading, rad or m"), &FreeRun::stroke)
       .value({.key = "proportion",
               .heading = "of the stroke",
               .meaning = "rms over the stroke",
               .unit = "1",
               .notation = document::Notation::percent},
-             [](Of r) { return r.rms / r.stroke; });
+             [](const FreeRun& r) { return r.rms / r.stroke; });
 }
 
 std::string reversal_sentence(const SlidingIdentification& i) {
@@ -181,21 +185,21 @@ document::Description<RepeatingForce> force_description() {
 
 document::AnswerDescription<SlidingIdentification> sliding_answer() {
   using document::in_data;
-  using Of = const SlidingIdentification&;
   document::AnswerDescription<SlidingIdentification> answer{
       {.name = "identify-sliding",
        .meaning = "inertia and friction of an axis from its sliding motion",
        .csv_table = "parameters"},
       {}};
   answer.items
-      .headline([](Of i) {
+      .headline([](const SlidingIdentification& i) {
         const std::string reason = reason_of_distrust(i);
         return fmt::format("{}{} of {} parameters of the sliding axis are estimated",
                            reason.empty() ? "" : "LACK OF FIT: " + reason + "; ",
                            std::ranges::count_if(i.parameters, is_estimated), i.parameters.size());
       })
-      .value(in_data("kind", "always sliding"), [](Of) { return "sliding"; })
-      .include(fit::estimates_description(), [](Of i) -> const fit::FitReport& { return i; })
+      .value(in_data("kind", "always sliding"), [](const SlidingIdentification&) { return "sliding"; })
+      .include(fit::estimates_description(),
+               [](const SlidingIdentification& i) -> const fit::FitReport& { return i; })
       .object(in_data("correlation", "correlation of the errors of the fitted parameters"),
               document::Description<SlidingIdentification>()
                   .value(in_data("parameters", "names, in the order of the matrix"),
@@ -210,7 +214,7 @@ document::AnswerDescription<SlidingIdentification> sliding_answer() {
              &SlidingIdentification::unexplained_torque)
       .value(in_data("torque", "root mean square of the torque in the strokes, N m or N"),
              &SlidingIdentification::torque)
-      .sentence([](Of i) {
+      .sentence([](const SlidingIdentification& i) {
         return fmt::format(
             "Residual rms {:.3g} steps of the readings, and {:.3g} of {:.3g} {}. The intervals allow for "
             "residuals that depend on each other within a window or a stroke.",
@@ -224,7 +228,8 @@ document::AnswerDescription<SlidingIdentification> sliding_answer() {
       .table({"missing", "Torques that the law lacks", "torques that the residuals show; empty: none"},
              missing_description(), &SlidingIdentification::missing)
       .object(in_data("reversal", "friction after reversals; null: none without a standstill"),
-              reversal_description(), [](Of i) { return i.reversal ? &*i.reversal : nullptr; })
+              reversal_description(),
+              [](const SlidingIdentification& i) { return i.reversal ? &*i.reversal : nullptr; })
       .sentence(reversal_sentence)
       .table({"simulation", "Simulated under the recorded torque, without a restart",
               "motion of the identified axis beside the readings"},

@@ -162,7 +162,7 @@ RepeatingForce repeats_with(std::string name, const std::vector<Residual>& resid
   RepeatingForce force{.with = std::move(name)};
   force.low = std::numeric_limits<double>::infinity();
   force.high = -force.low;
-  double left = 0.0;
+  double unexplained = 0.0;
   double total = 0.0;
   for (std::size_t i = 0; i < residuals.size(); ++i) {
     const Residual& one = residuals[i];
@@ -176,11 +176,11 @@ RepeatingForce repeats_with(std::string name, const std::vector<Residual>& resid
       force.low = std::min(force.low, whole.torque / whole.windows);
       force.high = std::max(force.high, whole.torque / whole.windows);
     }
-    left += (one.torque - predicted) * (one.torque - predicted);
+    unexplained += (one.torque - predicted) * (one.torque - predicted);
     total += (one.torque - mean) * (one.torque - mean);
   }
   if (force.low > force.high) force.low = force.high = std::numeric_limits<double>::quiet_NaN();
-  force.predicted = total > 0.0 ? 1.0 - left / total : 0.0;
+  force.predicted = total > 0.0 ? 1.0 - unexplained / total : 0.0;
   return force;
 }
 

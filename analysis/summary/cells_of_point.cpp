@@ -164,11 +164,10 @@ std::vector<CellOfPoint> ages_of_point(const StudySummary& summary, std::int64_t
 }
 
 document::Description<CellOfPoint> cell_description(const goal::Question& question, CellsBy by) {
-  using Of = const CellOfPoint&;
   const bool claims = by == CellsBy::claim;
   const bool with_goal = claims || question.claim();
   const auto bounded = [](std::optional<goal::BoundedProportion> CellOfPoint::*proportion) {
-    return [proportion](Of c) -> std::optional<document::Bounded> {
+    return [proportion](const CellOfPoint& c) -> std::optional<document::Bounded> {
       if (!(c.*proportion)) return std::nullopt;
       return goal::bounded(*(c.*proportion));
     };
@@ -188,7 +187,8 @@ document::Description<CellOfPoint> cell_description(const goal::Question& questi
     cell.value({.key = "goal", .heading = "goal", .meaning = "name of the goal", .optional = true},
                &CellOfPoint::goal)
         .value(condition, &CellOfPoint::condition);
-  if (by == CellsBy::condition) cell.value(condition, [](Of c) { return c.condition.value(); });
+  if (by == CellsBy::condition)
+    cell.value(condition, [](const CellOfPoint& c) { return c.condition.value(); });
   if (by == CellsBy::age)
     cell.value({.key = "age",
                 .heading = "age",
@@ -231,7 +231,7 @@ document::Description<CellOfPoint> cell_description(const goal::Question& questi
            "of the worst goal, condition and world",
        .unit = "1",
        .notation = document::Notation::percent},
-      [of_moves](Of c) { return goal::bounded(of_moves ? c.rate : c.judged); });
+      [of_moves](const CellOfPoint& c) { return goal::bounded(of_moves ? c.rate : c.judged); });
   if (of_moves)
     cell.value(
         proportion(
@@ -263,7 +263,7 @@ document::Description<CellOfPoint> cell_description(const goal::Question& questi
                 .meaning = "verdict on the goal",
                 .words = goal::status_words(),
                 .optional = !claims},
-               [](Of c) { return goal::text_of(c.status); });
+               [](const CellOfPoint& c) { return goal::text_of(c.status); });
   return cell;
 }
 
@@ -313,56 +313,54 @@ namespace {
 
 using document::Description;
 using document::Notation;
-using document::Shown;
+using document::Visibility;
 
-struct RuleReading {
+struct NamedRule {
   const worlds::WorldRule& rule;
   const std::vector<worlds::WorldInput>& inputs;
 };
 
-struct ConditionReading {
+struct NamedCondition {
   const worlds::Condition& condition;
   const worlds::WorldInput& input;
 };
 
-std::vector<ConditionReading> readings(const std::vector<worlds::Condition>& conditions,
-                                       const std::vector<worlds::WorldInput>& inputs) {
-  std::vector<ConditionReading> readings;
+std::vector<NamedCondition> readings(const std::vector<worlds::Condition>& conditions,
+                                     const std::vector<worlds::WorldInput>& inputs) {
+  std::vector<NamedCondition> readings;
   readings.reserve(conditions.size());
   for (const worlds::Condition& one : conditions) readings.push_back({one, inputs[one.input]});
   return readings;
 }
 
-Description<ConditionReading> condition_description() {
-  using Reading = const ConditionReading&;
-  return Description<ConditionReading>()
+Description<NamedCondition> condition_description() {
+  return Description<NamedCondition>()
       .value(document::in_data("parameter", "dotted path, or name of a derived quantity"),
-             [](Reading r) { return r.input.name; })
+             [](const NamedCondition& r) { return r.input.name; })
       .value({.key = "relation", .meaning = "sign between parameter and value", .words = {">", "<"}},
-             [](Reading r) { return r.condition.above ? ">" : "<"; })
+             [](const NamedCondition& r) { return r.condition.above ? ">" : "<"; })
       .value(document::in_data("value", "threshold, in the unit of the parameter"),
-             [](Reading r) { return r.condition.threshold; });
+             [](const NamedCondition& r) { return r.condition.threshold; });
 }
 
-Description<RuleReading> rule_description() {
-  using Reading = const RuleReading&;
-  return Description<RuleReading>()
+Description<NamedRule> rule_description() {
+  return Description<NamedRule>()
       .value(document::in_data("text", "the rule in words"),
-             [](Reading r) { return worlds::text_of(r.rule, r.inputs); })
+             [](const NamedRule& r) { return worlds::text_of(r.rule, r.inputs); })
       .table({.key = "conditions", .meaning = "conditions of the rule"}, condition_description(),
-             [](Reading r) { return readings(r.rule.conditions, r.inputs); })
+             [](const NamedRule& r) { return readings(r.rule.conditions, r.inputs); })
       .table({.key = "same", .meaning = "conditions each of which alone names the same worlds"},
-             condition_description(), [](Reading r) { return readings(r.rule.same, r.inputs); })
+             condition_description(), [](const NamedRule& r) { return readings(r.rule.same, r.inputs); })
       .value({.key = "joined_by", .meaning = "how the conditions are joined", .words = {"and", "or"}},
-             [](Reading r) { return r.rule.all ? "and" : "or"; })
+             [](const NamedRule& r) { return r.rule.all ? "and" : "or"; })
       .value(document::in_data("bad_named", "bad worlds that the rule names"),
-             [](Reading r) { return r.rule.bad_named; })
+             [](const NamedRule& r) { return r.rule.bad_named; })
       .value(document::in_data("others_named", "other worlds that it names"),
-             [](Reading r) { return r.rule.good_named; })
+             [](const NamedRule& r) { return r.rule.good_named; })
       .value(document::in_data("error_rate", "proportion of worlds named wrongly", "1"),
-             [](Reading r) { return r.rule.error_rate(); })
+             [](const NamedRule& r) { return r.rule.error_rate(); })
       .value(document::in_data("p_value", "probability of such a rule by chance", "1"),
-             [](Reading r) { return r.rule.p_value; });
+             [](const NamedRule& r) { return r.rule.p_value; });
 }
 
 Description<worlds::RatesOfWorlds> rates_description() {
@@ -373,9 +371,9 @@ Description<worlds::RatesOfWorlds> rates_description() {
       .value(document::in_data("median", "median of the rates", "1"), &worlds::RatesOfWorlds::median)
       .value(document::in_data("best", "rate of the best world", "1"),
              [](Rates r) { return r.worlds[r.best].value; })
-      .value({.key = "worst_world", .meaning = "index of the worst world", .shown = Shown::in_json},
+      .value({.key = "worst_world", .meaning = "index of the worst world", .shown = Visibility::in_json},
              &worlds::RatesOfWorlds::worst)
-      .value({.key = "best_world", .meaning = "index of the best world", .shown = Shown::in_json},
+      .value({.key = "best_world", .meaning = "index of the best world", .shown = Visibility::in_json},
              &worlds::RatesOfWorlds::best);
 }
 
@@ -404,28 +402,28 @@ std::vector<std::size_t> bad_worlds_of(const worlds::PointWorlds& point) {
 }
 
 /// Adds, for people, the worst, the median and the best world by the rate that the study is judged by.
-void add_judged_rates(Description<WorldsReading>& description, const goal::Question& question) {
-  using Reading = const WorldsReading&;
+void add_judged_rates(Description<WorldsAtPoint>& description, const goal::Question& question) {
   const auto column = [](std::string heading) {
     return document::Item{.heading = std::move(heading), .unit = "1", .notation = Notation::percent};
   };
   description
       .value(column(fmt::format("{} worst [bounds]", goal::judged_head(question))),
-             [](Reading r) { return goal::bounded(r.point.asked.lowest); })
-      .value(column("median"), [](Reading r) { return r.point.asked.median; })
-      .value(column("best"), [](Reading r) { return r.point.asked.worlds[r.point.asked.best].value; });
+             [](const WorldsAtPoint& r) { return goal::bounded(r.point.asked.lowest); })
+      .value(column("median"), [](const WorldsAtPoint& r) { return r.point.asked.median; })
+      .value(column("best"),
+             [](const WorldsAtPoint& r) { return r.point.asked.worlds[r.point.asked.best].value; });
 }
 
 /// Adds the number of worlds with this status. @param in_csv whether the CSV has a column for the number
-void add_number_of_worlds(Description<WorldsReading>& description, goal::Status status, bool in_csv) {
+void add_number_of_worlds(Description<WorldsAtPoint>& description, goal::Status status, bool in_csv) {
   const std::string word(goal::text_of(status));
   description.value({.key = word,
                      .heading = "goal " + word,
                      .meaning = "worlds in which the goal is " + word,
-                     .shown = in_csv ? Shown::everywhere : Shown::not_in_csv,
+                     .shown = in_csv ? Visibility::everywhere : Visibility::not_in_csv,
                      .column = "worlds_goal_" + word,
                      .optional = true},
-                    [status](const WorldsReading& r) -> std::optional<std::size_t> {
+                    [status](const WorldsAtPoint& r) -> std::optional<std::size_t> {
                       if (!r.point.goal) return {};
                       return goal::worlds_that(status, *r.point.goal).size();
                     });
@@ -486,34 +484,33 @@ std::string bad_worlds_sentence(const worlds::PointWorlds& point,
       meanings_text(rule, inputs));
 }
 
-Description<WorldsReading> worlds_description(const goal::Question& question) {
-  using Reading = const WorldsReading&;
-  Description<WorldsReading> description;
+Description<WorldsAtPoint> worlds_description(const goal::Question& question) {
+  Description<WorldsAtPoint> description;
   add_judged_rates(description, question);
   description
-      .value({.key = "n", .meaning = "number of worlds", .shown = Shown::in_json},
-             [](Reading r) { return r.point.bad.size(); })
+      .value({.key = "n", .meaning = "number of worlds", .shown = Visibility::in_json},
+             [](const WorldsAtPoint& r) { return r.point.bad.size(); })
       .object({.key = "success", .meaning = "rates of success by world"}, rates_description(),
-              [](Reading r) { return r.point.success; })
+              [](const WorldsAtPoint& r) { return r.point.success; })
       .value({.key = "success_rates",
               .meaning = "rate of success of each world",
               .unit = "1",
-              .shown = Shown::in_json},
-             [](Reading r) { return rates_of(r.point); })
+              .shown = Visibility::in_json},
+             [](const WorldsAtPoint& r) { return rates_of(r.point); })
       .value({.key = "goal_rates",
               .meaning = "proportion of moves of each world that meet the goal",
               .unit = "1",
-              .shown = Shown::in_json,
+              .shown = Visibility::in_json,
               .optional = true},
-             [](Reading r) {
+             [](const WorldsAtPoint& r) {
                return of_verdicts(r.point, [](const goal::WorldVerdict& w) { return w.moves.value; });
              })
       .value({.key = "goal_status",
               .meaning = "verdict of each world",
-              .shown = Shown::in_json,
+              .shown = Visibility::in_json,
               .words = goal::status_words(),
               .optional = true},
-             [](Reading r) {
+             [](const WorldsAtPoint& r) {
                return of_verdicts(r.point,
                                   [](const goal::WorldVerdict& w) { return goal::text_of(w.status); });
              });
@@ -522,16 +519,17 @@ Description<WorldsReading> worlds_description(const goal::Question& question) {
       add_number_of_worlds(description, status, status != goal::Status::undecided);
   }
   return description
-      .value(
-          {.key = "bad_worlds", .meaning = "indices of the worlds that fall short", .shown = Shown::in_json},
-          [](Reading r) { return bad_worlds_of(r.point); })
-      .object({.key = "rule", .meaning = "what the bad worlds have in common", .shown = Shown::in_json},
+      .value({.key = "bad_worlds",
+              .meaning = "indices of the worlds that fall short",
+              .shown = Visibility::in_json},
+             [](const WorldsAtPoint& r) { return bad_worlds_of(r.point); })
+      .object({.key = "rule", .meaning = "what the bad worlds have in common", .shown = Visibility::in_json},
               rule_description(),
-              [](Reading r) -> std::optional<RuleReading> {
+              [](const WorldsAtPoint& r) -> std::optional<NamedRule> {
                 if (!r.point.rule) return {};
-                return RuleReading{*r.point.rule, r.inputs};
+                return NamedRule{*r.point.rule, r.inputs};
               })
-      .sentence([](Reading r) { return bad_worlds_sentence(r.point, r.inputs, r.question); });
+      .sentence([](const WorldsAtPoint& r) { return bad_worlds_sentence(r.point, r.inputs, r.question); });
 }
 
 }  // namespace zerocount::summary

@@ -100,14 +100,14 @@ std::string bad_worlds_sentence(const worlds::PointWorlds& point,
                                 const goal::Question& question);
 
 /// The worlds at a design point, with the parameters that differ between them.
-struct WorldsReading {
+struct WorldsAtPoint {
   const worlds::PointWorlds& point;
   const std::vector<worlds::WorldInput>& inputs;
   const goal::Question& question;
 };
 
-/// The items of WorldsReading: proportions and verdicts by world, the bad worlds, and the rule that separates
+/// The items of WorldsAtPoint: proportions and verdicts by world, the bad worlds, and the rule that separates
 /// them. People are shown the proportions by which the study is judged.
-document::Description<WorldsReading> worlds_description(const goal::Question& question);
+document::Description<WorldsAtPoint> worlds_description(const goal::Question& question);
 
 }  // namespace zerocount::summary

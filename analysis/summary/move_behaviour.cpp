@@ -123,22 +123,22 @@ MoveBehaviour BehaviourCounter::behaviour_of(const RowValues& values, std::size_
 std::vector<MoveBehaviour> behaviour_in(const reading::AllTrialsFile& file, const study::Study& study,
                                         std::int64_t point) {
   BehaviourCounter counter(study);
-  const study::TrialTurns turns = study::turns_of(study);
+  const study::TrialIndices indices = study::trial_indices(study);
   const auto moves = static_cast<std::size_t>(file.moves());
   const std::int64_t trials = file.header().trials;
   const layout::RowRange rows{point * trials, trials};
-  measures::visit_blocks(file, rows,
-                         [&](layout::RowRange block, std::span<const trial::MoveOutcome> outcomes) {
-                           const std::int64_t first = block.first - rows.first;
-                           std::vector<TrialScale> scales(static_cast<std::size_t>(block.count));
-                           parallel::for_each_index(scales.size(), [&](std::size_t i) {
-                             const std::int64_t trial = first + static_cast<std::int64_t>(i);
-                             scales[i] = scale_of(study::commanded_trial(study, point, trial).parameters);
-                           });
-                           for (std::size_t i = 0; i < scales.size(); ++i)
-                             counter.add(scales[i], turns.condition_of(first + static_cast<std::int64_t>(i)),
-                                         outcomes.subspan(i * moves, moves));
-                         });
+  measures::visit_blocks(
+      file, rows, [&](layout::RowRange block, std::span<const trial::MoveOutcome> outcomes) {
+        const std::int64_t first = block.first - rows.first;
+        std::vector<TrialScale> scales(static_cast<std::size_t>(block.count));
+        parallel::for_each_index(scales.size(), [&](std::size_t i) {
+          const std::int64_t trial = first + static_cast<std::int64_t>(i);
+          scales[i] = scale_of(study::commanded_trial(study, point, trial).parameters);
+        });
+        for (std::size_t i = 0; i < scales.size(); ++i)
+          counter.add(scales[i], indices.condition_of(first + static_cast<std::int64_t>(i)),
+                      outcomes.subspan(i * moves, moves));
+      });
   return counter.behaviour();
 }
 

@@ -100,11 +100,11 @@ void add_counts(layout::StoredStatistics& stored, const measures::PointSummary& 
   const std::size_t names = study.condition_names.size();
   if (names > 0)
     add_groups(stored.groups["condition"], point, std::ssize(study.condition_names),
-               &CellCounts::by_condition, [names](std::size_t turn) { return turn % names; });
+               &CellCounts::by_condition, [names](std::size_t setting) { return setting % names; });
   if (study.ages.at.empty()) return;
   const auto of_age = static_cast<std::size_t>(study::conditions_of_age(study));
   add_groups(stored.groups["age"], point, std::ssize(study.ages.at), &CellCounts::by_condition,
-             [of_age](std::size_t turn) { return turn / of_age; });
+             [of_age](std::size_t setting) { return setting / of_age; });
   if (!study.goals.empty()) add_lives(stored.groups["age"], stored.groups["machine"], point, study);
 }
 

@@ -38,9 +38,9 @@ double hold_of(const study::Study& study, std::int64_t point) {
                   [](const study::InputColumn& column) { return column.name == "command.hold"; });
   const double hold = study::study_trial(study, point, 0).parameters.command.hold;
   constexpr std::int64_t looked_at = 64;  // a hold that is drawn differs long before
-  const study::TrialTurns turns = study::turns_of(study);
-  for (std::int64_t i = 1; recorded && i < std::min(looked_at * turns.conditions, study.trials); ++i) {
-    const std::int64_t index = turns.trial_of(i / turns.conditions, i % turns.conditions);
+  const study::TrialIndices indices = study::trial_indices(study);
+  for (std::int64_t i = 1; recorded && i < std::min(looked_at * indices.conditions, study.trials); ++i) {
+    const std::int64_t index = indices.trial_of(i / indices.conditions, i % indices.conditions);
     if (study::study_trial(study, point, index).parameters.command.hold != hold) return statistics::unknown;
   }
   return hold;

@@ -13,13 +13,13 @@
 namespace zerocount::summary_answer {
 namespace {
 
-using document::Shown;
-using Point = const PointReading&;
+using document::Visibility;
+using Point = const DescribedPoint&;
 using Verdict = const goal::ClaimVerdict&;
 
-std::optional<summary::WorldsReading> worlds_at(Point p) {
+std::optional<summary::WorldsAtPoint> worlds_at(Point p) {
   if (!p.worlds) return std::nullopt;
-  return summary::WorldsReading{*p.worlds, summary::world_inputs_of(p.summary, p.point), p.summary.question};
+  return summary::WorldsAtPoint{*p.worlds, summary::world_inputs_of(p.summary, p.point), p.summary.question};
 }
 
 }  // namespace
@@ -97,7 +97,7 @@ document::Description<goal::ClaimVerdict> verdict_description(const goal::Questi
   if (std::ranges::any_of(question.parts, [](const auto& part) { return part.claim->beside_load; }))
     description.object({.key = "other_mass",
                         .meaning = "the same values of the load, which the goal of the motor does not limit",
-                        .shown = Shown::in_data,
+                        .shown = Visibility::in_data,
                         .optional = true},
                        goal::load_description(), &goal::ClaimVerdict::of_load);
   if (on_machines)
@@ -125,19 +125,21 @@ void add_goal(PointDescription& point, const summary::StudySummary& summary) {
   const goal::Question& question = summary.question;
   point.object(
       {.key = "goal", .meaning = "whether the point meets the goal, with bounds of this point alone"},
-      verdict_description(question, summary.features.machines), &PointReading::verdict);
+      verdict_description(question, summary.features.machines), &DescribedPoint::verdict);
   const bool several = has_names(question);
   if (several)
-    point.object(
-        {.key = "goals", .meaning = "each of the goals, by name", .shown = Shown::in_data, .free_keys = true},
-        goals_description(question, summary.features.machines), &PointReading::verdict);
+    point.object({.key = "goals",
+                  .meaning = "each of the goals, by name",
+                  .shown = Visibility::in_data,
+                  .free_keys = true},
+                 goals_description(question, summary.features.machines), &DescribedPoint::verdict);
   if (!several && question.conditions.empty()) return;
   point.value(
       document::in_data(
           "machines_together",
           "proportion of machines that meet all goals on machines, as observed; nothing where only one claim is on machines",
           "1"),
-      [question](const PointReading& p) -> std::optional<double> {
+      [question](const DescribedPoint& p) -> std::optional<double> {
         const auto all = goal::machines_meeting_all(question, p.statistics());
         if (!all) return std::nullopt;
         return statistics::rate(all->machines, all->of);
@@ -168,7 +170,7 @@ void add_cells(PointDescription& point, const summary::StudySummary& summary) {
   if (!summary.conditions.empty())  // with a goal the table of claims has them for people
     point.table({.key = "conditions",
                  .meaning = "the point under each condition",
-                 .shown = question.claim() ? Shown::in_json : Shown::not_in_csv,
+                 .shown = question.claim() ? Visibility::in_json : Visibility::not_in_csv,
                  .own_table = "by condition",
                  .note = "bounds of one side each with " + confidence},
                 summary::cell_description(question, summary::CellsBy::condition),
@@ -176,7 +178,7 @@ void add_cells(PointDescription& point, const summary::StudySummary& summary) {
   if (!question.ages.at.empty())
     point.table({.key = "ages",
                  .meaning = "the point at each age",
-                 .shown = Shown::not_in_csv,
+                 .shown = Visibility::not_in_csv,
                  .own_table = "by age"},
                 summary::cell_description(question, summary::CellsBy::age),
                 [](Point p) { return summary::ages_of_point(p.summary, p.point); });
@@ -186,8 +188,8 @@ void add_claims(SummaryDescription& answer, const summary::StudySummary& summary
   if (!has_several_claims(summary)) return;
   answer.table({.heading = summary.points.size() > 1 ? "by claim, at the chosen point" : "by claim"},
                summary::cell_description({}, summary::CellsBy::claim),
-               [](const SummaryReading& s) { return summary::claims_of_point(s.summary, s.chosen.point); });
-  answer.sentence([](const SummaryReading& s) {
+               [](const SummaryResults& s) { return summary::claims_of_point(s.summary, s.chosen.point); });
+  answer.sentence([](const SummaryResults& s) {
     return fmt::format("bounds of one side each with {} confidence",
                        text::percent(s.summary.question.claim()->confidence));
   });

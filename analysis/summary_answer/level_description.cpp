@@ -11,8 +11,8 @@
 namespace zerocount::summary_answer {
 namespace {
 
-using document::Shown;
-using Level = const LevelReading&;
+using document::Visibility;
+using Level = const LevelAtPoint&;
 
 constexpr double micro = 1e6;
 
@@ -58,7 +58,7 @@ std::string depth_text(Level l) {
              : fmt::format("{:.0f}", l.statistics().of(&trial::MoveOutcome::reversal_depth).max);
 }
 
-void add_people_columns(document::Description<LevelReading>& level, const summary::StudySummary& summary) {
+void add_people_columns(document::Description<LevelAtPoint>& level, const summary::StudySummary& summary) {
   using M = trial::MoveOutcome;
   const parameters::AxisKind axis = summary.features.axis;
   const std::string small = parameters::unit_on(axis, "µrad");
@@ -95,21 +95,22 @@ void add_people_columns(document::Description<LevelReading>& level, const summar
 
 }  // namespace
 
-document::Description<LevelReading> level_description(const summary::StudySummary& summary) {
+document::Description<LevelAtPoint> level_description(const summary::StudySummary& summary) {
   const parameters::AxisKind axis = summary.features.axis;
-  document::Description<LevelReading> level;
+  document::Description<LevelAtPoint> level;
   level
-      .value({.key = "point", .meaning = "number of the design point", .shown = Shown::in_csv},
+      .value({.key = "point", .meaning = "number of the design point", .shown = Visibility::in_csv},
              [](Level l) { return l.point.point; })
       .value({.key = "label",
               .heading = "point",
               .meaning = "label of the design point",
-              .shown = Shown::not_in_json},
+              .shown = Visibility::not_in_json},
              [](Level l) { return l.point.label(); });
   for (const study::SweepAxis& swept : summary.axes)
-    level.value({.key = swept.name, .meaning = swept.meaning, .unit = swept.unit, .shown = Shown::in_csv},
-                [&swept](Level l) { return value_at(swept, l.point); });
-  level.value({"level", "level", "number of the torque level"}, &LevelReading::level);
+    level.value(
+        {.key = swept.name, .meaning = swept.meaning, .unit = swept.unit, .shown = Visibility::in_csv},
+        [&swept](Level l) { return value_at(swept, l.point); });
+  level.value({"level", "level", "number of the torque level"}, &LevelAtPoint::level);
   measures::add_fields(level, measures::level_fields(summary.table()), axis,
                        [](Level l) -> const measures::LevelStatistics& { return l.statistics(); });
   add_people_columns(level, summary);
@@ -117,7 +118,7 @@ document::Description<LevelReading> level_description(const summary::StudySummar
       .value({.key = "observed",
               .heading = "observed",
               .meaning = "what was observed on the real machine",
-              .shown = Shown::not_in_json},
+              .shown = Visibility::not_in_json},
              [](Level l) { return summary::observed_at(l.point.summary, l.point.point); })
       .shown_as(
           [](Level l) { return l.level == 0 ? summary::observed_at(l.point.summary, l.point.point) : ""; });

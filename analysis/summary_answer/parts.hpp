@@ -21,7 +21,7 @@
 namespace zerocount::summary_answer {
 
 /// A design point with the results that depend on it alone.
-struct PointReading {
+struct DescribedPoint {
   const summary::StudySummary& summary;
   std::int64_t point{0};
   bool marked{false};                      ///< The point was chosen from several.
@@ -36,8 +36,8 @@ struct PointReading {
 };
 
 /// A torque level at a point of an open-loop study.
-struct LevelReading {
-  const PointReading& point;
+struct LevelAtPoint {
+  const DescribedPoint& point;
   std::size_t level{0};
 
   const measures::LevelStatistics& statistics() const { return point.statistics().levels[level]; }
@@ -61,32 +61,32 @@ struct SummaryForm {
 };
 
 /// A summary with all results that its answer needs.
-struct SummaryReading {
+struct SummaryResults {
   const summary::StudySummary& summary;
   summary::ChosenPoint chosen;
-  std::vector<PointReading> points;  ///< The points that are shown, in their order.
+  std::vector<DescribedPoint> points;  ///< The points that are shown, in their order.
   bool legend{false};
   std::optional<Confirmation> confirmation{};
 
-  std::vector<LevelReading> levels() const;
+  std::vector<LevelAtPoint> levels() const;
 };
 
-PointReading read_point(const summary::StudySummary& summary, std::int64_t point);
+DescribedPoint read_point(const summary::StudySummary& summary, std::int64_t point);
 
 /// Computes the results for the answer of a summary. @param summary must outlive the result
 /// @throws Failure (bad_data) if the summary is inconsistent
-SummaryReading read_summary(const summary::StudySummary& summary, const SummaryForm& form = {});
+SummaryResults read_summary(const summary::StudySummary& summary, const SummaryForm& form = {});
 
 /// An item that is shown in JSON only.
 inline document::Item in_json(std::string key, std::string meaning, std::string unit = {}) {
   return {.key = std::move(key),
           .meaning = std::move(meaning),
           .unit = std::move(unit),
-          .shown = document::Shown::in_json};
+          .shown = document::Visibility::in_json};
 }
 
-using PointDescription = document::Description<PointReading>;
-using SummaryDescription = document::Description<SummaryReading>;
+using PointDescription = document::Description<DescribedPoint>;
+using SummaryDescription = document::Description<SummaryResults>;
 
 /// The items of a design point: in data with the names of datasets.md, and as a row for people. A column for
 /// people has its line of the legend as Item::meaning, or no meaning.
@@ -94,7 +94,7 @@ using SummaryDescription = document::Description<SummaryReading>;
 PointDescription point_description(const summary::StudySummary& summary);
 
 /// The items of a torque level: in data, and as a row for people.
-document::Description<LevelReading> level_description(const summary::StudySummary& summary);
+document::Description<LevelAtPoint> level_description(const summary::StudySummary& summary);
 
 /// The legend: the meanings of the columns for people, one line each.
 std::string legend_of(const std::vector<document::Item>& columns);
@@ -108,7 +108,7 @@ std::string settling_text(const measures::PointSummary& point, double time);
 
 /// Value of a swept parameter: a number, or the name of a case.
 using AxisValue = std::variant<double, std::string>;
-AxisValue value_at(const study::SweepAxis& axis, const PointReading& point);
+AxisValue value_at(const study::SweepAxis& axis, const DescribedPoint& point);
 
 /// Adds the items that identify a point: number, label, and the swept parameters. If there are few swept
 /// parameters, each has a column. The labels of a grid only repeat the swept values, so people see the number
@@ -133,10 +133,7 @@ inline const char* zero_count_table(const summary::StudySummary& summary) {
 }
 
 /// A function that returns the short label of a point.
-std::function<std::string(const PointReading&)> short_label(const summary::StudySummary& summary);
-
-/// The description of a part's table, begun with the column "point".
-PointDescription labelled_points(const summary::StudySummary& summary);
+std::function<std::string(const DescribedPoint&)> short_label(const summary::StudySummary& summary);
 
 void add_goal(PointDescription& point, const summary::StudySummary& summary);
 document::Description<goal::ClaimVerdict> verdict_description(const goal::Question& question,

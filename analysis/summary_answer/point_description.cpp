@@ -25,8 +25,8 @@
 namespace zerocount::summary_answer {
 namespace {
 
-using document::Shown;
-using Point = const PointReading&;
+using document::Visibility;
+using Point = const DescribedPoint&;
 
 /// Largest number of swept parameters with columns of their own. With more, the table would be too wide, and
 /// only the labels identify the points.
@@ -70,14 +70,14 @@ void add_statistics(PointDescription& point, const summary::StudySummary& summar
 }
 
 /// A move, over all trials of a point.
-struct MoveReading {
+struct MoveAtPoint {
   const measures::PointSummary& point;
   std::size_t move;
 };
 
 void add_moves(PointDescription& point, const summary::StudySummary& summary) {
-  using Move = const MoveReading&;
-  document::Description<MoveReading> move;
+  using Move = const MoveAtPoint&;
+  document::Description<MoveAtPoint> move;
   for (const layout::FlagMeaning& outcome : layout::outcome_labels()) {
     move.value(document::in_data(outcome.word, "trials with this outcome of the move"),
                [counter = measures::counter_of(static_cast<trial::Outcome>(outcome.value))](Move m) {
@@ -89,7 +89,7 @@ void add_moves(PointDescription& point, const summary::StudySummary& summary) {
                [quality](Move m) { return m.point.of(*quality).by_move.at(m.move); });
   }
   point.table(in_json("moves", "counts of trials by move"), move, [](Point p) {
-    std::vector<MoveReading> moves;
+    std::vector<MoveAtPoint> moves;
     for (std::size_t i = 0; i < p.statistics().by_move.size(); ++i) moves.push_back({p.statistics(), i});
     return moves;
   });
@@ -98,7 +98,7 @@ void add_moves(PointDescription& point, const summary::StudySummary& summary) {
 void add_levels(PointDescription& point, const summary::StudySummary& summary) {
   if (!summary.features.open_loop) return;
   point.table(in_json("levels", "the torque levels"), level_description(summary), [](Point p) {
-    std::vector<LevelReading> levels;
+    std::vector<LevelAtPoint> levels;
     for (std::size_t i = 0; i < p.statistics().levels.size(); ++i) levels.push_back({p, i});
     return levels;
   });
@@ -145,7 +145,7 @@ void add_prediction(PointDescription& point, const summary::StudySummary& summar
              [](const P& prediction) { return theory::verdict(prediction); });
   point.object({.key = "prediction",
                 .meaning = "by the paper's criteria",
-                .shown = summary.predictions.empty() ? Shown::in_csv : Shown::everywhere,
+                .shown = summary.predictions.empty() ? Visibility::in_csv : Visibility::everywhere,
                 .optional = true,
                 .own_table = zero_count_table(summary)},
                object, prediction_at);
@@ -164,8 +164,9 @@ void add_legend(std::string& legend, const std::vector<document::Item>& columns)
       add_legend(legend, column.members);
     } else if (column.kind != document::Kind::table && !column.heading.empty() && !column.meaning.empty() &&
                !column.names_row) {
-      legend += column.shown == Shown::to_people ? column.meaning + '\n'
-                                                 : fmt::format("{}: {}\n", column.heading, column.meaning);
+      legend += column.shown == Visibility::to_people
+                    ? column.meaning + '\n'
+                    : fmt::format("{}: {}\n", column.heading, column.meaning);
     }
   }
 }
@@ -177,10 +178,6 @@ std::function<std::string(Point)> short_label(const summary::StudySummary& summa
               summary.labels, summary.axes))](Point p) { return text::printable((*labels)[p.index()]); };
 }
 
-PointDescription labelled_points(const summary::StudySummary& summary) {
-  return PointDescription().value({.heading = "point"}, short_label(summary));
-}
-
 void add_axes(PointDescription& point, const summary::StudySummary& summary) {
   std::vector<const study::SweepAxis*> shown = summary::varying_parameters(summary.axes);
   if (shown.size() > max_swept_columns) shown.clear();
@@ -189,12 +186,12 @@ void add_axes(PointDescription& point, const summary::StudySummary& summary) {
   point
       .value({"point", "point",
               "number of the design point, for people its label; *: the headline speaks of it"},
-             &PointReading::point)
+             &DescribedPoint::point)
       .shown_as([by_number, label](Point p) {
         return (by_number ? fmt::format("{}", p.point) : label(p)) + (p.marked ? " *" : "");
       })
       .value({.key = "label", .heading = "point", .meaning = "label of the design point", .names_row = true},
-             &PointReading::label)
+             &DescribedPoint::label)
       .shown_as(label)
       .value(in_json("axes", "values of the swept parameters; null where one has a distribution"),
              [](Point p) {
@@ -210,7 +207,7 @@ void add_axes(PointDescription& point, const summary::StudySummary& summary) {
                 .heading = is_shown ? summary::short_name(summary.axes, axis) : "",
                 .meaning = axis.meaning,
                 .unit = axis.unit,
-                .shown = is_shown ? document::Shown::not_in_json : document::Shown::in_csv,
+                .shown = is_shown ? document::Visibility::not_in_json : document::Visibility::in_csv,
                 .numeric = axis.kind == study::SweepAxis::Kind::number},
                [&axis](Point p) { return value_at(axis, p); })
         .shown_as([&axis](Point p) { return shown_value(axis, p); });
@@ -251,7 +248,7 @@ namespace {
 
 using document::Bounded;
 using document::Notation;
-using Point = const PointReading&;
+using Point = const DescribedPoint&;
 using Statistics = const measures::PointSummary&;
 using summary::StudySummary;
 
@@ -307,8 +304,8 @@ bool has_several_trials_of_machines(const StudySummary& summary) {
 /// Adds a column of text made from the statistics of a point. @param table title of the table; empty: the
 /// table of points
 template <typename Cell>
-void add_cells(PointDescription& point, const std::string& table, const std::string& heading,
-               const std::string& meaning, Cell cell) {
+void add_text_column(PointDescription& point, const std::string& table, const std::string& heading,
+                     const std::string& meaning, Cell cell) {
   point.value({.heading = heading, .meaning = meaning, .numeric = true, .own_table = table},
               [cell](Point p) { return cell(p.statistics()); });
 }
@@ -349,20 +346,20 @@ void add_machines(PointDescription& point, const std::string& table, const Study
 
 void add_outcomes(PointDescription& point, const StudySummary& summary) {
   const std::string table = zero_count_table(summary);
-  add_cells(
+  add_text_column(
       point, table, "stable",
       "stable: proportion of trials whose moves all arrived and stayed within one count",
       [](Statistics p) { return text::percentage(p.of(&trial::MoveOutcome::stable).trials, p.judged); });
   if (any_undecided(summary)) {
-    add_cells(
+    add_text_column(
         point, table, "undecided",
         "undecided: proportion of trials whose worst move ended off target, stalled or still on its way: neither stable nor shown unstable",
         [](Statistics p) { return text::percentage(p.outcomes.off_target, p.judged); });
   }
   for (const NotStable& reason : not_stable) {
     if (!is_shown(summary, reason)) continue;
-    add_cells(point, table, reason.head, reason.legend,
-              [trials = reason.trials](Statistics p) { return text::percentage(trials(p), p.judged); });
+    add_text_column(point, table, reason.head, reason.legend,
+                    [trials = reason.trials](Statistics p) { return text::percentage(trials(p), p.judged); });
   }
   add_machines(point, table, summary, goal::success(summary.question));
 }
@@ -426,12 +423,12 @@ void add_measure(PointDescription& point, const std::string& table, const StudyS
   const parameters::AxisKind axis = summary.features.axis;
   std::string legend = legend_line(summary, measure);
   for (const layout::SummaryColumn& column : measure.summary.columns) {
-    add_cells(point, table, parameters::text_on(axis, column.head), std::exchange(legend, ""),
-              [&measure, column](Statistics p) {
-                const measures::MeasureStatistics& of = p.of(measure);
-                return cell_text(column.text, p, measures::value_of(column.statistic, of)) +
-                       bounds_text(column, of);
-              });
+    add_text_column(point, table, parameters::text_on(axis, column.head), std::exchange(legend, ""),
+                    [&measure, column](Statistics p) {
+                      const measures::MeasureStatistics& of = p.of(measure);
+                      return cell_text(column.text, p, measures::value_of(column.statistic, of)) +
+                             bounds_text(column, of);
+                    });
   }
 }
 
@@ -458,7 +455,7 @@ void add_question_columns(PointDescription& point, const StudySummary& summary) 
           add_measure(point, "", summary, *measure);
       }
     } else {
-      add_cells(
+      add_text_column(
           point, "", "95 % within",
           "95 % within: 95 % quantile of the settling time of the moves that a goal asks, s, of the worst goal and condition, which the rate is of",
           [question = summary.question](Statistics p) {

@@ -63,7 +63,7 @@ std::string known_names(const StudySummary& summary) {
 
 /// [point] the numbers in a column of the CSV; empty if the CSV has no such column.
 std::optional<std::vector<double>> csv_values(const StudySummary& summary, const std::string& name) {
-  const document::Description<PointReading> description = point_description(summary);
+  const document::Description<DescribedPoint> description = point_description(summary);
   const auto is_column = [&](const auto& cell) { return cell.first == name; };
   for (std::size_t i = 0; i < description.items().size(); ++i) {
     const document::Item& item = description.items()[i];
@@ -242,10 +242,6 @@ std::vector<std::int64_t> first_points(std::vector<std::int64_t> points, const P
   if (selection.top && *selection.top < std::ssize(points))
     points.resize(static_cast<std::size_t>(*selection.top));
   return points;
-}
-
-std::vector<std::int64_t> selected_points(const StudySummary& summary, const PointSelection& selection) {
-  return first_points(matching_points(summary, selection), selection);
 }
 
 namespace {

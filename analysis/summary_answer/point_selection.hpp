@@ -46,10 +46,6 @@ std::vector<std::int64_t> matching_points(const summary::StudySummary& summary,
 /// The first PointSelection::top points; all points if `top` is empty.
 std::vector<std::int64_t> first_points(std::vector<std::int64_t> points, const PointSelection& selection);
 
-/// The selected points: first_points() of matching_points().
-std::vector<std::int64_t> selected_points(const summary::StudySummary& summary,
-                                          const PointSelection& selection);
-
 /// A summary in which only some points have all statistics (StudySummary::complete).
 struct SelectedSummary {
   summary::StudySummary summary;
@@ -66,7 +62,7 @@ struct SelectedSummary {
 /// @returns empty if all points must be summarised: without a selection, with many selected points, if the
 /// file does not store the values used for the selection, and for studies with worlds, `stop`, torque levels
 /// or a sequence
-/// @throws Failure in the cases of summarise() and selected_points()
+/// @throws Failure in the cases of summarise() and matching_points()
 std::optional<SelectedSummary> summarise_selected(const std::filesystem::path& path, bool bootstrap,
                                                   const PointSelection& selection,
                                                   std::optional<std::int64_t> point);

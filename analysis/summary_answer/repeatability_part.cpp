@@ -18,7 +18,7 @@
 namespace zerocount::summary_answer {
 namespace {
 
-using document::Shown;
+using document::Visibility;
 using iso230::AxisRepeatability;
 using iso230::DeviationSource;
 using iso230::PointRepeatability;
@@ -26,15 +26,15 @@ using iso230::RepeatabilityField;
 using iso230::SequenceShape;
 using iso230::TargetRepeatability;
 using iso230::ValueStatistics;
-using Point = const PointReading&;
+using Point = const DescribedPoint&;
 
 const PointRepeatability& repeatability_of(Point p) {
   return p.summary.repeatability->points[p.index()];
 }
 
 /// The repeatability values of a point, and of one of its targets, from one source of deviations.
-struct SourceReading {
-  const PointReading& point;
+struct SourceValues {
+  const DescribedPoint& point;
   std::size_t source;
   std::size_t target{0};
 
@@ -47,8 +47,8 @@ struct SourceReading {
   const iso230::SourceRepeatability& values() const { return repeatability_of(point).sources[source]; }
   const statistics::Moments& position() const { return repeatability_of(point).positions[target]; }
 };
-using Source = const SourceReading&;
-using SourceDescription = document::Description<SourceReading>;
+using Source = const SourceValues&;
+using SourceDescription = document::Description<SourceValues>;
 
 std::span<const ValueStatistics> of_axis(Source s) {
   return s.values().axis;
@@ -74,8 +74,8 @@ void add_values(SourceDescription& description, std::span<const RepeatabilityFie
   }
 }
 
-std::vector<SourceReading> targets_of(Source s) {
-  std::vector<SourceReading> targets;
+std::vector<SourceValues> targets_of(Source s) {
+  std::vector<SourceValues> targets;
   for (std::size_t target = 0; target < s.values().targets.size(); ++target)
     targets.push_back({s.point, s.source, target});
   return targets;
@@ -89,7 +89,7 @@ std::optional<std::string> mass_of(Source s) {
 SourceDescription source_object(parameters::AxisKind axis) {
   SourceDescription values, target, source;
   add_values(values, iso230::axis_fields(), false, of_axis);
-  target.value(document::in_data("target", "number of the target"), &SourceReading::target)
+  target.value(document::in_data("target", "number of the target"), &SourceValues::target)
       .value(document::in_data("position_min", "smallest position in a trial", "count"),
              [](Source s) { return s.position().min; })
       .value(document::in_data("position_max", "largest position in a trial", "count"),
@@ -111,7 +111,7 @@ PointDescription repeatability_object(const iso230::RepeatabilitySummary& summar
   for (std::size_t source = 0; source < summary.sources->size(); ++source) {
     const DeviationSource& from = (*summary.sources)[source];
     object.object({.key = from.name, .meaning = from.long_name}, source_object(axis), [source](Point p) {
-      return SourceReading{p, source};
+      return SourceValues{p, source};
     });
   }
   return object;
@@ -130,7 +130,7 @@ void add_csv_columns(PointDescription& point, const iso230::RepeatabilitySummary
       point.value({.key = prefix + column.name.substr(name),
                    .meaning = parameters::text_on(summary.axis, column.long_name),
                    .unit = parameters::unit_on(summary.axis, column.unit),
-                   .shown = Shown::in_csv},
+                   .shown = Visibility::in_csv},
                   [value = table.values[i], target](Point p) { return value(repeatability_of(p), target); });
     }
   };
@@ -169,7 +169,7 @@ std::string median_and_p95(const DeviationSource& source, parameters::AxisKind a
 
 /// Whether the source repeats another one at the point, because its mass closes the loop there or the axis
 /// has only one mass.
-bool is_repeated(const SourceReading& reading) {
+bool is_repeated(const SourceValues& reading) {
   const std::optional<motion::EncoderPlace> other = reading.from().other;
   const PointRepeatability& point = repeatability_of(reading.point);
   return other && (!point.has_load || point.closing == other);
@@ -177,9 +177,9 @@ bool is_repeated(const SourceReading& reading) {
 
 /// The readings of all points and sources, for each of the first `targets` targets. @param targets 1 for
 /// tables without targets
-std::vector<SourceReading> rows_of(const SummaryReading& s, std::size_t targets) {
-  std::vector<SourceReading> rows;
-  for (const PointReading& point : s.points) {
+std::vector<SourceValues> rows_of(const SummaryResults& s, std::size_t targets) {
+  std::vector<SourceValues> rows;
+  for (const DescribedPoint& point : s.points) {
     for (std::size_t target = 0; target < targets; ++target) {
       for (std::size_t source = 0; source < s.summary.repeatability->sources->size(); ++source)
         if (!is_repeated({point, source, target})) rows.push_back({point, source, target});
@@ -281,11 +281,11 @@ std::string title_of_repeatability(const SequenceShape& shape) {
 }
 
 /// A line for each point at which all trials repeat exactly, with the bound that this demonstrates.
-std::string exact_points(const SummaryReading& s) {
+std::string exact_points(const SummaryResults& s) {
   const auto label = short_label(s.summary);
   const double confidence = s.summary.repeatability->confidence;
   std::string lines;
-  for (const PointReading& p : s.points) {
+  for (const DescribedPoint& p : s.points) {
     const PointRepeatability& point = repeatability_of(p);
     if (point.zero_repeatability != point.trials) continue;
     lines += fmt::format(
@@ -319,14 +319,15 @@ void add_repeatability(PointDescription& point, const summary::StudySummary& sum
 void add_repeatability(SummaryDescription& answer, const summary::StudySummary& summary) {
   if (!summary.repeatability) return;
   answer
-      .table({.heading = title_of_repeatability(summary.repeatability->shape), .shown = Shown::to_people},
-             columns_of_axis(summary), [](const SummaryReading& s) { return rows_of(s, 1); })
-      .table({.heading = "repeatability at the targets", .shown = Shown::to_people},
+      .table(
+          {.heading = title_of_repeatability(summary.repeatability->shape), .shown = Visibility::to_people},
+          columns_of_axis(summary), [](const SummaryResults& s) { return rows_of(s, 1); })
+      .table({.heading = "repeatability at the targets", .shown = Visibility::to_people},
              columns_of_targets(summary),
-             [](const SummaryReading& s) {
+             [](const SummaryResults& s) {
                return rows_of(s, static_cast<std::size_t>(s.summary.repeatability->shape.targets));
              })
-      .sentence([](const SummaryReading& s) { return exact_points(s) + std::string(repeatability_legend); });
+      .sentence([](const SummaryResults& s) { return exact_points(s) + std::string(repeatability_legend); });
 }
 
 }  // namespace zerocount::summary_answer

@@ -20,11 +20,11 @@
 namespace zerocount::summary_answer {
 namespace {
 
-using document::Shown;
+using document::Visibility;
 using summary::StudySummary;
-using Summary = const SummaryReading&;
+using Summary = const SummaryResults&;
 
-const SummaryReading& same_summary(Summary s) {
+const SummaryResults& same_summary(Summary s) {
   return s;
 }
 
@@ -73,7 +73,7 @@ std::string study_lines(Summary s) {
 /// as failures.
 std::string nonfinite_lines(Summary s) {
   std::string lines;
-  for (const PointReading& point : s.points) {
+  for (const DescribedPoint& point : s.points) {
     const std::int64_t lost = point.statistics().outcomes.nonfinite;
     if (lost == 0) continue;
     lines += fmt::format(
@@ -97,21 +97,21 @@ document::Description<summary::UnfinishedStudy> unfinished_description() {
 }
 
 /// A swept number that is at the end of its range at the chosen point.
-struct EndReading {
+struct RangeEnd {
   const StudySummary& summary;
   std::int64_t point;
   summary::EndOfRange end;
 };
 
-std::vector<EndReading> ends_of(Summary s) {
-  std::vector<EndReading> ends;
+std::vector<RangeEnd> ends_of(Summary s) {
+  std::vector<RangeEnd> ends;
   for (const summary::EndOfRange& end : s.chosen.ends) ends.push_back({s.summary, s.chosen.point, end});
   return ends;
 }
 
 SummaryDescription chosen_description() {
-  using End = const EndReading&;
-  document::Description<EndReading> ends;
+  using End = const RangeEnd&;
+  document::Description<RangeEnd> ends;
   ends.value(document::in_data("parameter", "dotted path"),
              [](End e) { return e.summary.axes[e.end.axis].name; })
       .value(document::in_data("value", "value at the point, in the unit of the parameter"),
@@ -134,7 +134,7 @@ SummaryDescription chosen_description() {
 }
 
 /// The new trials of --confirm.
-struct ConfirmationReading {
+struct ConfirmationResults {
   const StudySummary& summary;
   const Confirmation& confirmed;
 
@@ -165,15 +165,15 @@ struct ConfirmationReading {
     return goal::verdict_on(summary.question, point());
   }
 };
-using Confirmed = const ConfirmationReading&;
+using Confirmed = const ConfirmationResults&;
 
-std::optional<ConfirmationReading> confirmation_of(Summary s) {
+std::optional<ConfirmationResults> confirmation_of(Summary s) {
   if (!s.confirmation) return std::nullopt;
-  return ConfirmationReading{s.summary, *s.confirmation};
+  return ConfirmationResults{s.summary, *s.confirmation};
 }
 
-document::Description<ConfirmationReading> confirmation_description(const StudySummary& summary) {
-  document::Description<ConfirmationReading> description;
+document::Description<ConfirmationResults> confirmation_description(const StudySummary& summary) {
+  document::Description<ConfirmationResults> description;
   description
       .value(document::in_data("point", "number of the design point"),
              [](Confirmed c) { return c.confirmed.point; })
@@ -191,11 +191,11 @@ document::Description<ConfirmationReading> confirmation_description(const StudyS
                return document::Bounded{c.rate(), bounds.low, bounds.high};
              })
       .value(document::in_data("one_trial_per_machine", "whether every new trial has a machine of its own"),
-             &ConfirmationReading::has_one_trial_per_machine);
+             &ConfirmationResults::has_one_trial_per_machine);
   if (summary.question.claim())
     description.object({.key = "goal", .meaning = "whether the new trials meet the goal"},
                        verdict_description(summary.question, summary.features.machines),
-                       &ConfirmationReading::verdict);
+                       &ConfirmationResults::verdict);
   return description;
 }
 
@@ -310,26 +310,27 @@ std::string unfinished_sentence(const StudySummary& summary) {
 SummaryDescription point_tables(const StudySummary& summary) {
   const bool levels = summary.features.open_loop;
   const PointDescription point = point_description(summary);
-  const document::Description<LevelReading> level = level_description(summary);
+  const document::Description<LevelAtPoint> level = level_description(summary);
   const std::string legend = legend_of(levels ? level.items() : point.items());
   SummaryDescription tables;
   add_claims(tables, summary);
   tables.table({.key = "points",
                 .heading = has_several_claims(summary) ? "by point" : "",  // after the table "by claim"
                 .meaning = "the design points",
-                .shown = levels ? Shown::in_json : Shown::everywhere},
-               point, &SummaryReading::points);
+                .shown = levels ? Visibility::in_json : Visibility::everywhere},
+               point, &SummaryResults::points);
   if (levels)
-    tables.table({.key = "levels", .meaning = "the torque levels of the points", .shown = Shown::not_in_json},
-                 level, &SummaryReading::levels);
+    tables.table(
+        {.key = "levels", .meaning = "the torque levels of the points", .shown = Visibility::not_in_json},
+        level, &SummaryResults::levels);
   tables.sentence(
       [legend](Summary s) { return nonfinite_lines(s) + points_shown(s) + (s.legend ? legend : ""); });
   add_repeatability(tables, summary);
   return tables;
 }
 
-document::AnswerDescription<SummaryReading> summary_description(const StudySummary& summary) {
-  document::AnswerDescription<SummaryReading> answer{
+document::AnswerDescription<SummaryResults> summary_description(const StudySummary& summary) {
+  document::AnswerDescription<SummaryResults> answer{
       {.name = "summary",
        .meaning = "statistics of a study by design point; units and meanings are those of a rotary axis",
        .csv_table = summary.features.open_loop ? "levels" : "points"},
@@ -379,17 +380,17 @@ document::Answer summary_answer(const StudySummary& summary, const SummaryForm& 
   return summary_description(summary).of(read_summary(summary, form));
 }
 
-std::vector<LevelReading> SummaryReading::levels() const {
-  std::vector<LevelReading> levels;
-  for (const PointReading& point : points) {
+std::vector<LevelAtPoint> SummaryResults::levels() const {
+  std::vector<LevelAtPoint> levels;
+  for (const DescribedPoint& point : points) {
     for (std::size_t level = 0; level < point.statistics().levels.size(); ++level)
       levels.push_back({point, level});
   }
   return levels;
 }
 
-PointReading read_point(const summary::StudySummary& summary, std::int64_t point) {
-  PointReading reading{summary, point};
+DescribedPoint read_point(const summary::StudySummary& summary, std::int64_t point) {
+  DescribedPoint reading{summary, point};
   const measures::PointSummary& statistics = reading.statistics();
   if (summary.question.claim() && statistics.trials > 0)
     reading.verdict = goal::verdict_on(summary.question, statistics);
@@ -400,9 +401,9 @@ PointReading read_point(const summary::StudySummary& summary, std::int64_t point
   return reading;
 }
 
-SummaryReading read_summary(const summary::StudySummary& summary, const SummaryForm& form) {
+SummaryResults read_summary(const summary::StudySummary& summary, const SummaryForm& form) {
   summary::require_consistent(summary);
-  SummaryReading reading{summary, summary::choose_point(summary, form.chosen), {}, form.legend};
+  SummaryResults reading{summary, summary::choose_point(summary, form.chosen), {}, form.legend};
   const std::vector<std::int64_t> points =
       form.points.empty() ? summary::points_with_all_statistics(summary) : form.points;
   for (const std::int64_t point : points) {

@@ -10,10 +10,10 @@ namespace zerocount::summary_answer {
 /// The description of the answer that summarises a study: the verdict on the chosen point, the points (for an
 /// open-loop study their torque levels), and the parts that the study has.
 /// @param summary summary of the study; must outlive the description
-document::AnswerDescription<SummaryReading> summary_description(const summary::StudySummary& summary);
+document::AnswerDescription<SummaryResults> summary_description(const summary::StudySummary& summary);
 
 /// The description of the table of points with its legend, and of the tables of the parts that the study has.
-document::Description<SummaryReading> point_tables(const summary::StudySummary& summary);
+document::Description<SummaryResults> point_tables(const summary::StudySummary& summary);
 
 /// The type of the answers for all studies. Items that only some studies have are optional.
 document::AnswerType summary_type();

@@ -19,10 +19,10 @@
 namespace zerocount::summary_answer {
 namespace {
 
-using document::Shown;
-using Point = const PointReading&;
+using document::Visibility;
+using Point = const DescribedPoint&;
 
-const PointReading& same_point(Point p) {
+const DescribedPoint& same_point(Point p) {
   return p;
 }
 
@@ -200,13 +200,13 @@ void add_observed(PointDescription& point, const summary::StudySummary& summary)
              [](Point p) { return p.observed->test ? p.observed->test->lowest_p : statistics::unknown; })
       .value({.key = "verdict",
               .meaning = "whether the simulation and the real machine are consistent",
-              .shown = Shown::in_json,
+              .shown = Visibility::in_json,
               .words = {std::begin(summary::observed_verdicts), std::end(summary::observed_verdicts)}},
              [](Point p) { return summary::verdict_on(*p.observed, p.summary.confidence); })
       .value({.key = "statement",
               .heading = "the simulation and the machine",
               .meaning = "the verdict in words",
-              .shown = Shown::not_in_csv},
+              .shown = Visibility::not_in_csv},
              observed_statement);
   point.object({.key = "observed_counts",
                 .meaning = "trials on the real machine against those simulated",
@@ -227,7 +227,7 @@ void add_stopping(PointDescription& point, const summary::StudySummary& summary)
   };
   document::Item half = in_json("halfwidth", "half the width of the bounds that the rule is about", "1");
   half.heading = fmt::format("asked for: ± {:.4g} %, came to", 100.0 * summary.stop->success_rate_halfwidth);
-  half.shown = Shown::not_in_csv;
+  half.shown = Visibility::not_in_csv;
   PointDescription object;
   object
       .value(bound("success_rate_low", "lower",
@@ -294,7 +294,7 @@ void add_assurance(PointDescription& point, const summary::StudySummary& summary
                   .heading = axes + " arrive by",
                   .meaning = fmt::format("time in which at least {} of axes arrive", axes),
                   .unit = "s",
-                  .shown = Shown::not_in_json,
+                  .shown = Visibility::not_in_json,
                   .column = key_of_limit(content)},
                  [i](Point p) { return p.statistics().settles_within.at(i).within; });
   }

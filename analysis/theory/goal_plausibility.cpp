@@ -305,24 +305,24 @@ std::vector<std::string> worst_lines(const study::Study& study, bool (*is_wanted
   const study::Goal none{.within = std::numeric_limits<double>::infinity()};
   const std::span<const study::Goal> goals =
       study.goals.empty() ? std::span(&none, 1) : std::span<const study::Goal>(study.goals);
-  const study::TrialTurns turns = study::turns_of(study);
+  const study::TrialIndices indices = study::trial_indices(study);
   const std::vector<std::int64_t> points = statistics::spread_over(
       study::point_count(study),
-      std::max<std::int64_t>(max_trials_doubted / (turns.conditions * std::ssize(goals)), 1));
+      std::max<std::int64_t>(max_trials_doubted / (indices.conditions * std::ssize(goals)), 1));
   const std::int64_t draws =
       std::min(study::draw_count(study),
-               std::clamp<std::int64_t>(max_trials_doubted / (turns.conditions * std::ssize(points)),
+               std::clamp<std::int64_t>(max_trials_doubted / (indices.conditions * std::ssize(points)),
                                         max_whole_trials, max_draws_of_moves));
   const std::int64_t samples_of_cell = std::max(
-      max_simulated_samples / (std::ssize(points) * turns.conditions), min_simulated_samples_of_cell);
+      max_simulated_samples / (std::ssize(points) * indices.conditions), min_simulated_samples_of_cell);
   std::int64_t all_samples_left = max_simulated_samples;
   for (const std::int64_t point : points) {
-    for (std::int64_t condition = 0; condition < turns.conditions; ++condition) {
+    for (std::int64_t condition = 0; condition < indices.conditions; ++condition) {
       const std::int64_t samples = std::min(samples_of_cell, all_samples_left);
       std::int64_t samples_left = samples;
       std::vector<ExaminedTrial> trials;
       for (std::int64_t draw = 0; draw < draws; ++draw)
-        trials.push_back({study::study_trial(study, point, turns.trial_of(draw, condition)).parameters});
+        trials.push_back({study::study_trial(study, point, indices.trial_of(draw, condition)).parameters});
       for (std::size_t i = 0; i < goal_tests.size(); ++i) {
         const GoalTest& test = goal_tests[i];
         if ((study.goals.empty() && test.needs_goal) || !is_wanted(test)) continue;

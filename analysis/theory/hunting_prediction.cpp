@@ -170,14 +170,13 @@ std::optional<HuntingPrediction> predict_hunting(const trial::TrialParameters& t
 
 document::Description<HuntingPrediction> hunting_description() {
   using document::in_data;
-  using Of = const HuntingPrediction&;
   const auto if_hunts = [](double HuntingPrediction::*number) {
-    return [number](Of hunting) -> std::optional<double> {
+    return [number](const HuntingPrediction& hunting) -> std::optional<double> {
       if (hunting.state != Hunting::hunts) return std::nullopt;
       return hunting.*number;
     };
   };
-  const auto mass_text = [](Of hunting) -> std::optional<std::string> {
+  const auto mass_text = [](const HuntingPrediction& hunting) -> std::optional<std::string> {
     if (!hunting.mass) return std::nullopt;
     return *hunting.mass == motion::EncoderPlace::load ? "load" : "motor";
   };
@@ -186,8 +185,8 @@ document::Description<HuntingPrediction> hunting_description() {
       .value(document::with_words(document::everywhere("hunting", "hunting of trial 0",
                                                        "what the longest move of trial 0 comes to"),
                                   words),
-             [](Of hunting) { return words[static_cast<std::size_t>(hunting.state)]; })
-      .shown_as([mass_text](Of hunting) -> std::string {
+             [](const HuntingPrediction& hunting) { return words[static_cast<std::size_t>(hunting.state)]; })
+      .shown_as([mass_text](const HuntingPrediction& hunting) -> std::string {
         switch (hunting.state) {
           case Hunting::rests:
             return "none, it comes to rest";

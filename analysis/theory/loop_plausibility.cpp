@@ -134,14 +134,14 @@ std::vector<std::string> doubtful_loops(const study::Study& study) {
   worst.fill(std::numeric_limits<double>::infinity());
   const std::vector<std::int64_t> points =
       statistics::spread_over(study::point_count(study), max_trials_doubted);
-  const study::TrialTurns turns = study::turns_of(study);
+  const study::TrialIndices indices = study::trial_indices(study);
   const std::int64_t draws =
-      std::clamp<std::int64_t>(max_trials_doubted / (std::ssize(points) * turns.conditions), 1,
+      std::clamp<std::int64_t>(max_trials_doubted / (std::ssize(points) * indices.conditions), 1,
                                std::min(study::draw_count(study), max_trials_of_point));
   for (const std::int64_t point : points) {
-    for (std::int64_t i = 0; i < draws * turns.conditions; ++i) {
-      const std::int64_t condition = i % turns.conditions;
-      const std::int64_t index = turns.trial_of(i / turns.conditions, condition);
+    for (std::int64_t i = 0; i < draws * indices.conditions; ++i) {
+      const std::int64_t condition = i % indices.conditions;
+      const std::int64_t index = indices.trial_of(i / indices.conditions, condition);
       const trial::TrialParameters p = study::study_trial(study, point, index).parameters;
       const Travel travel = travel_of(p);
       for (const TrialLoop& loop : trial_loops(p)) {

@@ -266,14 +266,14 @@ Doubt reference_is_on_its_way(const MoveOfTrial& move) {
   const loop::Reference reference = move.reference();
   const double within = move.allowed();
   if (!(within < reference.duration())) return {};
-  const double left =
+  const double remaining =
       std::abs(reference.exact_at(reference.duration()) - reference.exact_at(within)) * resolution;
-  return {left / (0.5 * move.of.width()),
+  return {remaining / (0.5 * move.of.width()),
           fmt::format("{} takes {:.4g} s by its profile, and after the {:.4g} s of the goal the reference is "
                       "still {} from its end, beyond {}; expected `within` of at least {:.4g} s, or higher "
                       "limits of the profile",
-                      move.name(), reference.duration(), within, move.of.length(left), move.of.band_text(),
-                      reference.duration())};
+                      move.name(), reference.duration(), within, move.of.length(remaining),
+                      move.of.band_text(), reference.duration())};
 }
 
 Doubt torque_is_too_small_for_the_move(const MoveOfTrial& move) {

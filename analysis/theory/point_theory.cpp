@@ -200,9 +200,9 @@ struct ExaminedPoint {
   std::int64_t point;
   std::int64_t condition;
 
-  /// Parameters of the trial of this point and condition with the given draw (TrialTurns).
+  /// Parameters of the trial of this point and condition with the given draw (TrialIndices).
   trial::TrialParameters trial(std::int64_t draw) const {
-    return study::study_trial(study, point, study::turns_of(study).trial_of(draw, condition)).parameters;
+    return study::study_trial(study, point, study::trial_indices(study).trial_of(draw, condition)).parameters;
   }
 };
 
@@ -318,11 +318,6 @@ void examine_springs(const ExaminedPoint& at, std::vector<KnownRotor>& known, Po
 }
 
 }  // namespace
-
-PointTheory examine(const study::Study& study, std::int64_t point) {
-  std::vector<KnownRotor> none;
-  return examine(study, point, 0, none);
-}
 
 PointTheory examine(const study::Study& study, std::int64_t point, std::int64_t condition,
                     std::vector<KnownRotor>& rotors) {

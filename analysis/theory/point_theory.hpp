@@ -112,9 +112,6 @@ struct KnownRotor {
   double lowest{0.0};
 };
 
-/// Examines the first trials of the point.
-PointTheory examine(const study::Study& study, std::int64_t point);
-
 /// Examines the first trials of the point under a condition.
 /// @param rotors [machine] result of the previous call; a rotor with the same profile is not searched again
 PointTheory examine(const study::Study& study, std::int64_t point, std::int64_t condition,

@@ -62,27 +62,26 @@ std::vector<string> stabilities(const LoopRanges& loop) {
 }
 
 Description<GainTheory> gain_description() {
-  using Of = const GainTheory&;
-  const auto is_zero = [](Of gain) { return gain.value.low == 0.0 && gain.value.high == 0.0; };
+  const auto is_zero = [](const GainTheory& gain) { return gain.value.low == 0.0 && gain.value.high == 0.0; };
   Description<GainTheory> description;
   description.value(in_data("gain_name", "name of the integral gain"), &GainTheory::name)
       .value(in_data("gain_unit", "unit of the gain and its bounds"), &GainTheory::unit);
   const auto add_gain = [&](const char* key, const char* heading, const char* meaning,
                             Range GainTheory::*gain) {
-    description.value(everywhere(key, heading, meaning), gain).shown_as([gain](Of of) {
+    description.value(everywhere(key, heading, meaning), gain).shown_as([gain](const GainTheory& of) {
       return range_text(of.*gain, of.unit);
     });
   };
   add_gain("gain", "integral gain", "integral gain", &GainTheory::value);
   description
       .value(everywhere("integral", "integral", "why there is no integral; null: there is one"),
-             [=](Of gain) -> optional<string> {
+             [=](const GainTheory& gain) -> optional<string> {
                if (!is_zero(gain)) return {};
                return gain.observes ? "none: the disturbance observer takes its place"
                                     : "none: the error stays wherever friction holds the rest of the torque";
              })
       .value(everywhere("criteria", "by (6) and (7)", "verdict of the paper's criteria (6) and (7)"),
-             [=](Of gain) -> optional<string> {
+             [=](const GainTheory& gain) -> optional<string> {
                if (is_zero(gain)) return {};
                if (!gain.left_out.empty())
                  return fmt::format("do not apply, since they leave out {}", gain.left_out);
@@ -90,13 +89,13 @@ Description<GainTheory> gain_description() {
                return verdict(gain.prediction);
              })
       .value(in_data("criteria_trials", "trials that the criteria were tried in"),
-             [](Of gain) { return gain.prediction.trials; })
+             [](const GainTheory& gain) { return gain.prediction.trials; })
       .value(in_data("criteria_stable", "trials in which (6) holds"),
-             [](Of gain) { return gain.prediction.stable; })
+             [](const GainTheory& gain) { return gain.prediction.stable; })
       .value(in_data("criteria_unstable", "trials in which (7) is exceeded"),
-             [](Of gain) { return gain.prediction.unstable; })
+             [](const GainTheory& gain) { return gain.prediction.unstable; })
       .value(everywhere("sampled", "sampled loop", "verdict of the sampled loop at k1, or without a spring"),
-             [=](Of gain) -> optional<string> {
+             [=](const GainTheory& gain) -> optional<string> {
                if (is_zero(gain)) return {};
                if (gain.sampled_stable == std::set{true}) return "stable";
                return gain.sampled_stable == std::set{false} ? "unstable" : "unstable in some trials";
@@ -115,11 +114,10 @@ string holds_text(std::int64_t holding, std::int64_t trials) {
 }
 
 Description<DesignRules> rules_description() {
-  using Of = const DesignRules&;
   return Description<DesignRules>()
       .value(everywhere("dac_resolution", "DAC resolution", "torque of a code of the DAC"),
              &DesignRules::dac_resolution)
-      .shown_as([](Of rules) {
+      .shown_as([](const DesignRules& rules) {
         return fmt::format("{}, below k1·Δx = {}{} (paper, issue 4): {}",
                            *range_text(rules.dac_resolution, rules.torque_unit),
                            range_text(rules.dac_bound, rules.torque_unit).value_or("–"),
@@ -137,7 +135,7 @@ Description<DesignRules> rules_description() {
       .value(everywhere("natural_frequency", "natural frequency", "natural frequency on k1 + k2", "Hz"),
              &DesignRules::frequency)
       .value(everywhere("sample_rate", "sample rate", "sample rate", "Hz"), &DesignRules::sample_rate)
-      .shown_as([](Of rules) {
+      .shown_as([](const DesignRules& rules) {
         return fmt::format("{}, at least {:.3g} times the natural frequency (paper: 10): {}",
                            *range_text(rules.sample_rate, "Hz"), rules.sample_rate.low / rules.frequency.high,
                            holds_text(rules.fast_enough, rules.trials));
@@ -160,29 +158,31 @@ string source_text(const LowestStiffness& lowest) {
 }
 
 Description<PointTheory> lowest_description() {
-  using Of = const PointTheory&;
-  const auto in_unit = [](Of theory, double bound) {
+  const auto in_unit = [](const PointTheory& theory, double bound) {
     return fmt::format("{:.3g} {}", bound, theory.gain.unit);
   };
   return Description<PointTheory>()
       .value(everywhere("lowest_k1", "lowest k1", "lowest stiffness k1 of the study"),
-             [](Of t) { return t.lowest.k1.low; })
-      .shown_as([](Of t) { return fmt::format("{:.3g}, {}", t.lowest.k1.low, source_text(t.lowest)); })
-      .value(in_data("lowest_k1_source", "where it is from"), [](Of t) { return source_text(t.lowest); })
+             [](const PointTheory& t) { return t.lowest.k1.low; })
+      .shown_as([](const PointTheory& t) {
+        return fmt::format("{:.3g}, {}", t.lowest.k1.low, source_text(t.lowest));
+      })
+      .value(in_data("lowest_k1_source", "where it is from"),
+             [](const PointTheory& t) { return source_text(t.lowest); })
       .value(everywhere("lowest_stable_below", "at the lowest k1: (6) stable below",
                         "bound of criterion (6) there, in the unit of the gain"),
-             [](Of t) -> optional<double> {
+             [](const PointTheory& t) -> optional<double> {
                if (!std::isfinite(t.lowest.stable_below.low)) return {};  // the criterion does not apply
                return t.lowest.stable_below.low;
              })
-      .shown_as([=](Of t) -> optional<string> {
+      .shown_as([=](const PointTheory& t) -> optional<string> {
         if (!std::isfinite(t.lowest.stable_below.low)) return {};
         return in_unit(t, t.lowest.stable_below.low);
       })
       .value(everywhere("lowest_sampled_below", "at the lowest k1: sampled loop below",
                         "bound of the sampled loop there, in the unit of the gain"),
-             [](Of t) { return t.lowest.sampled_below.low; })
-      .shown_as([=](Of t) { return in_unit(t, t.lowest.sampled_below.low); });
+             [](const PointTheory& t) { return t.lowest.sampled_below.low; })
+      .shown_as([=](const PointTheory& t) { return in_unit(t, t.lowest.sampled_below.low); });
 }
 
 /// Text on the slowest move: "a move of 30 counts needs about 1 s"; nothing if no move is a step.
@@ -257,17 +257,17 @@ Description<LoopRanges> loop_description() {
 }
 
 Description<PointTheory> point_theory_description() {
-  using Of = const PointTheory&;
-  const auto applies = [](Of theory) { return theory.outside.empty(); };
+  const auto applies = [](const PointTheory& theory) { return theory.outside.empty(); };
   return Description<PointTheory>()
       .value(
           everywhere("outside", "the criteria do not apply", "why (6) and (7) do not apply; null: they do"),
-          [=](Of t) { return applies(t) ? std::nullopt : optional(t.outside); })
-      .include(gain_description(), [=](Of t) { return applies(t) || t.free ? &t.gain : nullptr; })
-      .include(rules_description(), [=](Of t) { return applies(t) ? &t.rules : nullptr; })
-      .include(lowest_description(), [=](Of t) { return applies(t) ? &t : nullptr; })
+          [=](const PointTheory& t) { return applies(t) ? std::nullopt : optional(t.outside); })
+      .include(gain_description(),
+               [=](const PointTheory& t) { return applies(t) || t.free ? &t.gain : nullptr; })
+      .include(rules_description(), [=](const PointTheory& t) { return applies(t) ? &t.rules : nullptr; })
+      .include(lowest_description(), [=](const PointTheory& t) { return applies(t) ? &t : nullptr; })
       .include(approach_description(),
-               [=](Of t) {
+               [=](const PointTheory& t) {
                  return (applies(t) || t.free) && !t.approach.time_constant.empty() ? &t.approach : nullptr;
                })
       .table(
@@ -278,7 +278,7 @@ Description<PointTheory> point_theory_description() {
       .value(everywhere("cut", "without a loop",
                         "states of the load in which no encoder that the controller reads sees the motor"),
              &PointTheory::cut)
-      .shown_as([](Of t) -> optional<string> {
+      .shown_as([](const PointTheory& t) -> optional<string> {
         if (t.cut.empty()) return {};
         return fmt::format("{}: no encoder that the controller reads sees the motor there",
                            fmt::join(t.cut, ", "));

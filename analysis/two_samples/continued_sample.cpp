@@ -226,11 +226,11 @@ std::uint64_t continuation_bits(std::uint32_t simulation, std::uint32_t stream, 
 
 double poisson_number(double mean, std::uint64_t bits) {
   if (mean >= 30.0) return std::max(0.0, std::round(mean + std::sqrt(mean) * random::standard_normal(bits)));
-  double left = random::open_uniform(bits);
+  double remaining = random::open_uniform(bits);
   double probability = std::exp(-mean);
   double number = 0.0;
-  while (left > probability && probability > 0.0) {
-    left -= probability;
+  while (remaining > probability && probability > 0.0) {
+    remaining -= probability;
     number += 1.0;
     probability *= mean / number;
   }

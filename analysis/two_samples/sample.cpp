@@ -146,7 +146,7 @@ DirectionalP larger(const DirectionalP& one, const DirectionalP& other) {
   return {std::max(one.worse, other.worse), std::max(one.better, other.better)};
 }
 
-/// p_beyond(). @param none p_of() the sample
+/// Change::beyond. @param none p_of() the sample
 DirectionalP beyond(const DirectionalP& none, const Sample& sample, double margin) {
   if (margin == 0.0) return none;
   return larger(none, sample.failures ? levels_of_failures(sample, margin) : levels_of_mean(sample, margin));
@@ -186,10 +186,6 @@ DirectionalP p_of(const Sample& sample) {
   const std::vector<double> baseline = known(sample.baseline);
   const std::vector<double> current = known(sample.current);
   return {std::max(smirnov(baseline, current), t), std::max(smirnov(current, baseline), 1.0 - t)};
-}
-
-DirectionalP p_beyond(const Sample& sample, double margin) {
-  return beyond(p_of(sample), sample, margin);
 }
 
 Change change_of(const Sample& sample, double confidence, double margin) {

@@ -47,7 +47,8 @@ struct Change {
   double p{statistics::unknown};  ///< One-sided p-value of no change, against a change for the worse.
   /// One-sided p-value of no change, against a change for the better.
   double improvement_p{statistics::unknown};
-  /// p-values of a change within the margin: p_beyond().
+  /// p-values of a change within ± margin: the larger one of p_of() and of the level at which a bound of
+  /// change_of() reaches the margin.
   DirectionalP beyond{statistics::unknown, statistics::unknown};
 };
 
@@ -56,11 +57,7 @@ struct Change {
 /// and the paired t if paired, otherwise Smirnov's test and Welch's t.
 DirectionalP p_of(const Sample& sample);
 
-/// The p-values of a change within ± margin: the larger one of p_of() and of the level at which a bound of
-/// change_of() reaches the margin.
-DirectionalP p_beyond(const Sample& sample, double margin);
-
-/// The change with p_of(), p_beyond() and one-sided bounds, each with `confidence`. For failures the bounds
+/// The change with its p-values and one-sided bounds, each with `confidence`. For failures the bounds
 /// are tango() if paired, otherwise newcombe(). For other values: cautious_bounds().
 /// @param sample with two values or more
 Change change_of(const Sample& sample, double confidence, double margin = 0.0);

@@ -37,6 +37,11 @@ bool has_friction(FrictionModel model) {
   return !traits_of(model).contact_parameters.empty();
 }
 
+double holding_limit(FrictionModel model, double breakaway, double coulomb_ratio) {
+  if (!has_friction(model)) return 0.0;
+  return model == FrictionModel::dahl ? breakaway * coulomb_ratio : breakaway;
+}
+
 bool has_spring(FrictionModel model) {
   return uses(traits_of(model), &FrictionParameters::k1);
 }

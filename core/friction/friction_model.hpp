@@ -33,6 +33,10 @@ std::vector<std::string_view> friction_model_labels();
 /// Whether there is friction at all.
 bool has_friction(FrictionModel model);
 
+/// Torque (N m) below which the contact holds at rest: its breakaway torque, or the Coulomb level at which
+/// the bristle of dahl yields. 0 without friction.
+double holding_limit(FrictionModel model, double breakaway, double coulomb_ratio);
+
 /// Whether the contact is a hysteretic spring (k1) before it slides, to which criteria (6) and (7) apply.
 bool has_spring(FrictionModel model);
 

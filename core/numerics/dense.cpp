@@ -11,10 +11,6 @@ Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& a) {
   return Eigen::EigenSolver<Eigen::MatrixXd>(a, false).eigenvalues();
 }
 
-double spectral_radius(const Eigen::MatrixXd& a) {
-  return eigenvalues(a).cwiseAbs().maxCoeff();
-}
-
 Eigen::MatrixXd matrix_exponential(const Eigen::MatrixXd& a) {
   return a.exp();
 }

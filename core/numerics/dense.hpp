@@ -11,9 +11,6 @@ namespace zerocount::numerics {
 /// Eigenvalues of a square matrix, in no particular order.
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& a);
 
-/// max |eigenvalue| of a square matrix.
-double spectral_radius(const Eigen::MatrixXd& a);
-
 /// exp(A) = Σ Aᵏ/k! of a square matrix.
 Eigen::MatrixXd matrix_exponential(const Eigen::MatrixXd& a);
 

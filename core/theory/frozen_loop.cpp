@@ -44,12 +44,6 @@ FrozenLoop frozen_loop(const FrozenFriction& friction, const motion::PlantParame
   return {held, loop::linear_chain(controller, encoder), T};
 }
 
-FrozenLoop frozen_loop(double stiffness, double damping, const motion::PlantParameters& plant,
-                       const loop::EncoderParameters& encoder, const loop::ControllerParameters& controller,
-                       const LinearDrive& drive) {
-  return frozen_loop(FrozenFriction{stiffness, damping}, plant, encoder, controller, drive);
-}
-
 std::optional<FrozenLoop> loop_of_motor_alone(const FrozenFriction& friction,
                                               const motion::PlantParameters& plant,
                                               const loop::EncoderParameters& encoder,

@@ -31,11 +31,6 @@ struct FrozenLoop {
 FrozenLoop frozen_loop(const FrozenFriction& friction, const motion::PlantParameters& plant,
                        const loop::EncoderParameters& encoder, const loop::ControllerParameters& controller,
                        const LinearDrive& drive = {});
-/// frozen_loop() with one spring and one damper between rotor and frame.
-/// @param stiffness, damping N m/rad and N m s/rad.
-FrozenLoop frozen_loop(double stiffness, double damping, const motion::PlantParameters& plant,
-                       const loop::EncoderParameters& encoder, const loop::ControllerParameters& controller,
-                       const LinearDrive& drive = {});
 
 /// The loop in which the motor moves and the load does not, because the gap is open or the load stands. An
 /// encoder on the load then reads a constant, so that only the paths from the motor's encoder close the loop.

@@ -20,14 +20,4 @@ loop::PidGains sampled_gains(const AnalogueGains& gains, const loop::ControllerP
   return {gains.kp * dx, gains.ki * dx * T / 2.0, gains.kd * dx / T};
 }
 
-loop::ControllerParameters with_analogue_gains(loop::ControllerParameters controller,
-                                               const AnalogueGains& gains,
-                                               const loop::EncoderParameters& encoder) {
-  const loop::PidGains sampled = sampled_gains(gains, controller, encoder);
-  controller.kp = sampled.kp;
-  controller.ki = sampled.ki;
-  controller.kd = sampled.kd;
-  return controller;
-}
-
 }  // namespace zerocount::theory

@@ -26,14 +26,10 @@ double sample_time(const loop::ControllerParameters& controller);
 AnalogueGains analogue_gains(const loop::ControllerParameters& controller,
                              const loop::EncoderParameters& encoder);
 
-/// The gains of the sampled law that stand for `gains` at the sample rate of `controller`: kp = kP·Δx, ki =
+/// The gains of the sampled law that stand for `gains` at the sample rate of `controller`, the inverse of
+/// analogue_gains: kp = kP·Δx, ki =
 /// kI·Δx·T/2, kd = kD·Δx/T.
 loop::PidGains sampled_gains(const AnalogueGains& gains, const loop::ControllerParameters& controller,
                              const loop::EncoderParameters& encoder);
-
-/// `controller` with its gains replaced by these: the inverse of analogue_gains.
-loop::ControllerParameters with_analogue_gains(loop::ControllerParameters controller,
-                                               const AnalogueGains& gains,
-                                               const loop::EncoderParameters& encoder);
 
 }  // namespace zerocount::theory

@@ -4,8 +4,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/numerics/dense.hpp"
-
 namespace zerocount::theory {
 
 namespace {
@@ -196,10 +194,6 @@ Eigen::MatrixXd loop_map(const HeldPlant& plant, const loop::LinearChain& contro
   if (pending < states) map.row(pending) = decided;
   for (Eigen::Index i = pending + 1; i < states; ++i) map(i, i - 1) = 1.0;
   return map;
-}
-
-double spectral_radius(const HeldPlant& plant, const loop::LinearChain& controller) {
-  return numerics::spectral_radius(loop_map(plant, controller));
 }
 
 ControllerResponse::ControllerResponse(const loop::LinearChain& controller)

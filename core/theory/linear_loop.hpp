@@ -45,21 +45,11 @@ struct FrozenFriction {
 /// @param delay samples between deciding a torque and applying it, whole or not.
 HeldPlant hold_plant(const FrozenFriction& friction, const motion::PlantParameters& plant, double count_angle,
                      double sample_time, const LinearDrive& drive, double delay = 0.0);
-/// hold_plant() for a spring and a damper between motor and frame.
-/// @param stiffness, damping N m/rad and N m s/rad.
-inline HeldPlant hold_plant(double stiffness, double damping, const motion::PlantParameters& plant,
-                            double count_angle, double sample_time, const LinearDrive& drive,
-                            double delay = 0.0) {
-  return hold_plant(FrozenFriction{stiffness, damping}, plant, count_angle, sample_time, drive, delay);
-}
 
-/// The one-sample map x ← M·x of the loop. Its states are the states of the driven rotor, the states of the
-/// blocks' transfer functions (direct form II transposed; paths of a stage with the same poles share them),
-/// and the torques decided and not yet applied.
+/// The one-sample map x ← M·x of the loop, which is stable if every |eigenvalue| is below 1. Its states are
+/// the states of the driven rotor, the states of the blocks' transfer functions (direct form II transposed;
+/// paths of a stage with the same poles share them), and the torques decided and not yet applied.
 Eigen::MatrixXd loop_map(const HeldPlant& plant, const loop::LinearChain& controller);
-
-/// max |eigenvalue| of the loop's map; below 1 the loop is stable.
-double spectral_radius(const HeldPlant& plant, const loop::LinearChain& controller);
 
 /// Paths of a stage with equal poles, which share their states: Σ B(z)·input/A(z).
 struct PathGroup {

@@ -316,9 +316,4 @@ Margin peak_sensitivity(const FrozenLoop& loop) {
   return {1.0 / nearest, frequency_at(loop, at_nearest)};
 }
 
-GainCrossover gain_crossover(const FrozenLoop& loop) {
-  const SampledResponse response = response_of(loop);
-  return highest_of(loop, response, gain_crossovers(response));
-}
-
 }  // namespace zerocount::theory

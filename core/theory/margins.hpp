@@ -85,7 +85,4 @@ Margin peak_sensitivity(const FrozenLoop& loop);
 /// 1e-12.
 StabilityMargins stability_margins(const FrozenLoop& loop);
 
-/// Computes StabilityMargins::crossover alone.
-GainCrossover gain_crossover(const FrozenLoop& loop);
-
 }  // namespace zerocount::theory

@@ -10,7 +10,6 @@
 
 #include "core/friction/profile.hpp"
 #include "core/loop/controller/controller.hpp"
-#include "core/numerics/dense.hpp"
 #include "core/theory/frozen_loop.hpp"
 #include "core/theory/gains.hpp"
 #include "core/theory/margins.hpp"
@@ -18,12 +17,6 @@
 namespace zerocount::theory {
 
 namespace {
-
-FrozenLoop presliding_loop(double stiffness, const motion::PlantParameters& plant,
-                           const loop::EncoderParameters& encoder,
-                           const loop::ControllerParameters& controller, const LinearDrive& drive) {
-  return frozen_loop(stiffness, plant.presliding_damping, plant, encoder, controller, drive);
-}
 
 /// Controller is ControllerParameters, const or not.
 template <class Controller>
@@ -50,34 +43,8 @@ double static_stiffness(double stiffness, const loop::EncoderParameters& encoder
   return stiffness * loop::fine_resolution(encoder) + controller.kp;
 }
 
-double sampled_spectral_radius(double stiffness, const motion::PlantParameters& plant,
-                               const loop::EncoderParameters& encoder,
-                               const loop::ControllerParameters& controller, const LinearDrive& drive) {
-  const FrozenLoop loop = presliding_loop(stiffness, plant, encoder, controller, drive);
-  return spectral_radius(loop.plant, loop.controller);
-}
-
-double slowest_time_constant(double stiffness, const motion::PlantParameters& plant,
-                             const loop::EncoderParameters& encoder,
-                             const loop::ControllerParameters& controller, const LinearDrive& drive) {
-  const FrozenLoop loop = presliding_loop(stiffness, plant, encoder, controller, drive);
-  return slowest_time_constant(poles_of(loop), loop.sample_time);
-}
-
 double integral_gain(const loop::ControllerParameters& controller) {
   return integral_gain_in(controller);
-}
-
-double sampled_critical_integral_gain(double stiffness, const motion::PlantParameters& plant,
-                                      const loop::EncoderParameters& encoder,
-                                      loop::ControllerParameters controller, const LinearDrive& drive) {
-  FrozenLoop loop = presliding_loop(stiffness, plant, encoder, controller, drive);
-  const auto loop_with = [&](const loop::ControllerParameters& other) {
-    loop.controller = loop::linear_chain(other, encoder);
-    return loop;
-  };
-  const double scale = static_stiffness(stiffness, encoder, controller);
-  return sampled_critical_integral_gain(loop_with, std::move(controller), scale);
 }
 
 double sampled_critical_integral_gain(

@@ -13,6 +13,11 @@ namespace zerocount::theory {
 
 // Stability of the sampled loop about a spring of constant stiffness, the count taken as a continuous
 // quantity: friction, encoder and DAC are linear; sampling, hold and delay are exact.
+//
+// The rotor obeys J·θ¨ + c·θ˙ + k·θ = u; u is the drive's input v, held over each sample, or follows it by
+// u˙ = 2πf·(v − u), f the amplifier's bandwidth. Both are discretised exactly by the matrix exponential. The
+// controller is linear_chain(controller), with `controller.delay` samples between deciding a torque and
+// applying it (loop_map). The loop is stable if all eigenvalues of its map lie inside the unit circle.
 
 /// Linear model of converter and amplifier.
 struct LinearDrive {
@@ -20,43 +25,19 @@ struct LinearDrive {
   double bandwidth{0.0};  ///< Bandwidth of the amplifier, Hz; 0: the torque follows at once
 };
 
-/// Spectral radius (dimensionless) of the sampled loop about a spring of `stiffness` (N m/rad); below 1 it is
-/// stable.
-///
-/// The rotor obeys J·θ¨ + c·θ˙ + k·θ = u; u is the drive's input v, held over each sample, or follows it by
-/// u˙ = 2πf·(v − u), f the amplifier's bandwidth. Both are discretised exactly by the matrix exponential. The
-/// controller is linear_chain(controller), with `controller.delay` samples between deciding a torque and
-/// applying it (loop_map).
-double sampled_spectral_radius(double stiffness, const motion::PlantParameters& plant,
-                               const loop::EncoderParameters& encoder,
-                               const loop::ControllerParameters& controller, const LinearDrive& drive = {});
-
-/// The slowest time constant with which the sampled loop about a spring of `stiffness` (N m/rad) approaches
-/// its target, s, by slowest_time_constant of its poles.
-///
-/// A slow integral control has τ ≈ T·(k·Δx + kp)/(2·ki).
-double slowest_time_constant(double stiffness, const motion::PlantParameters& plant,
-                             const loop::EncoderParameters& encoder,
-                             const loop::ControllerParameters& controller, const LinearDrive& drive = {});
-
 /// Integral gain of the control law: ki of the PID law (N m/count), or ki of the cascade (N m/rad).
 double integral_gain(const loop::ControllerParameters& controller);
 
-/// Integral gain, in the unit of integral_gain, below which the sampled loop about a spring of `stiffness` (N
-/// m/rad) is stable: the end of the interval of stable gains that begins at 0, to 1e-9 relative. 0 where the
-/// loop without integral is unstable already. The gain of `controller` itself does not enter.
+struct FrozenLoop;
+
+/// Integral gain, in the unit of integral_gain, below which a frozen loop is stable: the end of the interval
+/// of stable gains that begins at 0, to 1e-9 relative. 0 where the loop without integral is unstable already.
+/// The gain of `controller` itself does not enter.
 ///
 /// With L = L₀ + ki·L₁ the loop has a pole at z = exp(iωT) where ki = −(1 + L₀)/L₁ is a real number: the
 /// bound is the smallest such gain above 1e-6 of the static stiffness. The held plant has more poles than
 /// zeros, so a large enough gain drives a pole out of the unit circle; infinite if the blocks let no integral
 /// through.
-double sampled_critical_integral_gain(double stiffness, const motion::PlantParameters& plant,
-                                      const loop::EncoderParameters& encoder,
-                                      loop::ControllerParameters controller, const LinearDrive& drive = {});
-
-struct FrozenLoop;
-
-/// Critical integral gain of any frozen loop, as for a loop about a spring.
 /// @param loop_with gives the loop with a controller that differs only in its integral gain.
 /// @param scale static stiffness of the loop without integral, in the unit of integral_gain
 double sampled_critical_integral_gain(

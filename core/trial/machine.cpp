@@ -46,13 +46,10 @@ HeldLoad held_load(const TrialParameters& p, std::span<const motion::Ripple> err
   return {twist, torque_at(twist)};
 }
 
-/// Largest torque that a contact of the trial holds at rest, N m.
+/// Torque below which the contact of the trial holds at rest, N m.
 double holding_limit(const TrialParameters& p) {
-  if (!friction::has_friction(p.friction.model)) return 0.0;
   const friction::FrictionParameters contact = friction::friction_at(p.friction, p.initial.position);
-  // The bristle of dahl yields at the Coulomb level.
-  return p.friction.model == friction::FrictionModel::dahl ? contact.breakaway * contact.coulomb_ratio
-                                                           : contact.breakaway;
+  return friction::holding_limit(p.friction.model, contact.breakaway, contact.coulomb_ratio);
 }
 
 }  // namespace

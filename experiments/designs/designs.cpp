@@ -71,10 +71,6 @@ random::RandomKey random_key(std::uint64_t seed, std::string_view name) {
   return key;
 }
 
-std::size_t sobol_dimension_limit() {
-  return boost::random::default_sobol_table::max_dimension;
-}
-
 std::vector<SobolDirections> sobol_directions(std::span<const std::size_t> dimensions) {
   std::vector<SobolDirections> directions(dimensions.size());
   if (dimensions.empty()) return directions;

@@ -53,11 +53,8 @@ constexpr std::uint64_t saltelli_source(std::uint64_t index, std::size_t factor,
 /// index.
 using SobolDirections = std::array<std::uint64_t, 53>;
 
-/// Number of available dimensions.
-std::size_t sobol_dimension_limit();
-
-/// The direction numbers of Boost.Random's Sobol engine for each of `dimensions` (each below
-/// sobol_dimension_limit()).
+/// The direction numbers of Boost.Random's Sobol engine for each of `dimensions`. Each is below the
+/// max_dimension of Boost.Random's default table.
 std::vector<SobolDirections> sobol_directions(std::span<const std::size_t> dimensions);
 
 /// Point `index` (< 2⁵³) of the sequence in one dimension, in Gray-code order (Antonov & Saleev 1979) and the

@@ -19,10 +19,10 @@ constexpr std::size_t max_reported = 20;
 
 // Whether the coarse encoder is used. If not, that of a linear axis has the resolution of the fine one.
 bool uses_coarse_encoder(const study::StudyPlan& plan) {
-  const auto is_coarse = [](const study::ValueLimits& encoder) {
+  const auto is_coarse = [](const study::ParameterRange& encoder) {
     return encoder.high == static_cast<double>(loop::EncoderChoice::coarse);
   };
-  const auto is_positive = [](const study::ValueLimits& error) { return error.high > 0.0; };
+  const auto is_positive = [](const study::ParameterRange& error) { return error.high > 0.0; };
   return study::holds_somewhere(plan, "controller.encoder", is_coarse) ||
          study::holds_somewhere(plan, "controller.coarse.encoder", is_coarse) ||
          study::holds_somewhere(plan, "encoder.coarse_errors.interpolation", is_positive) ||
@@ -57,7 +57,7 @@ void check_required_values(const keys::PlanPlaces& places, keys::Reading& readin
   for (std::size_t row = 0; row < table.size(); ++row) {
     const parameters::Parameter& parameter = table[row];
     if (!is_required(plan, rules, parameter) || is_given_everywhere(places, plan, row) ||
-        plan.base[row].kind == study::Value::Kind::following)
+        plan.base[row].kind == study::Value::Kind::derived)
       continue;
     reading.problems.add_missing(places.base[row], parameter.name, why_required(parameter),
                                  fmt::format("its value in {}", parameters::unit_of(parameter, plan.units)));
@@ -118,8 +118,8 @@ void check_values(Checking& c) {
     std::vector<std::size_t> involved = named;
     involved.insert(involved.end(), listed.begin(), listed.end());
     study::visit_points(c.plan(), involved, [&](std::size_t point) {
-      const std::vector<study::ValueLimits> limits = study::limits_at(c.plan(), involved, point);
-      const std::span<const study::ValueLimits> all(limits);
+      const std::vector<study::ParameterRange> ranges = study::ranges_at(c.plan(), involved, point);
+      const std::span<const study::ParameterRange> all(ranges);
       if (!study::are_readable(all)) return true;  // reported already
       for (const rules::ValueFault& fault :
            rule.find_faults(all.first(named.size()), all.subspan(named.size()))) {
@@ -142,8 +142,8 @@ bool is_off(const Checking& c, std::size_t slot) {
   const double nothing = c.plan().table.rows[slot].none.value_or(0.0);
   const std::vector<const study::Value*> values = study::values_of(c.plan(), slot);
   return std::all_of(values.begin(), values.end(), [&](const study::Value* value) {
-    const study::ValueLimits limits = study::limits_of(c.plan(), *value);
-    return limits.low == nothing && limits.high == nothing;
+    const study::ParameterRange range = study::range_of(c.plan(), *value);
+    return range.low == nothing && range.high == nothing;
   });
 }
 
@@ -180,8 +180,8 @@ std::vector<std::size_t> with_sources(const study::StudyPlan& plan, std::span<co
   std::vector<std::size_t> all;
   for (const std::size_t slot : slots) {
     all.push_back(slot);
-    if (plan.base[slot].kind != study::Value::Kind::following) continue;
-    const std::vector<std::uint32_t>& from = plan.following[plan.base[slot].index].from;
+    if (plan.base[slot].kind != study::Value::Kind::derived) continue;
+    const std::vector<std::uint32_t>& from = plan.derived[plan.base[slot].index].from;
     all.insert(all.end(), from.begin(), from.end());
   }
   return all;
@@ -193,7 +193,7 @@ std::vector<std::size_t> with_sources(const study::StudyPlan& plan, std::span<co
 std::pair<double, double> aged_extremes(const study::StudyPlan& plan, std::size_t slot, std::size_t point) {
   const study::Value& value = *study::value_at_point(plan, slot, point);
   if (value.kind != study::Value::Kind::profile) return study::extremes_of(plan, slot, point);
-  const study::ValueLimits factors = study::age_factors(plan, slot, point);
+  const study::ParameterRange factors = study::age_factors(plan, slot, point);
   const study::Rotors& rotors = *plan.profiles[value.index];
   const auto at_age = [&](const numerics::Interval& values) {
     return std::minmax({values.low * factors.low, values.low * factors.high, values.high * factors.low,
@@ -231,7 +231,7 @@ void check_ages(const keys::PlanPlaces& places, keys::Reading& reading) {
   if (plan.ages.empty()) return;
   const Checking checking{places, reading};
   for (std::size_t slot = 0; slot < plan.base.size(); ++slot) {
-    if (plan.base[slot].kind != study::Value::Kind::following && study::changes_with_age(plan, slot))
+    if (plan.base[slot].kind != study::Value::Kind::derived && study::changes_with_age(plan, slot))
       check_range_at_ages(checking, slot);
   }
 }

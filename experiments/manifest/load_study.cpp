@@ -60,7 +60,7 @@ void require_effect(const study::Study& study, std::string_view source) {
 
 study::Study read_study(std::string text, std::string_view source,
                         const std::vector<std::string>& given_overrides,
-                        const sections::Companions& companions, bool recorded) {
+                        const sections::ExternalInputs& external, bool recorded) {
   if (text.size() > yaml::max_manifest_size) refuse_size(source);
   yaml::Problems problems;
   yaml::YamlPointer root = yaml::parse_yaml(text, source, false, problems);
@@ -76,7 +76,7 @@ study::Study read_study(std::string text, std::string_view source,
   std::vector<std::string> warnings;
   if (root) {
     const std::vector<std::string> tables =
-        sections::table_overrides(*root, companions.samples, problems, warnings);
+        sections::table_overrides(*root, external.samples, problems, warnings);
     const yaml::YamlPointer named = root;
     root = manifest_text::apply_overrides(root, tables, override_sources, problems);
     for (const char* const record : {"command.torque.file", "command.reference.file"})
@@ -85,8 +85,8 @@ study::Study read_study(std::string text, std::string_view source,
   }
   const yaml::YamlPointer written = root;
   std::optional<sections::SamplesTable> samples;
-  sections::insert_samples(root, companions.samples, samples, problems);
-  study::Study study = read_manifest(*root, recorded, companions, samples ? &*samples : nullptr, problems);
+  sections::insert_samples(root, external.samples, samples, problems);
+  study::Study study = read_manifest(*root, recorded, external, samples ? &*samples : nullptr, problems);
   problems.raise_if_any();
 
   if (!recorded) study.warnings.insert(study.warnings.begin(), warnings.begin(), warnings.end());
@@ -100,28 +100,28 @@ study::Study read_study(std::string text, std::string_view source,
 }  // namespace
 
 study::Study load_study(const std::filesystem::path& manifest, const std::vector<std::string>& overrides,
-                        const sections::Companions& companions) {
+                        const sections::ExternalInputs& external) {
   const std::string source = yaml::name_of_text(manifest);
   std::string text = yaml::read_text(manifest, yaml::max_manifest_size, "a manifest");
-  return new_study(std::move(text), source, overrides, companions);
+  return new_study(std::move(text), source, overrides, external);
 }
 
 study::Study new_study(std::string text, std::string_view source, const std::vector<std::string>& overrides,
-                       const sections::Companions& companions) {
-  study::Study study = parse_study(std::move(text), source, overrides, companions);
+                       const sections::ExternalInputs& external) {
+  study::Study study = parse_study(std::move(text), source, overrides, external);
   require_effect(study, source);
   return study;
 }
 
 study::Study parse_study(std::string text, std::string_view source, const std::vector<std::string>& overrides,
-                         const sections::Companions& companions) {
-  return read_study(std::move(text), source, overrides, companions, false);
+                         const sections::ExternalInputs& external) {
+  return read_study(std::move(text), source, overrides, external, false);
 }
 
 study::Study recorded_study(std::string text, std::string_view source,
                             const std::vector<std::string>& overrides,
-                            const sections::Companions& companions) {
-  return read_study(std::move(text), source, overrides, companions, true);
+                            const sections::ExternalInputs& external) {
+  return read_study(std::move(text), source, overrides, external, true);
 }
 
 }  // namespace zerocount::manifest

@@ -103,12 +103,12 @@ void read_axes(Manifest& m) {
 void read_conditions(Manifest& m) {
   const auto field = yaml::find_field(m.root, "conditions");
   if (field) m.conditions = sections::read_conditions(*field, m.axes, m.reading);
-  const sections::SweptAxis turns = sections::conditions_at_ages(m.conditions, m.reading);
-  if (!turns.labels.empty()) {
-    m.plan().axes.push_back(turns.axis);
+  const sections::SweptAxis settings = sections::conditions_at_ages(m.conditions, m.reading);
+  if (!settings.labels.empty()) {
+    m.plan().axes.push_back(settings.axis);
     m.plan().condition_axis = m.plan().axes.size() - 1;
-    m.plan().conditions = std::ssize(turns.labels);
-    m.places.axes.push_back(turns.places);
+    m.plan().conditions = std::ssize(settings.labels);
+    m.places.axes.push_back(settings.places);
   }
   for (study::PlanAxis& axis : m.plan().axes) sections::inherit_aging(axis, m.plan());
   m.places.base.resize(m.plan().base.size(), m.root.node->place);  // for rates that only axes have
@@ -153,7 +153,7 @@ void check_rows(Manifest& m) {
 }
 
 // "7 machines", "7 machines under each of 3 conditions at each of 2 ages".
-std::string turns_text(const study::Study& study) {
+std::string groups_text(const study::Study& study) {
   const auto counted = [](std::int64_t count, std::string_view noun) {
     return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
   };
@@ -165,24 +165,24 @@ std::string turns_text(const study::Study& study) {
   return text;
 }
 
-void require_equal_turns(Manifest& m, const yaml::Field& field, std::int64_t trials) {
-  const study::TrialTurns turns = study::turns_of(m.study());
-  const std::int64_t round = turns.machines * turns.conditions;
+void require_equal_groups(Manifest& m, const yaml::Field& field, std::int64_t trials) {
+  const study::TrialIndices indices = study::trial_indices(m.study());
+  const std::int64_t round = indices.machines * indices.conditions;
   if (trials % round == 0) return;
-  m.problems().add(field,
-                   fmt::format("{} trials cannot be divided equally among {}", trials, turns_text(m.study())),
-                   fmt::format("a multiple of {}, such as {}", round, nearest_multiples(trials, round)));
+  m.problems().add(
+      field, fmt::format("{} trials cannot be divided equally among {}", trials, groups_text(m.study())),
+      fmt::format("a multiple of {}, such as {}", round, nearest_multiples(trials, round)));
 }
 
 // Every machine must have the same number of trials under each condition, also after each block of sequential
 // stopping.
-void check_turns(Manifest& m) {
+void check_equal_groups(Manifest& m) {
   const auto trials = yaml::find_field(m.root, "trials");
   const std::int64_t block = m.study().stop ? m.study().stop->block : m.study().trials;
-  if (trials && block > 0) require_equal_turns(m, *trials, block);
+  if (trials && block > 0) require_equal_groups(m, *trials, block);
   if (m.study().stop) {
     const auto limit = yaml::find_field(yaml::find_field(m.root, "stop").value(), "max_trials");
-    if (limit) require_equal_turns(m, *limit, m.study().stop->max_trials);
+    if (limit) require_equal_groups(m, *limit, m.study().stop->max_trials);
   }
 }
 
@@ -243,8 +243,9 @@ void read_observed(Manifest& m) {
 
 }  // namespace
 
-study::Study read_manifest(const yaml::YamlNode& root, bool recorded, const sections::Companions& companions,
-                           const sections::SamplesTable* samples, yaml::Problems& problems) {
+study::Study read_manifest(const yaml::YamlNode& root, bool recorded,
+                           const sections::ExternalInputs& external, const sections::SamplesTable* samples,
+                           yaml::Problems& problems) {
   auto plan = std::make_shared<study::StudyPlan>();
   study::Study study;
   Manifest m{.root = {&root, ""}, .reading = {problems, *plan, study, recorded}};
@@ -256,7 +257,7 @@ study::Study read_manifest(const yaml::YamlNode& root, bool recorded, const sect
   read_values(m);
   read_study_units(m.root, m.reading);
   sections::read_ages(m.root, m.reading);
-  sections::read_plugin(m.root, companions.plugin, m.reading);
+  sections::read_plugin(m.root, external.plugin, m.reading);
   sections::read_sections(m.root, m.reading, m.places);
   read_axes(m);
   read_conditions(m);
@@ -271,10 +272,10 @@ study::Study read_manifest(const yaml::YamlNode& root, bool recorded, const sect
   sections::check_overrides(m.root, m.conditions,
                             samples != nullptr ? samples->columns : std::vector<yaml::Place>{}, m.reading);
   check_trial_count(m);
-  check_turns(m);
+  check_equal_groups(m);
   check_worlds(m);
   read_observed(m);
-  realise_profiles(m.reading.profiles, study, companions.rotors, *plan);
+  realise_profiles(m.reading.profiles, study, external.rotors, *plan);
   keys::check_profiles(m.reading);
   check_what_follows(m.places, m.reading);
   check_points(m.places, m.reading);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "experiments/keys/values.hpp"
-#include "experiments/sections/companions.hpp"
+#include "experiments/sections/external_inputs.hpp"
 #include "experiments/sections/named_tables.hpp"
 #include "experiments/sections/sections.hpp"
 #include "experiments/study/plan.hpp"
@@ -19,8 +19,9 @@ namespace zerocount::manifest {
 /// `problems`; with errors the study must not be used.
 /// @param recorded the study has results (Reading::recorded)
 /// @param samples table of samples that was inserted in `root` before; null if there is none
-study::Study read_manifest(const yaml::YamlNode& root, bool recorded, const sections::Companions& companions,
-                           const sections::SamplesTable* samples, yaml::Problems& problems);
+study::Study read_manifest(const yaml::YamlNode& root, bool recorded,
+                           const sections::ExternalInputs& external, const sections::SamplesTable* samples,
+                           yaml::Problems& problems);
 
 /// Realises the requested profiles as plan.profiles, in the order of the requests. All profiles of one
 /// parameter use the same random numbers, even with different mean, spread and correlation length.
@@ -68,7 +69,7 @@ FaultPlace place_of_fault(const keys::PlanPlaces& places, const study::StudyPlan
                           std::span<const std::size_t> involved, std::size_t point);
 
 /// If the study gives measured parameters (parameters/measured_parameters.hpp), makes the parameters that
-/// follow from them following values. Reports an incomplete group, and a group given together with parameters
+/// follow from them derived values. Reports an incomplete group, and a group given together with parameters
 /// that follow from it. All values must be read already.
 void let_follow_from_measured(const keys::PlanPlaces& places, keys::Reading& reading);
 

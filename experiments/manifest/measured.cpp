@@ -98,12 +98,12 @@ void let_follow(const MeasuredParameters& group, const keys::PlanPlaces& places,
   if (check_alone(group, places, reading))
     require_all(measured, given_place(places, plan, first).value(), places, reading);
   plan.measured.push_back(measured);
-  for (const parameters::FollowingParameter& parameter : group.following) {
+  for (const parameters::DerivedParameter& parameter : group.derived) {
     const std::uint32_t slot = slots_of(plan.table, {&parameter.name, 1}).front();
     if (!check_not_given(group, slot, places, reading)) continue;
-    plan.base[slot] = {.kind = study::Value::Kind::following,
-                       .index = static_cast<std::uint32_t>(plan.following.size())};
-    plan.following.push_back({slots_of(plan.table, parameter.from), parameter.value});
+    plan.base[slot] = {.kind = study::Value::Kind::derived,
+                       .index = static_cast<std::uint32_t>(plan.derived.size())};
+    plan.derived.push_back({slots_of(plan.table, parameter.from), parameter.value});
   }
 }
 
@@ -123,7 +123,7 @@ class MeasuredDraws {
   /// The contradiction in the measured values of a draw; empty if there is none.
   /// @param draw index of the draw under the condition of this point of the plan
   std::optional<study::MeasuredFault> fault_of(std::size_t point, std::int64_t draw) const {
-    const std::int64_t trial = study::turns_of(study_).trial_of(draw, study::condition_at(plan_, point));
+    const std::int64_t trial = study::trial_indices(study_).trial_of(draw, study::condition_at(plan_, point));
     const std::vector<double> numbers =
         study::drawn_numbers(study_, study::design_point(plan_, point), trial, measured_.slots);
     return study::fault_of_machine(plan_, point, measured_, [&](std::uint32_t slot) {
@@ -208,17 +208,17 @@ void let_follow_from_measured(const keys::PlanPlaces& places, keys::Reading& rea
 void check_what_follows(const keys::PlanPlaces& places, keys::Reading& reading) {
   const study::StudyPlan& plan = reading.plan;
   for (std::size_t slot = 0; slot < plan.base.size(); ++slot) {
-    if (plan.base[slot].kind != study::Value::Kind::following) continue;
+    if (plan.base[slot].kind != study::Value::Kind::derived) continue;
     const parameters::Parameter& row = plan.table.rows[slot];
-    const study::FollowingValue& following = plan.following[plan.base[slot].index];
-    if (following.value == nullptr) continue;  // it has the range of its source
+    const study::DerivedValue& derived = plan.derived[plan.base[slot].index];
+    if (derived.value == nullptr) continue;  // it has the range of its source
     study::visit_points(plan, {&slot, 1}, [&](std::size_t point) {
-      const study::ValueLimits limits = study::limits_of_slot(plan, slot, point);
+      const study::ParameterRange limits = study::range_of_slot(plan, slot, point);
       const numerics::Interval& range = row.range;
       const bool is_allowed = std::isnan(limits.low) ||  // reported already, or by check_measured_machines()
                               numerics::contains(range, numerics::closed(limits.low, limits.high));
       if (is_allowed && !std::isinf(limits.high)) return true;
-      const std::vector<std::size_t> sources(following.from.begin(), following.from.end());
+      const std::vector<std::size_t> sources(derived.from.begin(), derived.from.end());
       reading.problems.add(
           place_of_fault(places, plan, sources, point).place, row.name,
           limits.low == limits.high

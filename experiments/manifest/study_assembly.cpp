@@ -40,8 +40,8 @@ AssignedSlots assigned_slots(const study::StudyPlan& plan) {
   }
   for (std::size_t slot = 0; slot < plan.base.size(); ++slot) {
     if (study::changes_with_age(plan, slot)) slots.overridden[slot] = true;
-    if (plan.base[slot].kind != study::Value::Kind::following) continue;
-    for (const std::uint32_t source : plan.following[plan.base[slot].index].from) {
+    if (plan.base[slot].kind != study::Value::Kind::derived) continue;
+    for (const std::uint32_t source : plan.derived[plan.base[slot].index].from) {
       slots.swept[slot] = slots.swept[slot] || slots.swept[source];
       slots.overridden[slot] = slots.overridden[slot] || slots.overridden[source];
     }
@@ -155,8 +155,8 @@ study::DrawLevel most_frequent_level(const study::StudyPlan& plan, std::size_t s
       case study::Value::Kind::profile:  // its value at the trial's start position
         level = std::max(level, study::DrawLevel::trial);
         break;
-      case study::Value::Kind::following:
-        for (const std::uint32_t source : plan.following[value->index].from)
+      case study::Value::Kind::derived:
+        for (const std::uint32_t source : plan.derived[value->index].from)
           level = std::max(level, most_frequent_level(plan, source));
         break;
     }

@@ -44,9 +44,9 @@ class Motions {
   /// The motions of the trial with this draw. All trials of a point of the plan have the same list of
   /// motions.
   std::vector<Motion> of(std::size_t point, std::int64_t draw) const {
-    const study::StudyTrial trial =
-        study::commanded_trial(study_, study::design_point(plan_, point),
-                               study::turns_of(study_).trial_of(draw, study::condition_at(plan_, point)));
+    const study::StudyTrial trial = study::commanded_trial(
+        study_, study::design_point(plan_, point),
+        study::trial_indices(study_).trial_of(draw, study::condition_at(plan_, point)));
     const double count = loop::fine_resolution(trial.parameters.encoder);
     std::vector<Motion> motions;
     for (std::size_t move = 0; move < trial.target_positions.size(); ++move)

@@ -21,8 +21,8 @@ constexpr std::string_view breakaway = "friction.measured.breakaway";
 constexpr std::string_view breakaway_travel = "friction.measured.breakaway_travel";
 
 /// The parameters of the friction spring. k2 and beta are computed from all values of the group.
-std::vector<FollowingParameter> spring_from(const std::vector<std::string_view>& names, double (*k2)(From),
-                                            double (*beta)(From)) {
+std::vector<DerivedParameter> spring_from(const std::vector<std::string_view>& names, double (*k2)(From),
+                                          double (*beta)(From)) {
   return {{"friction.k1", {final_stiffness}},
           {"friction.k2", names, k2},
           {"friction.beta", names, beta},
@@ -38,8 +38,8 @@ MeasuredParameters spring_by_initial_stiffness() {
   MeasuredParameters group{.section = "friction.measured",
                            .names = {initial_stiffness, final_stiffness, breakaway, breakaway_travel},
                            .own = 1,
-                           .following = {}};
-  group.following = spring_from(
+                           .derived = {}};
+  group.derived = spring_from(
       group.names, [](From v) { return softening(v).k2; }, [](From v) { return softening(v).beta; });
   group.conditions = {{"final_stiffness", "breakaway/breakaway_travel", "N m/rad",
                        [](From v) { return v[1]; }, [](From v) { return v[2] / v[3]; }},
@@ -58,8 +58,8 @@ MeasuredParameters spring_by_secant() {
       .section = "friction.measured",
       .names = {secant_stiffness, secant_travel, final_stiffness, breakaway, breakaway_travel},
       .own = 2,
-      .following = {}};
-  group.following = spring_from(
+      .derived = {}};
+  group.derived = spring_from(
       group.names, [](From v) { return softening(v).k2; }, [](From v) { return softening(v).beta; });
   group.conditions = {
       {"final_stiffness", "secant_stiffness", "N m/rad", [](From v) { return v[final]; },
@@ -82,11 +82,11 @@ MeasuredParameters measured_creep() {
   return {.section = "friction.measured.creep",
           .names = {torque, extension, rate, exponent},
           .own = 4,
-          .following = {{"friction.alpha", {rate}},
-                        {"friction.lambda",
-                         {torque, extension, exponent},
-                         [](From from) { return numerics::pow_of_draws(from[0], from[2]) / from[1]; }},
-                        {"friction.n", {exponent}}}};
+          .derived = {{"friction.alpha", {rate}},
+                      {"friction.lambda",
+                       {torque, extension, exponent},
+                       [](From from) { return numerics::pow_of_draws(from[0], from[2]) / from[1]; }},
+                      {"friction.n", {exponent}}}};
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace zerocount::parameters {
 using MeasuredNumbers = std::span<const double>;
 
 /// A parameter of the table that is computed from measured parameters.
-struct FollowingParameter {
+struct DerivedParameter {
   std::string_view name;               ///< dotted path
   std::vector<std::string_view> from;  ///< dotted paths of measured parameters
   /// Computes the value from the sources; NaN if no machine has these measured values. Null: the value equals
@@ -35,7 +35,7 @@ struct MeasuredParameters {
   /// Number of leading `names` that only this group has. A manifest that gives one of them uses this group;
   /// the other names may belong to another group of the section.
   std::size_t own{0};
-  std::vector<FollowingParameter> following;
+  std::vector<DerivedParameter> derived;
   std::vector<MeasuredCondition> conditions{};  ///< conditions of the values, all of which must hold
 };
 

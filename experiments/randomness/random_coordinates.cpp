@@ -41,7 +41,7 @@ void add_coordinates(const study::Study& study, std::uint32_t slot, const study:
   const std::string name(study.plan->table.rows[slot].name);
   switch (value.kind) {
     case study::Value::Kind::number:
-    case study::Value::Kind::following:
+    case study::Value::Kind::derived:
       break;
     case study::Value::Kind::distribution:
       if (is_drawn_for_trials(value.level))

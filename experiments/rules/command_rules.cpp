@@ -15,7 +15,7 @@
 namespace zerocount::rules {
 namespace {
 
-using Limits = std::span<const study::ValueLimits>;
+using Limits = std::span<const study::ParameterRange>;
 using Faults = std::vector<ValueFault>;
 
 constexpr double max_samples = 1e12;  // would take a year of computing: certainly a typing error
@@ -43,7 +43,7 @@ ValueRule samples_of_targets(double moves) {
                  });
 }
 
-double farthest_apart(const study::ValueLimits& a, const study::ValueLimits& b) {
+double farthest_apart(const study::ParameterRange& a, const study::ParameterRange& b) {
   return std::max(a.high - b.low, b.high - a.low);
 }
 
@@ -52,15 +52,15 @@ std::string unit_of_targets(const parameters::StudyUnits& units) {
   return units.targets == parameters::TargetUnits::si ? parameters::unit_on(units.axis, "rad") : "counts";
 }
 
-double largest(const study::ValueLimits& limits) {
-  return std::max(std::abs(limits.low), std::abs(limits.high));
+double largest(const study::ParameterRange& range) {
+  return std::max(std::abs(range.low), std::abs(range.high));
 }
 
 // The longest travel to each value of the list, from the start or from the value before it.
 std::vector<double> longest_travels(Limits list) {
   std::vector<double> travels;
-  study::ValueLimits last{};
-  for (const study::ValueLimits& next : list) {
+  study::ParameterRange last{};
+  for (const study::ParameterRange& next : list) {
     travels.push_back(farthest_apart(next, last));
     last = next;
   }
@@ -85,7 +85,7 @@ ValueRule limits_of_the_list(const std::string& what, const std::string& expecte
 }
 
 // Total time of all ramps, s. If the torque stays at 0, every rate is allowed.
-double time_of_ramps(Limits levels, const study::ValueLimits& rate) {
+double time_of_ramps(Limits levels, const study::ParameterRange& rate) {
   const double travel = total_travel(levels);
   return travel == 0.0 ? 0.0 : travel / rate.low;
 }
@@ -179,7 +179,7 @@ ValueRule end_of_the_reference(double last, double held, std::string_view key) {
 // The rule of a list, as of one value between the lowest and the highest of the record.
 ValueRule of_the_record(ValueRule rule, std::span<const double> record) {
   const auto [lowest, highest] = std::ranges::minmax(record);
-  const std::vector<study::ValueLimits> levels{{.low = lowest, .high = highest}};
+  const std::vector<study::ParameterRange> levels{{.low = lowest, .high = highest}};
   rule.whole_list = false;
   rule.of_record = true;
   rule.find_faults = [levels, of_levels = rule.find_faults](Limits l, Limits) {
@@ -229,10 +229,10 @@ double max_step(Limits targets) {
 }
 
 // The longest travel of a sequence, which moves beyond its targets before it reverses, counts.
-double max_step_of_sequence(Limits targets, const study::ValueLimits& overrun,
+double max_step_of_sequence(Limits targets, const study::ParameterRange& overrun,
                             const study::SequenceCycle& cycle) {
-  const study::ValueLimits below{targets.front().low - overrun.high, targets.front().high - overrun.low};
-  const study::ValueLimits above{targets.back().low + overrun.low, targets.back().high + overrun.high};
+  const study::ParameterRange below{targets.front().low - overrun.high, targets.front().high - overrun.low};
+  const study::ParameterRange above{targets.back().low + overrun.low, targets.back().high + overrun.high};
   const bool starts_below = cycle.approach != study::SequenceApproach::negative;
   double longest = std::max(overrun.high, farthest_apart(starts_below ? below : above, {}));
   for (std::size_t i = 1; i < targets.size(); ++i)
@@ -243,7 +243,7 @@ double max_step_of_sequence(Limits targets, const study::ValueLimits& overrun,
 }
 
 // The maximum length of a count of the fine encoder, rad or m.
-double longest_count(parameters::AxisKind axis, const study::ValueLimits& encoder) {
+double longest_count(parameters::AxisKind axis, const study::ParameterRange& encoder) {
   switch (axis) {
     case parameters::AxisKind::rotary:
       break;
@@ -254,7 +254,7 @@ double longest_count(parameters::AxisKind axis, const study::ValueLimits& encode
 }
 
 // The minimum length of a count of the fine encoder, rad or m.
-double shortest_count(parameters::AxisKind axis, const study::ValueLimits& encoder) {
+double shortest_count(parameters::AxisKind axis, const study::ParameterRange& encoder) {
   return longest_count(axis, {encoder.high, encoder.low});
 }
 
@@ -264,7 +264,7 @@ ValueRule reach_of_positions(const study::StudyPlan& plan, bool sequence) {
   if (sequence) rule.between.emplace_back("command.sequence.overrun");
   rule.find_faults = [axis = plan.units.axis](Limits l, Limits targets) -> Faults {
     double farthest = 0.0;
-    for (const study::ValueLimits& target : targets) farthest = std::max(farthest, largest(target));
+    for (const study::ParameterRange& target : targets) farthest = std::max(farthest, largest(target));
     if (l.size() > 1) farthest += l[1].high;
     const double counts = farthest / shortest_count(axis, l[0]);
     if (!std::isfinite(counts) || counts <= parameters::max_count) return {};
@@ -323,7 +323,7 @@ ValueRule time_of_travel(const study::StudyPlan& plan) {
 
 double hold_of_the_reference(const study::StudyPlan& plan) {
   const std::size_t rate = study::find_slots("controller.sample_rate", plan.table).value().first;
-  const double lowest = study::limits_of(plan, plan.base[rate]).low;  // not a number where it is unreadable
+  const double lowest = study::range_of(plan, plan.base[rate]).low;  // not a number where it is unreadable
   return loop::record_duration(plan.common.command.profile.record->time, lowest > 0.0 ? 1.0 / lowest : 0.0);
 }
 

@@ -16,30 +16,30 @@ namespace zerocount::rules {
 namespace {
 
 using Keys = std::vector<std::string_view>;
-using Limits = std::span<const study::ValueLimits>;
+using Limits = std::span<const study::ParameterRange>;
 using parameters::Phase;
 using parameters::phase_path;
-using study::ValueLimits;
+using study::ParameterRange;
 
 constexpr std::string_view or_left_out = ", or the key left out";
 
 template <class Word>
-bool is_word(const ValueLimits& limits, Word word) {
-  return limits.low == static_cast<double>(word);
+bool is_word(const ParameterRange& range, Word word) {
+  return range.low == static_cast<double>(word);
 }
 
-friction::FrictionModel friction_model(const ValueLimits& limits) {
-  return static_cast<friction::FrictionModel>(static_cast<int>(limits.low));
+friction::FrictionModel friction_model(const ParameterRange& range) {
+  return static_cast<friction::FrictionModel>(static_cast<int>(range.low));
 }
 
-bool can_be_positive(const ValueLimits& limits) {
-  return limits.high > 0.0;
+bool can_be_positive(const ParameterRange& range) {
+  return range.high > 0.0;
 }
 
 /// One parameter that decides whether keys have an effect.
 struct Switch {
   std::string_view parameter;
-  std::function<bool(const ValueLimits&)> is_on;
+  std::function<bool(const ParameterRange&)> is_on;
   std::string on;  ///< text for messages: how a manifest turns the switch on
 };
 
@@ -49,7 +49,7 @@ Switch above_zero(std::string_view parameter) {
 
 /// A switch that is on if the manifest gives the parameter. The default of the parameter must be negative.
 Switch given(std::string_view parameter) {
-  return {parameter, [](const ValueLimits& limits) { return limits.high >= 0.0; },
+  return {parameter, [](const ParameterRange& range) { return range.high >= 0.0; },
           fmt::format("{} too", parameter)};
 }
 
@@ -62,8 +62,8 @@ Switch one_of(std::string_view parameter, std::initializer_list<Word> words) {
   const std::string_view last = named.back();
   named.pop_back();
   return {parameter,
-          [all = std::vector<Word>(words)](const ValueLimits& limits) {
-            return std::ranges::any_of(all, [&](Word word) { return is_word(limits, word); });
+          [all = std::vector<Word>(words)](const ParameterRange& range) {
+            return std::ranges::any_of(all, [&](Word word) { return is_word(range, word); });
           },
           fmt::format("{}: {}{}{}", parameter, fmt::join(named, ", "), named.empty() ? "" : " or ", last)};
 }
@@ -201,7 +201,7 @@ template <Phase phase>
 std::vector<EffectRule> rules_of_the_blocks() {
   using Structure = loop::ControlStructure;
   constexpr std::string_view structure = phase_path<phase, "structure">;
-  const auto is_cascade = [](const ValueLimits& l) { return is_word(l, Structure::cascade); };
+  const auto is_cascade = [](const ParameterRange& l) { return is_word(l, Structure::cascade); };
   return {
       only_with(given(phase_path<phase, "error_deadband.band">), {phase_path<phase, "error_deadband.form">},
                 "no point has a dead zone of the error"),
@@ -441,8 +441,8 @@ bool covers(const EffectRule& rule, std::string_view name) {
 }
 
 bool can_have_effect(const study::StudyPlan& plan, const EffectRule& rule) {
-  return study::holds_somewhere(plan, rule.depends_on, [&](std::span<const study::ValueLimits> limits) {
-    return !study::are_readable(limits) || rule.has_effect(limits);
+  return study::holds_somewhere(plan, rule.depends_on, [&](std::span<const study::ParameterRange> ranges) {
+    return !study::are_readable(ranges) || rule.has_effect(ranges);
   });
 }
 

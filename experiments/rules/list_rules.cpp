@@ -8,7 +8,7 @@
 namespace zerocount::rules {
 namespace {
 
-using Limits = std::span<const study::ValueLimits>;
+using Limits = std::span<const study::ParameterRange>;
 using Faults = std::vector<ValueFault>;
 
 // The names of the values of a list that the study has.
@@ -25,7 +25,7 @@ ValueRule weights_of_one_in_all(const std::vector<std::string_view>& weights) {
             constexpr double rounding = 1e-9;
             double lowest = 0.0;
             double highest = 0.0;
-            for (const study::ValueLimits& weight : l) {
+            for (const study::ParameterRange& weight : l) {
               lowest += weight.low;
               highest += weight.high;
             }

@@ -8,10 +8,10 @@ namespace zerocount::rules {
 
 ValueRule plausibility_rule(
     std::vector<std::string_view> between,
-    std::function<std::vector<ValueFault>(std::span<const study::ValueLimits>)> find_faults) {
+    std::function<std::vector<ValueFault>(std::span<const study::ParameterRange>)> find_faults) {
   ValueRule rule{std::move(between), false, {}};
-  rule.find_faults = [find = std::move(find_faults)](std::span<const study::ValueLimits> parameters,
-                                                     std::span<const study::ValueLimits>) {
+  rule.find_faults = [find = std::move(find_faults)](std::span<const study::ParameterRange> parameters,
+                                                     std::span<const study::ParameterRange>) {
     return find(parameters);
   };
   rule.warn_only = true;
@@ -22,8 +22,8 @@ ValueRule plausibility_rule(
 std::string_view fine_encoder_name(const study::StudyPlan& plan) {
   const bool linear = plan.units.axis == parameters::AxisKind::linear;
   const bool of_load =
-      study::holds_somewhere(plan, study::two_encoders, [](std::span<const study::ValueLimits> limits) {
-        return study::has_two_encoders(limits) && study::closes_at_load(limits);
+      study::holds_somewhere(plan, study::two_encoders, [](std::span<const study::ParameterRange> ranges) {
+        return study::has_two_encoders(ranges) && study::closes_at_load(ranges);
       });
   if (of_load) return linear ? "encoder.load.resolution" : "encoder.load.counts_per_revolution";
   return linear ? "encoder.resolution" : "encoder.fine";

@@ -15,13 +15,13 @@ using Faults = std::vector<ValueFault>;
 constexpr double min_softening = 0.1;
 constexpr double min_counts = 5.0;
 
-bool has_spring(const study::ValueLimits& model) {
+bool has_spring(const study::ParameterRange& model) {
   return friction::has_spring(static_cast<friction::FrictionModel>(static_cast<int>(model.low)));
 }
 
 /// The pre-sliding range of a contact with the typical values, rad or m.
-double range_of(const study::ValueLimits& k1, const study::ValueLimits& k2, const study::ValueLimits& beta,
-                const study::ValueLimits& breakaway) {
+double range_of(const study::ParameterRange& k1, const study::ParameterRange& k2,
+                const study::ParameterRange& beta, const study::ParameterRange& breakaway) {
   friction::FrictionParameters contact;
   contact.k1 = k1.typical;
   contact.k2 = k2.typical;

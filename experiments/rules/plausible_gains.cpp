@@ -12,7 +12,7 @@
 namespace zerocount::rules {
 namespace {
 
-using Limits = std::span<const study::ValueLimits>;
+using Limits = std::span<const study::ParameterRange>;
 using Faults = std::vector<ValueFault>;
 
 /// A gain of one phase of the control.

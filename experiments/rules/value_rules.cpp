@@ -15,16 +15,17 @@ namespace {
 
 using parameters::Phase;
 using parameters::phase_path;
-using Limits = std::span<const study::ValueLimits>;
+using Limits = std::span<const study::ParameterRange>;
 using Faults = std::vector<ValueFault>;
 
-Faults shorter_than_a_sample(const study::ValueLimits& duration, const study::ValueLimits& sample_rate) {
+Faults shorter_than_a_sample(const study::ParameterRange& duration,
+                             const study::ParameterRange& sample_rate) {
   if (std::round(duration.low * sample_rate.low) >= 1.0) return {};
   return {{fmt::format("{} s can be less than one sample at {} Hz", duration.low, sample_rate.low),
            "at least one sample"}};
 }
 
-Faults longer_than_the_hold(const study::ValueLimits& duration, const study::ValueLimits& hold) {
+Faults longer_than_the_hold(const study::ParameterRange& duration, const study::ParameterRange& hold) {
   if (duration.high <= hold.low) return {};
   return {{fmt::format("{} s can be longer than the hold of {} s", duration.high, hold.low),
            "at most command.hold"}};
@@ -38,8 +39,8 @@ std::vector<ValueRule> rules_of_durations(bool open_loop) {
           between({"verdict.window", "command.hold"}, longer_than_the_hold)};
 }
 
-double max_abs(const study::ValueLimits& limits) {
-  return std::max(std::abs(limits.low), std::abs(limits.high));
+double max_abs(const study::ParameterRange& range) {
+  return std::max(std::abs(range.low), std::abs(range.high));
 }
 
 std::vector<ValueRule> rules_of_the_start(const std::string& torque_unit) {
@@ -150,9 +151,8 @@ ValueRule what_holds_the_axis(const study::StudyPlan& plan) {
         Faults faults;
         double largest = max_abs(l[torque]);
         if (l[load].high > 0.0)
-          for (const study::ValueLimits& on_load : l.subspan(load_torque)) largest += max_abs(on_load);
-        // The bristle of dahl yields at the Coulomb level.
-        const double level = l[breakaway].low * (law == friction::FrictionModel::dahl ? l[ratio].low : 1.0);
+          for (const study::ParameterRange& on_load : l.subspan(load_torque)) largest += max_abs(on_load);
+        const double level = friction::holding_limit(law, l[breakaway].low, l[ratio].low);
         if (!has_integral && level == 0.0 && largest > 0.0)
           faults.push_back({fmt::format("a disturbance of {} {} can reach the friction that is to hold it: "
                                         "friction.breakaway is drawn without a smallest value above 0",
@@ -288,7 +288,7 @@ std::vector<ValueRule> value_rules(const study::StudyPlan& plan) {
   return rules;
 }
 
-std::vector<ValueFault> longer_than_the_move(double within, const study::ValueLimits& hold) {
+std::vector<ValueFault> longer_than_the_move(double within, const study::ParameterRange& hold) {
   if (!(hold.low < within)) return {};
   return {{fmt::format("{} s is longer than the hold of a move, {} s", within, hold.low),
            "a time in s, at most command.hold"}};
@@ -301,7 +301,7 @@ std::string first_fault(const study::StudyPlan& plan, std::size_t point) {
     const std::vector<std::size_t> listed =
         rule.whole_list ? study::slots_of(plan.list) : std::vector<std::size_t>{};
     const Faults faults =
-        rule.find_faults(study::limits_at(plan, named, point), study::limits_at(plan, listed, point));
+        rule.find_faults(study::ranges_at(plan, named, point), study::ranges_at(plan, listed, point));
     if (faults.empty()) continue;
     const ValueFault& fault = faults.front();
     const std::size_t slot = fault.listed.empty() ? named.front() : listed[fault.listed.front()];

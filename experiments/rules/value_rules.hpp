@@ -27,8 +27,8 @@ struct ValueRule {
   bool whole_list{false};                 ///< the rule also involves all values of the list
   /// Finds faults from the ranges of the parameters, in the order of `between`, and of the list if
   /// whole_list.
-  std::function<std::vector<ValueFault>(std::span<const study::ValueLimits> parameters,
-                                        std::span<const study::ValueLimits> list)>
+  std::function<std::vector<ValueFault>(std::span<const study::ParameterRange> parameters,
+                                        std::span<const study::ParameterRange> list)>
       find_faults;
   bool warn_only{false};
   bool once{false};  ///< only the first fault is reported, at a parameter of the rule that the manifest gives
@@ -41,7 +41,8 @@ template <std::size_t count, class FindFaults>
 ValueRule between(const std::string_view (&names)[count], FindFaults find_faults) {
   return {{names, names + count},
           false,
-          [find_faults](std::span<const study::ValueLimits> parameters, std::span<const study::ValueLimits>) {
+          [find_faults](std::span<const study::ParameterRange> parameters,
+                        std::span<const study::ParameterRange>) {
             return [&]<std::size_t... i>(std::index_sequence<i...>) {
               return find_faults(parameters[i]...);
             }
@@ -76,7 +77,7 @@ std::vector<ValueRule> plugin_rules(const study::StudyPlan& plan);
 std::vector<ValueRule> value_rules(const study::StudyPlan& plan);
 
 /// The rule that the time `within` (s) of a goal is not longer than a move with this range of the hold.
-std::vector<ValueFault> longer_than_the_move(double within, const study::ValueLimits& hold);
+std::vector<ValueFault> longer_than_the_move(double within, const study::ParameterRange& hold);
 
 /// The first inconsistency between the values of a design point that is an error, "path: what; expected …";
 /// empty if there is none.
@@ -108,7 +109,7 @@ std::vector<ValueRule> plausibility_rules(const study::StudyPlan& plan);
 /// A rule that warns once, at the first of `between` that the manifest gives.
 ValueRule plausibility_rule(
     std::vector<std::string_view> between,
-    std::function<std::vector<ValueFault>(std::span<const study::ValueLimits> parameters)> find_faults);
+    std::function<std::vector<ValueFault>(std::span<const study::ParameterRange> parameters)> find_faults);
 
 /// A rule that warns once, as plausibility_rule(); `find_faults` takes each range as a separate argument, as
 /// in rules::between().
@@ -134,7 +135,7 @@ struct EffectRule {
   std::vector<std::string_view> except{};      ///< parameters among `keys` to which the rule does not apply
   std::vector<std::string_view> depends_on{};  ///< parameters that decide whether the keys have an effect
   /// Whether the keys have an effect, from the ranges of the parameters `depends_on`, in their order.
-  std::function<bool(std::span<const study::ValueLimits>)> has_effect{};
+  std::function<bool(std::span<const study::ParameterRange>)> has_effect{};
   std::string what{};       ///< first phrase of the message
   std::string expected{};   ///< second phrase of the message; empty for a warning
   bool off_at_zero{false};  ///< a key that is 0 at all points is not reported

@@ -20,7 +20,7 @@ bool is_absent(const parameters::Parameter& parameter) {
 bool is_assumed(const study::StudyPlan& plan, const std::vector<EffectRule>& rules, std::size_t slot) {
   const parameters::Parameter& parameter = plan.table.rows[slot];
   return parameters::has_default(parameter) && parameters::exists_on(parameter, plan.units.axis) &&
-         plan.base[slot].kind != study::Value::Kind::following && !is_absent(parameter) &&
+         plan.base[slot].kind != study::Value::Kind::derived && !is_absent(parameter) &&
          has_effect(plan, rules, parameter.name);
 }
 

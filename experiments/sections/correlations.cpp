@@ -32,7 +32,7 @@ std::string fault_of(const study::Value& value) {
   switch (value.kind) {
     case study::Value::Kind::number:
       return "";
-    case study::Value::Kind::following:
+    case study::Value::Kind::derived:
       return "it follows from measured values, which can be correlated in its place";
     case study::Value::Kind::profile:
       return "it is a profile at some design point";

@@ -52,8 +52,8 @@ void check_order(const yaml::Field& map, const study::StoppingRule& rule, yaml::
 
 void check_within(const yaml::Field& field, double within, const study::StudyPlan& plan,
                   yaml::Problems& problems) {
-  study::ValueLimits shortest{.low = within};
-  study::holds_somewhere(plan, "command.hold", [&shortest](const study::ValueLimits& hold) {
+  study::ParameterRange shortest{.low = within};
+  study::holds_somewhere(plan, "command.hold", [&shortest](const study::ParameterRange& hold) {
     if (hold.low < shortest.low) shortest = hold;
     return false;
   });
@@ -96,7 +96,7 @@ void measure_tolerance(const yaml::Field& field, double tolerance, keys::Reading
 
 bool measures_motion(const study::StudyPlan& plan) {
   return !study::holds_somewhere(plan, "verdict.motion",
-                                 [](const study::ValueLimits& motion) { return motion.can_be_zero; });
+                                 [](const study::ParameterRange& motion) { return motion.can_be_zero; });
 }
 
 /// Reads the limits of a goal.
@@ -187,7 +187,7 @@ void check_goal(const yaml::Field& field, study::Goal& goal, keys::Reading& read
   for (const char* const key : {"within", "after_profile"})
     if (const auto within = yaml::find_field(field, key))
       check_within(*within, goal.within.time, reading.plan, reading.problems);
-  const auto is_sine = [](const study::ValueLimits& shape) {
+  const auto is_sine = [](const study::ParameterRange& shape) {
     return shape.low == static_cast<double>(loop::ReferenceShape::sine);
   };
   if (goal.within.after_profile && study::holds_somewhere(reading.plan, "command.profile.shape", is_sine))

@@ -9,7 +9,7 @@
 #include "core/trial/disturbance.hpp"
 #include "core/trial/torque_record.hpp"
 #include "experiments/keys/values.hpp"
-#include "experiments/sections/companions.hpp"
+#include "experiments/sections/external_inputs.hpp"
 #include "experiments/sections/sections.hpp"
 #include "experiments/study/sampling.hpp"
 #include "experiments/tables/text_table.hpp"

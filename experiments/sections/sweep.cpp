@@ -19,7 +19,7 @@ namespace {
 constexpr std::string_view refusal_of_sweep = "this key cannot be swept";
 
 // State of the reading of the axes: the slots in use and the number of points so far.
-struct SweepReading {
+struct SweepState {
   keys::Reading& reading;
   std::size_t points{1};
   bool too_many{false};
@@ -30,7 +30,7 @@ struct SweepReading {
 };
 
 // Multiplies the number of points by `options`; false, after a report, if there are too many.
-bool check_point_count(const yaml::Field& sweep, std::size_t options, SweepReading& state) {
+bool check_point_count(const yaml::Field& sweep, std::size_t options, SweepState& state) {
   const bool fits = !state.too_many && (options == 0 || state.points <= max_points / options);
   if (fits) {
     state.points *= std::max<std::size_t>(options, 1);
@@ -54,7 +54,7 @@ std::string value_label(const SweptAxis& axis, const study::SlotRange& slots, co
 }
 
 void read_listed(const yaml::Field& field, const study::SlotRange& slots, SweptAxis& axis,
-                 SweepReading& state) {
+                 SweepState& state) {
   std::set<std::string> seen;
   for (std::size_t i = 0; i < field.node->items.size(); ++i) {
     const yaml::Field item = yaml::item_of(field, i);
@@ -72,7 +72,7 @@ void read_listed(const yaml::Field& field, const study::SlotRange& slots, SweptA
 }
 
 void read_spaced(const yaml::Field& sweep, const yaml::Field& field, const study::SlotRange& slots,
-                 SweptAxis& axis, SweepReading& state) {
+                 SweptAxis& axis, SweepState& state) {
   const auto& entries = field.node->entries;
   const bool known = entries.size() == 1 && (entries[0].key == "linspace" || entries[0].key == "logspace");
   if (!known || slots.list) {
@@ -101,7 +101,7 @@ void read_spaced(const yaml::Field& sweep, const yaml::Field& field, const study
 // with a warning.
 // @param slots of the axis
 bool take_for_grid(const yaml::Field& grid, const yaml::YamlEntry& entry, std::span<const std::size_t> slots,
-                   SweepReading& state) {
+                   SweepState& state) {
   const std::string path = yaml::entry_of(grid, entry).path;
   for (const std::size_t slot : slots) {
     if (!state.in_grid.insert(slot).second) {
@@ -121,7 +121,7 @@ bool take_for_grid(const yaml::Field& grid, const yaml::YamlEntry& entry, std::s
 }
 
 void read_grid(const yaml::Field& sweep, const yaml::Field& grid, std::vector<SweptAxis>& axes,
-               SweepReading& state) {
+               SweepState& state) {
   if (!yaml::check_map(grid, "a map from dotted paths to lists of values", state.reading.problems)) return;
   for (const yaml::YamlEntry& entry : grid.node->entries) {
     const auto slots = find_assigned(grid, entry, refusal_of_sweep, state.reading);
@@ -130,7 +130,7 @@ void read_grid(const yaml::Field& sweep, const yaml::Field& grid, std::vector<Sw
     SweptAxis axis{.name = entry.key, .place = field.node->place};
     note_slots(axis, *slots);
     if (!take_for_grid(grid, entry, axis.slots, state)) continue;
-    const std::size_t taken = axis.slots.size();
+    const std::size_t slot_count = axis.slots.size();
     if (field.node->kind == yaml::YamlNode::Kind::map) {
       read_spaced(sweep, field, *slots, axis, state);
     } else if (yaml::check_list(field, "a list of values, such as [1, 2]", state.reading.problems)) {
@@ -140,7 +140,7 @@ void read_grid(const yaml::Field& sweep, const yaml::Field& grid, std::vector<Sw
         read_listed(field, *slots, axis, state);
       }
     }
-    take_for_grid(grid, entry, std::span(axis.slots).subspan(taken), state);  // rates of aging
+    take_for_grid(grid, entry, std::span(axis.slots).subspan(slot_count), state);  // rates of aging
     axes.push_back(std::move(axis));
   }
 }
@@ -154,7 +154,7 @@ void check_case_name(const yaml::Field& cases, const yaml::YamlEntry& entry, yam
 }
 
 void read_cases(const yaml::Field& sweep, const yaml::Field& cases, std::vector<SweptAxis>& axes,
-                SweepReading& state) {
+                SweepState& state) {
   if (!yaml::check_map(cases, "a map from names to cases", state.reading.problems)) return;
   const auto& entries = cases.node->entries;
   if (entries.empty() || !check_point_count(sweep, entries.size(), state)) return;
@@ -188,7 +188,7 @@ std::vector<SweptAxis> read_sweep(const yaml::Field& sweep, keys::Reading& readi
   std::vector<SweptAxis> axes;
   if (!yaml::check_map(sweep, "a map with grid, cases or both", reading.problems)) return axes;
   check_parts(sweep, reading);
-  SweepReading state{.reading = reading};
+  SweepState state{.reading = reading};
   if (const auto cases = yaml::find_field(sweep, "cases")) read_cases(sweep, *cases, axes, state);
   if (const auto grid = yaml::find_field(sweep, "grid")) read_grid(sweep, *grid, axes, state);
   return axes;

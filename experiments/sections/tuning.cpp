@@ -74,7 +74,7 @@ void read_free(const yaml::Field& map, const study::StudyPlan& plan, study::Tuni
       continue;
     }
     if (!is_one_number(plan, slots->first)) {
-      const bool follows = plan.base[slots->first].kind == study::Value::Kind::following;
+      const bool follows = plan.base[slots->first].kind == study::Value::Kind::derived;
       problems.add(entry.place, field.path,
                    fmt::format("{} {}", entry.key,
                                follows                         ? "follows from measured values"

@@ -57,10 +57,10 @@ Study under_condition(const Study& study, std::int64_t condition) {
   one.conditions.clear();
   one.condition_names.clear();
   one.ages.at.clear();
-  const TrialTurns turns = turns_of(study);
+  const TrialIndices indices = trial_indices(study);
   one.retained_trials.clear();
   for (const std::int64_t trial : study.retained_trials) {
-    if (turns.condition_of(trial) == condition) one.retained_trials.push_back(turns.draw_of(trial));
+    if (indices.condition_of(trial) == condition) one.retained_trials.push_back(indices.draw_of(trial));
   }
   return one;
 }
@@ -81,8 +81,8 @@ std::string label_under(std::string_view label, std::string_view condition) {
   return condition.empty() ? std::string(label) : fmt::format("{}, {}", label, condition);
 }
 
-std::int64_t turn_named(const Study& study, const std::optional<std::string>& condition,
-                        const std::optional<double>& age) {
+std::int64_t setting_named(const Study& study, const std::optional<std::string>& condition,
+                           const std::optional<double>& age) {
   const auto place_in = [&study](const auto& all, const auto& wanted, std::string_view noun,
                                  std::string_view option) -> std::int64_t {
     if (all.empty() && wanted)

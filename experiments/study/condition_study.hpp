@@ -10,9 +10,9 @@
 namespace zerocount::study {
 
 /// A study of a single condition: as if the sections of the manifest had the overrides of this condition.
-/// Trial j of the result is trial TrialTurns::trial_of(j, condition) of the given study. The result keeps the
-/// columns of trials and the features of the given study, which cover all conditions. Without conditions, it
-/// is a copy of the study.
+/// Trial j of the result is trial TrialIndices::trial_of(j, condition) of the given study. The result keeps
+/// the columns of trials and the features of the given study, which cover all conditions. Without conditions,
+/// it is a copy of the study.
 /// @param condition index in Study::conditions
 Study under_condition(const Study& study, std::int64_t condition);
 
@@ -33,8 +33,8 @@ std::string label_under(std::string_view label, std::string_view condition);
 /// most one, and so may the age.
 /// @param condition one of Study::condition_names
 /// @throws Failure (bad_input) with the existing names or ages, if the study does not have the given one
-std::int64_t turn_named(const Study& study, const std::optional<std::string>& condition,
-                        const std::optional<double>& age);
+std::int64_t setting_named(const Study& study, const std::optional<std::string>& condition,
+                           const std::optional<double>& age);
 
 /// The index in Study::conditions of the condition with this label.
 /// @throws Failure (bad_input) with the existing labels, if there is no such condition

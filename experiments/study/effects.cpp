@@ -15,8 +15,8 @@ using random::RandomKey;
 
 bool has_history(const StudyPlan& plan) {
   constexpr std::array<std::string_view, 2> both{"initial.history.reversals", "initial.history.torque"};
-  return holds_somewhere(plan, both, [](std::span<const ValueLimits> limits) {
-    return std::ranges::all_of(limits, [](const ValueLimits& l) { return l.high > 0.0; });
+  return holds_somewhere(plan, both, [](std::span<const ParameterRange> ranges) {
+    return std::ranges::all_of(ranges, [](const ParameterRange& l) { return l.high > 0.0; });
   });
 }
 
@@ -101,8 +101,8 @@ std::span<const Effect> effects() {
   return all;
 }
 
-bool can_be_nonzero(const ValueLimits& limits) {
-  return limits.low != 0.0 || limits.high != 0.0;
+bool can_be_nonzero(const ParameterRange& range) {
+  return range.low != 0.0 || range.high != 0.0;
 }
 
 bool acts(const StudyPlan& plan, const Effect& effect) {

@@ -36,7 +36,7 @@ struct Effect {
 std::span<const Effect> effects();
 
 /// Whether a value with this range can differ from 0.
-bool can_be_nonzero(const ValueLimits& limits);
+bool can_be_nonzero(const ParameterRange& range);
 
 /// Whether the effect acts in at least one trial of at least one design point.
 bool acts(const StudyPlan& plan, const Effect& effect);

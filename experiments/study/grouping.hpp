@@ -36,7 +36,7 @@ struct GroupingTraits {
 };
 
 /// All groupings, in the order of the enumeration. group_count() (study.hpp) returns their numbers of groups.
-/// Trial i is in group TrialTurns::group_of(grouping, i).
+/// Trial i is in group TrialIndices::group_of(grouping, i).
 inline constexpr std::array<GroupingTraits, 4> groupings{{{Grouping::machine, "machine", DrawLevel::machine},
                                                           {Grouping::world, "world", DrawLevel::world},
                                                           {Grouping::condition, "condition", std::nullopt},
@@ -59,7 +59,7 @@ struct ByGrouping {
 /// i mod R, under condition ⌊i/R⌋ mod C. It uses the random numbers of draw j = i mod R + R·⌊i/(R·C)⌋, in
 /// world j mod W. So each machine is simulated under every condition with the same draws. With ages, C counts
 /// the pairs of condition and age: index c + (C/A)·a is condition c at age a.
-struct TrialTurns {
+struct TrialIndices {
   std::int64_t machines{1};    ///< R; 1 if no trials share a machine
   std::int64_t conditions{1};  ///< C; 1 without conditions and ages
   std::int64_t worlds{1};      ///< W; 1 without worlds
@@ -88,7 +88,7 @@ struct TrialTurns {
     }
     return condition_of(trial) / (conditions / ages);
   }
-  bool operator==(const TrialTurns&) const = default;
+  bool operator==(const TrialIndices&) const = default;
 };
 
 /// One axis of the sweep: the value of one swept key (or the case) at every design point.

@@ -48,10 +48,10 @@ LowEnd low_end_of_slot(const StudyPlan& plan, std::size_t point, std::size_t slo
       return at_age(plan, point, value, {LowEnd::Kind::number, value.number});
     case Value::Kind::distribution:
       return at_age(plan, point, value, low_end_of(plan.distributions[value.index]));
-    case Value::Kind::following:
-      if (const FollowingValue& following = plan.following[value.index]; following.value == nullptr)
-        return low_end_of_slot(plan, point, following.from.front());
-      return {LowEnd::Kind::support, limits_of_slot(plan, slot, point).low};
+    case Value::Kind::derived:
+      if (const DerivedValue& derived = plan.derived[value.index]; derived.value == nullptr)
+        return low_end_of_slot(plan, point, derived.from.front());
+      return {LowEnd::Kind::support, range_of_slot(plan, slot, point).low};
     case Value::Kind::profile:
       break;
   }

@@ -24,7 +24,7 @@ std::int64_t group_count(const Study& study, Grouping grouping) {
   return std::ssize(study.ages.at);
 }
 
-TrialTurns turns_of(const Study& study) {
+TrialIndices trial_indices(const Study& study) {
   const auto at_least_one = [](std::int64_t count) { return std::max<std::int64_t>(count, 1); };
   return {at_least_one(study.machines), condition_count(study), at_least_one(study.worlds),
           at_least_one(group_count(study, Grouping::age))};
@@ -51,16 +51,11 @@ std::string condition_text(const Study& study, std::int64_t condition) {
          study.conditions[static_cast<std::size_t>(condition)];
 }
 
-std::string_view turn_word(const Study& study) {
-  if (study.ages.at.empty()) return "condition";
-  return study.condition_names.empty() ? "age" : "condition and age";
-}
-
 bool changes_with_age(const StudyPlan& plan, std::size_t slot) {
   if (plan.agings.empty()) return false;
   const Value& base = plan.base[slot];
-  if (base.kind == Value::Kind::following) {
-    return std::ranges::any_of(plan.following[base.index].from,
+  if (base.kind == Value::Kind::derived) {
+    return std::ranges::any_of(plan.derived[base.index].from,
                                [&](std::uint32_t source) { return changes_with_age(plan, source); });
   }
   return base.aging || std::ranges::any_of(plan.axes, [slot](const PlanAxis& axis) {

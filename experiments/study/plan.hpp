@@ -30,10 +30,10 @@ struct Value {
     number,
     distribution,
     profile,
-    following  ///< computed from the values of other slots
+    derived  ///< computed from the values of other slots
   };
   Kind kind{Kind::number};
-  std::uint32_t index{0};             ///< index in the plan's distributions, profiles or following values
+  std::uint32_t index{0};             ///< index in the plan's distributions, profiles or derived values
   DrawLevel level{DrawLevel::trial};  ///< how often the value is drawn; for a profile: study or machine
   double number{0.0};                 ///< if kind is number
   std::optional<std::uint32_t>
@@ -45,7 +45,7 @@ inline bool is_drawn_per_contact(const Value& value) {
 }
 
 /// A value that is computed from the values of other slots, which are numbers or distributions.
-struct FollowingValue {
+struct DerivedValue {
   std::vector<std::uint32_t> from;  ///< slots of the sources
   /// Computes the value from the numbers of the sources; NaN if these numbers have no value. Null: the value
   /// equals the number of its only source.
@@ -127,7 +127,7 @@ struct StudyPlan {
   std::vector<Aging> agings;      ///< laws of aging; Value::aging is an index in this list
   std::vector<distributions::Distribution> distributions;
   std::vector<std::shared_ptr<const Rotors>> profiles;
-  std::vector<FollowingValue> following;
+  std::vector<DerivedValue> derived;
   std::vector<MeasuredSlots> measured;       ///< groups of measured parameters that the study gives
   std::optional<GaussianCopula> copula;      ///< copula of the correlated values; empty if none are
   std::vector<std::uint32_t> sampled_slots;  ///< slots whose values share one random number: `samples`
@@ -178,13 +178,13 @@ const Value* value_at_point(const StudyPlan& plan, std::size_t slot, std::size_t
 /// The values of all slots at a point of the plan.
 std::vector<const Value*> values_at(const StudyPlan& plan, std::size_t point);
 
-/// The number of a following value.
+/// The number of a derived value.
 /// @param number function that returns the number of a slot
 template <class NumberOf>
-double following_value(const FollowingValue& following, NumberOf number) {
+double derived_value(const DerivedValue& derived, NumberOf number) {
   std::vector<double> from;
-  for (const std::uint32_t slot : following.from) from.push_back(number(slot));
-  return following.value == nullptr ? from.front() : following.value(from);
+  for (const std::uint32_t slot : derived.from) from.push_back(number(slot));
+  return derived.value == nullptr ? from.front() : derived.value(from);
 }
 
 /// Finds the features of a study from the ranges of the parameters in its plan. All other members of the

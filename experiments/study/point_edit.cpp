@@ -52,9 +52,9 @@ std::vector<std::size_t> PointEdit::points() const {
   return points;
 }
 
-ValueLimits PointEdit::limits(std::string_view parameter, std::int64_t condition) const {
+ParameterRange PointEdit::limits(std::string_view parameter, std::int64_t condition) const {
   const std::size_t point = point_ + static_cast<std::size_t>(condition);
-  return limits_of_slot(plan_, slot_named(plan_, parameter), point);
+  return range_of_slot(plan_, slot_named(plan_, parameter), point);
 }
 
 void PointEdit::set(std::size_t slot, double number) {
@@ -77,7 +77,7 @@ void PointEdit::scale(std::size_t slot, const Scaling& scaling) {
       assign(slot, drawn_from(value, scaled_by(scaling, plan_.distributions[value.index], none)));
       return;
     case Value::Kind::profile:
-    case Value::Kind::following:  // of friction, which has no unit that depends on the loop
+    case Value::Kind::derived:  // of friction, which has no unit that depends on the loop
       return;
   }
 }
@@ -136,7 +136,7 @@ void PointEdit::add(std::string_view parameter, std::int64_t number) {
 std::string PointEdit::out_of_range() const {
   for (const Assignment& one : plan_.axes.back().assignments) {
     const parameters::Parameter& parameter = plan_.table.rows[one.slot];
-    const ValueLimits limits = limits_of(plan_, one.value);
+    const ParameterRange limits = range_of(plan_, one.value);
     const numerics::Interval& range = parameter.range;
     const auto is_allowed = [&](double value) {
       return value == parameter.none || numerics::contains(range, value);

@@ -44,7 +44,7 @@ class PointEdit {
   const StudyPlan& plan() const { return plan_; }
   StudyPlan& plan() { return plan_; }
   /// @param parameter dotted path
-  ValueLimits limits(std::string_view parameter, std::int64_t condition = 0) const;
+  ParameterRange limits(std::string_view parameter, std::int64_t condition = 0) const;
 
   void set(std::size_t slot, double number);
   void set(std::string_view parameter, double number);

@@ -9,7 +9,7 @@ namespace zerocount::study {
 namespace {
 
 /// The words of a label, without the commas between them.
-std::vector<std::string_view> words_of(std::string_view label) {
+std::vector<std::string_view> split_words(std::string_view label) {
   std::vector<std::string_view> words;
   for (std::size_t at = label.find_first_not_of(' '); at != std::string_view::npos;
        at = label.find_first_not_of(' ', at)) {
@@ -24,11 +24,12 @@ std::vector<std::string_view> words_of(std::string_view label) {
 /// Whether `text` is the label, in which the paths of keys may be shortened to their ends: "ki=8e4" for
 /// "controller.ki=8e4".
 bool shortens(std::string_view text, std::string_view label) {
-  return std::ranges::equal(words_of(text), words_of(label), [](std::string_view end, std::string_view word) {
-    const bool names_value = end.find('=') != std::string_view::npos;
-    return word == end || (names_value && word.ends_with("." + std::string(end)) &&
-                           word.size() - end.size() < word.find('='));
-  });
+  return std::ranges::equal(split_words(text), split_words(label),
+                            [](std::string_view end, std::string_view word) {
+                              const bool names_value = end.find('=') != std::string_view::npos;
+                              return word == end || (names_value && word.ends_with("." + std::string(end)) &&
+                                                     word.size() - end.size() < word.find('='));
+                            });
 }
 
 /// The only point with this short label.

@@ -27,61 +27,60 @@ void add_number(double number, std::vector<double>& numbers) {
   if (!std::isnan(number)) numbers.push_back(number);
 }
 
-/// The numbers of a following value at the corners of the box of its sources, without NaN.
-std::vector<double> numbers_at_corners(const StudyPlan& plan, const FollowingValue& following,
+/// The numbers of a derived value at the corners of the box of its sources, without NaN.
+std::vector<double> numbers_at_corners(const StudyPlan& plan, const DerivedValue& derived,
                                        std::size_t point) {
   std::vector<double> numbers;
-  for (std::size_t corner = 0; corner < (std::size_t{1} << following.from.size()); ++corner) {
+  for (std::size_t corner = 0; corner < (std::size_t{1} << derived.from.size()); ++corner) {
     std::size_t sides = corner;
-    add_number(following_value(following,
-                               [&](std::uint32_t slot) {
-                                 const auto [low, high] = extremes_of(plan, slot, point);
-                                 const bool is_high = sides % 2 == 1;
-                                 sides /= 2;
-                                 return is_high ? high : low;
-                               }),
+    add_number(derived_value(derived,
+                             [&](std::uint32_t slot) {
+                               const auto [low, high] = extremes_of(plan, slot, point);
+                               const bool is_high = sides % 2 == 1;
+                               sides /= 2;
+                               return is_high ? high : low;
+                             }),
                numbers);
   }
   return numbers;
 }
 
-/// The numbers of a following value at evenly spread quantiles of its sources (a Kronecker sequence), without
+/// The numbers of a derived value at evenly spread quantiles of its sources (a Kronecker sequence), without
 /// NaN. The first quantiles are the medians.
-std::vector<double> numbers_inside(const StudyPlan& plan, const FollowingValue& following,
-                                   std::size_t point) {
+std::vector<double> numbers_inside(const StudyPlan& plan, const DerivedValue& derived, std::size_t point) {
   constexpr std::array<double, 5> primes{2.0, 3.0, 5.0, 7.0, 11.0};
   constexpr int spread = 512;
   const std::vector<std::uint32_t>& sampled = plan.sampled_slots;
   std::vector<double> numbers;
   for (int i = 0; i < spread; ++i) {
     std::size_t source = 0;
-    add_number(
-        following_value(following,
-                        [&](std::uint32_t slot) {
-                          const bool of_row = std::ranges::find(sampled, slot) != sampled.end();
-                          const double step = std::sqrt(primes.at(of_row ? 0 : source % primes.size()));
-                          ++source;
-                          const Value& value = *value_at_point(plan, slot, point);
-                          const double number = value.kind == Value::Kind::number
-                                                    ? value.number
-                                                    : distributions::quantile(plan.distributions[value.index],
-                                                                              std::fmod(0.5 + i * step, 1.0));
-                          return number * age_factors(plan, slot, point).typical;
-                        }),
-        numbers);
+    add_number(derived_value(derived,
+                             [&](std::uint32_t slot) {
+                               const bool of_row = std::ranges::find(sampled, slot) != sampled.end();
+                               const double step = std::sqrt(primes.at(of_row ? 0 : source % primes.size()));
+                               ++source;
+                               const Value& value = *value_at_point(plan, slot, point);
+                               const double number =
+                                   value.kind == Value::Kind::number
+                                       ? value.number
+                                       : distributions::quantile(plan.distributions[value.index],
+                                                                 std::fmod(0.5 + i * step, 1.0));
+                               return number * age_factors(plan, slot, point).typical;
+                             }),
+               numbers);
   }
   return numbers;
 }
 
-/// The range of a following value, from the corners of the box of its sources. If some corner has no value
+/// The range of a derived value, from the corners of the box of its sources. If some corner has no value
 /// (NaN), points inside the box are used as well.
-ValueLimits limits_of_following(const StudyPlan& plan, const FollowingValue& following, std::size_t point) {
-  if (following.value == nullptr) return limits_of_slot(plan, following.from.front(), point);
-  std::vector<double> numbers = numbers_at_corners(plan, following, point);
-  double typical = following_value(
-      following, [&](std::uint32_t slot) { return limits_of_slot(plan, slot, point).typical; });
-  if (numbers.size() < (std::size_t{1} << following.from.size())) {
-    const std::vector<double> inside = numbers_inside(plan, following, point);
+ParameterRange range_of_derived(const StudyPlan& plan, const DerivedValue& derived, std::size_t point) {
+  if (derived.value == nullptr) return range_of_slot(plan, derived.from.front(), point);
+  std::vector<double> numbers = numbers_at_corners(plan, derived, point);
+  double typical =
+      derived_value(derived, [&](std::uint32_t slot) { return range_of_slot(plan, slot, point).typical; });
+  if (numbers.size() < (std::size_t{1} << derived.from.size())) {
+    const std::vector<double> inside = numbers_inside(plan, derived, point);
     numbers.insert(numbers.end(), inside.begin(), inside.end());
     if (std::isnan(typical) && !inside.empty()) typical = inside.front();
   }
@@ -118,7 +117,7 @@ std::pair<double, double> drawn_extremes(const StudyPlan& plan, const Value& val
 }
 
 /// The ends of all products of a number between `low` and `high`, which may be infinite, with a factor.
-std::pair<double, double> times(double low, double high, const ValueLimits& factors) {
+std::pair<double, double> times(double low, double high, const ParameterRange& factors) {
   const auto product = [](double x, double factor) { return x == 0.0 || factor == 0.0 ? 0.0 : x * factor; };
   return std::minmax({product(low, factors.low), product(low, factors.high), product(high, factors.low),
                       product(high, factors.high)});
@@ -132,7 +131,7 @@ std::pair<double, double> extremes_of(const StudyPlan& plan, std::size_t slot, s
   return value.aging ? times(low, high, age_factors(plan, slot, point)) : std::pair(low, high);
 }
 
-ValueLimits age_factors(const StudyPlan& plan, std::size_t slot, std::size_t point) {
+ParameterRange age_factors(const StudyPlan& plan, std::size_t slot, std::size_t point) {
   const Value& value = *value_at_point(plan, slot, point);
   if (!value.aging) return {1.0, 1.0, false, 1.0};
   const Aging& aging = plan.agings[*value.aging];
@@ -140,10 +139,10 @@ ValueLimits age_factors(const StudyPlan& plan, std::size_t slot, std::size_t poi
   const auto factor = [&](double of_rate) { return factor_at_age(aging, of_rate, age_at(plan, point)); };
   const auto [low, high] = drawn_extremes(plan, rate);  // the laws rise with the rate
   return {factor(low), factor(high), factor(low) <= 0.0 && factor(high) >= 0.0,
-          factor(limits_of(plan, rate).typical)};
+          factor(range_of(plan, rate).typical)};
 }
 
-ValueLimits limits_of(const StudyPlan& plan, const Value& value) {
+ParameterRange range_of(const StudyPlan& plan, const Value& value) {
   if (value.kind == Value::Kind::number)
     return {value.number, value.number, value.number == 0.0, value.number};
   if (value.kind == Value::Kind::distribution) {
@@ -156,39 +155,38 @@ ValueLimits limits_of(const StudyPlan& plan, const Value& value) {
   return {values.low, values.high, numerics::contains(values, 0.0), rotors.mean(0)};
 }
 
-ValueLimits limits_of_slot(const StudyPlan& plan, std::size_t slot, std::size_t point) {
+ParameterRange range_of_slot(const StudyPlan& plan, std::size_t slot, std::size_t point) {
   const Value& value = *value_at_point(plan, slot, point);
-  if (value.kind == Value::Kind::following)
-    return limits_of_following(plan, plan.following[value.index], point);
-  const ValueLimits limits = limits_of(plan, value);
-  if (!value.aging || std::isnan(limits.low)) return limits;
-  const ValueLimits factors = age_factors(plan, slot, point);
-  const auto [low, high] = times(limits.low, limits.high, factors);
-  return {low, high, limits.can_be_zero || factors.can_be_zero, limits.typical * factors.typical};
+  if (value.kind == Value::Kind::derived) return range_of_derived(plan, plan.derived[value.index], point);
+  const ParameterRange range = range_of(plan, value);
+  if (!value.aging || std::isnan(range.low)) return range;
+  const ParameterRange factors = age_factors(plan, slot, point);
+  const auto [low, high] = times(range.low, range.high, factors);
+  return {low, high, range.can_be_zero || factors.can_be_zero, range.typical * factors.typical};
 }
 
-bool has_two_encoders(std::span<const ValueLimits> limits) {
-  return limits[0].high > 0.0 || limits[1].high > 0.0;
+bool has_two_encoders(std::span<const ParameterRange> ranges) {
+  return ranges[0].high > 0.0 || ranges[1].high > 0.0;
 }
 
-bool closes_at_load(std::span<const ValueLimits> limits) {
-  const bool of_plant = limits[3].high == static_cast<double>(motion::EncoderPlace::load);
-  const auto choice = static_cast<loop::LoopEncoder>(static_cast<int>(limits[2].high));
-  if (limits[4].high == static_cast<double>(loop::ControlStructure::pid) ||
+bool closes_at_load(std::span<const ParameterRange> ranges) {
+  const bool of_plant = ranges[3].high == static_cast<double>(motion::EncoderPlace::load);
+  const auto choice = static_cast<loop::LoopEncoder>(static_cast<int>(ranges[2].high));
+  if (ranges[4].high == static_cast<double>(loop::ControlStructure::pid) ||
       choice == loop::LoopEncoder::of_the_plant)
     return of_plant;
   return choice == loop::LoopEncoder::load;
 }
 
 bool closes_somewhere(const StudyPlan& plan, motion::EncoderPlace mass) {
-  const auto has_load = [](const ValueLimits& inertia) { return inertia.high > 0.0; };
+  const auto has_load = [](const ParameterRange& inertia) { return inertia.high > 0.0; };
   return holds_somewhere(plan, "plant.load.inertia", has_load) &&
-         holds_somewhere(plan, two_encoders, [&](std::span<const ValueLimits> limits) {
-           return closes_at_load(limits) == (mass == motion::EncoderPlace::load);
+         holds_somewhere(plan, two_encoders, [&](std::span<const ParameterRange> ranges) {
+           return closes_at_load(ranges) == (mass == motion::EncoderPlace::load);
          });
 }
 
-bool can_have_coarse_phase(const ValueLimits& coarse_beyond) {
+bool can_have_coarse_phase(const ParameterRange& coarse_beyond) {
   trial::TrialParameters trial;
   parameters::parameter_table()[parameters::find_parameter("controller.coarse.coarse_beyond").value()].set(
       trial, coarse_beyond.low);
@@ -198,7 +196,7 @@ bool can_have_coarse_phase(const ValueLimits& coarse_beyond) {
 bool has_coarse_encoder(const StudyPlan& plan) {
   for (std::size_t slot = 0; slot < plan.table.rows.size(); ++slot)
     if (plan.given[slot] && plan.table.rows[slot].name.starts_with("encoder.coarse")) return true;
-  const auto is_coarse = [](const ValueLimits& encoder) {
+  const auto is_coarse = [](const ParameterRange& encoder) {
     return encoder.low == static_cast<double>(loop::EncoderChoice::coarse);
   };
   return holds_somewhere(plan, "controller.encoder", is_coarse) ||
@@ -228,8 +226,8 @@ void visit_points(const StudyPlan& plan, std::span<const std::size_t> slots,
   std::vector<bool> wanted(plan.base.size(), false);
   for (const std::size_t slot : slots) {
     wanted[slot] = true;
-    if (plan.base[slot].kind != Value::Kind::following) continue;
-    for (const std::uint32_t source : plan.following[plan.base[slot].index].from) wanted[source] = true;
+    if (plan.base[slot].kind != Value::Kind::derived) continue;
+    for (const std::uint32_t source : plan.derived[plan.base[slot].index].from) wanted[source] = true;
   }
   std::vector<Turning> turning;  // the relevant axes, fastest first
   std::size_t stride = 1;
@@ -262,33 +260,34 @@ std::vector<const Value*> values_of(const StudyPlan& plan, std::size_t slot) {
   return values;
 }
 
-std::vector<ValueLimits> limits_at(const StudyPlan& plan, std::span<const std::size_t> slots,
-                                   std::size_t point) {
-  std::vector<ValueLimits> limits;
-  limits.reserve(slots.size());
-  for (const std::size_t slot : slots) limits.push_back(limits_of_slot(plan, slot, point));
-  return limits;
+std::vector<ParameterRange> ranges_at(const StudyPlan& plan, std::span<const std::size_t> slots,
+                                      std::size_t point) {
+  std::vector<ParameterRange> ranges;
+  ranges.reserve(slots.size());
+  for (const std::size_t slot : slots) ranges.push_back(range_of_slot(plan, slot, point));
+  return ranges;
 }
 
-bool are_readable(std::span<const ValueLimits> limits) {
-  return std::none_of(limits.begin(), limits.end(), [](const ValueLimits& l) { return std::isnan(l.low); });
+bool are_readable(std::span<const ParameterRange> ranges) {
+  return std::none_of(ranges.begin(), ranges.end(),
+                      [](const ParameterRange& l) { return std::isnan(l.low); });
 }
 
 bool holds_somewhere(const StudyPlan& plan, std::span<const std::string_view> names,
-                     const std::function<bool(std::span<const ValueLimits>)>& holds) {
+                     const std::function<bool(std::span<const ParameterRange>)>& holds) {
   const std::vector<std::size_t> slots = slots_named(plan.table, names);
   bool found = false;
   visit_points(plan, slots, [&](std::size_t point) {
-    found = holds(limits_at(plan, slots, point));
+    found = holds(ranges_at(plan, slots, point));
     return !found;
   });
   return found;
 }
 
 bool holds_somewhere(const StudyPlan& plan, std::string_view name,
-                     const std::function<bool(const ValueLimits&)>& holds) {
+                     const std::function<bool(const ParameterRange&)>& holds) {
   return holds_somewhere(plan, {&name, 1},
-                         [&](std::span<const ValueLimits> limits) { return holds(limits.front()); });
+                         [&](std::span<const ParameterRange> ranges) { return holds(ranges.front()); });
 }
 
 }  // namespace zerocount::study

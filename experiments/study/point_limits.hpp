@@ -33,7 +33,7 @@ LowEnd low_end(const Study& study, std::int64_t point, std::string_view paramete
 /// Range of a value over all trials of a design point: the support of its distribution, the range of its
 /// profile, the range of a value computed from drawn sources, or the number itself. NaN if the value could
 /// not be read or cannot be computed from its sources.
-struct ValueLimits {
+struct ParameterRange {
   double low{0.0};
   double high{0.0};
   bool can_be_zero{false};
@@ -46,17 +46,17 @@ struct ValueLimits {
 std::pair<double, double> extremes_of(const StudyPlan& plan, std::size_t slot, std::size_t point);
 
 /// The range of a value at age 0. The value must not be computed from other slots.
-ValueLimits limits_of(const StudyPlan& plan, const Value& value);
+ParameterRange range_of(const StudyPlan& plan, const Value& value);
 
 /// The range of factor_at_age() for the value of a slot at a point of the plan; {1, 1, false, 1} if the value
 /// does not change with age.
-ValueLimits age_factors(const StudyPlan& plan, std::size_t slot, std::size_t point);
+ParameterRange age_factors(const StudyPlan& plan, std::size_t slot, std::size_t point);
 
 /// The range of the value of a slot at a point of the plan, at the point's age.
-ValueLimits limits_of_slot(const StudyPlan& plan, std::size_t slot, std::size_t point);
+ParameterRange range_of_slot(const StudyPlan& plan, std::size_t slot, std::size_t point);
 
 /// Whether the control has a coarse phase in some trial, from the range of controller.coarse.coarse_beyond.
-bool can_have_coarse_phase(const ValueLimits& coarse_beyond);
+bool can_have_coarse_phase(const ParameterRange& coarse_beyond);
 
 /// The parameters that decide whether a point has an encoder on each mass, and which encoder closes the
 /// (position) loop.
@@ -65,11 +65,11 @@ inline constexpr std::array<std::string_view, 5> two_encoders{
     "plant.load.encoder", "controller.structure"};
 
 /// Whether each mass has an encoder.
-/// @param limits ranges of the parameters `two_encoders`, in their order
-bool has_two_encoders(std::span<const ValueLimits> limits);
+/// @param ranges ranges of the parameters `two_encoders`, in their order
+bool has_two_encoders(std::span<const ParameterRange> ranges);
 /// Whether the load's encoder closes the (position) loop.
-/// @param limits ranges of the parameters `two_encoders`, in their order
-bool closes_at_load(std::span<const ValueLimits> limits);
+/// @param ranges ranges of the parameters `two_encoders`, in their order
+bool closes_at_load(std::span<const ParameterRange> ranges);
 /// Whether some trial has two masses, and at some point the encoder of `mass` closes the loop.
 bool closes_somewhere(const StudyPlan& plan, motion::EncoderPlace mass);
 
@@ -91,18 +91,18 @@ void visit_points(const StudyPlan& plan, std::span<const std::size_t> slots,
 std::vector<const Value*> values_of(const StudyPlan& plan, std::size_t slot);
 
 /// The ranges of the values at a point of the plan, in the order of `slots`.
-std::vector<ValueLimits> limits_at(const StudyPlan& plan, std::span<const std::size_t> slots,
-                                   std::size_t point);
+std::vector<ParameterRange> ranges_at(const StudyPlan& plan, std::span<const std::size_t> slots,
+                                      std::size_t point);
 
 /// Whether all values could be read: no range is NaN.
-bool are_readable(std::span<const ValueLimits> limits);
+bool are_readable(std::span<const ParameterRange> ranges);
 
 /// Whether the predicate `holds` is true at some design point. Its argument is the ranges of the parameters
 /// `names`, in their order.
 bool holds_somewhere(const StudyPlan& plan, std::span<const std::string_view> names,
-                     const std::function<bool(std::span<const ValueLimits>)>& holds);
+                     const std::function<bool(std::span<const ParameterRange>)>& holds);
 /// Whether the predicate `holds` is true for the range of one parameter at some design point.
 bool holds_somewhere(const StudyPlan& plan, std::string_view name,
-                     const std::function<bool(const ValueLimits&)>& holds);
+                     const std::function<bool(const ParameterRange&)>& holds);
 
 }  // namespace zerocount::study

@@ -120,17 +120,15 @@ inline std::int64_t conditions_of_age(const Study& study) {
 /// Text that names a condition, " under condition loaded", or with ages " at loaded, 100000 cycles"; empty
 /// without conditions and ages.
 std::string condition_text(const Study& study, std::int64_t condition);
-/// The noun for an entry of Study::conditions: "condition", "age", "condition and age".
-std::string_view turn_word(const Study& study);
 
 /// Number of groups; 0 if the study does not have the grouping.
 std::int64_t group_count(const Study& study, Grouping grouping);
 
-TrialTurns turns_of(const Study& study);
+TrialIndices trial_indices(const Study& study);
 
 /// The group of trial `trial_index` at every point.
 inline std::int64_t group_of(const Study& study, Grouping grouping, std::int64_t trial_index) {
-  return turns_of(study).group_of(grouping, trial_index);
+  return trial_indices(study).group_of(grouping, trial_index);
 }
 
 /// Number of draws per point: its number of trials under one condition.

@@ -7,31 +7,31 @@
 namespace zerocount::study {
 namespace {
 
-bool can_be_positive(const ValueLimits& limits) {
-  return limits.high > 0.0;
+bool can_be_positive(const ParameterRange& range) {
+  return range.high > 0.0;
 }
-bool has_zero(const ValueLimits& limits) {
-  return limits.can_be_zero;
+bool has_zero(const ParameterRange& range) {
+  return range.can_be_zero;
 }
 
-bool is_shape(const ValueLimits& limits, loop::ReferenceShape shape) {
-  return limits.low == static_cast<double>(shape);
+bool is_shape(const ParameterRange& range, loop::ReferenceShape shape) {
+  return range.low == static_cast<double>(shape);
 }
-bool is_sine(const ValueLimits& shape) {
+bool is_sine(const ParameterRange& shape) {
   return is_shape(shape, loop::ReferenceShape::sine);
 }
-bool moves_for_ever(const ValueLimits& shape) {
+bool moves_for_ever(const ParameterRange& shape) {
   return is_sine(shape) || is_shape(shape, loop::ReferenceShape::record);
 }
-bool has_an_end(const ValueLimits& shape) {
+bool has_an_end(const ParameterRange& shape) {
   return !moves_for_ever(shape);
 }
-bool is_travel(const ValueLimits& shape) {
+bool is_travel(const ParameterRange& shape) {
   return is_shape(shape, loop::ReferenceShape::trapezoidal) || is_shape(shape, loop::ReferenceShape::s_curve);
 }
 
 // Friction that holds the rotor without any travel causes hunting with integral control.
-bool causes_hunting(const ValueLimits& model) {
+bool causes_hunting(const ParameterRange& model) {
   const friction::LawTraits& law =
       friction::traits_of(static_cast<friction::FrictionModel>(static_cast<int>(model.low)));
   return !law.has_presliding_motion && law.breakaway == friction::Breakaway::of_hook;
@@ -39,7 +39,7 @@ bool causes_hunting(const ValueLimits& model) {
 
 // A pure delay of the closed loop does not count: the motor torque is the commanded one of an earlier sample.
 bool has_delayed_torque(const StudyPlan& plan) {
-  const auto is_exact = [](const ValueLimits& through) {
+  const auto is_exact = [](const ParameterRange& through) {
     return through.high == static_cast<double>(trial::TorquePath::exact);
   };
   return plan.open_loop && (holds_somewhere(plan, "command.torque.through", is_exact) ||
@@ -75,8 +75,8 @@ StudyFeatures find_features(const StudyPlan& plan, const Study& study) {
   features.motor_closes = closed_loop && closes_somewhere(plan, motion::EncoderPlace::motor);
   features.load_closes = closed_loop && closes_somewhere(plan, motion::EncoderPlace::load);
   const auto closes_at = [&](bool load) {
-    return features.load && holds_somewhere(plan, two_encoders, [&](std::span<const ValueLimits> limits) {
-             return has_two_encoders(limits) && closes_at_load(limits) == load;
+    return features.load && holds_somewhere(plan, two_encoders, [&](std::span<const ParameterRange> ranges) {
+             return has_two_encoders(ranges) && closes_at_load(ranges) == load;
            });
   };
   features.load_count = closes_at(false);

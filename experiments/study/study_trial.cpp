@@ -58,20 +58,19 @@ struct TrialInProgress {
 };
 
 /// Sets a value that follows from other slots. The numbers of these slots must be set.
-void set_following(const TrialDraws& draws, std::size_t point, std::uint32_t slot, TrialInProgress& t) {
-  const FollowingValue& following = t.plan.following[value_at_point(t.plan, slot, point)->index];
-  t.set(slot, following_value(following, [&](std::uint32_t source) { return t.numbers[source]; }));
+void set_derived(const TrialDraws& draws, std::size_t point, std::uint32_t slot, TrialInProgress& t) {
+  const DerivedValue& derived = t.plan.derived[value_at_point(t.plan, slot, point)->index];
+  t.set(slot, derived_value(derived, [&](std::uint32_t source) { return t.numbers[source]; }));
   std::map<std::uint32_t, std::function<double(std::uint64_t)>> per_contact;  // by source
-  for (const std::uint32_t source : following.from) {
+  for (const std::uint32_t source : derived.from) {
     const Value& value = *value_at_point(t.plan, source, point);
     if (is_drawn_per_contact(value))
       per_contact.emplace(source, value_per_contact(draws, source, value, point));
   }
   if (per_contact.empty()) return;
   t.trial.parameters.friction.per_contact.push_back(
-      {t.plan.table.rows[slot].profiled,
-       [following, per_contact, numbers = t.numbers](std::uint64_t contact) {
-         return following_value(following, [&](std::uint32_t source) {
+      {t.plan.table.rows[slot].profiled, [derived, per_contact, numbers = t.numbers](std::uint64_t contact) {
+         return derived_value(derived, [&](std::uint32_t source) {
            const auto drawn = per_contact.find(source);
            return drawn == per_contact.end() ? numbers[source] : drawn->second(contact);
          });
@@ -109,8 +108,7 @@ void begin_trial(const TrialDraws& draws, std::size_t point, TrialInProgress& t)
           {plan.table.rows[slot].profiled, value_per_contact(draws, slot, value, point)});
   }
   for (const std::uint32_t slot : plan.input_slots) {
-    if (value_at_point(plan, slot, point)->kind == Value::Kind::following)
-      set_following(draws, point, slot, t);
+    if (value_at_point(plan, slot, point)->kind == Value::Kind::derived) set_derived(draws, point, slot, t);
   }
   require_machine(point, t);
 }

@@ -31,7 +31,7 @@ struct GivenDraws {
   /// Slot of the plan → uniform number in (0, 1). Correlations do not change the given numbers.
   std::map<std::uint32_t, double> uniforms{};
   std::map<std::uint32_t, GivenProfile> profiles{};  ///< slot of the plan → its given numbers
-  /// Draw to use in place of the trial's own (TrialTurns::draw_of), for all random numbers that are not
+  /// Draw to use in place of the trial's own (TrialIndices::draw_of), for all random numbers that are not
   /// given. It may exceed Study::trials.
   std::optional<std::int64_t> number{};
   std::optional<std::int64_t>

@@ -125,8 +125,8 @@ TrialDraws draws_of(const Study& study, std::int64_t point, std::int64_t draw, c
 
 TrialPlace place_of(const Study& study, std::int64_t point, std::int64_t index) {
   check_exists(study, point, index);
-  const TrialTurns turns = turns_of(study);
-  return {plan_point(*study.plan, point, turns.condition_of(index)), turns.draw_of(index)};
+  const TrialIndices indices = trial_indices(study);
+  return {plan_point(*study.plan, point, indices.condition_of(index)), indices.draw_of(index)};
 }
 
 double uniform_of(const TrialDraws& draws, std::uint32_t slot, DrawLevel level) {
@@ -149,9 +149,9 @@ double drawn_number(const TrialDraws& draws, std::uint32_t slot, const Value& va
 
 double number_at(const TrialDraws& draws, std::uint32_t slot, std::size_t point) {
   const Value& value = *value_at_point(draws.plan(), slot, point);
-  return value.kind == Value::Kind::following
-             ? following_value(draws.plan().following[value.index],
-                               [&](std::uint32_t source) { return number_at(draws, source, point); })
+  return value.kind == Value::Kind::derived
+             ? derived_value(draws.plan().derived[value.index],
+                             [&](std::uint32_t source) { return number_at(draws, source, point); })
              : drawn_number(draws, slot, value, point);
 }
 

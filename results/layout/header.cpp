@@ -301,7 +301,7 @@ study::Study recorded_study(const FileHeader& header, const std::filesystem::pat
     plugin = std::make_shared<const plugin::ControllerPlugin>(plugin::ControllerPlugin{*header.plugin});
   study::Study study =
       manifest::recorded_study(header.manifest, path.string() + ":/manifest", header.overrides,
-                               sections::known_companions(std::move(plugin), header.samples));
+                               sections::known_external_inputs(std::move(plugin), header.samples));
   study.engine = header.engine;
   if (study.trials != header.trials || study::point_count(study) != header.points) {
     throw Failure(

@@ -16,7 +16,7 @@ AllTrialsFile::AllTrialsFile(const std::filesystem::path& path, Require require,
 AllTrialsFile::AllTrialsFile(const AllTrialsFile& whole, std::int64_t condition) : ResultsFile(whole) {
   const study::Study& study = whole.study();
   if (study.conditions.empty()) return;
-  condition_ = {study::turns_of(study), condition, study.trials};
+  condition_ = {study::trial_indices(study), condition, study.trials};
   show_study(study::under_condition(study, condition));
 }
 
@@ -29,7 +29,7 @@ std::int64_t AllTrialsFile::row_in_file(std::int64_t row) const {
   const std::int64_t draws = header().trials;
   const std::int64_t point = row / draws;
   if (row % draws == 0 && row > 0 && row == rows().end()) return point * condition_->trials;  // the end
-  return point * condition_->trials + condition_->turns.trial_of(row % draws, condition_->number);
+  return point * condition_->trials + condition_->indices.trial_of(row % draws, condition_->number);
 }
 
 /// Requires that the file holds the rows.
@@ -88,23 +88,16 @@ std::vector<double> AllTrialsFile::measure(std::string_view name, layout::RowRan
   return chosen(range, trials()->measure(name, local(range)), moves());
 }
 
-std::vector<double> AllTrialsFile::inputs_of(std::int64_t row) const {
-  std::vector<double> values;
-  for (std::size_t column = 0; column < input_columns().size(); ++column)
-    values.push_back(input(column, {row, 1}).front());
-  return values;
-}
-
 std::vector<layout::JerkRecord> AllTrialsFile::jerks_at(std::int64_t first, std::int64_t count) const {
   std::vector<layout::JerkRecord> found = trials()->jerks_at(first, count);
   if (!condition_) return found;
   const OneCondition& one = *condition_;
   std::erase_if(found, [&](const layout::JerkRecord& jerk) {
-    return one.turns.condition_of(jerk.trial % one.trials) != one.number;
+    return one.indices.condition_of(jerk.trial % one.trials) != one.number;
   });
   for (layout::JerkRecord& jerk : found) {
     const std::int64_t point = jerk.trial / one.trials;
-    jerk.trial = point * header().trials + one.turns.draw_of(jerk.trial % one.trials);
+    jerk.trial = point * header().trials + one.indices.draw_of(jerk.trial % one.trials);
   }
   return found;
 }

@@ -35,7 +35,6 @@ class AllTrialsFile : public ResultsFile {
 
   const std::vector<study::InputColumn>& input_columns() const { return trials()->input_columns(); }
   std::vector<double> input(std::size_t column, layout::RowRange rows) const;  ///< Values of an input, [row]
-  std::vector<double> inputs_of(std::int64_t row) const;  ///< Inputs of a trial, [input column]
 
   const std::vector<layout::RecordField<trial::MoveOutcome>>& measures() const {
     return trials()->measures();
@@ -71,7 +70,7 @@ class AllTrialsFile : public ResultsFile {
  private:
   /// The condition whose trials are read.
   struct OneCondition {
-    study::TrialTurns turns;
+    study::TrialIndices indices;
     std::int64_t number{0};
     std::int64_t trials{0};  ///< Trials of a design point, of all conditions together
   };

@@ -123,14 +123,6 @@ std::string checksum_trailer(const hash::Sha256& checksum) {
   return fmt::format("{}{}\n", trailer_start, hash::hexadecimal(checksum));
 }
 
-void append_checksum(const fs::path& path) {
-  const FileDescriptor file(::open(path.c_str(), O_RDWR | O_CLOEXEC));
-  if (!file.valid()) fail_with(path, "open for writing", errno);
-  const std::string text = checksum_trailer(sha256_of(path, file, size_of_file(path, file)));
-  write_all(path, file, text);
-  synchronise(path, file);
-}
-
 ChecksumState check_checksum(const fs::path& path) {
   const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (!file.valid()) fail_with(path, "read", errno);

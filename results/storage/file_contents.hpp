@@ -34,17 +34,12 @@ hash::Sha256 sha256_of(const std::filesystem::path& path, const FileDescriptor& 
 /// line feed.
 inline constexpr std::size_t checksum_trailer_length = 22 + 64 + 1;
 
-/// The trailer of contents with this checksum.
-std::string checksum_trailer(const hash::Sha256& checksum);
-
-/// Appends the checksum trailer, the SHA-256 of all bytes before it, to a finished file and flushes the file
-/// to the disk. HDF5 reads the end of its data from its own header and ignores the trailer.
+/// The trailer at the end of a finished file, with the SHA-256 of all bytes before it. HDF5 reads the end of
+/// its data from its own header and ignores the trailer.
 ///
-/// HDF5's own
-/// checksums do not cover texts and parts of the index, and the library can crash on a damaged file.
-/// Therefore the trailer is checked before the library opens a file.
-/// @throws Failure (machine_failed) with the path and the reason
-void append_checksum(const std::filesystem::path& path);
+/// HDF5's own checksums do not cover texts and parts of the index, and the library can crash on a damaged
+/// file. Therefore the trailer is checked before the library opens a file.
+std::string checksum_trailer(const hash::Sha256& checksum);
 
 enum class ChecksumState { valid, missing, wrong };
 

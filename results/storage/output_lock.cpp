@@ -114,10 +114,10 @@ std::optional<std::int64_t> time_of(const fs::path& file) {
 /// Waits until it is known whether the owner of `file` lives.
 bool shows_itself(const fs::path& file, const Heartbeat& heartbeat) {
   const std::optional<std::int64_t> before = time_of(file);
-  const auto until = std::chrono::steady_clock::now() + heartbeat.patience;
+  const auto deadline = std::chrono::steady_clock::now() + heartbeat.patience;
   for (std::optional<std::int64_t> now = before; now; now = time_of(file)) {
     if (now != before) return true;
-    if (std::chrono::steady_clock::now() > until) return false;
+    if (std::chrono::steady_clock::now() > deadline) return false;
     std::this_thread::sleep_for(heartbeat.interval / 4);
   }
   return false;

@@ -249,11 +249,10 @@ Description<MachinePlan> plan_columns() {
 }
 
 Description<ClaimRow> claim_columns() {
-  using Row = const ClaimRow&;
   return Description<ClaimRow>()
       .value(everywhere("failures", "failures at most", "failures at most"),
-             [](Row row) { return row.plan.failures; })
-      .value(everywhere("trials", "trials", "trials"), [](Row row) { return row.plan.trials; })
+             [](const ClaimRow& row) { return row.plan.failures; })
+      .value(everywhere("trials", "trials", "trials"), [](const ClaimRow& row) { return row.plan.trials; })
       .value(everywhere("chance", "chance to show it",
                         "probability that the plan shows the claim, if true_success is the proportion", "1"),
              &ClaimRow::chance)
@@ -263,23 +262,23 @@ Description<ClaimRow> claim_columns() {
 }
 
 Description<Plans> halfwidth_description() {
-  using Of = const Plans&;
   return Description<Plans>()
-      .value(in_data("halfwidth", "half-width of the bounds", "1"), [](Of p) { return *p.halfwidth; })
-      .value(in_data("rate", "assumed rate", "1"), [](Of p) { return p.rate(); })
+      .value(in_data("halfwidth", "half-width of the bounds", "1"),
+             [](const Plans& p) { return *p.halfwidth; })
+      .value(in_data("rate", "assumed rate", "1"), [](const Plans& p) { return p.rate(); })
       .value(in_data("machine_sd", "standard deviation of the success probability between machines", "1"),
-             [](Of p) { return p.machine_sd; })
+             [](const Plans& p) { return p.machine_sd; })
       .table({.key = "machine_plans", .meaning = "machines and trials; none without machine_sd"},
              plan_columns(), &Plans::halfwidth_on_machines)
       .value(
           everywhere("trials", "trials, decided beforehand", "trials without machines, decided beforehand"),
-          [](Of p) {
+          [](const Plans& p) {
             return p.halfwidth_without_machines ? std::optional(p.halfwidth_without_machines->fixed)
                                                 : std::nullopt;
           })
       .value(everywhere("trials_with_stop", "trials with `stop`, about",
                         "trials without machines, decided by the outcomes"),
-             [](Of p) {
+             [](const Plans& p) {
                return p.halfwidth_without_machines ? std::optional(p.halfwidth_without_machines->sequential)
                                                    : std::nullopt;
              })

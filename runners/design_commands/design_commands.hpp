@@ -88,11 +88,11 @@ commands::Command rare_command();
 /// Answer of `limits` for a point of a study with targets.
 /// @param tell gets the name of the running stage
 /// @throws trial::Interrupted, trials::Spent
-document::Answer limits_of(const study::Study& study, std::int64_t point, const trials::Effort& effort,
-                           const tuning::TellStage& tell = {});
+document::Answer causes_answer(const study::Study& study, std::int64_t point, const trials::Effort& effort,
+                               const tuning::TellStage& tell = {});
 
-/// Approximate number of trials that limits_of() runs if a goal is missed.
-std::int64_t trials_of_limits(const study::Study& study, std::int64_t point);
+/// Approximate number of trials that causes_answer() runs if a goal is missed.
+std::int64_t trials_of_causes(const study::Study& study, std::int64_t point);
 
 /// Text for the rate of a claim, after its percentage: "moves meet the goal 'small' under condition loaded in
 /// the worst world".

@@ -288,7 +288,6 @@ std::string aim_sentence(const EquivalencePlan& plan) {
 }
 
 document::AnswerDescription<EquivalencePlan> equivalence_answer() {
-  using Of = const EquivalencePlan&;
   document::AnswerDescription<EquivalencePlan> answer{
       {.name = "plan-equivalence",
        .meaning = "trials that show that two equal studies are equivalent",
@@ -297,17 +296,17 @@ document::AnswerDescription<EquivalencePlan> equivalence_answer() {
   answer.items.headline(equivalence_headline)
       .sentence(aim_sentence)
       .value(in_data("confidence", "confidence of each bound", "1"),
-             [](Of plan) { return plan.rules.confidence; })
+             [](const EquivalencePlan& plan) { return plan.rules.confidence; })
       .value(in_data("power", "probability with which equivalence is shown", "1"), &EquivalencePlan::power)
       .value(in_data("pilot_trials", "trials of the pilot per design point"),
-             [](Of plan) { return plan.conditions * plan.pilot; })
+             [](const EquivalencePlan& plan) { return plan.conditions * plan.pilot; })
       .value(in_data("trials", "trials of each study per design point; unknown if max_trials do not suffice"),
-             [](Of plan) {
+             [](const EquivalencePlan& plan) {
                const std::optional<double>& trials = plan.forecast.trials;
                return trials ? std::optional(trials_of_point(plan, *trials)) : std::nullopt;
              })
       .value(in_data("max_trials", "the most trials that were tried"),
-             [](Of plan) { return trials_of_point(plan, plan.forecast.max_trials); })
+             [](const EquivalencePlan& plan) { return trials_of_point(plan, plan.forecast.max_trials); })
       .table({.key = "measures", .meaning = "measures at the design points"}, measure_columns(),
              &EquivalencePlan::measures)
       .table(everywhere("unplanned", "Not planned: too few trials of the pilot have a value",

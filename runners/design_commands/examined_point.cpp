@@ -32,11 +32,11 @@ ExaminedPoint point_to_examine(const command_line::Arguments& arguments) {
 }
 
 std::int64_t ExaminedPoint::trial_in_whole(std::int64_t trial) const {
-  const study::TrialTurns turns = study::turns_of(study);
-  const auto turn = static_cast<std::size_t>(turns.condition_of(trial));
+  const study::TrialIndices indices = study::trial_indices(study);
+  const auto setting = static_cast<std::size_t>(indices.condition_of(trial));
   if (whole.conditions.empty()) return trial;
-  const auto same = std::ranges::find(whole.conditions, study.conditions[turn]);
-  return study::turns_of(whole).trial_of(turns.draw_of(trial), same - whole.conditions.begin());
+  const auto same = std::ranges::find(whole.conditions, study.conditions[setting]);
+  return study::trial_indices(whole).trial_of(indices.draw_of(trial), same - whole.conditions.begin());
 }
 
 document::Description<tuning::ClaimNames> named_claim_columns(std::string goal_heading,

@@ -23,8 +23,8 @@ namespace {
 
 using document::everywhere;
 using document::in_data;
-using document::Shown;
 using document::to_people;
+using document::Visibility;
 using document::with_words;
 
 constexpr std::string_view other_plans = ", or --success, --halfwidth or --margin";
@@ -51,20 +51,22 @@ std::vector<PlannedStudy> with_times(const std::vector<goal::Needs>& studies, co
 }
 
 document::Description<PlannedStudy> study_columns() {
-  using Of = const PlannedStudy&;
   return document::Description<PlannedStudy>()
       .value(everywhere("machine_count", "machines", "number of machines; 0 without machines"),
              &PlannedStudy::machines)
-      .value(
-          to_people("trials on each"),
-          [](Of one) { return one.machines > 0 ? std::optional(one.trials / one.machines) : std::nullopt; })
+      .value(to_people("trials on each"),
+             [](const PlannedStudy& one) {
+               return one.machines > 0 ? std::optional(one.trials / one.machines) : std::nullopt;
+             })
       .value(everywhere("trials", "trials", "trials of a design point"), &PlannedStudy::trials)
-      .value({.heading = "time here", .shown = Shown::to_people, .numeric = true},
-             [](Of one) { return one.seconds ? status::duration_text(*one.seconds) : std::string(); })
+      .value({.heading = "time here", .shown = Visibility::to_people, .numeric = true},
+             [](const PlannedStudy& one) {
+               return one.seconds ? status::duration_text(*one.seconds) : std::string();
+             })
       .value({.key = "seconds",
               .meaning = "computing time with all cores of this machine; of goals on machines",
               .unit = "s",
-              .shown = Shown::in_data,
+              .shown = Visibility::in_data,
               .optional = true},
              &PlannedStudy::seconds);
 }

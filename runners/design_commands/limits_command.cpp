@@ -29,7 +29,7 @@ namespace {
 
 using document::everywhere;
 using document::Notation;
-using document::Shown;
+using document::Visibility;
 using tuning::Limit;
 
 constexpr const char* limits_help =
@@ -77,10 +77,10 @@ document::Description<Limit> limit_columns(const document::Item& effect) {
       .value({.key = "rates",
               .meaning = "the rates of all goals under all conditions, where there are several",
               .unit = "1",
-              .shown = Shown::in_json,
+              .shown = Visibility::in_json,
               .optional = true},
              &Limit::rates)
-      .value({.heading = "failures", .shown = Shown::to_people, .numeric = true}, failures_text)
+      .value({.heading = "failures", .shown = Visibility::to_people, .numeric = true}, failures_text)
       .value(
           optional(everywhere("gained", "gained",
                               "machines, or trials, that meet the worst goal more often without the cause")),
@@ -97,7 +97,7 @@ document::Description<Limit> limit_columns(const document::Item& effect) {
           gain_of(&tuning::PairedGain::p_value))
       .value({.key = "shown",
               .meaning = "whether it is shown to raise the rate, allowing for the number of causes",
-              .shown = Shown::in_json,
+              .shown = Visibility::in_json,
               .optional = true},
              gain_of(&tuning::PairedGain::shown))
       .value(document::to_people("shown to raise the rate"),
@@ -117,17 +117,17 @@ std::string not_simulated_text(const std::vector<Limit>& limits) {
              : fmt::format("; not simulated, for the reasons in their rows: {}", fmt::join(names, ", "));
 }
 
-/// Tells what was not tried, and whether there were too few units to show a cause.
+/// Tells what was not tried, and whether there were too few machines to show a cause.
 std::string causes_sentence(const std::vector<Limit>& limits) {
   std::int64_t tried = 0;
-  std::int64_t units = 0;
+  std::int64_t machines = 0;
   for (const Limit& one : limits) {
     if (!one.gain) continue;
     ++tried;
-    units = one.gain->units;
+    machines = one.gain->machines;
   }
   if (tried == 0) return "";
-  const std::int64_t needed = tuning::units_to_show_a_gain(tried);
+  const std::int64_t needed = tuning::machines_to_show_a_gain(tried);
   const tuning::ClaimNames& worst = limits.front().worst;
   std::vector<std::string> names;
   for (const std::optional<std::string>& name : {worst.goal, worst.condition})
@@ -137,8 +137,8 @@ std::string causes_sentence(const std::vector<Limit>& limits) {
               : fmt::format("gained, lost: in {}, the worst with nothing switched off; each rate is "
                             "that of the worst in its row\n",
                             fmt::join(names, ", "))) +
-         (units < needed ? fmt::format("{} units cannot show a cause, at least {} can\n", units, needed)
-                         : "") +
+         (machines < needed ? fmt::format("{} units cannot show a cause, at least {} can\n", machines, needed)
+                            : "") +
          fmt::format(
              "not tried: other values of {} that have no ideal one, other gains, another friction law{}",
              fmt::join(tuning::sections_with_other_values(), ", "), not_simulated_text(limits));
@@ -159,7 +159,7 @@ std::vector<document::Figure> limits_figures(const std::vector<Limit>& limits) {
     if (!one.rate) continue;
     // As if each machine, or trial, met or missed the goal as a whole.
     const statistics::ConfidenceInterval bounds =
-        statistics::wilson_interval(*one.rate, static_cast<double>(one.estimate.units),
+        statistics::wilson_interval(*one.rate, static_cast<double>(one.estimate.machines),
                                     statistics::two_sided_normal_quantile(statistics::summary_confidence));
     data.rows.push_back({data.rows.empty() ? "nothing off" : one.effect, datum(*one.rate), datum(bounds.low),
                          datum(bounds.high)});
@@ -179,20 +179,21 @@ std::vector<document::Figure> limits_figures(const std::vector<Limit>& limits) {
 
 struct PointLimits {
   const study::Study& study;
-  trials::Replicates units;
+  trials::Replicates machines;
   std::vector<Limit> limits;
   std::vector<Limit> additions;
 };
 
 /// Tells what was simulated.
 std::string simulated_sentence(const PointLimits& found) {
-  const std::int64_t all = trials::replicates_of(found.study, found.units.point).count;
-  const std::string units = std::string(found.study.machines > 0 ? "machines" : "trials") + " of the study" +
-                            (found.study.conditions.empty() ? "" : " under each condition");
-  return (found.units.count < all
+  const std::int64_t all = trials::replicates_of(found.study, found.machines.point).count;
+  const std::string machines = std::string(found.study.machines > 0 ? "machines" : "trials") +
+                               " of the study" +
+                               (found.study.conditions.empty() ? "" : " under each condition");
+  return (found.machines.count < all
               ? fmt::format("simulated: the first {} of {} {}, as many as the budget is enough for",
-                            found.units.count, all, units)
-              : fmt::format("simulated: the {} {}", all, units)) +
+                            found.machines.count, all, machines)
+              : fmt::format("simulated: the {} {}", all, machines)) +
          ", in each row with the same random numbers; pairs of causes first on some of them";
 }
 
@@ -205,7 +206,7 @@ std::string theory_sentence(const PointLimits& found) {
   std::vector<theory::KnownRotor> rotors;
   std::vector<std::string> objections;
   for (const theory::LoopRanges& loop :
-       theory::examine(found.study, found.units.point, static_cast<std::int64_t>(worst.condition), rotors)
+       theory::examine(found.study, found.machines.point, static_cast<std::int64_t>(worst.condition), rotors)
            .loops) {
     const std::string stability = theory::stability_text(loop);
     if (stability != "stable") objections.push_back(fmt::format("{}: {}", loop.name, stability));
@@ -246,33 +247,33 @@ document::AnswerDescription<PointLimits> limits_answer() {
   return answer;
 }
 
-/// About how often the units are run.
-double runs_of(const study::Study& study, const trials::Replicates& units) {
+/// About how often the machines are run.
+double runs_of(const study::Study& study, const trials::Replicates& machines) {
   constexpr double additions = 10.0;  // two, and the modes that are tried
-  return tuning::runs_of_limits(study, units.point, units.count) + additions;
+  return tuning::runs_of_causes(study, machines.point, machines.count) + additions;
 }
 
-constexpr std::int64_t fewest_units = 16;
+constexpr std::int64_t fewest_machines = 16;
 constexpr double part_of_speed = 0.5;  // some causes double the samples, and the speed is a guess
 
 /// Machines of the study, as many as the effort is enough for.
 /// @throws trials::Spent if these are too few to show anything
-trials::Replicates affordable_units(const study::Study& study, std::int64_t point,
-                                    const trials::Effort& effort) {
-  trials::Replicates units = trials::replicates_of(study, point);
+trials::Replicates affordable_machines(const study::Study& study, std::int64_t point,
+                                       const trials::Effort& effort) {
+  trials::Replicates machines = trials::replicates_of(study, point);
   double speed = std::numeric_limits<double>::infinity();
   if (!std::isinf(effort.seconds_left())) speed = part_of_speed * tuning::measured_speed(study, effort);
   const std::int64_t trials = tuning::affordable_trials(effort, speed);
   const std::int64_t worlds = std::max<std::int64_t>(study.worlds, 1);
-  constexpr int rounds = 3;  // pairs take a larger part of fewer units
+  constexpr int rounds = 3;  // pairs take a larger part of fewer machines
   for (int round = 0; round < rounds; ++round) {
-    const double each = runs_of(study, units) * static_cast<double>(units.trials_each);
+    const double each = runs_of(study, machines) * static_cast<double>(machines.trials_each);
     const auto affordable = static_cast<std::int64_t>(static_cast<double>(trials) / each);
-    if (affordable >= units.count) return units;
-    units.count = affordable / worlds * worlds;
-    if (units.count < fewest_units) throw trials::Spent{};
+    if (affordable >= machines.count) return machines;
+    machines.count = affordable / worlds * worlds;
+    if (machines.count < fewest_machines) throw trials::Spent{};
   }
-  return units;
+  return machines;
 }
 
 /// Refuses the budget, and names the least one that is enough.
@@ -281,9 +282,9 @@ Failure too_small(const command_line::Budget& budget, const study::Study& study,
                   const std::stop_token& stop) {
   constexpr double margin = 1.5;  // the speed is measured anew, in a part of the time
   const std::int64_t worlds = std::max<std::int64_t>(study.worlds, 1);
-  trials::Replicates units = trials::replicates_of(study, point);
-  units.count = std::min(units.count, (fewest_units + worlds - 1) / worlds * worlds);
-  const double trials = std::ceil(runs_of(study, units) * static_cast<double>(units.trials()));
+  trials::Replicates machines = trials::replicates_of(study, point);
+  machines.count = std::min(machines.count, (fewest_machines + worlds - 1) / worlds * worlds);
+  const double trials = std::ceil(runs_of(study, machines) * static_cast<double>(machines.trials()));
   const std::string least =
       budget.trials ? fmt::format("{:.0f} trials", trials)
                     : fmt::format("about {:.2g} s",
@@ -291,21 +292,22 @@ Failure too_small(const command_line::Budget& budget, const study::Study& study,
   return {budget.trials ? ExitCode::bad_input : ExitCode::inconclusive,
           fmt::format("option '--budget': it is not enough: the causes of failures of this point take about "
                       "{} trials on all its {}; expected {} or more, for the first {}",
-                      trials_of_limits(study, point), study.machines > 0 ? "machines" : "trials", least,
-                      units.count)};
+                      trials_of_causes(study, point), study.machines > 0 ? "machines" : "trials", least,
+                      machines.count)};
 }
 
 ExitCode limits(const command_line::Arguments& arguments) {
   const ExaminedPoint examined = point_to_examine(arguments);
   const command_line::Budget budget = command_line::budget_option(arguments);
   const status::InterruptionWatch interruption(status::InterruptionWatch::Unstopped::end);
-  const trials::Effort effort = trials::Effort(interruption.token()).share(budget.trials, budget.seconds);
+  const trials::Effort effort =
+      trials::Effort(interruption.token()).limited_to(budget.trials, budget.seconds);
   commands::StageProgress progress("zerocount limits", false);
   std::optional<document::Answer> answer;
   const bool ended = unless_interrupted([&] {
     return trials::within(effort, [&] {
-      answer = limits_of(examined.study, examined.point, effort,
-                         [&](const std::string& stage) { progress.enter(stage); });
+      answer = causes_answer(examined.study, examined.point, effort,
+                             [&](const std::string& stage) { progress.enter(stage); });
     });
   });
   if (ended) return answers::print(arguments, *answer);
@@ -314,21 +316,21 @@ ExitCode limits(const command_line::Arguments& arguments) {
 
 }  // namespace
 
-document::Answer limits_of(const study::Study& study, std::int64_t point, const trials::Effort& effort,
-                           const tuning::TellStage& tell) {
+document::Answer causes_answer(const study::Study& study, std::int64_t point, const trials::Effort& effort,
+                               const tuning::TellStage& tell) {
   if (tell) tell("the point as it is");
-  const trials::Replicates units = affordable_units(study, point, effort);
-  const tuning::EffectRuns runs(study, units, effort);
-  std::vector<Limit> found = tuning::limits_of(runs, tell);
+  const trials::Replicates machines = affordable_machines(study, point, effort);
+  const tuning::EffectRuns runs(study, machines, effort);
+  std::vector<Limit> found = tuning::find_causes(runs, tell);
   std::vector<Limit> additions;
   if (!trials::within(effort, [&] { additions = tuning::additions_to(runs, tell); }))
     additions = {{"what a study may assume away", std::nullopt, "the budget ended"}};
-  return limits_answer().of({study, units, std::move(found), std::move(additions)});
+  return limits_answer().of({study, machines, std::move(found), std::move(additions)});
 }
 
-std::int64_t trials_of_limits(const study::Study& study, std::int64_t point) {
-  const trials::Replicates units = trials::replicates_of(study, point);
-  return std::llround(runs_of(study, units) * static_cast<double>(units.trials()));
+std::int64_t trials_of_causes(const study::Study& study, std::int64_t point) {
+  const trials::Replicates machines = trials::replicates_of(study, point);
+  return std::llround(runs_of(study, machines) * static_cast<double>(machines.trials()));
 }
 
 std::string rated_words(const study::Study& study, std::size_t claim) {

@@ -70,9 +70,9 @@ std::optional<std::int64_t> world_to_ask(const command_line::Arguments& argument
 /// A probability over all conditions would be an average: one is named.
 std::optional<std::int64_t> condition_to_ask(const command_line::Arguments& arguments,
                                              const study::Study& study) {
-  const std::int64_t turn = study::turn_named(study, arguments.value("condition"),
-                                              command_line::number_option(arguments, "age", 0.0));
-  return study.conditions.empty() ? std::nullopt : std::optional(turn);
+  const std::int64_t setting = study::setting_named(study, arguments.value("condition"),
+                                                    command_line::number_option(arguments, "age", 0.0));
+  return study.conditions.empty() ? std::nullopt : std::optional(setting);
 }
 
 measures::MoveEvent event_to_ask(const command_line::Arguments& arguments, const study::Study& study) {

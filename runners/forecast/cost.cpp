@@ -110,13 +110,13 @@ PointsOnReference points_on_reference(const study::Study& study) {
   constexpr std::int64_t max_points = 1000;
   PointsOnReference use;
   if (study.engine == study::Engine::reference) return use;  // as asked for
-  const study::TrialTurns turns = study::turns_of(study);
+  const study::TrialIndices indices = study::trial_indices(study);
   use.examined = std::min(study::point_count(study), max_points);
   for (std::int64_t point = 0; point < use.examined; ++point) {
     bool lacking = false;
-    for (std::int64_t condition = 0; condition < turns.conditions; ++condition) {
+    for (std::int64_t condition = 0; condition < indices.conditions; ++condition) {
       for (const std::string& feature : batch::lacking_in_lanes(
-               study::study_trial(study, point, turns.trial_of(0, condition)).parameters)) {
+               study::study_trial(study, point, indices.trial_of(0, condition)).parameters)) {
         lacking = true;
         if (std::find(use.features.begin(), use.features.end(), feature) == use.features.end())
           use.features.push_back(feature);

@@ -28,9 +28,9 @@ constexpr double bytes_of_dataset = 3050.0;
 std::function<std::int64_t(std::int64_t)> twins_of(const study::Study& study, study::DrawLevel level) {
   const bool has_twins =
       level != study::DrawLevel::study && (level < study::DrawLevel::trial || !study.independent_points);
-  return [&study, level, has_twins, turns = study::turns_of(study)](std::int64_t row) {
+  return [&study, level, has_twins, indices = study::trial_indices(study)](std::int64_t row) {
     if (!has_twins) return row;
-    return turns.trial_of(turns.draw_of(row % study.trials) % study::draw_count(study, level), 0);
+    return indices.trial_of(indices.draw_of(row % study.trials) % study::draw_count(study, level), 0);
   };
 }
 
@@ -129,11 +129,11 @@ std::vector<std::span<const shards::TrialResult>> trials_by_place(const study::S
                                                                   const TrialSample& sample) {
   constexpr std::size_t max_of_place = 4;
   const std::size_t each = std::max<std::size_t>(sample.trials.size() / sampled_places, 1);
-  const std::size_t taken = std::min<std::size_t>(each, static_cast<std::size_t>(study.trials));
+  const std::size_t size = std::min<std::size_t>(each, static_cast<std::size_t>(study.trials));
   std::vector<std::span<const shards::TrialResult>> all;
   for (std::size_t place = 0; place + each <= sample.trials.size(); place += each) {
-    for (std::size_t i = 0; i < std::min(each / taken, max_of_place); ++i)
-      all.push_back(std::span(sample.trials).subspan(place + i * taken, taken));
+    for (std::size_t i = 0; i < std::min(each / size, max_of_place); ++i)
+      all.push_back(std::span(sample.trials).subspan(place + i * size, size));
   }
   return all;
 }

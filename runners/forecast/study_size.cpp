@@ -62,7 +62,7 @@ Rows rows_at(std::int64_t places, std::int64_t from, std::int64_t to, std::int64
 /// numbered from 0.
 /// @param groups groups of rows that run one after the other
 std::vector<shards::TrialResult> run_in_time(const study::Study& study, std::span<const Rows> groups) {
-  const trials::Effort limited = trials::Effort().share({}, sampling_limit);
+  const trials::Effort limited = trials::Effort().limited_to({}, sampling_limit);
   trials::TrialRunner runner(study);
   std::vector<shards::TrialResult> trials;
   try {
@@ -100,7 +100,7 @@ std::vector<shards::TrialResult> trials_of_point(const study::Study& study) {
 /// Runs some of the trials whose records the study retains, at design points spread over the study.
 std::vector<shards::TrialResult> traced_trials(const study::Study& study) {
   if (study.retained_trials.empty() || !layout::has_trials(study.retention)) return {};
-  const trials::Effort limited = trials::Effort().share({}, sampling_limit);
+  const trials::Effort limited = trials::Effort().limited_to({}, sampling_limit);
   const std::int64_t points = study::point_count(study);
   const std::int64_t retained = std::ssize(study.retained_trials);
   const std::int64_t wanted =

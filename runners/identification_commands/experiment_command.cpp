@@ -90,7 +90,7 @@ study::Study experiment_study(const command_line::Arguments& arguments) {
   const std::optional<std::string> condition = arguments.value("condition");
   if (!study.ages.at.empty())
     return study::under_condition(
-        study, study::turn_named(study, condition, command_line::number_option(arguments, "age", 0.0)));
+        study, study::setting_named(study, condition, command_line::number_option(arguments, "age", 0.0)));
   if (condition) return study::under_condition(study, study::condition_named(study, *condition));
   throw Failure(ExitCode::bad_input,
                 fmt::format("{}: it has the conditions {}, and a record is made under one of them; expected "

@@ -246,13 +246,13 @@ std::string_view type_of(hdf5::Element element) {
 
 study::Study study_of_text(std::string text, std::string_view source, const fs::path& folder,
                            const std::vector<std::string>& overrides) {
-  const sections::Companions companions{
+  const sections::ExternalInputs external{
       .plugin = [&](const std::string& path) { return plugins::load_plugin(folder / path); },
       .samples =
           [&](const std::string& path, std::string_view what) {
             return yaml::read_text(folder / path, sections::max_samples_size, what);
           }};
-  return manifest::new_study(std::move(text), source, overrides, companions);
+  return manifest::new_study(std::move(text), source, overrides, external);
 }
 
 study::Study study_of_file(const fs::path& file) {

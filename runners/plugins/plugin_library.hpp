@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "experiments/sections/companions.hpp"
+#include "experiments/sections/external_inputs.hpp"
 #include "experiments/study/study.hpp"
 
 namespace zerocount::plugins {

@@ -32,7 +32,7 @@ struct Retrial {
 constexpr std::array<Retrial, 2> retrials{{{200, 50}, {20, 500}}};
 constexpr std::int64_t min_failures_of_pinned = 2;
 constexpr double enrichment_of_pinned = 5.0;  // of failures at a value, over those of plain trials
-constexpr double share_of_pinned = 0.5;       // of the proposal, beside a mixture
+constexpr double proportion_of_pinned = 0.5;  // of the proposal, beside a mixture
 constexpr std::int64_t enough_plain_failures = 30;
 constexpr int searches_of_first_score = 2;
 constexpr double min_probability = 1e-11;
@@ -45,8 +45,8 @@ constexpr double cap_of_no_use = 0.5;               // plain trials have 1
 constexpr double narrow_cap = 30.0;                 // of the weights, over the probability
 constexpr std::size_t drawn_at_once = 500;
 constexpr double natural_proportion = 0.1;
-constexpr double share_of_levels = 0.35;
-constexpr double share_of_new = 0.4;  // of the mixture, after a failure that it did not foresee
+constexpr double proportion_of_levels = 0.35;
+constexpr double proportion_of_new = 0.4;  // of the mixture, after a failure that it did not foresee
 constexpr double cap_beyond_usual = 2.0;
 constexpr double quantile_of_cap = 0.998;  // of the likelihood ratio of failures
 constexpr std::int64_t max_learnings = 8;
@@ -63,16 +63,16 @@ void balance(WeightedPoints& points, double size) {
   for (double& weight : points.weights) weight *= size / sum;
 }
 
-/// Mixture of two fits. The second has the proportion `share`, or 1 if the first is empty.
+/// Mixture of two fits. The second has the proportion `proportion`, or 1 if the first is empty.
 std::vector<NormalComponent> mixed(std::vector<NormalComponent> first, std::vector<NormalComponent> second,
-                                   double share) {
+                                   double proportion) {
   const auto scale_weights = [](std::vector<NormalComponent>& components, double sum) {
     double all = 0.0;
     for (const NormalComponent& one : components) all += one.weight;
     for (NormalComponent& one : components) one.weight *= sum / all;
   };
-  scale_weights(first, second.empty() ? 1.0 : 1.0 - share);
-  scale_weights(second, first.empty() ? 1.0 : share);
+  scale_weights(first, second.empty() ? 1.0 : 1.0 - proportion);
+  scale_weights(second, first.empty() ? 1.0 : proportion);
   std::ranges::move(second, std::back_inserter(first));
   return first;
 }
@@ -334,7 +334,7 @@ class Estimator {
                                  std::max(1.0, enough_pilot_failures - effective)));
     for (std::size_t i = 0; i < searched.z.size(); ++i) points.add(searched.z[i], searched.weights[i]);
     set_components(points.z.empty() ? levels_
-                                    : mixed(fitted_mixture(points, numbers), levels_, share_of_levels));
+                                    : mixed(fitted_mixture(points, numbers), levels_, proportion_of_levels));
   }
 
   /// Sets the normal components and the proportions of the proposal. There are no components if every failure
@@ -343,7 +343,9 @@ class Estimator {
     Proposal& proposal = state_.proposal;
     proposal.natural = natural_proportion;
     proposal.components = std::move(components);
-    proposal.pinned = proposal.values.empty() ? 0.0 : proposal.components.empty() ? 1.0 : share_of_pinned;
+    proposal.pinned = proposal.values.empty()       ? 0.0
+                      : proposal.components.empty() ? 1.0
+                                                    : proportion_of_pinned;
   }
 
   double ratio_at(std::span<const double> z) const {
@@ -371,10 +373,10 @@ class Estimator {
     for (std::size_t i = 0; i < points.z.size(); ++i)
       ratios.emplace_back(ratio_at(points.z[i]), points.weights[i]);
     std::ranges::sort(ratios);
-    double left = quantile_of_cap * sum_of(points.weights);
+    double remaining = quantile_of_cap * sum_of(points.weights);
     for (const auto& [ratio, weight] : ratios) {
-      left -= weight;
-      if (left <= 0.0) return ratio;
+      remaining -= weight;
+      if (remaining <= 0.0) return ratio;
     }
     return ratios.empty() ? 0.0 : ratios.back().first;
   }
@@ -411,7 +413,7 @@ class Estimator {
     if (unforeseen.z.empty()) return false;
     NumberSource numbers = numbers_for("again", static_cast<std::uint32_t>(state_.learnings));
     set_components(
-        mixed(std::move(state_.proposal.components), fitted_mixture(unforeseen, numbers), share_of_new));
+        mixed(std::move(state_.proposal.components), fitted_mixture(unforeseen, numbers), proportion_of_new));
     raise_cap(found.z);
     state_.drawn.clear();
     ++state_.learnings;

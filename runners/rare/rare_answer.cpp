@@ -24,23 +24,21 @@ using document::Description;
 using document::everywhere;
 using document::in_data;
 using document::Notation;
-using document::Shown;
+using document::Visibility;
 using document::with_words;
-
-using Of = const RareAnswer&;
 
 constexpr std::size_t max_replays = 3;
 
-bool is_estimated(Of answer) {
+bool is_estimated(const RareAnswer& answer) {
   return answer.estimate.status == EstimateStatus::estimated;
 }
 
 /// Whether failures were found and weighted, so that there is an estimate of the probability.
-bool has_probability(Of answer) {
+bool has_probability(const RareAnswer& answer) {
   return !answer.state.drawn.empty() && answer.estimate.probability > 0.0;
 }
 
-std::string_view reason_of(Of answer) {
+std::string_view reason_of(const RareAnswer& answer) {
   switch (answer.estimate.status) {
     case EstimateStatus::estimated:
       return "the bounds are as narrow as asked";
@@ -57,7 +55,7 @@ std::string_view reason_of(Of answer) {
 }
 
 /// Assumption of the upper bound; nothing if the answer does not depend on a learned proposal.
-std::optional<std::string> premise_of(Of answer) {
+std::optional<std::string> premise_of(const RareAnswer& answer) {
   if (!is_estimated(answer) || answer.state.proposal.is_natural()) return std::nullopt;
   std::vector<std::string> untried;
   for (const randomness::DiscreteDraw& draw : answer.question.space.discrete) {
@@ -72,7 +70,7 @@ std::optional<std::string> premise_of(Of answer) {
 
 // Sentences.
 
-std::string headline(Of answer) {
+std::string headline(const RareAnswer& answer) {
   const Question& question = answer.question;
   const Estimate& estimate = answer.estimate;
   const std::string number = has_probability(answer)
@@ -87,7 +85,7 @@ std::string headline(Of answer) {
                      study::condition_text(question.whole, question.of.condition.value_or(0)));
 }
 
-std::string undecided_sentence(Of answer) {
+std::string undecided_sentence(const RareAnswer& answer) {
   if (is_estimated(answer)) return "";
   std::string text = fmt::format("undecided: {}", reason_of(answer));
   if (answer.estimate.status == EstimateStatus::budget ||
@@ -102,7 +100,7 @@ std::string undecided_sentence(Of answer) {
 
 /// Sentence with the number of plain trials that would give bounds of the same ratio. With k failures,
 /// high/low is about exp(2·z/√k).
-std::string plain_need_sentence(Of answer) {
+std::string plain_need_sentence(const RareAnswer& answer) {
   const auto& [low, high] = answer.estimate.bounds;
   const double probability = answer.estimate.probability;
   if (!has_probability(answer) || !is_estimated(answer) || probability >= 0.01) return "";
@@ -111,13 +109,13 @@ std::string plain_need_sentence(Of answer) {
                      1.0 / probability, std::pow(2.0 * z / std::log(high / low), 2.0) / probability);
 }
 
-std::string plain_sentence(Of answer) {
+std::string plain_sentence(const RareAnswer& answer) {
   if (!answer.state.learned || !answer.state.proposal.is_natural()) return "";
   return "plain trials went on: failures are frequent, or depend too much on chance for a learned "
          "distribution, or none was found to learn from";
 }
 
-std::string replays_sentence(Of answer) {
+std::string replays_sentence(const RareAnswer& answer) {
   const std::vector<Trial>& drawn = answer.state.drawn;
   const std::filesystem::path& output = answer.settings.output;
   std::vector<std::string> replays;
@@ -148,51 +146,53 @@ std::vector<PartOf<Part>> parts_of(const std::vector<Part>& parts, const Questio
 }
 
 Description<PartOf<ScoreSearch>> search_columns() {
-  using Row = const PartOf<ScoreSearch>&;
   return Description<PartOf<ScoreSearch>>()
       .value(everywhere("score", "score", "quantity that leads towards failures"),
-             [](Row row) {
+             [](const PartOf<ScoreSearch>& row) {
                return measures::name_of(measures::move_scores[row.part.score], row.question.event);
              })
       .value(everywhere("reached", "leads to failures", "whether failures were reached"),
-             [](Row row) { return row.part.reached; })
-      .value(everywhere("levels", "levels", "levels of the search"), [](Row row) { return row.part.levels; })
+             [](const PartOf<ScoreSearch>& row) { return row.part.reached; })
+      .value(everywhere("levels", "levels", "levels of the search"),
+             [](const PartOf<ScoreSearch>& row) { return row.part.levels; })
       .value({.key = "probability",
               .heading = "probability",
               .meaning = "probability of the last level, without bounds",
               .unit = "1",
               .notation = Notation::two_digits},
-             [](Row row) { return row.part.probability; })
-      .value(in_data("trials", "trials of the search"), [](Row row) { return row.part.trials; });
+             [](const PartOf<ScoreSearch>& row) { return row.part.probability; })
+      .value(in_data("trials", "trials of the search"),
+             [](const PartOf<ScoreSearch>& row) { return row.part.trials; });
 }
 
 /// The values of discrete draws at which failures are frequent, the most probable failure first.
-std::vector<PartOf<PinnedValue>> value_rows(Of answer) {
+std::vector<PartOf<PinnedValue>> value_rows(const RareAnswer& answer) {
   std::vector<PinnedValue> values = answer.state.proposal.values;
   std::ranges::stable_sort(values, std::greater<>(), &PinnedValue::weight);
   return parts_of(values, answer.question);
 }
 
 Description<PartOf<PinnedValue>> value_columns() {
-  using Row = const PartOf<PinnedValue>&;
-  const auto draw_of = [](Row row) -> const randomness::DiscreteDraw& {
+  const auto draw_of = [](const PartOf<PinnedValue>& row) -> const randomness::DiscreteDraw& {
     return row.question.space.discrete[row.part.draw];
   };
   return Description<PartOf<PinnedValue>>()
       .value(everywhere("parameter", "parameter", "parameter with single values"),
-             [draw_of](Row row) { return draw_of(row).name; })
+             [draw_of](const PartOf<PinnedValue>& row) { return draw_of(row).name; })
       .value(everywhere("value", "value", "value at which failures are frequent"),
-             [draw_of](Row row) { return randomness::value_text(draw_of(row), row.part.value); })
+             [draw_of](const PartOf<PinnedValue>& row) {
+               return randomness::value_text(draw_of(row), row.part.value);
+             })
       .value({.key = "probability",
               .heading = "its probability",
               .meaning = "probability of the value",
               .unit = "1",
               .notation = Notation::three_digits},
-             [](Row row) { return row.part.probability; })
+             [](const PartOf<PinnedValue>& row) { return row.part.probability; })
       .value(everywhere("failures", "failures", "trials at the value that failed"),
-             [](Row row) { return row.part.failures; })
+             [](const PartOf<PinnedValue>& row) { return row.part.failures; })
       .value(everywhere("trials", "of trials", "trials at the value"),
-             [](Row row) { return row.part.trials; });
+             [](const PartOf<PinnedValue>& row) { return row.part.trials; });
 }
 
 std::string range_text(const InputRange& range) {
@@ -224,11 +224,11 @@ Description<FailureInput> input_columns() {
 Description<RareAnswer> plain_description() {
   return Description<RareAnswer>()
       .value(everywhere("trials", "trials", "trials drawn from their own distribution"),
-             [](Of a) { return a.state.plain_trials; })
+             [](const RareAnswer& a) { return a.state.plain_trials; })
       .value(everywhere("failures", "failures", "those with a move that failed"),
-             [](Of a) { return a.state.plain_failures; })
+             [](const RareAnswer& a) { return a.state.plain_failures; })
       .value(everywhere("high", "that alone shows at most", "upper bound by these alone", "1"),
-             [](Of a) { return a.estimate.plain_high; })
+             [](const RareAnswer& a) { return a.estimate.plain_high; })
       .sentence(plain_sentence);
 }
 
@@ -258,16 +258,20 @@ void add_probability(Description<RareAnswer>& items) {
   items.headline(headline)
       .value(in_data("probability",
                      "probability of the event in a move; unknown where no failure was weighted", "1"),
-             [](Of a) { return has_probability(a) ? std::optional(a.estimate.probability) : std::nullopt; })
-      .value(in_data("low", "its lower bound", "1"), [](Of a) { return a.estimate.bounds.low; })
-      .value(in_data("high", "its upper bound", "1"), [](Of a) { return a.estimate.bounds.high; })
+             [](const RareAnswer& a) {
+               return has_probability(a) ? std::optional(a.estimate.probability) : std::nullopt;
+             })
+      .value(in_data("low", "its lower bound", "1"),
+             [](const RareAnswer& a) { return a.estimate.bounds.low; })
+      .value(in_data("high", "its upper bound", "1"),
+             [](const RareAnswer& a) { return a.estimate.bounds.high; })
       .sentence(undecided_sentence)
       .sentence(plain_need_sentence)
       .value({.key = "trials", .heading = "trials", .meaning = "trials that were run"},
-             [](Of a) { return a.state.trials; })
+             [](const RareAnswer& a) { return a.state.trials; })
       .value(with_words(in_data("status", "whether the bounds are as narrow as asked"),
                         {"estimated", "undecided"}),
-             [](Of a) { return is_estimated(a) ? "estimated" : "undecided"; })
+             [](const RareAnswer& a) { return is_estimated(a) ? "estimated" : "undecided"; })
       .value(in_data("reason", "why it ended"), reason_of)
       .value({.key = "premise", .heading = "assumed", .meaning = "what a bound assumes"}, premise_of)
       .object(in_data("budget", "what it could spend"),
@@ -276,7 +280,7 @@ void add_probability(Description<RareAnswer>& items) {
                   .value(in_data("seconds", "time of this run", "s"), &RareSettings::seconds),
               &RareAnswer::settings)
       .value(in_data("confidence", "confidence of both bounds together", "1"),
-             [](Of a) { return a.settings.confidence; })
+             [](const RareAnswer& a) { return a.settings.confidence; })
       .value({.key = "seconds",
               .heading = "time",
               .meaning = "time of all runs",
@@ -288,22 +292,25 @@ void add_probability(Description<RareAnswer>& items) {
 void add_question(Description<RareAnswer>& items) {
   items
       .value(in_data("event", "the event; goal, success: it is missed"),
-             [](Of a) {
+             [](const RareAnswer& a) {
                const Question& question = a.question;
                return question.event.text.empty()
                           ? std::string(goal::words_of(goal::question_of(question.study)).subject)
                           : question.event.text;
              })
-      .value(in_data("point", "number of the design point"), [](Of a) { return a.question.of.point; })
-      .value(
-          in_data("label", "label of the design point"),
-          [](Of a) { return a.question.study.points.labels[static_cast<std::size_t>(a.question.of.point)]; })
-      .value(in_data("world", "the world, of a study with worlds"), [](Of a) { return a.question.of.world; })
+      .value(in_data("point", "number of the design point"),
+             [](const RareAnswer& a) { return a.question.of.point; })
+      .value(in_data("label", "label of the design point"),
+             [](const RareAnswer& a) {
+               return a.question.study.points.labels[static_cast<std::size_t>(a.question.of.point)];
+             })
+      .value(in_data("world", "the world, of a study with worlds"),
+             [](const RareAnswer& a) { return a.question.of.world; })
       .value({.key = "condition",
               .meaning = "the condition, of a study with conditions",
-              .shown = Shown::in_data,
+              .shown = Visibility::in_data,
               .optional = true},
-             [](Of a) -> std::optional<std::string> {
+             [](const RareAnswer& a) -> std::optional<std::string> {
                if (!a.question.of.condition) return {};
                return a.question.whole.conditions[static_cast<std::size_t>(*a.question.of.condition)];
              });
@@ -312,13 +319,13 @@ void add_question(Description<RareAnswer>& items) {
 void add_failures(Description<RareAnswer>& items) {
   items
       .object(everywhere("plain", "plain trials", "what the plain trials show"), plain_description(),
-              [](Of a) -> const RareAnswer& { return a; })
+              [](const RareAnswer& a) -> const RareAnswer& { return a; })
       .table(
           {.key = "scores",
            .heading =
                "searches for failures, each along a score; the probability of the last level has no bounds",
            .meaning = "searches for failures along scores"},
-          search_columns(), [](Of a) { return parts_of(a.state.searches, a.question); })
+          search_columns(), [](const RareAnswer& a) { return parts_of(a.state.searches, a.question); })
       .table({.key = "values",
               .heading = "single values at which failures are frequent",
               .meaning = "single values at which failures are frequent"},
@@ -328,10 +335,12 @@ void add_failures(Description<RareAnswer>& items) {
              input_columns(), &RareAnswer::inputs)
       .object(everywhere("machines", "machines that failed", "machines that carry the probability"),
               machines_description(), &RareAnswer::machines)
-      .value(in_data("drawn", "weighted trials in the file"), [](Of a) { return a.state.drawn.size(); })
-      .value(in_data("failures_drawn", "those that failed"), [](Of a) { return a.state.failures(); })
+      .value(in_data("drawn", "weighted trials in the file"),
+             [](const RareAnswer& a) { return a.state.drawn.size(); })
+      .value(in_data("failures_drawn", "those that failed"),
+             [](const RareAnswer& a) { return a.state.failures(); })
       .sentence(replays_sentence)
-      .figures([](Of a) { return rare_figures(a.inputs); });
+      .figures([](const RareAnswer& a) { return rare_figures(a.inputs); });
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ RareAnswer run_rare(const Question& question, const RareSettings& settings, cons
   const EstimatorSettings estimator{question.space, measures::move_scores.size(), settings.confidence,
                                     settings.ratio, question.study.seed};
   const trials::Effort whole(stop);
-  const trials::Effort effort = whole.share({}, settings.seconds);
+  const trials::Effort effort = whole.limited_to({}, settings.seconds);
   RareAnswer answer{question, settings};
   double earlier_seconds = 0.0;
   if (std::optional<RareRecord> earlier = earlier_record(question, settings)) {

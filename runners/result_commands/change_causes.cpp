@@ -113,8 +113,8 @@ std::vector<Cause> amounts_of(const Trial& trial) {
 }
 
 /// Whether the values of the slot are 0 or "none".
-bool is_absent(const parameters::Parameter& row, const study::ValueLimits& limits) {
-  return limits.low == limits.high && (limits.low == 0.0 || limits.low == row.none);
+bool is_absent(const parameters::Parameter& row, const study::ParameterRange& range) {
+  return range.low == range.high && (range.low == 0.0 || range.low == row.none);
 }
 
 }  // namespace
@@ -132,18 +132,18 @@ std::vector<Cause> causes_of(const study::Study& study, std::int64_t point) {
       continue;
     const study::Value* const value = study::value_at_point(plan, slot, place);
     if (value == nullptr || value->kind == study::Value::Kind::profile ||
-        value->kind == study::Value::Kind::following)
+        value->kind == study::Value::Kind::derived)
       continue;
-    const study::ValueLimits limits = study::limits_of_slot(plan, slot, place);
-    if (!std::isfinite(limits.low) || !std::isfinite(limits.high)) continue;
+    const study::ParameterRange range = study::range_of_slot(plan, slot, place);
+    if (!std::isfinite(range.low) || !std::isfinite(range.high)) continue;
     const auto amount = std::ranges::find(amounts, row.name, &Cause::name);
     const bool is_added =
-        amount != amounts.end() && (is_absent(row, limits) || row.name == std::string_view("dac.gain_error"));
+        amount != amounts.end() && (is_absent(row, range) || row.name == std::string_view("dac.gain_error"));
     if (is_added) {
       causes.push_back(*amount);
       causes.back().unit = parameters::unit_of(row, plan.units);
       if (causes.back().unit == "1") causes.back().unit.clear();
-    } else if (!is_absent(row, limits)) {
+    } else if (!is_absent(row, range)) {
       causes.push_back({.name = std::string(row.name), .changes = factors});
     }
   }

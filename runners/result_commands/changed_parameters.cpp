@@ -344,14 +344,14 @@ monitor::ChangeExplanation explain_alarm(const reading::AllTrialsFile& file, con
       }))
     for (const Cause& cause : causes) screening.untried.push_back(cause.name);
   for (const Refinement& refinement : refinements)
-    if (explanation.told != monitor::ChangeTold::unknown)
+    if (explanation.told != monitor::ExplanationKind::unknown)
       trials::within(effort, [&] {
         explanation = refined(alarm, refinement, causes, explanation, screening.candidates);
       });
   explanation.untried = std::move(screening.untried);
   explanation.max_trials = max_trials_of(alarm, causes);
-  if (explanation.told == monitor::ChangeTold::one && !explanation.untried.empty())
-    explanation.told = monitor::ChangeTold::several;
+  if (explanation.told == monitor::ExplanationKind::one && !explanation.untried.empty())
+    explanation.told = monitor::ExplanationKind::several;
   return explanation;
 }
 

@@ -61,9 +61,9 @@ struct Judgement {
   std::optional<double> of_machines(double bound) const {
     return worst_goal().claim->machines ? std::optional(bound) : std::nullopt;
   }
-  std::optional<summary::WorldsReading> worlds_reading() const {
+  std::optional<summary::WorldsAtPoint> worlds_reading() const {
     if (!worlds) return {};
-    return summary::WorldsReading{*worlds, summary::world_inputs_of(summary, judged.chosen.point),
+    return summary::WorldsAtPoint{*worlds, summary::world_inputs_of(summary, judged.chosen.point),
                                   summary.question};
   }
 };
@@ -77,16 +77,15 @@ goal::Question any_claim() {
 }
 
 document::AnswerDescription<Judgement> judge_answer(const goal::Question& question) {
-  using document::Shown;
-  using Of = const Judgement&;
+  using document::Visibility;
   document::AnswerDescription<Judgement> answer{
       {.name = "judge", .meaning = "whether a study meets its goal", .csv_table = "claims"}, {}};
-  answer.items.headline([](Of j) { return summary::judgement_headline(j.summary, j.judged); })
+  answer.items.headline([](const Judgement& j) { return summary::judgement_headline(j.summary, j.judged); })
       .value(document::in_data("point", "number of the design point"),
-             [](Of j) { return j.judged.chosen.point; })
+             [](const Judgement& j) { return j.judged.chosen.point; })
       .value(document::in_data("label", "label of the design point"), &Judgement::label)
       .value({"goal", "goal", "the goal in words"},
-             [](Of j) { return goal::claim_sentence(j.summary.question); })
+             [](const Judgement& j) { return goal::claim_sentence(j.summary.question); })
       .value({.key = "worst_goal",
               .meaning = "name of the goal that the numbers are of, the worst of several",
               .optional = true},
@@ -96,53 +95,54 @@ document::AnswerDescription<Judgement> judge_answer(const goal::Question& questi
               .optional = true},
              &Judgement::condition)
       .value({.key = "status", .meaning = "verdict on the goal", .words = goal::status_words()},
-             [](Of j) { return goal::text_of(j.judged.verdict.status); })
+             [](const Judgement& j) { return goal::text_of(j.judged.verdict.status); })
       .value(document::in_data("rate", "proportion of moves that meet the goal, with one-sided bounds", "1"),
-             [](Of j) { return goal::bounded(j.judged.verdict.moves); })
+             [](const Judgement& j) { return goal::bounded(j.judged.verdict.moves); })
       .value(
           document::in_data(
               "machines_low",
               "lower bound of the proportion of machines that meet the goal, if it is about machines", "1"),
-          [](Of j) { return j.of_machines(j.judged.verdict.machines.low); })
+          [](const Judgement& j) { return j.of_machines(j.judged.verdict.machines.low); })
       .value(document::in_data("machines_high", "its upper bound", "1"),
-             [](Of j) { return j.of_machines(j.judged.verdict.machines.high); })
+             [](const Judgement& j) { return j.of_machines(j.judged.verdict.machines.high); })
       .object({.key = "other_mass",
                .meaning = "the same values of the load, which the goal of the motor does not limit",
-               .shown = Shown::in_data,
+               .shown = Visibility::in_data,
                .optional = true},
-              goal::load_description(), [](Of j) { return j.judged.verdict.of_load; })
-      .sentence([](Of j) { return summary::judgement_details(j.summary, j.judged); })
+              goal::load_description(), [](const Judgement& j) { return j.judged.verdict.of_load; })
+      .sentence([](const Judgement& j) { return summary::judgement_details(j.summary, j.judged); })
       .value(document::in_data("missed_saturated",
                                "proportion of the moves that miss the goal in which the converter clipped; "
                                "null: the goal is met, or the file does not keep every trial",
                                "1"),
              &Judgement::missed_saturated)
-      .sentence([](Of j) { return j.saturated ? summary::saturation_sentence(*j.saturated) : ""; })
+      .sentence(
+          [](const Judgement& j) { return j.saturated ? summary::saturation_sentence(*j.saturated) : ""; })
       .value(
           document::in_data("chosen_from", "design points that the point is the best of; 1 if it was named"),
-          [](Of j) { return j.judged.chosen.chosen_from; })
+          [](const Judgement& j) { return j.judged.chosen.chosen_from; })
       .object({.key = "needed", .meaning = "study that would decide the goal"}, goal::needs_description(),
-              [](Of j) { return goal::practicable(j.judged.needs); })
+              [](const Judgement& j) { return goal::practicable(j.judged.needs); })
       .object(document::in_data("worlds", "the worlds at the point"), summary::worlds_description(question),
               &Judgement::worlds_reading)
-      .table({.key = "claims", .meaning = "each goal under each condition", .shown = Shown::in_json},
+      .table({.key = "claims", .meaning = "each goal under each condition", .shown = Visibility::in_json},
              summary::cell_description({}, summary::CellsBy::claim), &Judgement::claims)
       .table({.heading = "by claim"}, summary::cell_description({}, summary::CellsBy::claim),
              &Judgement::several_claims)
       .value({.key = "met_until",
               .meaning = "last age up to and including which the goal is met; null if not at the first",
               .optional = true},
-             [](Of j) { return summary::met_until(j.ages); })
+             [](const Judgement& j) { return summary::met_until(j.ages); })
       .value({.key = "missed_from",
               .meaning = "first age at which the goal is shown to be missed",
               .optional = true},
-             [](Of j) { return summary::missed_from(j.ages); })
+             [](const Judgement& j) { return summary::missed_from(j.ages); })
       .table({.key = "ages",
               .heading = "by age",
               .meaning = "the point at each age",
-              .shown = Shown::not_in_csv},
+              .shown = Visibility::not_in_csv},
              summary::cell_description(question, summary::CellsBy::age), &Judgement::ages)
-      .sentence([](Of j) { return summary::ages_sentence(j.summary.question, j.ages); });
+      .sentence([](const Judgement& j) { return summary::ages_sentence(j.summary.question, j.ages); });
   return answer;
 }
 

@@ -185,64 +185,64 @@ std::optional<std::string_view> record_of(const Measurement& measurement) {
 }
 
 document::Description<Measurement> measurement_description() {
-  using Of = const Measurement&;
   return document::Description<Measurement>()
       .value({"parameter", "unknown", "dotted path of the unknown, or name of a derived quantity"},
-             [](Of m) { return m.input.name; })
-      .value(in_data("unit", "unit of the unknown"), [](Of m) { return m.input.unit; })
+             [](const Measurement& m) { return m.input.name; })
+      .value(in_data("unit", "unit of the unknown"), [](const Measurement& m) { return m.input.unit; })
       .value(in_data("derived", "what the derived quantity is"),
-             [](Of m) { return m.input.is_derived() ? std::optional(m.input.meaning) : std::nullopt; })
+             [](const Measurement& m) {
+               return m.input.is_derived() ? std::optional(m.input.meaning) : std::nullopt;
+             })
       .value({.key = "decided",
               .heading = "decided",
               .meaning = "worlds that the measurement decides rightly",
               .notation = document::Notation::percent},
-             [](Of m) { return m.learned.decided(); })
+             [](const Measurement& m) { return m.learned.decided(); })
       .shown_as(&Measurement::decided_proportion)
       .value({"decided_good", "good found", "worlds that meet the goal and are found to"},
-             [](Of m) { return m.learned.decided_good; })
+             [](const Measurement& m) { return m.learned.decided_good; })
       .value({"decided_bad", "bad found", "worlds that fall short and are found to"},
-             [](Of m) { return m.learned.decided_bad; })
+             [](const Measurement& m) { return m.learned.decided_bad; })
       .value({"rejected_good", "good rejected", "worlds that meet the goal and are taken to fall short"},
-             [](Of m) { return m.learned.rejected_good; })
+             [](const Measurement& m) { return m.learned.rejected_good; })
       .value({"missed_bad", "bad missed", "worlds that fall short and are taken to meet the goal"},
-             [](Of m) { return m.learned.missed_bad; })
+             [](const Measurement& m) { return m.learned.missed_bad; })
       .value(in_data("misjudged", "worlds that are unlike all that remain possible: both of these"),
-             [](Of m) { return m.learned.misjudged(); })
+             [](const Measurement& m) { return m.learned.misjudged(); })
       .value({"open", "open", "worlds that the measurement does not decide"},
-             [](Of m) { return m.learned.open; })
+             [](const Measurement& m) { return m.learned.open; })
       .value(in_data("better", "whether it does better than to call all worlds good, or all bad, unmeasured"),
-             [](Of m) { return m.learned.does_better_than_no_measurement(); })
+             [](const Measurement& m) { return m.learned.does_better_than_no_measurement(); })
       .value({"p_value", "by chance", "probability of as many decided if the unknowns did not matter", "1",
               document::Notation::two_digits},
-             [](Of m) { return m.learned.p_value; })
+             [](const Measurement& m) { return m.learned.p_value; })
       .value({"record", "record", "record of 'zerocount identify' that shows the unknown; null: none"},
              record_of);
 }
 
 document::AnswerDescription<Outcome> learn_answer() {
-  using Of = const Outcome&;
   document::AnswerDescription<Outcome> answer{
       {.name = "learn", .meaning = "which unknown to measure next", .csv_table = "unknowns"}, {}};
   answer.items.headline(headline_of)
       .sentence(verdict_text)
-      .value(in_data("point", "number of the design point"), [](Of o) { return o.chosen.point; })
+      .value(in_data("point", "number of the design point"), [](const Outcome& o) { return o.chosen.point; })
       .value(in_data("label", "label of the design point"),
-             [](Of o) { return o.summary.labels[static_cast<std::size_t>(o.chosen.point)]; })
+             [](const Outcome& o) { return o.summary.labels[static_cast<std::size_t>(o.chosen.point)]; })
       .value(with_words(in_data("status", "verdict on the goal; null without one"), goal::status_words()),
-             [](Of o) {
+             [](const Outcome& o) {
                return o.judged ? std::optional(goal::text_of(o.judged->verdict.status)) : std::nullopt;
              })
-      .value(in_data("worlds", "number of worlds"), [](Of o) { return o.worlds.bad.size(); })
+      .value(in_data("worlds", "number of worlds"), [](const Outcome& o) { return o.worlds.bad.size(); })
       .value(in_data("bad", "worlds that fall short"), &Outcome::bad)
       .value(in_data("undecided", "worlds that are undecided"),
-             [](Of o) { return o.worlds_that(goal::Status::undecided); })
+             [](const Outcome& o) { return o.worlds_that(goal::Status::undecided); })
       .object(in_data("needed", "study that would decide the goal"), goal::needs_description(),
-              [](Of o) { return o.judged ? goal::practicable(o.judged->needs) : nullptr; })
+              [](const Outcome& o) { return o.judged ? goal::practicable(o.judged->needs) : nullptr; })
       .value(with_words(in_data("next", "what to do next"), {next_words.begin(), next_words.end()}),
-             [](Of o) { return next_words.at(static_cast<std::size_t>(o.next())); })
+             [](const Outcome& o) { return next_words.at(static_cast<std::size_t>(o.next())); })
       .value(in_data("measure", "the unknown to measure; null: none"), &Outcome::unknown_to_measure)
       .value(in_data("precision", "relative error of the measurement", "1"), &Outcome::precision)
-      .sentence([](Of o) {
+      .sentence([](const Outcome& o) {
         if (o.learned.empty()) return std::string();
         return fmt::format("if one unknown were measured to ±{}:", text::percent(o.precision));
       })

@@ -101,8 +101,8 @@ void GrowingLog::remember(std::string_view text) {
 }
 
 reading::AllTrialsFile with_condition(const command_line::Arguments& arguments, reading::AllTrialsFile file) {
-  const std::int64_t condition = study::turn_named(file.study(), arguments.value("condition"),
-                                                   command_line::number_option(arguments, "age", 0.0));
+  const std::int64_t condition = study::setting_named(file.study(), arguments.value("condition"),
+                                                      command_line::number_option(arguments, "age", 0.0));
   if (file.study().conditions.empty()) return file;
   return file.under_condition(condition);
 }

@@ -109,7 +109,7 @@ std::optional<monitor::ChangeExplanation> explanation_of(const command_line::Arg
                                                          const std::stop_token& stop) {
   if (!baseline.file || state.alarm == nullptr || baseline.file->header().plugin) return std::nullopt;
   const command_line::Budget budget = command_line::budget_option(arguments);
-  const trials::Effort effort = trials::Effort(stop).share(budget.trials, budget.seconds);
+  const trials::Effort effort = trials::Effort(stop).limited_to(budget.trials, budget.seconds);
   std::optional<monitor::ChangeExplanation> explanation;
   commands::with_progress("zerocount monitor", "simulating what may have changed", [&] {
     explanation = explain_alarm(*baseline.file, baseline.of_file, machine, log, baseline.unchanged, effort);
@@ -143,12 +143,12 @@ ExitCode print_state(const command_line::Arguments& arguments, monitor::MachineM
   machine.update(log);
   const monitor::MonitorState state = machine.state();
   const auto explanation = explanation_of(arguments, baseline, machine, state, log, stop);
-  const monitor::MonitorReading reading{machine,
-                                        baseline.moves,
-                                        state,
-                                        log.name,
-                                        explanation ? &*explanation : nullptr,
-                                        baseline.file ? 0 : monitor::equal_moves(baseline.moves, log)};
+  const monitor::MonitorResult reading{machine,
+                                       baseline.moves,
+                                       state,
+                                       log.name,
+                                       explanation ? &*explanation : nullptr,
+                                       baseline.file ? 0 : monitor::equal_moves(baseline.moves, log)};
   const ExitCode code = monitor::exit_code_of(state.status);
   if (!arguments.has("follow")) return answers::print(arguments, monitor::monitor_answer(), reading, code);
   const document::Answer answer = monitor::monitor_answer().of(reading, code, document::Audience::json);

@@ -26,7 +26,7 @@ namespace zerocount::result_commands {
 namespace {
 
 /// The point that the report speaks of, and its study.
-struct Asked {
+struct ReportedPoint {
   const reading::AllTrialsFile& file;
   const summary::StudySummary& summary;
   summary::ChosenPoint chosen;
@@ -42,20 +42,20 @@ struct TitledAnswer {
 };
 using Answers = std::vector<TitledAnswer>;
 
-Answers limits_part(const Asked& asked, const trials::Effort& effort) {
-  return {{"", design_commands::limits_of(asked.study(), asked.chosen.point, effort)}};
+Answers limits_part(const ReportedPoint& asked, const trials::Effort& effort) {
+  return {{"", design_commands::causes_answer(asked.study(), asked.chosen.point, effort)}};
 }
 
-Answers worst_part(const Asked& asked, const trials::Effort& effort) {
+Answers worst_part(const ReportedPoint& asked, const trials::Effort& effort) {
   return {{"", design_commands::worst_of(asked.study(), asked.chosen.point, effort)}};
 }
 
-Answers learn_part(const Asked& asked, const trials::Effort&) {
+Answers learn_part(const ReportedPoint& asked, const trials::Effort&) {
   return {{"", learned_of(asked.name(), asked.summary, asked.chosen)}};
 }
 
 /// The world that does worst by the goal.
-std::optional<std::int64_t> worst_world(const Asked& asked) {
+std::optional<std::int64_t> worst_world(const ReportedPoint& asked) {
   const study::Study& study = asked.study();
   if (study.worlds == 0) return std::nullopt;
   if (!asked.summary.question.claim())
@@ -69,7 +69,7 @@ std::optional<std::int64_t> worst_world(const Asked& asked) {
 
 /// Part `rare` of the report: the probability that a move fails, as estimated for rare failures. One answer
 /// for each condition; a single answer without conditions. With worlds: only in the worst world.
-Answers rare_part(const Asked& asked, const trials::Effort& effort) {
+Answers rare_part(const ReportedPoint& asked, const trials::Effort& effort) {
   const study::Study& study = asked.study();
   const std::optional<std::int64_t> world = worst_world(asked);
   const std::string in_world = world ? fmt::format("In world {}, the worst", *world) : "";
@@ -90,21 +90,23 @@ struct Part {
   std::string_view name;
   const char* question;
   bool judges_moves;  ///< Whether the part simulates moves, so that the study needs targets.
-  Answers (*answer)(const Asked&, const trials::Effort&);
-  std::int64_t (*trials)(const Asked&);  ///< Approximate or maximum number of its trials.
+  Answers (*answer)(const ReportedPoint&, const trials::Effort&);
+  std::int64_t (*trials)(const ReportedPoint&);  ///< Approximate or maximum number of its trials.
 };
 
 constexpr std::array<Part, 4> all_parts{{
     {"limits", "What limits it?", true, limits_part,
-     [](const Asked& a) { return design_commands::trials_of_limits(a.study(), a.chosen.point); }},
+     [](const ReportedPoint& a) { return design_commands::trials_of_causes(a.study(), a.chosen.point); }},
     {"worst", "Which machine does it suit worst?", true, worst_part,
-     [](const Asked& a) {
+     [](const ReportedPoint& a) {
        return tuning::trials_of_worst_machines(a.study(), trials::replicates_of(a.study(), a.chosen.point));
      }},
     {"learn", "Which unknown should be measured next?", false, learn_part,
-     [](const Asked&) { return std::int64_t{0}; }},
+     [](const ReportedPoint&) { return std::int64_t{0}; }},
     {"rare", "How often does a move fail that plain trials do not show?", true, rare_part,
-     [](const Asked& a) { return design_commands::usual_rare_trials * study::condition_count(a.study()); }},
+     [](const ReportedPoint& a) {
+       return design_commands::usual_rare_trials * study::condition_count(a.study());
+     }},
 }};
 
 const Part& part_named(std::string_view name) {
@@ -136,7 +138,7 @@ report::PageSection section_of(const Part& part, const Answers& answers) {
 }
 
 /// Answers of a part. If there are none, the reason.
-report::PageSection answered(const Part& part, const Asked& asked, const trials::Effort& effort) {
+report::PageSection answered(const Part& part, const ReportedPoint& asked, const trials::Effort& effort) {
   const auto stopped = [&] {
     return std::string(effort.is_interrupted() ? "interrupted" : "the budget is not enough");
   };
@@ -163,7 +165,7 @@ report::PageSection answered(const Part& part, const Asked& asked, const trials:
 }
 
 /// Trials/s of the study here; nothing where that cannot be measured.
-std::optional<double> speed_of(const Asked& asked, const trials::Effort& effort) {
+std::optional<double> speed_of(const ReportedPoint& asked, const trials::Effort& effort) {
   try {
     commands::require_simulable(asked.file);
     return tuning::measured_speed(asked.study(), effort);
@@ -216,8 +218,8 @@ std::vector<report::PageSection> part_sections(const PartsSubject& subject,
   std::vector<report::PageSection> sections;
   if (names.empty()) return sections;
   const summary::StudySummary summary = summary::summarise(subject.file);
-  const Asked asked{subject.file, summary, summary::choose_point(summary, subject.point)};
-  const trials::Effort effort = trials::Effort(stop).share(budget.trials, budget.seconds);
+  const ReportedPoint asked{subject.file, summary, summary::choose_point(summary, subject.point)};
+  const trials::Effort effort = trials::Effort(stop).limited_to(budget.trials, budget.seconds);
   const bool simulates =
       std::ranges::any_of(names, [&](std::string_view name) { return part_named(name).trials(asked) > 0; });
   const std::optional<double> speed = simulates ? speed_of(asked, effort) : std::nullopt;

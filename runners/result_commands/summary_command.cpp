@@ -172,7 +172,7 @@ ExitCode summarise_file(const command_line::Arguments& arguments) {
     status::tell("{} of {} points {} the conditions\n", selected.matching, summary.points.size(),
                  selected.matching == 1 ? "meets" : "meet");
   }
-  summary_answer::SummaryReading reading = summary_answer::read_summary(
+  summary_answer::SummaryResults reading = summary_answer::read_summary(
       summary, {std::move(selected.points), command_line::point_option(arguments, summary.labels),
                 arguments.has("legend")});
   reading.confirmation = confirmation_of(arguments, summary, reading.chosen.point);

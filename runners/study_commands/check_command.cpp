@@ -25,7 +25,7 @@
 #include "runners/status/progress.hpp"
 #include "runners/status/status.hpp"
 #include "runners/study_commands/study_commands.hpp"
-#include "runners/tuning/units/unit_runner.hpp"
+#include "runners/tuning/machine_runs/machine_runner.hpp"
 
 namespace zerocount::study_commands {
 namespace {
@@ -55,7 +55,7 @@ constexpr const char* check_help =
 constexpr std::int64_t points_shown = 20;
 
 /// Theory of a design point under a condition.
-struct PointReading {
+struct ConditionTheory {
   std::int64_t point{0};
   std::string label;
   std::optional<std::string> name;       ///< Short label; nothing in a study with one point.
@@ -78,7 +78,7 @@ struct Plan {
   const study::Study& study;
   forecast::StudyCost cost;
   forecast::StudySize size;
-  std::vector<PointReading> points;  ///< Readings of the first design points.
+  std::vector<ConditionTheory> points;  ///< Readings of the first design points.
 
   std::int64_t all_points() const { return study::point_count(study); }
   std::int64_t points_shown() const { return std::ssize(points) / study::condition_count(study); }
@@ -86,7 +86,7 @@ struct Plan {
   double disk_bytes() const { return size.file_bytes + size.shard_bytes; }
   std::vector<PointLoop> loops() const {
     std::vector<PointLoop> all;
-    for (const PointReading& point : points) {
+    for (const ConditionTheory& point : points) {
       for (const theory::LoopRanges& loop : point.theory.loops)
         all.push_back({point.name, point.condition, &loop});
     }
@@ -175,7 +175,7 @@ std::string theory_text(const Plan& plan) {
                                                plan.points_shown(), plan.all_points());
   // Outside the paper's theory nothing but the loops is examined.
   const bool loops_alone = std::ranges::none_of(
-      plan.points, [](const PointReading& point) { return point.theory.outside.empty(); });
+      plan.points, [](const ConditionTheory& point) { return point.theory.outside.empty(); });
   const std::string close =
       loops_alone || trials <= theory::max_trials_examined_closely
           ? ""
@@ -238,45 +238,45 @@ std::vector<std::string_view> assumptions(const Plan& plan, study::PremiseState 
   return found;
 }
 
-document::Description<PointReading> point_description() {
+document::Description<ConditionTheory> point_description() {
   using document::in_data;
-  return document::Description<PointReading>()
-      .value(in_data("point", "number of the design point"), &PointReading::point)
-      .value(in_data("label", "label of the design point"), &PointReading::label)
-      .value({.key = "name", .heading = "point", .shown = document::Shown::to_people}, &PointReading::name)
+  return document::Description<ConditionTheory>()
+      .value(in_data("point", "number of the design point"), &ConditionTheory::point)
+      .value(in_data("label", "label of the design point"), &ConditionTheory::label)
+      .value({.key = "name", .heading = "point", .shown = document::Visibility::to_people},
+             &ConditionTheory::name)
       .value({.key = "condition",
               .heading = "condition",
               .meaning = "condition under which every machine runs",
               .optional = true},
-             &PointReading::condition)
-      .include(theory::point_theory_description(), &PointReading::theory)
-      .include(theory::hunting_description(), &PointReading::hunting)
+             &ConditionTheory::condition)
+      .include(theory::point_theory_description(), &ConditionTheory::theory)
+      .include(theory::hunting_description(), &ConditionTheory::hunting)
       .value({"targets", "targets of trial 0", "targets of trial 0 in SI units, and their counts"},
-             &PointReading::targets);
+             &ConditionTheory::targets);
 }
 
 document::Description<Plan> plan_description() {
   using document::in_data;
   using forecast::StudyCost;
-  using Of = const Plan&;
   document::Description<Plan> plan;
   plan.headline(plan_headline)
-      .sentence([](Of p) { return p.study.description; })
-      .value(in_data("name", "name of the study"), [](Of p) { return p.study.name; })
+      .sentence([](const Plan& p) { return p.study.description; })
+      .value(in_data("name", "name of the study"), [](const Plan& p) { return p.study.name; })
       .value(in_data("points", "design points"), &Plan::all_points)
       .value(in_data("trials", "trials of each point, or the most of them"),
-             [](Of p) { return p.study.trials; })
-      .value(in_data("moves", "moves of a trial"), [](Of p) { return p.study.moves; })
+             [](const Plan& p) { return p.study.trials; })
+      .value(in_data("moves", "moves of a trial"), [](const Plan& p) { return p.study.moves; })
       .value({"machine_count", "machines at each point", "number of machines at each point; 0: none"},
-             [](Of p) { return p.study.machines; })
+             [](const Plan& p) { return p.study.machines; })
       .shown_as(machines_text)
-      .value({"worlds", "worlds", "worlds; 0: none"}, [](Of p) { return p.study.worlds; })
+      .value({"worlds", "worlds", "worlds; 0: none"}, [](const Plan& p) { return p.study.worlds; })
       .shown_as(worlds_text)
       .value({"conditions", "under the conditions",
               "names of the conditions under which every machine runs; empty: none"},
-             [](Of p) { return p.study.conditions; })
+             [](const Plan& p) { return p.study.conditions; })
       .shown_as(conditions_text)
-      .value({.heading = "at the ages", .shown = document::Shown::to_people}, ages_text)
+      .value({.heading = "at the ages", .shown = document::Visibility::to_people}, ages_text)
       .sentence(stop_text)
       .value({"judged_by", "judged by", "what the moves are judged by; null without targets"}, judged_by)
       .table({"stopping", "Trials that the stopping rule takes", "trials that the stopping rule takes"},
@@ -290,10 +290,11 @@ document::Description<Plan> plan_description() {
                   .value(in_data("seconds", "with all cores", "s"), &StudyCost::seconds),
               &Plan::cost)
       .value(in_data("file_bytes", "size of the results file", "byte"),
-             [](Of p) { return p.size.file_bytes; })
+             [](const Plan& p) { return p.size.file_bytes; })
       .value(in_data("disk_bytes", "most space on the disk while it runs", "byte"), &Plan::disk_bytes)
-      .value(in_data("memory_bytes", "most memory", "byte"), [](Of p) { return p.size.memory_bytes; })
-      .sentence([](Of p) {
+      .value(in_data("memory_bytes", "most memory", "byte"),
+             [](const Plan& p) { return p.size.memory_bytes; })
+      .sentence([](const Plan& p) {
         return p.study.columns.inputs.empty() ? std::string("differing between trials: nothing") : "";
       });
   using study::DrawLevel;
@@ -312,19 +313,19 @@ document::Description<Plan> plan_description() {
       {DrawLevel::study});
   return plan
       .value({"sampled_together", "sampled together", "inputs of a table of samples"},
-             [](Of p) {
+             [](const Plan& p) {
                return p.study.samples ? study::samples_text(*p.study.samples) : std::optional<std::string>();
              })
       .value({"correlated", "correlated", "correlated inputs"},
-             [](Of p) {
+             [](const Plan& p) {
                return p.study.correlations.empty() ? std::optional<std::string>()
                                                    : study::correlations_text(p.study.correlations);
              })
       .value(
           {"assumed_away", "assumes away", "effects of a real axis that the study leaves out without a word"},
-          [](Of p) { return assumptions(p, study::PremiseState::assumed); })
+          [](const Plan& p) { return assumptions(p, study::PremiseState::assumed); })
       .value({"stated_none", "states as absent", "effects of a real axis whose keys the manifest gives as 0"},
-             [](Of p) { return assumptions(p, study::PremiseState::stated_none); })
+             [](const Plan& p) { return assumptions(p, study::PremiseState::stated_none); })
       .sentence(theory_text)
       .value(in_data("points_left_out", "points without their theory here"), &Plan::points_left_out)
       .table({.key = "theory",
@@ -332,7 +333,7 @@ document::Description<Plan> plan_description() {
               .meaning = "theory of the first points",
               .common_above = true},
              point_description(), &Plan::points)
-      .table({.key = "loops", .heading = "Loops", .shown = document::Shown::to_people},
+      .table({.key = "loops", .heading = "Loops", .shown = document::Visibility::to_people},
              document::Description<PointLoop>()
                  .value({.key = "point", .heading = "point"}, &PointLoop::point)
                  .value({.key = "condition", .heading = "condition"}, &PointLoop::condition)
@@ -363,8 +364,8 @@ std::optional<std::string> targets_text(const study::Study& study, const study::
 }
 
 /// Warns of the first point whose moves may end before they arrive, and says how many there are.
-void warn_of_short_moves(std::span<const PointReading> points) {
-  const auto is_short = [](const PointReading& point) { return point.theory.approach.exceeds_hold(); };
+void warn_of_short_moves(std::span<const ConditionTheory> points) {
+  const auto is_short = [](const ConditionTheory& point) { return point.theory.approach.exceeds_hold(); };
   const auto first = std::ranges::find_if(points, is_short);
   if (first == points.end()) return;
   const auto others = std::ranges::count_if(points, is_short) - 1;
@@ -376,16 +377,16 @@ void warn_of_short_moves(std::span<const PointReading> points) {
                  : "");
 }
 
-std::vector<PointReading> examined_points(const study::Study& study, std::int64_t count) {
+std::vector<ConditionTheory> examined_points(const study::Study& study, std::int64_t count) {
   const std::vector<std::string> names = summary::short_labels(study.points.labels, study.points.axes);
   const std::int64_t conditions = study::condition_count(study);
-  std::vector<PointReading> points(static_cast<std::size_t>(count * conditions));
+  std::vector<ConditionTheory> points(static_cast<std::size_t>(count * conditions));
   const auto examine = [&](std::size_t i, std::vector<theory::KnownRotor>& rotors) {
     const std::int64_t point = static_cast<std::int64_t>(i) / conditions;
     const std::int64_t condition = static_cast<std::int64_t>(i) % conditions;
     const auto index = static_cast<std::size_t>(point);
     const study::StudyTrial trial =
-        study::study_trial(study, point, study::turns_of(study).trial_of(0, condition));
+        study::study_trial(study, point, study::trial_indices(study).trial_of(0, condition));
     points[i] = {point,
                  study.points.labels[index],
                  names.size() == 1 ? std::nullopt : std::optional(names[index]),

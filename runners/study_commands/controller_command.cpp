@@ -84,7 +84,8 @@ void require_one_controller(const command_line::Arguments& arguments, const stud
                             std::int64_t point) {
   std::vector<std::vector<double>> inputs;  // [condition]
   for (std::int64_t condition = 0; condition < study::condition_count(study); ++condition)
-    inputs.push_back(study::study_trial(study, point, study::turns_of(study).trial_of(0, condition)).inputs);
+    inputs.push_back(
+        study::study_trial(study, point, study::trial_indices(study).trial_of(0, condition)).inputs);
   std::vector<std::string> differing;
   for (std::size_t column = 0; column < study.columns.inputs.size(); ++column) {
     if (!is_in_code(study.columns.inputs[column])) continue;

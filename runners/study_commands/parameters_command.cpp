@@ -85,24 +85,26 @@ GuideTables guide_tables() {
 }
 
 document::Description<NumberOfGuide> number_of_guide(const std::string& quantity) {
-  using Of = const NumberOfGuide&;
   constexpr auto digits = document::Notation::three_digits;
   return document::Description<NumberOfGuide>()
-      .value({quantity, quantity, "what is between low and high"}, [](Of n) { return n.number.quantity; })
-      .value({"unit", "unit", "1 where it is dimensionless"}, [](Of n) { return n.number.unit; })
+      .value({quantity, quantity, "what is between low and high"},
+             [](const NumberOfGuide& n) { return n.number.quantity; })
+      .value({"unit", "unit", "1 where it is dimensionless"},
+             [](const NumberOfGuide& n) { return n.number.unit; })
       .value({"low", "low", "least value to expect, in the unit", "", digits},
-             [](Of n) { return n.number.low; })
+             [](const NumberOfGuide& n) { return n.number.low; })
       .value({"high", "high", "largest value to expect, in the unit", "", digits},
-             [](Of n) { return n.number.high; })
+             [](const NumberOfGuide& n) { return n.number.high; })
       .value(document::with_words({"origin", "origin", "where the numbers come from"},
                                   {guides::origin_labels.begin(), guides::origin_labels.end()}),
-             [](Of n) { return guides::origin_labels[static_cast<std::size_t>(n.number.origin)]; });
+             [](const NumberOfGuide& n) {
+               return guides::origin_labels[static_cast<std::size_t>(n.number.origin)];
+             });
 }
 
 document::AnswerDescription<GuideTables> guides_answer() {
-  using Of = const NumberOfGuide&;
-  const auto name = [](Of n) { return n.guide.name; };
-  const auto mass_unit = [](Of n) { return parameters::unit_on(n.guide.axis, "kg m^2"); };
+  const auto name = [](const NumberOfGuide& n) { return n.guide.name; };
+  const auto mass_unit = [](const NumberOfGuide& n) { return parameters::unit_on(n.guide.axis, "kg m^2"); };
   document::AnswerDescription<GuideTables> answer{{.name = "parameters-guides",
                                                    .meaning = "starting values of guides and bearings",
                                                    .csv_table = "quantities"},
@@ -117,19 +119,21 @@ document::AnswerDescription<GuideTables> guides_answer() {
                  .value({"guide", "guide", "name of the guide"}, name)
                  .include(number_of_guide("quantity"), std::identity())
                  .value({"source", "source or reason", "publication and place, or reason of an assumption"},
-                        [](Of n) { return n.number.source; }),
+                        [](const NumberOfGuide& n) { return n.number.source; }),
              &GuideTables::quantities)
       .table({"parameters", "Parameters of the guides with their usual mass and preload",
               "parameters of the guides with their usual mass and preload"},
              document::Description<NumberOfGuide>()
                  .value({"guide", "guide", "name of the guide"}, name)
-                 .value({.key = "mass_text", .heading = "mass", .shown = document::Shown::to_people},
-                        [=](Of n) { return fmt::format("{:.3g} {}", n.load.mass, mass_unit(n)); })
+                 .value({.key = "mass_text", .heading = "mass", .shown = document::Visibility::to_people},
+                        [=](const NumberOfGuide& n) {
+                          return fmt::format("{:.3g} {}", n.load.mass, mass_unit(n));
+                        })
                  .value(document::in_data("mass", "mass or moment of inertia that it moves"),
-                        [](Of n) { return n.load.mass; })
+                        [](const NumberOfGuide& n) { return n.load.mass; })
                  .value(document::in_data("mass_unit", "unit of the mass"), mass_unit)
                  .value({"preload", "preload", "preload; null where friction does not depend on it", "N"},
-                        [](Of n) {
+                        [](const NumberOfGuide& n) {
                           return guides::has_load(n.guide) ? std::optional(n.load.preload) : std::nullopt;
                         })
                  .include(number_of_guide("parameter"), std::identity()),

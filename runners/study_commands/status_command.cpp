@@ -42,14 +42,14 @@ constexpr const char* status_help =
 constexpr const char* clear_screen = "\x1b[H\x1b[J";
 
 /// State of a run, with the summary of its finished trials.
-struct StatusReading {
+struct StatusResults {
   const run_status::RunStatus& status;
   const std::filesystem::path& output;
   /// Summary of the finished trials; null without one.
-  const summary_answer::SummaryReading* summary{nullptr};
+  const summary_answer::SummaryResults* summary{nullptr};
   std::string no_summary{};  ///< Why there is no summary.
 };
-using Status = const StatusReading&;
+using Status = const StatusResults&;
 
 /// Headline such as "study: running, 12000 of 50000 trials (24.0 %), 812.4 trials/s, 46 s to go".
 std::string headline(Status s) {
@@ -114,8 +114,8 @@ document::Description<run_status::RunStatus> run_description() {
 }
 
 /// @param summary what the summary is of; nothing: there is none
-document::AnswerDescription<StatusReading> status_answer(const summary::StudySummary* summary = nullptr) {
-  document::AnswerDescription<StatusReading> answer{
+document::AnswerDescription<StatusResults> status_answer(const summary::StudySummary* summary = nullptr) {
+  document::AnswerDescription<StatusResults> answer{
       {.name = "status", .meaning = "progress of a run or an array job"}, {}};
   answer.items.headline(headline)
       .include(run_description(), [](Status s) -> const run_status::RunStatus& { return s.status; })
@@ -123,8 +123,8 @@ document::AnswerDescription<StatusReading> status_answer(const summary::StudySum
       .sentence(problem_lines)
       .sentence([](Status s) { return s.no_summary; });
   if (summary != nullptr)
-    answer.items.object({.heading = "the trials that are finished", .shown = document::Shown::to_people},
-                        summary_answer::summary_description(*summary).items, &StatusReading::summary);
+    answer.items.object({.heading = "the trials that are finished", .shown = document::Visibility::to_people},
+                        summary_answer::summary_description(*summary).items, &StatusResults::summary);
   return answer;
 }
 
@@ -143,12 +143,12 @@ std::optional<summary::StudySummary> summary_so_far(const std::filesystem::path&
 
 document::Answer answer_of(const run_status::RunStatus& status, const std::filesystem::path& output,
                            document::Audience audience) {
-  StatusReading reading{status, output};
+  StatusResults reading{status, output};
   std::optional<summary::StudySummary> summary;
   if (!status.complete && status.finished > 0 && audience != document::Audience::json)
     summary = summary_so_far(output, reading.no_summary);
   if (!summary) return status_answer().of(reading, ExitCode::success, audience);
-  const summary_answer::SummaryReading of_summary = summary_answer::read_summary(*summary);
+  const summary_answer::SummaryResults of_summary = summary_answer::read_summary(*summary);
   reading.summary = &of_summary;
   return status_answer(&*summary).of(reading, ExitCode::success, audience);
 }

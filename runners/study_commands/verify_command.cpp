@@ -79,10 +79,10 @@ std::string headline_of(const Reports& reports) {
 
 document::Description<verification::Check> check_description() {
   using document::in_data;
-  using Of = const verification::Check&;
   return document::Description<verification::Check>()
       .value(in_data("check", "name of the check"), &verification::Check::name)
-      .value(in_data("ok", "whether it has found no problem"), [](Of c) { return c.problems.empty(); })
+      .value(in_data("ok", "whether it has found no problem"),
+             [](const verification::Check& c) { return c.problems.empty(); })
       .value(in_data("skipped", "whether it was left out"), &verification::Check::skipped)
       .value(in_data("detail", "what was checked, or why it was left out"), &verification::Check::detail)
       .value(in_data("problems", "what does not hold"), &verification::Check::problems);

@@ -100,7 +100,7 @@ study::Study decided_study(const study::Study& study, std::int64_t trials) {
   std::vector<std::string> overrides = study.manifest.overrides;
   overrides.push_back(fmt::format("{}{}", decided_key, trials));
   study::Study decided =
-      manifest::parse_study(study.manifest.text, study.name, overrides, sections::companions_of(study));
+      manifest::parse_study(study.manifest.text, study.name, overrides, sections::external_inputs_of(study));
   decided.engine = study.engine;
   return decided;
 }

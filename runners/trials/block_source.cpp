@@ -47,10 +47,10 @@ void Turns::take(std::int64_t count) {
   while (count > 0) {
     PointRows& point = points_[*current_];
     layout::RowRange& rows = point.remaining.back();
-    const std::int64_t taken = std::min(count, rows.count);
-    rows = {rows.first + taken, rows.count - taken};
-    point.trials_run += taken;
-    count -= taken;
+    const std::int64_t size = std::min(count, rows.count);
+    rows = {rows.first + size, rows.count - size};
+    point.trials_run += size;
+    count -= size;
     if (rows.count > 0) continue;
     point.remaining.pop_back();
     at_new_point_ = point.remaining.empty();
@@ -88,7 +88,7 @@ constexpr BlockLimits batch_block{1e7, 1024, 128, 1e6};
 /// Maximum time of a block, s, estimated from the time of the trials in an earlier block.
 constexpr double max_block_seconds = 1.0;
 
-const BlockLimits& limits_of(const study::Study& study) {
+const BlockLimits& block_limits(const study::Study& study) {
   return study.engine == study::Engine::batch ? batch_block : reference_block;
 }
 
@@ -124,7 +124,7 @@ double bytes_of_trace(const study::Study& study) {
 }  // namespace
 
 std::int64_t max_block_rows(const study::Study& study, std::int64_t rows, int threads) {
-  const BlockLimits limits = limits_of(study);
+  const BlockLimits limits = block_limits(study);
   return std::min(
       {trials_with(limits.samples, study), limits.max_trials, rows_for_each(limits, rows, threads)});
 }
@@ -152,7 +152,7 @@ std::optional<Block> BlockSource::next() {
   }
   const std::int64_t of_chunk = layout::chunk_elements - next_row() % layout::chunk_elements;
   const std::int64_t max_rows = std::min(
-      {max_rows_, max_quick_rows(), rows_for_each(limits_of(study_), remaining_, threads_), of_chunk});
+      {max_rows_, max_quick_rows(), rows_for_each(block_limits(study_), remaining_, threads_), of_chunk});
   const layout::RowRange rows = with_few_traces(turns_.upcoming(max_rows));
   turns_.take(rows.count);
   remaining_ -= rows.count;

@@ -48,7 +48,7 @@ Effort::Effort(std::stop_token stop) : account_(std::make_shared<Account>()) {
 
 Effort::Effort(std::shared_ptr<Account> account) : account_(std::move(account)) {}
 
-Effort Effort::share(std::optional<std::int64_t> trials, std::optional<double> seconds) const {
+Effort Effort::limited_to(std::optional<std::int64_t> trials, std::optional<double> seconds) const {
   auto account = std::make_shared<Account>();
   account->whole = account_;
   account->stopped = stop();
@@ -64,24 +64,25 @@ Effort Effort::share(std::optional<std::int64_t> trials, std::optional<double> s
 Effort Effort::part(std::int64_t parts) const {
   const std::int64_t trials = trials_left();
   const double seconds = seconds_left();
-  return share(
+  return limited_to(
       trials == std::numeric_limits<std::int64_t>::max() ? std::nullopt : std::optional(trials / parts),
       std::isinf(seconds) ? std::nullopt : std::optional(seconds / static_cast<double>(parts)));
 }
 
 std::int64_t Effort::trials_left() const {
-  std::int64_t left = std::numeric_limits<std::int64_t>::max();
+  std::int64_t remaining = std::numeric_limits<std::int64_t>::max();
   for (const Account* one = account_.get(); one != nullptr; one = one->whole.get())
-    left = std::min(left, one->limit - one->spent);
-  return left;
+    remaining = std::min(remaining, one->limit - one->spent);
+  return remaining;
 }
 
 double Effort::seconds_left() const {
-  double left = std::numeric_limits<double>::infinity();
+  double remaining = std::numeric_limits<double>::infinity();
   for (const Account* one = account_.get(); one != nullptr; one = one->whole.get()) {
-    if (one->end) left = std::min(left, std::chrono::duration<double>(*one->end - Clock::now()).count());
+    if (one->end)
+      remaining = std::min(remaining, std::chrono::duration<double>(*one->end - Clock::now()).count());
   }
-  return left;
+  return remaining;
 }
 
 bool Effort::is_spent() const {

@@ -29,7 +29,7 @@ class Effort {
   /// remains with the whole.
   /// @param trials maximum number of trials; without a value, only the limit of the whole holds
   /// @param seconds time limit from now on, s; without a value, only the limit of the whole holds
-  Effort share(std::optional<std::int64_t> trials, std::optional<double> seconds) const;
+  Effort limited_to(std::optional<std::int64_t> trials, std::optional<double> seconds) const;
 
   /// One of `parts` equal parts of the remaining effort.
   Effort part(std::int64_t parts) const;

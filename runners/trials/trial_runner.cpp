@@ -75,16 +75,16 @@ study::Engine engine_that_runs(const study::Study& study) {
   if (study.engine == study::Engine::reference) return study::Engine::reference;
   constexpr std::int64_t max_examined = 4096;  // trials; each takes some 10 µs to draw
   constexpr std::int64_t max_of_cell = 64;
-  const study::TrialTurns turns = study::turns_of(study);
-  const std::int64_t cells = study::point_count(study) * turns.conditions;
+  const study::TrialIndices indices = study::trial_indices(study);
+  const std::int64_t cells = study::point_count(study) * indices.conditions;
   const std::int64_t draws = study::draw_count(study);
   const std::int64_t of_cell =
       std::min(draws, std::clamp<std::int64_t>(max_examined / cells, 1, max_of_cell));
   for (std::int64_t cell = 0; cell < cells; ++cell) {
     for (std::int64_t i = 0; i < of_cell; ++i) {
       // All points share the draws, so that each cell examines other draws than the one before.
-      const std::int64_t trial = turns.trial_of((cell * of_cell + i) % draws, cell % turns.conditions);
-      if (batch::runs_in_lanes(study::study_trial(study, cell / turns.conditions, trial).parameters))
+      const std::int64_t trial = indices.trial_of((cell * of_cell + i) % draws, cell % indices.conditions);
+      if (batch::runs_in_lanes(study::study_trial(study, cell / indices.conditions, trial).parameters))
         return study::Engine::batch;
     }
   }

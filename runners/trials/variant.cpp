@@ -38,25 +38,25 @@ std::uint64_t fresh_seed(std::uint64_t seed, std::string_view purpose) {
 study::Study variant_of(const study::Study& study, const std::vector<std::string>& overrides) {
   std::vector<std::string> all = study.manifest.overrides;
   all.insert(all.end(), overrides.begin(), overrides.end());
-  return manifest::parse_study(study.manifest.text, study.name, all, sections::companions_of(study));
+  return manifest::parse_study(study.manifest.text, study.name, all, sections::external_inputs_of(study));
 }
 
 study::Study restricted_to(const study::Study& study, const std::optional<std::string>& condition,
                            const std::optional<double>& age) {
   std::vector<std::string> overrides;
-  std::int64_t turns = study::condition_count(study);
+  std::int64_t settings = study::condition_count(study);
   if (condition) {
     require_one_of(study, study.condition_names, *condition, "condition", "--condition");
     overrides.push_back(manifest_text::only_condition(study, *condition));
-    turns /= study::conditions_of_age(study);
+    settings /= study::conditions_of_age(study);
   }
   if (age) {
     require_one_of(study, study.ages.at, *age, "age", "--age");
     overrides.push_back(fmt::format("ages.at=[{}]", *age));
-    turns /= std::ssize(study.ages.at);
+    settings /= std::ssize(study.ages.at);
   }
   if (overrides.empty()) return study;
-  overrides.push_back(fmt::format("trials={}", study::draw_count(study) * turns));
+  overrides.push_back(fmt::format("trials={}", study::draw_count(study) * settings));
   if (!study.retained_trials.empty()) overrides.emplace_back("retain={trials: []}");
   study::Study restricted = variant_of(study, overrides);
   restricted.engine = study.engine;
@@ -75,7 +75,7 @@ study::PointEdit edited(const study::Study& study, std::span<const std::string> 
 std::string refusal_of_edit(const study::Study& study, const study::PointEdit& edit) {
   std::string refusal = rules::refusal_of(edit);
   for (std::int64_t condition = 0; condition < study::condition_count(study); ++condition) {
-    const study::ValueLimits hold = edit.limits("command.hold", condition);
+    const study::ParameterRange hold = edit.limits("command.hold", condition);
     for (const study::Goal& goal : study.goals) {
       for (const auto& fault : rules::longer_than_the_move(goal.within.time, hold))
         if (refusal.empty()) refusal = fmt::format("goal: {}; expected {}", fault.what, fault.expected);
@@ -105,8 +105,8 @@ Replicates replicates_of(const study::Study& study, std::int64_t point) {
 
 std::int64_t trial_of_replicate(const study::Study& study, const Replicates& replicates,
                                 std::int64_t replicate, std::int64_t i) {
-  const study::TrialTurns turns = study::turns_of(study);
-  return turns.trial_of(replicate + replicates.count * (i / turns.conditions), i % turns.conditions);
+  const study::TrialIndices indices = study::trial_indices(study);
+  return indices.trial_of(replicate + replicates.count * (i / indices.conditions), i % indices.conditions);
 }
 
 std::int64_t in_equal_worlds(const study::Study& study, std::int64_t count) {

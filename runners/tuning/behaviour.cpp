@@ -93,19 +93,19 @@ void judge_noise(const MoveBehaviour& row, const study::Study& study, std::vecto
 
 }  // namespace
 
-std::vector<MoveBehaviour> simulated_behaviour(const study::Study& study, const trials::Replicates& units,
+std::vector<MoveBehaviour> simulated_behaviour(const study::Study& study, const trials::Replicates& machines,
                                                std::int64_t count, const trials::Effort& effort) {
   constexpr std::int64_t block = 16;
   const std::int64_t conditions = study::condition_count(study);
   const auto draw = [&](std::int64_t number) {
     const std::int64_t trial =
-        trials::trial_of_replicate(study, units, number / conditions, number % conditions);
-    trial::TrialParameters p = study::study_trial(study, units.point, trial).parameters;
+        trials::trial_of_replicate(study, machines, number / conditions, number % conditions);
+    trial::TrialParameters p = study::study_trial(study, machines.point, trial).parameters;
     measure_motion(study, p);
     return p;
   };
   const std::vector<trial::TrialOutcome> outcomes =
-      trials::results_of(std::min(count, units.count) * conditions, block, draw, effort,
+      trials::results_of(std::min(count, machines.count) * conditions, block, draw, effort,
                          [](const trial::TrialOutcome& outcome) { return outcome; });
   summary::BehaviourCounter counter(study);
   for (std::size_t i = 0; i < outcomes.size(); ++i) {

@@ -15,7 +15,7 @@ namespace {
 
 using Wanted = std::span<const Extra* const>;
 
-/// Plans the units of a point and the maps.
+/// Plans the machines of a point and the maps.
 RestPlan plan_of(Wanted wanted, const TunedAxis& axis) {
   ExtraCost all;
   for (const Extra* one : wanted) {
@@ -66,30 +66,30 @@ void tell_all(Wanted wanted, const TunedAxis& axis, status::StatusLine& line) {
 
 }  // namespace
 
-trials::Replicates TunedAxis::units() const {
-  const trials::Replicates& all = search.units();
+trials::Replicates TunedAxis::machines() const {
+  const trials::Replicates& all = search.machines();
   if (!has_budget()) return all;
-  return {std::min(trials::in_equal_worlds(study, plan.units), all.count), all.trials_each};
+  return {std::min(trials::in_equal_worlds(study, plan.machines), all.count), all.trials_each};
 }
 
-study::Study TunedAxis::on_units(std::vector<std::string> overrides) const {
-  for (std::string& one : trials::overrides_for(study, units())) overrides.push_back(std::move(one));
+study::Study TunedAxis::on_machines(std::vector<std::string> overrides) const {
+  for (std::string& one : trials::overrides_for(study, machines())) overrides.push_back(std::move(one));
   return at_values(trials::variant_of(study, overrides), free(), values).value();
 }
 
 std::optional<std::size_t> TunedAxis::lost_claim(const study::Study& of, const Change* change) const {
-  const Estimate estimate = estimate_on(of, search.units(), plan.units, change, effort);
+  const Estimate estimate = estimate_on(of, search.machines(), plan.machines, change, effort);
   return reaches(aim_of(tuned), estimate) ? std::nullopt : std::optional(estimate.worst);
 }
 
-trials::Effort TunedAxis::one_of_shares(double parts, std::int64_t by_default) const {
+trials::Effort TunedAxis::one_of_parts(double parts, std::int64_t by_default) const {
   parts = std::max(parts, 1.0);
   if (budget.trials) {
-    const std::int64_t left = std::max<std::int64_t>(effort.trials_left() - later, 0);
-    return effort.share(std::llround(static_cast<double>(left) / parts), {});
+    const std::int64_t remaining = std::max<std::int64_t>(effort.trials_left() - later, 0);
+    return effort.limited_to(std::llround(static_cast<double>(remaining) / parts), {});
   }
-  if (!budget.seconds) return effort.share(by_default, {});
-  return effort.share({}, (effort.seconds_left() - static_cast<double>(later) / speed) / parts);
+  if (!budget.seconds) return effort.limited_to(by_default, {});
+  return effort.limited_to({}, (effort.seconds_left() - static_cast<double>(later) / speed) / parts);
 }
 
 void make_extras(const std::vector<const Extra*>& wanted, TunedAxis& axis, bool quiet,

@@ -31,11 +31,11 @@ struct TunedAxis : Space {
   std::int64_t later{0};  ///< Planned trials of the extras after the current one.
 
   /// Number of trials of a point on the planned machines.
-  std::int64_t trials_of_point() const { return plan.units * search.units().trials_each; }
+  std::int64_t trials_of_point() const { return plan.machines * search.machines().trials_each; }
   /// Machines of the extras: all machines of the search or, with a budget, the planned ones.
-  trials::Replicates units() const;
-  /// The tuned study on units().
-  study::Study on_units(std::vector<std::string> overrides = {}) const;
+  trials::Replicates machines() const;
+  /// The tuned study on machines().
+  study::Study on_machines(std::vector<std::string> overrides = {}) const;
   /// Index in Aim::claims of the worst claim if the first planned machines miss any claim. Nothing if they
   /// meet all.
   /// @param study the tuned study, or the study with other values
@@ -43,7 +43,7 @@ struct TunedAxis : Space {
   std::optional<std::size_t> lost_claim(const study::Study& study, const Change* change) const;
   /// Effort for one of `parts` equal parts of what the budget leaves after the later extras are paid. Without
   /// a budget: `by_default` trials.
-  trials::Effort one_of_shares(double parts, std::int64_t by_default) const;
+  trials::Effort one_of_parts(double parts, std::int64_t by_default) const;
 };
 
 /// Cost of an extra.

@@ -16,7 +16,7 @@ namespace zerocount::tuning {
 namespace {
 
 constexpr std::int64_t max_proof_moves = 2'000'000;
-constexpr std::int64_t units_of_frontier = 512;
+constexpr std::int64_t machines_of_frontier = 512;
 
 /// Maximum number of trials of a proof. With a budget of time, half of the search's speed is assumed, because
 /// the proof also writes a file.
@@ -87,7 +87,7 @@ Searched search_values(Space& space, StudySearch& search, const SearchPlan& plan
   Searched found{search.run(settings)};
   found.examined = std::ssize(search.examined());
   found.landscape = landscape_of(aim_of(space.study), found.result.tried);
-  found.frontier = frontier_of(found.result.tried, std::min(units_of_frontier, plan.size.max_units));
+  found.frontier = frontier_of(found.result.tried, std::min(machines_of_frontier, plan.size.max_machines));
   if (search.simulated() >= enough_to_tell)
     space.measured_speed = static_cast<double>(search.simulated()) / search.simulation_seconds();
   if (space.budget.seconds && space.measured_speed > 0.0) space.speed = space.measured_speed;
@@ -108,18 +108,18 @@ void examine_margins(const StudySearch& search, bool slides, const std::stop_tok
   examined.slides = slides;
 }
 
-Proof proof_of(study::Study study, const trials::Replicates& units, std::span<const UnitResult> results,
+Proof proof_of(study::Study study, const trials::Replicates& machines, std::span<const MachineResult> results,
                const reading::AllTrialsFile& file) {
   const summary::StudySummary summary = summary::summarise(file);
   summary::JudgedPoint judged = summary::judge_point(summary, summary::choose_point(summary));
   const goal::Verdict& verdict = judged.verdict;
   Proof proof{std::move(study), verdict};
   proof.claims = summary::claims_of_point(summary, 0);
-  proof.criterion = estimate_of(aim_of(proof.study), results, units.count).criterion;
+  proof.criterion = estimate_of(aim_of(proof.study), results, machines.count).criterion;
   const std::size_t claim = claim_at(proof.study, {verdict.goal, verdict.condition});
   proof.late_limit = late_value(results, claim, proof.study.goals[verdict.goal].moves) *
                      (is_proportion_of_allowed(proof.study) ? proof.claims[claim].within : 1.0);
-  proof.worst = worst_machine(proof.study, units.point, results);
+  proof.worst = worst_machine(proof.study, machines.point, results);
   proof.moves = summary::behaviour_in(file, proof.study);
   if (verdict.status != goal::Status::met) proof.obstacles = theory::obstacles_to_goals(proof.study);
   proof.needs = std::move(judged.needs);
@@ -137,30 +137,30 @@ std::optional<Proven> prove_values(const Space& space, StudySearch& search, cons
     problem.may_meet.push_back(may_meet(aim, one));
     problem.margins.push_back(one.margin);
   }
-  problem.more_units = [&](const GoalCounts& counts, std::size_t correction) {
-    return proof_units(study, counts, each, correction, max_proof_trials(space));
+  problem.more_machines = [&](const GoalCounts& counts, std::size_t correction) {
+    return proof_machines(study, counts, each, correction, max_proof_trials(space));
   };
-  problem.first_units = [&](std::size_t finalist, std::size_t correction) {
-    const GoalCounts counts = counts_of(study, search.units(), found.finalists[finalist].units);
-    return problem.more_units(with_trials_each(counts, each), correction);
+  problem.first_machines = [&](std::size_t finalist, std::size_t correction) {
+    const GoalCounts counts = counts_of(study, search.machines(), found.finalists[finalist].machines);
+    return problem.more_machines(with_trials_each(counts, each), correction);
   };
   problem.run = [&](const Attempt& attempt) -> std::optional<AttemptResult> {
-    const trials::Replicates units{attempt.units, each};
-    line.show([&] { return fmt::format("proof {}: {} trials", attempt.number, units.trials()); });
+    const trials::Replicates machines{attempt.machines, each};
+    line.show([&] { return fmt::format("proof {}: {} trials", attempt.number, machines.trials()); });
     std::vector<std::string> values = overrides_of(space.free(), found.finalists[attempt.finalist].values);
     values.push_back(fmt::format(
         "seed={}", trials::fresh_seed(study.seed, fmt::format("tuning, proof {}", attempt.number))));
     std::ranges::move(confidences_of_attempt(study, attempt.number), std::back_inserter(values));
     const bool has_run = trials::within(space.effort, [&] {
-      run = run_proof(study, std::move(values), units, place.output, place.threads, space.effort);
+      run = run_proof(study, std::move(values), machines, place.output, place.threads, space.effort);
     });
     if (!has_run) return std::nullopt;
-    return AttemptResult{counts_of(study, units, run.results), verdict_in(place.output)};
+    return AttemptResult{counts_of(study, machines, run.results), verdict_in(place.output)};
   };
   // The search examined the sliding loop of finalists that slid there.
   problem.rejects = [&](const Attempt& attempt) {
     const Candidate& finalist = found.finalists[attempt.finalist];
-    return has_slid(run.results) && !has_slid(finalist.units) &&
+    return has_slid(run.results) && !has_slid(finalist.machines) &&
            !search.examiner().keeps(search.examined_candidate(finalist.values), study.tuning->margins, true,
                                     space.effort.stop());
   };
@@ -168,9 +168,9 @@ std::optional<Proven> prove_values(const Space& space, StudySearch& search, cons
   const std::optional<ProvenFinalist> proven = prove(problem);
   if (!proven) return std::nullopt;
   const Attempt& attempt = proven->attempt;
-  const trials::Replicates units{attempt.units, each};
-  const bool slid = has_slid(found.finalists[attempt.finalist].units) || has_slid(run.results);
-  Proof proof = proof_of(std::move(run.study), units, run.results, reading::AllTrialsFile(place.output));
+  const trials::Replicates machines{attempt.machines, each};
+  const bool slid = has_slid(found.finalists[attempt.finalist].machines) || has_slid(run.results);
+  Proof proof = proof_of(std::move(run.study), machines, run.results, reading::AllTrialsFile(place.output));
   proof.attempts = attempt.number;
   proof.keeps_margins = proven->keeps_margins;
   proof.all_tried = proven->all_tried;

@@ -95,8 +95,8 @@ void examine_margins(const StudySearch& search, bool slides, const std::stop_tok
 /// band is the largest band or tolerance of the goals.
 /// @throws trial::Interrupted, trials::Spent
 std::vector<summary::MoveBehaviour> simulated_behaviour(const study::Study& study,
-                                                        const trials::Replicates& units, std::int64_t count,
-                                                        const trials::Effort& effort);
+                                                        const trials::Replicates& machines,
+                                                        std::int64_t count, const trials::Effort& effort);
 
 /// Results of the tuned study on machines that the search did not use.
 struct Proof {
@@ -122,10 +122,10 @@ struct Proof {
 
 /// Evaluates a finished proof.
 /// @param study study with one design point
-/// @param units machines of the study
+/// @param machines machines of the study
 /// @param results results of these machines
 /// @param file results file with their trials
-Proof proof_of(study::Study study, const trials::Replicates& units, std::span<const UnitResult> results,
+Proof proof_of(study::Study study, const trials::Replicates& machines, std::span<const MachineResult> results,
                const reading::AllTrialsFile& file);
 
 /// Results file of a proof, and the number of threads that make it.

@@ -8,30 +8,30 @@
 #include <fmt/format.h>
 
 #include "core/failure/failure.hpp"
+#include "runners/tuning/machine_runs/machine_runner.hpp"
 #include "runners/tuning/search/proof_runner.hpp"
 #include "runners/tuning/search/study_search.hpp"
-#include "runners/tuning/units/unit_runner.hpp"
 
 namespace zerocount::tuning {
 namespace {
 
-constexpr std::int64_t max_units = 2048;
+constexpr std::int64_t max_machines = 2048;
 constexpr std::int64_t default_search_trials = 500'000;
 constexpr double search_part = 0.5;      // of a budget
 constexpr double simulating_part = 0.7;  // of the time of a search; the rest examines margins
 constexpr double spendable_part = 0.9;   // of the time; the rest starts and ends the proof
 constexpr double judgement_part = 0.2;   // of the effort of another control
-constexpr std::int64_t max_units_of_judgement = 1000;
-constexpr std::int64_t min_units_of_judgement = 50;
+constexpr std::int64_t max_machines_of_judgement = 1000;
+constexpr std::int64_t min_machines_of_judgement = 50;
 
 SearchScope scope_of(const study::Study& study, std::span<const study::FreeParameter> free,
-                     std::int64_t units) {
-  return {free.size(), zero_sets(free).size(), units, study.worlds};
+                     std::int64_t machines) {
+  return {free.size(), zero_sets(free).size(), machines, study.worlds};
 }
 
 std::int64_t min_search_trials(const study::Study& study, std::span<const study::FreeParameter> free) {
-  const SearchScope scope = scope_of(study, free, max_units);
-  return first_race_units(smallest_search(scope), scope.faces) * search_trials_of_machine(study);
+  const SearchScope scope = scope_of(study, free, max_machines);
+  return first_race_machines(smallest_search(scope), scope.faces) * search_trials_of_machine(study);
 }
 
 /// Trials as a whole number; the largest where there is no limit.
@@ -49,25 +49,25 @@ std::int64_t affordable_trials(const trials::Effort& effort, double speed) {
 }
 
 double measured_speed(const study::Study& study, const trials::Effort& effort) {
-  constexpr std::int64_t max_measured_units = 512;
+  constexpr std::int64_t max_measured_machines = 512;
   constexpr double part_of_time = 0.05, longest_without_limit = 0.5;  // s
   using Clock = std::chrono::steady_clock;
-  const trials::Replicates units{trials::in_equal_worlds(study, max_measured_units),
-                                 search_trials_of_machine(study)};
-  const study::Study measured = trials::variant_of(study, trials::overrides_for(study, units));
+  const trials::Replicates machines{trials::in_equal_worlds(study, max_measured_machines),
+                                    search_trials_of_machine(study)};
+  const study::Study measured = trials::variant_of(study, trials::overrides_for(study, machines));
   // Without a limit of time its trials do not count, because their number depends on the machine.
   const bool limited = !std::isinf(effort.seconds_left());
   const trials::Effort whole = limited ? effort : trials::Effort(effort.stop());
   const trials::Effort part =
-      whole.share({}, limited ? part_of_time * whole.seconds_left() : longest_without_limit);
+      whole.limited_to({}, limited ? part_of_time * whole.seconds_left() : longest_without_limit);
   double fastest = 0.0;
-  for (std::int64_t count = 8; count <= units.count; count *= 2) {
+  for (std::int64_t count = 8; count <= machines.count; count *= 2) {
     const Clock::time_point start = Clock::now();
     // The first ones run to their end: of trials that are cut off nobody knows how many ran.
     const trials::Effort& limit = fastest == 0.0 ? whole : part;
-    const bool ended = trials::within(limit, [&] { results_of(measured, units, count, nullptr, limit); });
+    const bool ended = trials::within(limit, [&] { results_of(measured, machines, count, nullptr, limit); });
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-    const double speed = static_cast<double>(count * units.trials_each) / std::max(seconds, 1e-6);
+    const double speed = static_cast<double>(count * machines.trials_each) / std::max(seconds, 1e-6);
     if (ended || fastest == 0.0) fastest = std::max(fastest, speed);
     if (!ended) break;
   }
@@ -75,7 +75,7 @@ double measured_speed(const study::Study& study, const trials::Effort& effort) {
 }
 
 SearchSize default_search_size(const study::Study& study) {
-  return search_size(scope_of(study, study.tuning->free, max_units),
+  return search_size(scope_of(study, study.tuning->free, max_machines),
                      default_search_trials / search_trials_of_machine(study));
 }
 
@@ -87,13 +87,13 @@ SearchPlan plan_search(const study::Study& study, const TuneBudget& budget, cons
                        double speed) {
   const std::vector<study::FreeParameter>& free = study.tuning->free;
   const std::int64_t each = search_trials_of_machine(study);
-  const SearchScope scope = scope_of(study, free, max_units);
+  const SearchScope scope = scope_of(study, free, max_machines);
   if (!budget.trials && !budget.seconds)
-    return {default_search_size(study), whole.share(default_search_trials, {})};
+    return {default_search_size(study), whole.limited_to(default_search_trials, {})};
   const std::int64_t search = min_search_trials(study, free);
   const std::int64_t proof = min_proof_trials(study, 1);  // in its first attempt
-  const std::int64_t left = affordable_trials(whole, spendable_part * speed);
-  if (left < search + proof) {
+  const std::int64_t remaining = affordable_trials(whole, spendable_part * speed);
+  if (remaining < search + proof) {
     const std::string needs = fmt::format(
         "the smallest search takes {} trials and the smallest proof of this goal {}", search, proof);
     if (budget.trials)
@@ -105,25 +105,26 @@ SearchPlan plan_search(const study::Study& study, const TuneBudget& budget, cons
         fmt::format("option '--budget': {:.3g} s are not enough: {}, about {:.3g} s on this machine",
                     *budget.seconds, needs, static_cast<double>(search + proof) / (spendable_part * speed)));
   }
-  const auto half = static_cast<std::int64_t>(search_part * static_cast<double>(left));
-  const std::int64_t trials = std::clamp(half, search, left - proof);
-  if (budget.trials) return {search_size(scope, trials / each), whole.share(trials, {})};
+  const auto half = static_cast<std::int64_t>(search_part * static_cast<double>(remaining));
+  const std::int64_t trials = std::clamp(half, search, remaining - proof);
+  if (budget.trials) return {search_size(scope, trials / each), whole.limited_to(trials, {})};
   const auto simulated = static_cast<std::int64_t>(simulating_part * static_cast<double>(trials));
-  return {search_size(scope, simulated / each), whole.share({}, search_part * whole.seconds_left())};
+  return {search_size(scope, simulated / each), whole.limited_to({}, search_part * whole.seconds_left())};
 }
 
 SearchPlan plan_other_search(const study::Study& study, std::span<const study::FreeParameter> free,
-                             const trials::Effort& share, double speed) {
+                             const trials::Effort& effort, double speed) {
   const std::int64_t each = search_trials_of_machine(study);
   const std::int64_t judgement = std::min(
-      static_cast<std::int64_t>(judgement_part * static_cast<double>(affordable_trials(share, speed))),
-      max_units_of_judgement * trials_of_machine(study));
-  const std::int64_t trials = affordable_trials(share, speed) - judgement;
+      static_cast<std::int64_t>(judgement_part * static_cast<double>(affordable_trials(effort, speed))),
+      max_machines_of_judgement * trials_of_machine(study));
+  const std::int64_t trials = affordable_trials(effort, speed) - judgement;
   if (trials < min_search_trials(study, free)) throw trials::Spent{};
-  const std::optional<double> seconds = std::isinf(share.seconds_left())
+  const std::optional<double> seconds = std::isinf(effort.seconds_left())
                                             ? std::nullopt
-                                            : std::optional((1.0 - judgement_part) * share.seconds_left());
-  return {search_size(scope_of(study, free, max_units / 2), trials / each), share.share(trials, seconds)};
+                                            : std::optional((1.0 - judgement_part) * effort.seconds_left());
+  return {search_size(scope_of(study, free, max_machines / 2), trials / each),
+          effort.limited_to(trials, seconds)};
 }
 
 std::int64_t least_trials_of_other_search(const study::Study& study,
@@ -137,16 +138,16 @@ RestPlan plan_rest(const study::Study& study, std::int64_t points, std::int64_t 
   constexpr std::int64_t most = 1024;
   constexpr std::int64_t least = 32;
   const std::int64_t each = std::max<std::int64_t>(points, 1) * search_trials_of_machine(study);
-  const std::int64_t left = affordable_trials(effort, speed) - searches;
-  if ((left - trials_of_maps) / each < least) trials_of_maps = 0;
-  return {std::clamp((left - trials_of_maps) / each, least, most), trials_of_maps};
+  const std::int64_t remaining = affordable_trials(effort, speed) - searches;
+  if ((remaining - trials_of_maps) / each < least) trials_of_maps = 0;
+  return {std::clamp((remaining - trials_of_maps) / each, least, most), trials_of_maps};
 }
 
-std::int64_t units_of_judgement(const study::Study& study, const trials::Effort& share, double speed) {
+std::int64_t machines_of_judgement(const study::Study& study, const trials::Effort& effort, double speed) {
   const std::int64_t worlds = std::max<std::int64_t>(study.worlds, 1);
-  const std::int64_t most = std::min(trials::in_equal_worlds(study, max_units_of_judgement),
-                                     affordable_trials(share, speed) / trials_of_machine(study));
-  if (most < min_units_of_judgement) throw trials::Spent{};
+  const std::int64_t most = std::min(trials::in_equal_worlds(study, max_machines_of_judgement),
+                                     affordable_trials(effort, speed) / trials_of_machine(study));
+  if (most < min_machines_of_judgement) throw trials::Spent{};
   return most / worlds * worlds;
 }
 

@@ -52,7 +52,7 @@ SearchPlan plan_search(const study::Study& study, const TuneBudget& budget, cons
 /// Plans the search for another control so that the control can be judged on fresh machines afterwards.
 /// @throws trials::Spent if the effort is not enough for both
 SearchPlan plan_other_search(const study::Study& study, std::span<const study::FreeParameter> free,
-                             const trials::Effort& share, double speed);
+                             const trials::Effort& effort, double speed);
 
 /// Number of trials of the smallest search for another control, including its judgement.
 std::int64_t least_trials_of_other_search(const study::Study& study,
@@ -60,7 +60,7 @@ std::int64_t least_trials_of_other_search(const study::Study& study,
 
 /// Division of the effort that the proof leaves for the extras.
 struct RestPlan {
-  std::int64_t units{0};           ///< Number of machines on which each point is simulated.
+  std::int64_t machines{0};        ///< Number of machines on which each point is simulated.
   std::int64_t trials_of_maps{0};  ///< Trials kept for the maps; 0 if the maps are not affordable.
 };
 
@@ -72,6 +72,6 @@ RestPlan plan_rest(const study::Study& study, std::int64_t points, std::int64_t 
 
 /// Number of machines on which another control is judged: 1000, or as many as the effort is enough for.
 /// @throws trials::Spent if the effort is not enough for 50 machines
-std::int64_t units_of_judgement(const study::Study& study, const trials::Effort& share, double speed);
+std::int64_t machines_of_judgement(const study::Study& study, const trials::Effort& effort, double speed);
 
 }  // namespace zerocount::tuning

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t units_of_behaviour = 128;  // that show what values do, before their proof
+constexpr std::int64_t machines_of_behaviour = 128;  // that show what values do, before their proof
 
 /// Opens the journal, and refuses to overwrite what another run made.
 TuningJournal open_journal(const study::Study& study, const TuneSettings& settings) {
@@ -41,9 +41,9 @@ TuningJournal open_journal(const study::Study& study, const TuneSettings& settin
 /// page.
 trials::Effort whole_effort(const TuneSettings& settings, double elapsed, const std::stop_token& stop) {
   const TuneBudget& budget = settings.budget;
-  if (!budget.seconds) return trials::Effort(stop).share(budget.trials, {});
+  if (!budget.seconds) return trials::Effort(stop).limited_to(budget.trials, {});
   const double page = settings.page ? std::min(0.8, 0.2 * *budget.seconds) : 0.0;
-  return trials::Effort(stop).share({}, 0.97 * *budget.seconds - 0.05 - page - elapsed);
+  return trials::Effort(stop).limited_to({}, 0.97 * *budget.seconds - 0.05 - page - elapsed);
 }
 
 Failure out_of_time(TuningJournal& journal, const TuneBudget& budget, const std::string& what) {
@@ -127,17 +127,18 @@ void examine_margins(Work& work, bool slides) {
 void examine(Work& work, const Candidate& finalist) {
   work.answer.tuned = {finalist.values};
   work.answer.extras.left_out.clear();  // of another finalist
-  examine_margins(work, has_slid(finalist.units));
+  examine_margins(work, has_slid(finalist.machines));
   // As many as a tenth of what the smallest proof leaves is enough for.
   constexpr std::int64_t part = 10;
   const study::Study& study = work.space.study;
-  const std::int64_t left =
+  const std::int64_t remaining =
       affordable_trials(work.space.effort, work.space.speed) - min_proof_trials(study, 1);
-  const std::int64_t count = std::min(units_of_behaviour, left / part / study::condition_count(study));
+  const std::int64_t count =
+      std::min(machines_of_behaviour, remaining / part / study::condition_count(study));
   work.find_part("torque at rest", [&] {
     if (count <= 0) throw trials::Spent{};
-    work.answer.tuned.moves = simulated_behaviour(work.search.candidate(finalist.values), work.search.units(),
-                                                  count, work.space.effort);
+    work.answer.tuned.moves = simulated_behaviour(work.search.candidate(finalist.values),
+                                                  work.search.machines(), count, work.space.effort);
   });
 }
 
@@ -225,15 +226,15 @@ TuneAnswer described(const study::Study& study, const TuneSettings& settings, co
   if (settings.budget.seconds) space.speed = space.measured_speed;
   Work work{settings, journal, space, {fresh, space.free(), default_search_size(fresh), journal, effort}};
   const reading::AllTrialsFile file(settings.output);
-  const trials::Replicates units = trials::replicates_of(study, 0);
-  const std::vector<UnitResult> results = results_in(file, study, units);
+  const trials::Replicates machines = trials::replicates_of(study, 0);
+  const std::vector<MachineResult> results = results_in(file, study, machines);
   work.answer.tuned.values = values_in_manifest(study, space.free());
   work.find_part("margins", [&] { add_margins_in(study, has_slid(results), effort, journal, work.answer); });
   work.find_part("torque at rest", [&] {
     work.answer.tuned.moves = simulated_behaviour(work.search.candidate(work.answer.tuned.values),
-                                                  work.search.units(), units_of_behaviour, effort);
+                                                  work.search.machines(), machines_of_behaviour, effort);
   });
-  take_proof(proof_of(study, units, results, file), work.answer);
+  take_proof(proof_of(study, machines, results, file), work.answer);
   add_extras(work);
   work.count_effort();
   return std::move(work.answer);

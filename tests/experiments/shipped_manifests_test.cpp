@@ -211,7 +211,7 @@ study::Study study_in_pages(const std::string& text) {
   const std::vector<Block> blocks = fenced_blocks();
   const auto table =
       std::find_if(blocks.begin(), blocks.end(), [](const Block& b) { return b.language == "csv"; });
-  return manifest::parse_study(text, "m.yaml", {}, sections::known_companions(nullptr, table->text));
+  return manifest::parse_study(text, "m.yaml", {}, sections::known_external_inputs(nullptr, table->text));
 }
 
 TEST(ManifestPages, ManifestsInPagesAreReadWithoutWarnings) {

@@ -19,7 +19,7 @@ namespace {
 using namespace zerocount;
 
 /// Words of the command line: of each line the option, and the rest as its value.
-std::vector<std::string> words_of(std::string_view lines) {
+std::vector<std::string> split_words(std::string_view lines) {
   std::vector<std::string> words;
   while (!lines.empty()) {
     const std::string_view line = lines.substr(0, lines.find('\n'));
@@ -57,6 +57,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::size_t options = input.starts_with("--") ? input.find("\n\n") : 0;
   if (options == std::string_view::npos) return 0;
   file.replace(options == 0 ? input : input.substr(options + 2));
-  fuzz::require_clear_refusal([&] { read_record(file.path(), words_of(input.substr(0, options))); });
+  fuzz::require_clear_refusal([&] { read_record(file.path(), split_words(input.substr(0, options))); });
   return 0;
 }

@@ -20,7 +20,8 @@ void use_theory(const study::Study& study) {
   const document::AnswerDescription<theory::PointTheory> answer{{.name = "theory", .meaning = "theory"},
                                                                 theory::point_theory_description()};
   for (const std::int64_t point : std::set<std::int64_t>{0, study::point_count(study) - 1}) {
-    const std::string text = document::text(answer.of(theory::examine(first, point)));
+    std::vector<theory::KnownRotor> none;
+    const std::string text = document::text(answer.of(theory::examine(first, point, 0, none)));
     if (!text.empty()) require_text(text);
   }
 }

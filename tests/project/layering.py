@@ -1,5 +1,7 @@
 """Each folder includes only itself and those below it and is a namespace; no type is defined in two headers; every test is built.
 
+Tests in C++ stand where their subject does. The table of analysis/README.md lists the folders in their order.
+
 The order of the folders of a layer is that of zerocount_layer() in its CMakeLists.txt. The folders inside one of these are part of it.
 """
 
@@ -9,6 +11,8 @@ import re
 import sys
 
 LAYERS = ["core", "experiments", "results", "analysis", "runners"]  # lowest first
+WITHOUT_SUBJECT = {"core/bits"}  # whole trials
+FOLDER_ROWS = re.compile(r"^\| (\[?`.*?) \|", re.MULTILINE)
 SOURCE = re.compile(r"[\w./-]+\.cpp")
 LISTED = re.compile(r"^zerocount_layer\(([^)]*)\)", re.MULTILINE)
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)/[^"/]+"', re.MULTILINE)
@@ -72,10 +76,26 @@ def tests_not_built(root):
             yield f"{path.relative_to(root)}: is in no CMakeLists.txt"
 
 
+def tests_elsewhere(root):
+    for folder in sorted({path.parent.relative_to(root / "tests") for layer in LAYERS for path in (root / "tests" / layer).rglob("*.cpp")}):
+        if not (root / folder).is_dir() and str(folder) not in WITHOUT_SUBJECT:
+            yield f"tests/{folder}: there is no {folder}"
+
+
+def wrong_order_in_readme(root, folders):
+    table = (root / "analysis/README.md").read_text(encoding="utf-8").split("## To add")[0]
+    told = [name for row in FOLDER_ROWS.findall(table) for name in re.findall(r"`(\w+)`", row)]
+    built = [folder.split("/")[1] for folder in folders if folder.startswith("analysis/")]
+    if told != built:
+        yield f"analysis/README.md: lists {' '.join(told)}; the build has {' '.join(built)}"
+
+
 def problems(root):
+    folders = list(folders_in_order(root))
     yield from types_defined_twice(root)
     yield from tests_not_built(root)
-    folders = list(folders_in_order(root))
+    yield from tests_elsewhere(root)
+    yield from wrong_order_in_readme(root, folders)
     for path in sorted(path for layer in LAYERS for path in (root / layer).rglob("*.[ch]pp")):
         name = path.relative_to(root)
         folder = listed_folder(str(name.parent), folders)

@@ -172,6 +172,13 @@ std::vector<shards::TrialResult> sample_results(const study::Study& study, layou
   return results;
 }
 
+std::vector<double> inputs_of(const reading::AllTrialsFile& file, std::int64_t row) {
+  std::vector<double> values;
+  for (std::size_t column = 0; column < file.input_columns().size(); ++column)
+    values.push_back(file.input(column, {row, 1}).front());
+  return values;
+}
+
 layout::Provenance sample_provenance() {
   layout::Provenance provenance = layout::current_provenance();
   provenance.created = "2002-07-21T12:00:00Z";

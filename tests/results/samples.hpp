@@ -23,6 +23,9 @@ study::Study sample_study_with_machines(std::int64_t points = 3, std::int64_t tr
 shards::TrialResult sample_result(const study::Study& study, std::int64_t row);
 std::vector<shards::TrialResult> sample_results(const study::Study& study, layout::RowRange rows);
 
+/// Inputs of a trial, [input column].
+std::vector<double> inputs_of(const reading::AllTrialsFile& file, std::int64_t row);
+
 /// A provenance that is equal in every call, so that whole files can be compared.
 layout::Provenance sample_provenance();
 

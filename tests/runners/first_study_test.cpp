@@ -27,7 +27,7 @@ std::string block(const std::string& text, const std::string& language) {
 }
 
 /// The words of a command line without its comment.
-std::vector<std::string> label_text(const std::string& line) {
+std::vector<std::string> split_command(const std::string& line) {
   std::istringstream text(line.substr(0, line.find(" #")));
   std::vector<std::string> words;
   for (std::string word; text >> word;) words.push_back(word);
@@ -72,7 +72,7 @@ TEST_F(FirstStudy, ItsCommandsPrintWhatTheReadmeSays) {
   std::istringstream lines(block(text_, "sh"));
   std::vector<std::string> commands;
   for (std::string line; std::getline(lines, line);) {
-    std::vector<std::string> words = label_text(line);
+    std::vector<std::string> words = split_command(line);
     ASSERT_FALSE(words.empty());
     EXPECT_EQ(words.front(), "build/release/zerocount") << line;
     words.erase(words.begin());

@@ -28,9 +28,9 @@ std::int64_t stable_moves(const std::string& study, const std::string& point, st
 
 TEST(FrictionModels, ModelsWithASpringAndDampingHoldZeroCounts) {
   for (const char* law : {"presliding", "lugre", "dahl", "gms-damped"})
-    EXPECT_TRUE(share_above(0.85, moves_at_zero("friction-models", law, 60), 60)) << law;
+    EXPECT_TRUE(proportion_above(0.85, moves_at_zero("friction-models", law, 60), 60)) << law;
   for (const char* law : {"coulomb", "none"})
-    EXPECT_TRUE(share_below(0.15, moves_at_zero("friction-models", law, 60), 60)) << law;
+    EXPECT_TRUE(proportion_below(0.15, moves_at_zero("friction-models", law, 60), 60)) << law;
 }
 
 TEST(FrictionModels, OnlyModelsWithCreepShowJerks) {
@@ -38,7 +38,7 @@ TEST(FrictionModels, OnlyModelsWithCreepShowJerks) {
     return moves_with(outcomes_of(shipped_study("friction-models"), law, 60),
                       [](const trial::MoveOutcome& move) { return move.jerk_count > 0; });
   };
-  EXPECT_TRUE(share_above(0.4, with_jerks("presliding"), 60));
+  EXPECT_TRUE(proportion_above(0.4, with_jerks("presliding"), 60));
   for (const char* law : {"lugre", "dahl", "gms-damped"}) EXPECT_EQ(with_jerks(law), 0) << law;
 }
 
@@ -93,18 +93,18 @@ TEST(Hunting, HasTheAmplitudeAndThePeriodOfTheStickSlipCycle) {
 
 TEST(Deadband, ADeadbandOfOneCountCostsZeroCounts) {
   const study::Study study = shipped_study("deadband");
-  EXPECT_TRUE(share_above(0.85, moves_at_zero("deadband", study.points.labels[0], 100), 100));
-  EXPECT_TRUE(share_below(0.4, moves_at_zero("deadband", study.points.labels[4], 100), 100));
+  EXPECT_TRUE(proportion_above(0.85, moves_at_zero("deadband", study.points.labels[0], 100), 100));
+  EXPECT_TRUE(proportion_below(0.4, moves_at_zero("deadband", study.points.labels[4], 100), 100));
 }
 
 TEST(Observer, DoesNotBeatTheIntegralAndChatters) {
-  EXPECT_TRUE(share_above(0.85, moves_at_zero("observer", "integral-kp", 150), 150));
+  EXPECT_TRUE(proportion_above(0.85, moves_at_zero("observer", "integral-kp", 150), 150));
   const auto chatters = [](const char* point) {
     return moves_with(outcomes_of(shipped_study("observer"), point, 60),
                       [](const trial::MoveOutcome& move) { return move.jerk_count > 20; });
   };
-  EXPECT_TRUE(share_above(0.4, chatters("observer-50"), 60));
-  EXPECT_TRUE(share_below(0.15, chatters("integral-kp"), 60));
+  EXPECT_TRUE(proportion_above(0.4, chatters("observer-50"), 60));
+  EXPECT_TRUE(proportion_below(0.15, chatters("integral-kp"), 60));
 }
 
 TEST(Resonance, LimitsALoopWithTheEncoderAtTheLoad) {
@@ -112,14 +112,14 @@ TEST(Resonance, LimitsALoopWithTheEncoderAtTheLoad) {
   const auto at = [&](std::size_t point) {
     return stable_moves("resonance", study.points.labels[point], 50);
   };
-  EXPECT_TRUE(share_above(0.85, at(0), 50)) << "at the motor, however soft the coupling";
-  EXPECT_TRUE(share_below(0.2, at(1), 50)) << "at the load, 52 Hz";
-  EXPECT_TRUE(share_above(0.85, at(11), 50)) << "at the load, 221 Hz";
+  EXPECT_TRUE(proportion_above(0.85, at(0), 50)) << "at the motor, however soft the coupling";
+  EXPECT_TRUE(proportion_below(0.2, at(1), 50)) << "at the load, 52 Hz";
+  EXPECT_TRUE(proportion_above(0.85, at(11), 50)) << "at the load, 221 Hz";
 }
 
 TEST(Notch, HelpsIfItIsWideEnough) {
-  EXPECT_TRUE(share_below(0.75, stable_moves("notch", "none", 100), 100));
-  EXPECT_TRUE(share_above(0.9, stable_moves("notch", "wide", 100), 100));
+  EXPECT_TRUE(proportion_below(0.75, stable_moves("notch", "none", 100), 100));
+  EXPECT_TRUE(proportion_above(0.9, stable_moves("notch", "wide", 100), 100));
 }
 
 // air-bearing: without friction the loop hunts by one count wherever a torque acts that the converter cannot
@@ -133,18 +133,20 @@ std::int64_t moves_ending_in(const std::string& bearing, trial::Outcome outcome)
 }
 
 TEST(AirBearing, HoldsZeroCountsOnlyWithoutADisturbance) {
-  EXPECT_TRUE(share_above(0.95, moves_ending_in("air", trial::Outcome::zero_count), air_trials));
-  EXPECT_TRUE(share_below(0.10, moves_ending_in("air-disturbed", trial::Outcome::zero_count), air_trials));
+  EXPECT_TRUE(proportion_above(0.95, moves_ending_in("air", trial::Outcome::zero_count), air_trials));
+  EXPECT_TRUE(
+      proportion_below(0.10, moves_ending_in("air-disturbed", trial::Outcome::zero_count), air_trials));
 }
 
 TEST(AirBearing, HuntsByOneCountUnderATorqueThatNoCodeBalances) {
-  EXPECT_TRUE(share_above(0.90, moves_ending_in("air-disturbed", trial::Outcome::one_count), air_trials));
-  EXPECT_TRUE(share_above(0.70, moves_ending_in("air-fine-dac", trial::Outcome::one_count), air_trials))
+  EXPECT_TRUE(
+      proportion_above(0.90, moves_ending_in("air-disturbed", trial::Outcome::one_count), air_trials));
+  EXPECT_TRUE(proportion_above(0.70, moves_ending_in("air-fine-dac", trial::Outcome::one_count), air_trials))
       << "nor does a fine converter help";
 }
 
 TEST(AirBearing, ABallBearingHoldsZeroCountsUnderTheSameDisturbance) {
-  EXPECT_TRUE(share_above(0.86, moves_ending_in("ball", trial::Outcome::zero_count), air_trials));
+  EXPECT_TRUE(proportion_above(0.86, moves_ending_in("ball", trial::Outcome::zero_count), air_trials));
 }
 
 // contact-variation: the loop holds zero counts whether its contacts are alike or not (paper, QN1 and QN2).
@@ -157,8 +159,9 @@ INSTANTIATE_TEST_SUITE_P(ContactVariation, Contacts, ::testing::Values("same", "
 TEST_P(Contacts, EndTheirMovesInZeroCounts) {
   const auto outcomes = outcomes_of(shipped_study("contact-variation"), GetParam(), contact_trials);
   const std::int64_t moves = 6 * contact_trials;
-  EXPECT_TRUE(share_above(0.97, moves_with(outcomes, [](const auto& move) { return move.stable; }), moves));
-  EXPECT_TRUE(share_above(
+  EXPECT_TRUE(
+      proportion_above(0.97, moves_with(outcomes, [](const auto& move) { return move.stable; }), moves));
+  EXPECT_TRUE(proportion_above(
       0.93, moves_with(outcomes, [](const auto& move) { return move.outcome == trial::Outcome::zero_count; }),
       moves));
   EXPECT_EQ(moves_with(outcomes, [](const auto& move) { return move.broke_away; }), moves)
@@ -170,21 +173,23 @@ TEST_P(Contacts, EndTheirMovesInZeroCounts) {
 constexpr std::int64_t machine_trials = 100;
 
 TEST(EncoderNoise, HidesZeroCountsWhateverTheGains) {
-  EXPECT_TRUE(share_below(0.45, moves_at_zero("encoder-noise", "x1-zero", machine_trials), machine_trials))
+  EXPECT_TRUE(
+      proportion_below(0.45, moves_at_zero("encoder-noise", "x1-zero", machine_trials), machine_trials))
       << "an axis in the middle of its count shows 100 zeros in a row with a probability of 0.287";
 }
 
 TEST(EncoderNoise, LeavesOneCountAtTheResolutionOfThePaper) {
   const auto one_count = [](const auto& move) { return move.outcome == trial::Outcome::one_count; };
   const auto outcomes = outcomes_of(shipped_study("encoder-noise"), "x1", machine_trials);
-  EXPECT_TRUE(share_above(0.5, moves_with(outcomes, one_count), machine_trials));
+  EXPECT_TRUE(proportion_above(0.5, moves_with(outcomes, one_count), machine_trials));
 }
 
 TEST(Compensators, AZoneOfOneCountLosesZeroCounts) {
-  EXPECT_TRUE(share_above(0.8, moves_at_zero("compensators", "plain", machine_trials), machine_trials));
-  EXPECT_TRUE(share_above(0.8, moves_at_zero("compensators", "standstill", machine_trials), machine_trials));
+  EXPECT_TRUE(proportion_above(0.8, moves_at_zero("compensators", "plain", machine_trials), machine_trials));
   EXPECT_TRUE(
-      share_below(0.45, moves_at_zero("compensators", "integral-zone-1", machine_trials), machine_trials));
+      proportion_above(0.8, moves_at_zero("compensators", "standstill", machine_trials), machine_trials));
+  EXPECT_TRUE(proportion_below(0.45, moves_at_zero("compensators", "integral-zone-1", machine_trials),
+                               machine_trials));
 }
 
 }  // namespace

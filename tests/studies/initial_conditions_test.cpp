@@ -19,11 +19,11 @@ INSTANTIATE_TEST_SUITE_P(InitialConditions, StartInPresliding,
 TEST_P(StartInPresliding, IsStableInAllTests) {
   const std::int64_t trials = 150;
   const auto outcomes = outcomes_of(shipped_study("initial-conditions"), GetParam(), trials);
-  EXPECT_TRUE(share_above(
+  EXPECT_TRUE(proportion_above(
       0.95,
       moves_with(outcomes, [](const trial::MoveOutcome& move) { return move.stable && !move.broke_away; }),
       trials));
-  EXPECT_TRUE(share_above(
+  EXPECT_TRUE(proportion_above(
       0.93,
       moves_with(outcomes,
                  [](const trial::MoveOutcome& move) { return move.outcome == trial::Outcome::zero_count; }),
@@ -62,8 +62,8 @@ TEST(InitialConditions, EachInitialHistoryIsAsDescribed) {
   }
   EXPECT_GE(*depths.rbegin(), 5) << "reversal points that survived";
   EXPECT_GE(depths.size(), 5u);
-  EXPECT_TRUE(share_above(0.7, moving, 100));
-  EXPECT_TRUE(share_above(0.7, preset, 100));
+  EXPECT_TRUE(proportion_above(0.7, moving, 100));
+  EXPECT_TRUE(proportion_above(0.7, preset, 100));
   EXPECT_EQ(sliding, 100);
   EXPECT_LT(*targets.begin(), 0);
   EXPECT_GT(*targets.rbegin(), 0);
@@ -86,22 +86,22 @@ TEST(InitialConditions, FromSlidingTheFineGainsBreakTheContactAgain) {
         std::minmax_element(stuck, slid, [](const auto& a, const auto& b) { return a.count < b.count; });
     smallest_rebound = std::min(smallest_rebound, high->count - low->count);
   }
-  EXPECT_TRUE(share_below(0.07, stable, trials));
-  EXPECT_TRUE(share_above(0.93, broken_again, trials));
+  EXPECT_TRUE(proportion_below(0.07, stable, trials));
+  EXPECT_TRUE(proportion_above(0.93, broken_again, trials));
   EXPECT_GE(smallest_rebound, 100) << "the spring lets the rotor back by hundreds of counts";
 }
 
 TEST(InitialConditions, FromSlidingTwoPhasesAreStable) {
   const std::int64_t trials = 200;
   const auto outcomes = outcomes_of(shipped_study("initial-conditions"), "from-sliding-two-phase", trials);
-  EXPECT_TRUE(share_above(
+  EXPECT_TRUE(proportion_above(
       0.94, moves_with(outcomes, [](const trial::MoveOutcome& move) { return move.stable; }), trials));
-  EXPECT_TRUE(share_above(
+  EXPECT_TRUE(proportion_above(
       0.90,
       moves_with(outcomes,
                  [](const trial::MoveOutcome& move) { return move.outcome == trial::Outcome::zero_count; }),
       trials));
-  EXPECT_TRUE(share_above(
+  EXPECT_TRUE(proportion_above(
       0.93, moves_with(outcomes, [](const trial::MoveOutcome& move) { return move.phase_changes > 0; }),
       trials));
 }

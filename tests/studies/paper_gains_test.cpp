@@ -14,27 +14,27 @@ std::int64_t stable_at_gain(const std::string& gain, std::int64_t trials) {
 }
 
 TEST(PaperGains, GainAIsStableInAllTests) {
-  EXPECT_TRUE(share_above(0.995, stable_at_gain("a", 1500), 1500));
+  EXPECT_TRUE(proportion_above(0.995, stable_at_gain("a", 1500), 1500));
 }
 
 TEST(PaperGains, GainBIsStableInSomeAndUnstableInMost) {
   const std::int64_t stable = stable_at_gain("b", 600);
-  EXPECT_TRUE(share_above(0.20, stable, 600));
-  EXPECT_TRUE(share_below(0.50, stable, 600));
+  EXPECT_TRUE(proportion_above(0.20, stable, 600));
+  EXPECT_TRUE(proportion_below(0.50, stable, 600));
 }
 
 TEST(PaperGains, AProportionalGainMakesItStable) {
-  EXPECT_TRUE(share_above(0.98, stable_at_gain("b-with-kp", 10000), 10000));
+  EXPECT_TRUE(proportion_above(0.98, stable_at_gain("b-with-kp", 10000), 10000));
 }
 
 TEST(PaperGains, GainCIsSeldomStable) {
   const std::int64_t stable = stable_at_gain("c", 2000);
-  EXPECT_TRUE(share_above(0.02, stable, 2000));
-  EXPECT_TRUE(share_below(0.12, stable, 2000));
+  EXPECT_TRUE(proportion_above(0.02, stable, 2000));
+  EXPECT_TRUE(proportion_below(0.12, stable, 2000));
 }
 
 TEST(PaperGains, AboveTheUpperBoundHardlyAnyMoveIsStable) {
-  EXPECT_TRUE(share_below(0.03, stable_at_gain("above-upper", 1000), 1000));
+  EXPECT_TRUE(proportion_below(0.03, stable_at_gain("above-upper", 1000), 1000));
 }
 
 // Early decision saves time, and changes no verdict.
@@ -82,22 +82,22 @@ std::int64_t stable_moves_at(const std::string& gain, const std::string& beta,
 }
 
 TEST(BetaFromOutcomes, ASmallerBetaIsTooStable) {
-  EXPECT_TRUE(share_above(0.55, stable_moves_at("b", "50000"), beta_trials))
+  EXPECT_TRUE(proportion_above(0.55, stable_moves_at("b", "50000"), beta_trials))
       << "the paper: unstable in most cases";
 }
 
 TEST(BetaFromOutcomes, ALargerBetaIsTooUnstable) {
-  EXPECT_TRUE(share_below(0.92, stable_moves_at("b-with-kp", "200000"), beta_trials))
+  EXPECT_TRUE(proportion_below(0.92, stable_moves_at("b-with-kp", "200000"), beta_trials))
       << "the paper: stable in all the cases we tested";
 }
 
 // With half a sample of delay or more, no β makes gain b unstable in most moves and keeps the gain with kp.
 TEST(BetaFromOutcomes, ADelayOfOneSampleFitsNoBeta) {
-  EXPECT_TRUE(share_below(0.95, stable_moves_at("b-with-kp", "50000", "1"), beta_trials));
-  EXPECT_TRUE(share_above(0.80, stable_moves_at("b", "25000", "1"), beta_trials))
+  EXPECT_TRUE(proportion_below(0.95, stable_moves_at("b-with-kp", "50000", "1"), beta_trials));
+  EXPECT_TRUE(proportion_above(0.80, stable_moves_at("b", "25000", "1"), beta_trials))
       << "a smaller β is no way out";
-  EXPECT_TRUE(share_above(0.93, stable_moves_at("b-with-kp", "70000", "0.3"), beta_trials));
-  EXPECT_TRUE(share_below(0.95, stable_moves_at("b-with-kp", "100000", "0.3"), beta_trials));
+  EXPECT_TRUE(proportion_above(0.93, stable_moves_at("b-with-kp", "70000", "0.3"), beta_trials));
+  EXPECT_TRUE(proportion_below(0.95, stable_moves_at("b-with-kp", "100000", "0.3"), beta_trials));
 }
 
 TEST(BetaFromOutcomes, TheDefaultIsTheInferredValue) {
@@ -117,8 +117,8 @@ TEST(BetaFromOutcomes, TheGainWithKpFailsAtALargeBetaBecauseOfSampling) {
   };
   const std::string at_2_kHz = "{controller.ki: 9.45e-5, controller.kp: 6.21e-4}";
   const std::string at_20_kHz = "{controller.ki: 9.45e-6, controller.kp: 6.21e-4}";
-  EXPECT_TRUE(share_below(0.95, stable_with("friction.breakaway=9", at_2_kHz), 150));
-  EXPECT_TRUE(share_above(0.95, stable_with("controller.sample_rate=20000", at_20_kHz), 150));
+  EXPECT_TRUE(proportion_below(0.95, stable_with("friction.breakaway=9", at_2_kHz), 150));
+  EXPECT_TRUE(proportion_above(0.95, stable_with("controller.sample_rate=20000", at_20_kHz), 150));
 }
 
 // What docs/the-paper.md says of the overshoot in paper-fig7 and paper-fig8: the simulated moves reach beyond

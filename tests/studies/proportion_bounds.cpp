@@ -17,13 +17,13 @@ using Binomial = boost::math::binomial_distribution<double>;
 
 }  // namespace
 
-::testing::AssertionResult share_above(double proportion, std::int64_t k, std::int64_t n) {
+::testing::AssertionResult proportion_above(double proportion, std::int64_t k, std::int64_t n) {
   const Binomial binomial(static_cast<double>(n), proportion);
   const double chance = k == 0 ? 1.0 : cdf(complement(binomial, static_cast<double>(k - 1)));
   return judged(chance, "above", proportion, k, n);
 }
 
-::testing::AssertionResult share_below(double proportion, std::int64_t k, std::int64_t n) {
+::testing::AssertionResult proportion_below(double proportion, std::int64_t k, std::int64_t n) {
   const Binomial binomial(static_cast<double>(n), proportion);
   return judged(cdf(binomial, static_cast<double>(k)), "below", proportion, k, n);
 }

@@ -8,25 +8,25 @@ namespace {
 
 TEST(ProportionBounds, WithoutFailuresHaveTheClosedForm) {
   const double bound = std::pow(0.001, 1.0 / 150.0);  // p¹⁵⁰ = 0.001
-  EXPECT_TRUE(share_above(bound - 1e-9, 150, 150));
-  EXPECT_FALSE(share_above(bound + 1e-9, 150, 150));
-  EXPECT_TRUE(share_below(1.0 - bound + 1e-9, 0, 150));
-  EXPECT_FALSE(share_below(1.0 - bound - 1e-9, 0, 150));
+  EXPECT_TRUE(proportion_above(bound - 1e-9, 150, 150));
+  EXPECT_FALSE(proportion_above(bound + 1e-9, 150, 150));
+  EXPECT_TRUE(proportion_below(1.0 - bound + 1e-9, 0, 150));
+  EXPECT_FALSE(proportion_below(1.0 - bound - 1e-9, 0, 150));
 }
 
 TEST(ProportionBounds, WithOneFailureSolveTheirEquation) {
   const auto at_most_one = [](double p) { return std::pow(1.0 - p, 20) + 20.0 * p * std::pow(1.0 - p, 19); };
   for (const double p : {0.30, 0.35, 0.40, 0.45}) {
-    EXPECT_EQ(static_cast<bool>(share_below(p, 1, 20)), at_most_one(p) <= 0.001) << p;
-    EXPECT_EQ(static_cast<bool>(share_above(1.0 - p, 19, 20)), at_most_one(p) <= 0.001) << p;
+    EXPECT_EQ(static_cast<bool>(proportion_below(p, 1, 20)), at_most_one(p) <= 0.001) << p;
+    EXPECT_EQ(static_cast<bool>(proportion_above(1.0 - p, 19, 20)), at_most_one(p) <= 0.001) << p;
   }
 }
 
 TEST(ProportionBounds, ShowNothingWithoutTrialsAndNeverBothDirections) {
-  EXPECT_FALSE(share_above(0.001, 0, 0));
-  EXPECT_FALSE(share_below(0.999, 0, 0));
+  EXPECT_FALSE(proportion_above(0.001, 0, 0));
+  EXPECT_FALSE(proportion_below(0.999, 0, 0));
   for (std::int64_t k = 0; k <= 50; ++k)
-    EXPECT_FALSE(share_above(0.5, k, 50) && share_below(0.5, k, 50)) << k;
+    EXPECT_FALSE(proportion_above(0.5, k, 50) && proportion_below(0.5, k, 50)) << k;
 }
 
 }  // namespace

@@ -55,8 +55,8 @@ TEST(RepeatabilityStudy, TwoPhaseControlRepeatsToTheCountOnceCreepIsOver) {
     // By the true position an axis repeats to the width of the count in which it is held.
     EXPECT_LT(axis.repeatability.from_position.axis.systematic, count_of(axis.parameters));
   }
-  EXPECT_TRUE(share_above(0.97, exact, approaches));
-  EXPECT_TRUE(share_above(0.60, repeating, axes));
+  EXPECT_TRUE(proportion_above(0.97, exact, approaches));
+  EXPECT_TRUE(proportion_above(0.60, repeating, axes));
 }
 
 // After 3 s creep still goes on, and some moves end in the middle of a jerk: one count beyond the target, the
@@ -82,8 +82,8 @@ TEST(RepeatabilityStudy, AMoveThatEndsWhileItCreepsIsAtMostAJerkAway) {
     }
     EXPECT_EQ(all_exact, axis.repeatability.from_encoder.axis.accuracy == 0.0);
   }
-  EXPECT_TRUE(share_above(0.98, arrived, approaches));
-  EXPECT_TRUE(share_below(0.03, missed, approaches));
+  EXPECT_TRUE(proportion_above(0.98, arrived, approaches));
+  EXPECT_TRUE(proportion_below(0.03, missed, approaches));
   EXPECT_GT(missed, 0) << "this is what the test is about";
 }
 
@@ -100,8 +100,8 @@ TEST(RepeatabilityStudy, WithoutAnIntegralTheAxisStopsShortFromEitherSide) {
       short_of_target += axis.moves[move].final_error * study.sequence[move].direction > 10;
     }
   }
-  EXPECT_TRUE(share_above(0.97, short_of_target, approaches));
-  EXPECT_TRUE(share_below(0.45, repeating, axes));
+  EXPECT_TRUE(proportion_above(0.97, short_of_target, approaches));
+  EXPECT_TRUE(proportion_below(0.45, repeating, axes));
 }
 
 // The reversal value is what the two stall errors make together, and almost all of the bidirectional

@@ -37,8 +37,8 @@ TEST_P(WithoutEncoderFault, ZeroCountsAreTrueAndTheEncodersAgree) {
     EXPECT_EQ(move.encoder_disagreement, 0);
     EXPECT_LE(std::abs(true_miss(parameters, move) + static_cast<double>(move.final_error)), 0.5 + 1e-6);
   }
-  EXPECT_TRUE(share_above(0.94, stable, trials));
-  EXPECT_TRUE(share_above(0.88, zero_counts, trials));
+  EXPECT_TRUE(proportion_above(0.94, stable, trials));
+  EXPECT_TRUE(proportion_above(0.88, zero_counts, trials));
 }
 
 class WithEncoderFault : public ::testing::TestWithParam<const char*> {};
@@ -50,10 +50,10 @@ TEST_P(WithEncoderFault, TheSecondEncoderNoticesInManyMoves) {
   const study::Study study = shipped_study("two-encoders");
   const std::int64_t trials = 100;
   const auto outcomes = outcomes_of(study, GetParam(), trials);
-  EXPECT_TRUE(share_above(
+  EXPECT_TRUE(proportion_above(
       0.3, moves_with(outcomes, [](const trial::MoveOutcome& move) { return move.encoder_disagreement > 0; }),
       trials));
-  EXPECT_TRUE(share_above(
+  EXPECT_TRUE(proportion_above(
       0.93, moves_with(outcomes, [](const trial::MoveOutcome& move) { return move.stable; }), trials));
 }
 
@@ -100,12 +100,12 @@ TEST(TwoEncoders, MissedCountsAreMissingFromTheTruePosition) {
     lost += std::lround(std::abs(miss));
     passed += std::lround(std::abs(target) + std::abs(miss));
   }
-  EXPECT_TRUE(share_above(0.90, held, trials));
-  EXPECT_TRUE(share_above(0.90, astray, trials)) << "zero counts, and not there";
+  EXPECT_TRUE(proportion_above(0.90, held, trials));
+  EXPECT_TRUE(proportion_above(0.90, astray, trials)) << "zero counts, and not there";
   // The rotor passes some counts to and fro besides, of which as many are lost one way as the other.
   const double probability = 1.0e-3;
-  EXPECT_TRUE(share_above(0.93 * probability, lost, passed));
-  EXPECT_TRUE(share_below(1.07 * probability, lost, passed));
+  EXPECT_TRUE(proportion_above(0.93 * probability, lost, passed));
+  EXPECT_TRUE(proportion_below(1.07 * probability, lost, passed));
 }
 
 // A fault that is fixed on the scale moves the true position by what it reads wrong there, less what it read
@@ -155,7 +155,7 @@ TEST(TwoEncoders, NoiseCostsZeroCountsButMissedCoarseCountsDoNot) {
         trial::run_trial(trial_of(study, "coarse-missed-counts", index)).moves[0];
     EXPECT_EQ(coarse.final_position, ideal.final_position) << "the coarse encoder only watches";
   }
-  EXPECT_TRUE(share_below(0.5, zero_counts, trials));
+  EXPECT_TRUE(proportion_below(0.5, zero_counts, trials));
 }
 
 // coarse-to-fine: two-phase control ends moves of degrees in zero counts; the fine gains alone destabilise
@@ -178,9 +178,9 @@ TEST(CoarseToFine, TwoPhaseControlEndsItsMovesInZeroCounts) {
   const study::Study study = shipped_study("coarse-to-fine");
   const std::int64_t trials = 160;
   const auto outcomes = outcomes_of(study, "two-phase", trials);
-  EXPECT_TRUE(share_above(
+  EXPECT_TRUE(proportion_above(
       0.95, moves_with(outcomes, [](const trial::MoveOutcome& move) { return move.stable; }), trials));
-  EXPECT_TRUE(share_above(
+  EXPECT_TRUE(proportion_above(
       0.90,
       moves_with(outcomes,
                  [](const trial::MoveOutcome& move) { return move.outcome == trial::Outcome::zero_count; }),
@@ -229,7 +229,7 @@ TEST(CoarseToFine, FineGainsAreUnstableWhileSliding) {
     const double largest = (std::pow(2.0, dac.bits - 1) - 1.0) * dac.resolution;
     EXPECT_GE(trial.outcome.moves[0].peak_torque, largest) << "what bounds it is the converter";
   }
-  EXPECT_TRUE(share_below(0.07, stable, trials));
+  EXPECT_TRUE(proportion_below(0.07, stable, trials));
 }
 
 TEST(CoarseToFine, FineGainsAreStableIfNothingSlides) {
@@ -237,7 +237,7 @@ TEST(CoarseToFine, FineGainsAreStableIfNothingSlides) {
       "coarse-to-fine", {"command.targets.0={integers: [1, 30]}", "command.profile={shape: step}"});
   const std::int64_t trials = 100;
   const auto outcomes = outcomes_of(study, "fine-alone", trials);
-  EXPECT_TRUE(share_above(
+  EXPECT_TRUE(proportion_above(
       0.93,
       moves_with(outcomes, [](const trial::MoveOutcome& move) { return move.stable && !move.broke_away; }),
       trials));
@@ -267,8 +267,8 @@ TEST_P(WithoutIntegral, TheRotorStallsAwayFromItsTarget) {
         end.end() - 100, end.end(), [](const auto& a, const auto& b) { return a.error < b.error; });
     EXPECT_LE(high->error - low->error, 1) << index;
   }
-  EXPECT_TRUE(share_below(0.06, zero_counts, trials));
-  EXPECT_TRUE(share_below(0.15, near, trials));
+  EXPECT_TRUE(proportion_below(0.06, zero_counts, trials));
+  EXPECT_TRUE(proportion_below(0.15, near, trials));
 }
 
 // Without creep the rotor comes to rest altogether, but where it balances at the very edge of a count. The
@@ -309,7 +309,7 @@ TEST(CoarseToFine, DifferencesOfTheCountKickTheRotorAtRest) {
         end.begin(), end.end(), [](const auto& a, const auto& b) { return a.torque < b.torque; });
     kicked += high->torque - low->torque > 0.9 * trial.parameters.controller.kd;
   }
-  EXPECT_TRUE(share_above(0.5, kicked, trials));
+  EXPECT_TRUE(proportion_above(0.5, kicked, trials));
   const trial::TrialParameters parameters = trial_of(study, "pd-alone", 0);
   const double count_stiffness = 110.0 * 2.0 * 3.141592653589793 / parameters.encoder.fine;  // N m/count
   EXPECT_GT(parameters.controller.kd, 10.0 * count_stiffness);

@@ -20,11 +20,11 @@ INSTANTIATE_TEST_SUITE_P(WhyPresliding, WithPresliding, ::testing::Values("presl
 TEST_P(WithPresliding, TheLoopIsStableInAllTests) {
   const std::int64_t trials = 150;
   const auto outcomes = outcomes_of(shipped_study("why-presliding"), GetParam(), trials);
-  EXPECT_TRUE(share_above(
+  EXPECT_TRUE(proportion_above(
       0.95,
       moves_with(outcomes, [](const trial::MoveOutcome& move) { return move.stable && !move.broke_away; }),
       trials));
-  EXPECT_TRUE(share_above(
+  EXPECT_TRUE(proportion_above(
       0.94,
       moves_with(outcomes,
                  [](const trial::MoveOutcome& move) { return move.outcome == trial::Outcome::zero_count; }),
@@ -35,8 +35,8 @@ TEST(WhyPresliding, JerksComeFromCreepAndASpringAloneHasNone) {
   const study::Study study = shipped_study("why-presliding");
   const auto jerks = [](const trial::MoveOutcome& move) { return move.jerk_count > 0; };
   const std::int64_t trials = 100;
-  EXPECT_TRUE(share_below(0.07, moves_with(outcomes_of(study, "spring", trials), jerks), trials));
-  EXPECT_TRUE(share_above(0.3, moves_with(outcomes_of(study, "presliding", trials), jerks), trials));
+  EXPECT_TRUE(proportion_below(0.07, moves_with(outcomes_of(study, "spring", trials), jerks), trials));
+  EXPECT_TRUE(proportion_above(0.3, moves_with(outcomes_of(study, "presliding", trials), jerks), trials));
 }
 
 /// One leap of a Coulomb plant, from the position where the hook stuck to where it sticks again.
@@ -80,7 +80,7 @@ TEST_P(WithCoulomb, TheLoopNeverArrives) {
     arrived += move.arrived;
     EXPECT_GT(move.peak_torque, parameters.friction.uniform.breakaway);
   }
-  EXPECT_TRUE(share_below(0.07, arrived, trials));
+  EXPECT_TRUE(proportion_below(0.07, arrived, trials));
 }
 
 TEST_P(WithCoulomb, TheLoopHuntsForever) {

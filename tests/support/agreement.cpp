@@ -12,7 +12,7 @@ void Agreement::add(const Agreement& other) {
   samples += other.samples;
   before_breakaway = std::max(before_breakaway, other.before_breakaway);
   after_breakaway = std::max(after_breakaway, other.after_breakaway);
-  after_breakaway_share = std::max(after_breakaway_share, other.after_breakaway_share);
+  after_breakaway_ratio = std::max(after_breakaway_ratio, other.after_breakaway_ratio);
   depth_differences += other.depth_differences;
   slide_samples += other.slide_samples;
   edge_trials += other.edge_trials;
@@ -24,7 +24,7 @@ std::string Agreement::figures() const {
       "{} samples, {} sliding; theta within {:.1e} count before breakaway, {:.1e} count ({:.1e} of the "
       "bound) after; "
       "{} on an edge, {} different depths, {} failures",
-      samples, slide_samples, before_breakaway, after_breakaway, after_breakaway_share, edge_trials,
+      samples, slide_samples, before_breakaway, after_breakaway, after_breakaway_ratio, edge_trials,
       depth_differences, failures.size());
 }
 
@@ -90,7 +90,7 @@ Agreement compare(const trial::TrialParameters& parameters, const std::vector<tr
     double& worst = slid ? agreement.after_breakaway : agreement.before_breakaway;
     worst = std::max(worst, difference / fine);
     if (slid)
-      agreement.after_breakaway_share = std::max(agreement.after_breakaway_share, difference / allowed);
+      agreement.after_breakaway_ratio = std::max(agreement.after_breakaway_ratio, difference / allowed);
   }
   return agreement;
 }

@@ -13,7 +13,7 @@ struct Agreement {
   std::int64_t samples{0};            ///< number of compared samples
   double before_breakaway{0.0};       ///< largest difference of θ until the first breakaway, counts
   double after_breakaway{0.0};        ///< largest difference of θ after the first breakaway, counts
-  double after_breakaway_share{0.0};  ///< largest ratio of that difference to the accuracy promised there
+  double after_breakaway_ratio{0.0};  ///< largest ratio of that difference to the accuracy promised there
   std::int64_t depth_differences{0};  ///< samples with different stack depths (the rest rules may differ)
   std::int64_t slide_samples{0};      ///< samples taken while the hook slid
   std::int64_t edge_trials{

@@ -35,14 +35,14 @@ inline double chi_square_probability(const std::vector<double>& observed,
   int cells = 0;
   double seen = 0.0;
   double wanted = 0.0;
-  double left = 0.0;
-  for (const double cell : expected) left += cell;
+  double remaining = 0.0;
+  for (const double cell : expected) remaining += cell;
   for (std::size_t i = 0; i < expected.size(); ++i) {
     seen += observed[i];
     wanted += expected[i];
-    left -= expected[i];
+    remaining -= expected[i];
     const bool last = i + 1 == expected.size();
-    if (!last && (wanted < 10.0 || left < 10.0)) continue;
+    if (!last && (wanted < 10.0 || remaining < 10.0)) continue;
     statistic += (seen - wanted) * (seen - wanted) / wanted;
     ++cells;
     seen = wanted = 0.0;

@@ -3,6 +3,7 @@
 #include <hdf5.h>
 
 #include "results/storage/file_contents.hpp"
+#include "tests/support/checksum.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount::testing {
@@ -105,7 +106,7 @@ void change_bytes(char* element, std::size_t size, bool real) {
 }
 
 void replace(const std::filesystem::path& path, const std::string& name, hid_t type, const void* value) {
-  unseal(path);
+  remove_checksum(path);
   const hid_t file = open_file(path, H5F_ACC_RDWR);
   H5Adelete(file, name.c_str());
   const hid_t space = H5Screate(H5S_SCALAR);
@@ -113,13 +114,13 @@ void replace(const std::filesystem::path& path, const std::string& name, hid_t t
   H5Awrite(attribute, type, value);
   H5Sclose(space);
   H5Fclose(file);
-  storage::append_checksum(path);
+  append_checksum(path);
 }
 
 }  // namespace
 
 void replace_by_texts(const std::filesystem::path& path, const std::string& dataset, std::uint64_t rows) {
-  unseal(path);
+  remove_checksum(path);
   const hid_t file = open_file(path, H5F_ACC_RDWR);
   H5Ldelete(file, dataset.c_str(), H5P_DEFAULT);
   const hid_t type = H5Tcopy(H5T_C_S1);
@@ -134,7 +135,7 @@ void replace_by_texts(const std::filesystem::path& path, const std::string& data
   H5Sclose(space);
   H5Tclose(type);
   H5Fclose(file);
-  storage::append_checksum(path);
+  append_checksum(path);
 }
 
 std::map<std::string, std::string> stored_datasets(const std::filesystem::path& path) {
@@ -183,7 +184,7 @@ namespace {
 void rewrite_element(const std::filesystem::path& path, const std::string& name, std::size_t index,
                      const std::function<void(char*, std::size_t, bool)>& change) {
   std::string elements = elements_of(path, name).value();
-  unseal(path);
+  remove_checksum(path);
   const hid_t file = open_file(path, H5F_ACC_RDWR);
   const hid_t dataset = checked(H5Dopen2(file, name.c_str(), H5P_DEFAULT));
   const hid_t type = H5Dget_type(dataset);
@@ -193,7 +194,7 @@ void rewrite_element(const std::filesystem::path& path, const std::string& name,
   H5Tclose(type);
   H5Dclose(dataset);
   H5Fclose(file);
-  storage::append_checksum(path);
+  append_checksum(path);
 }
 
 }  // namespace
@@ -236,18 +237,18 @@ void replace_attribute(const std::filesystem::path& path, const std::string& nam
 }
 
 void remove_attribute(const std::filesystem::path& path, const std::string& name) {
-  unseal(path);
+  remove_checksum(path);
   const hid_t file = open_file(path, H5F_ACC_RDWR);
   H5Adelete(file, name.c_str());
   H5Fclose(file);
-  storage::append_checksum(path);
+  append_checksum(path);
 }
 
 void write_empty_hdf5(const std::filesystem::path& path) {
   H5Fclose(checked(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT)));
 }
 
-void unseal(const std::filesystem::path& path) {
+void remove_checksum(const std::filesystem::path& path) {
   std::filesystem::resize_file(path, std::filesystem::file_size(path) - storage::checksum_trailer_length);
 }
 

@@ -47,7 +47,7 @@ void replace_by_texts(const std::filesystem::path& path, const std::string& data
 void write_empty_hdf5(const std::filesystem::path& path);
 
 /// Removes the checksum trailer from the end of a file, so that the file can be changed.
-void unseal(const std::filesystem::path& path);
+void remove_checksum(const std::filesystem::path& path);
 
 /// Offset in the file of the first chunk of a dataset.
 std::uint64_t chunk_address(const std::filesystem::path& path, const std::string& dataset);

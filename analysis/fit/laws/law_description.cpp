@@ -75,13 +75,13 @@ std::string missing_text(const LawComparison& comparison) {
 }
 
 document::Description<IdentifiedLaw> law_description() {
-  using Of = const IdentifiedLaw&;
   return document::Description<IdentifiedLaw>()
-      .value({"law", "law", "word of the friction law"}, [](Of r) { return to_string(r); })
+      .value({"law", "law", "word of the friction law"}, [](const IdentifiedLaw& r) { return to_string(r); })
       .value({"fitted", "fitted", "fitted numbers, with the time offset"}, &IdentifiedLaw::fitted)
-      .value(for_people("residual", "residual"), [](Of r) { return length_text(r.misfit, r.axis); })
+      .value(for_people("residual", "residual"),
+             [](const IdentifiedLaw& r) { return length_text(r.misfit, r.axis); })
       .value(for_people("of_travel", "of the travel"),
-             [](Of r) { return fmt::format("{:.3g} %", 100.0 * r.misfit_over_travel); })
+             [](const IdentifiedLaw& r) { return fmt::format("{:.3g} %", 100.0 * r.misfit_over_travel); })
       .value(in_data("misfit", "root mean square of the residuals, rad or m"), &IdentifiedLaw::misfit)
       .value(in_data("misfit_over_travel", "the same over the travel of the records", "1"),
              &IdentifiedLaw::misfit_over_travel)
@@ -90,13 +90,13 @@ document::Description<IdentifiedLaw> law_description() {
            "Schwarz's criterion less that of the best law, the first one; negative for one that does not explain the records"},
           &IdentifiedLaw::information_criterion)
       .value({"explained", "encoder and noise explain it", "whether they explain the residuals"},
-             [](Of r) { return r.checks.passed; })
+             [](const IdentifiedLaw& r) { return r.checks.passed; })
       .value(in_data("spread", "root mean square of the residuals over their standard deviations", "1"),
-             [](Of r) { return r.checks.spread; })
+             [](const IdentifiedLaw& r) { return r.checks.spread; })
       .value(in_data("expected_spread", "its mean over replicates", "1"),
-             [](Of r) { return r.checks.expected_spread; })
+             [](const IdentifiedLaw& r) { return r.checks.expected_spread; })
       .value(in_data("widening", "factor that widened the intervals", "1"),
-             [](Of r) { return r.checks.widening; })
+             [](const IdentifiedLaw& r) { return r.checks.widening; })
       .value(in_data("converged", "whether the fit converged"), &IdentifiedLaw::converged)
       .table(in_data("parameters", "its parameters"), estimate_description(), &IdentifiedLaw::parameters)
       .value(in_data("manifest", "the law as a fragment of a manifest"), &IdentifiedLaw::fragment);
@@ -111,24 +111,26 @@ document::Description<LawLeftOut> left_out_description() {
 }
 
 document::Description<RecordExtent> law_record_description() {
-  using Of = const RecordExtent&;
   return document::Description<RecordExtent>()
-      .value(in_data("name", "file, and part of it"), [](Of r) { return text::printable(r.name); })
+      .value(in_data("name", "file, and part of it"),
+             [](const RecordExtent& r) { return text::printable(r.name); })
       .value(in_data("samples", "samples of the record"), &RecordExtent::samples)
       .value(in_data("excluded", "samples masked by --exclude"), &RecordExtent::excluded)
-      .value(in_data("note", "what was cut out of it"), [](Of r) { return text::printable(r.note); });
+      .value(in_data("note", "what was cut out of it"),
+             [](const RecordExtent& r) { return text::printable(r.note); });
 }
 
 }  // namespace
 
 document::AnswerDescription<LawComparison> laws_answer() {
-  using Of = const LawComparison&;
   document::AnswerDescription<LawComparison> answer{
       {.name = "identify-laws", .meaning = "friction laws compared on the same records", .csv_table = "laws"},
       {}};
   answer.items.headline(laws_headline)
-      .value(in_data("kind", "always laws"), [](Of) { return "laws"; })
-      .value(axis_item(), [](Of c) { return parameters::axis_labels.at(static_cast<std::size_t>(c.axis)); })
+      .value(in_data("kind", "always laws"), [](const LawComparison&) { return "laws"; })
+      .value(
+          axis_item(),
+          [](const LawComparison& c) { return parameters::axis_labels.at(static_cast<std::size_t>(c.axis)); })
       .table({.key = "laws", .meaning = "the laws, the best one first"}, law_description(),
              &LawComparison::laws)
       .table(in_data("left_out", "laws that could not be fitted"), left_out_description(),
@@ -137,17 +139,18 @@ document::AnswerDescription<LawComparison> laws_answer() {
       .value(in_data("readings", "readings of all records"), &LawComparison::readings)
       .value(in_data("effective_readings", "those that count as independent in BIC"),
              &LawComparison::effective_readings)
-      .sentence([](Of c) {
+      .sentence([](const LawComparison& c) {
         return fmt::format("{} readings, of which {:.0f} count as independent in BIC", c.readings,
                            c.effective_readings);
       })
       .value(in_data("sample_time", "time between samples", "s"), &LawComparison::sample_time)
       .table(in_data("records", "the records"), law_record_description(), &LawComparison::records)
       .sentence(left_out_of_records_text)
-      .table({.key = "best", .heading = "Parameters of the best law", .shown = document::Shown::to_people},
-             estimate_description(), [](Of c) { return c.laws.front().parameters; })
+      .table(
+          {.key = "best", .heading = "Parameters of the best law", .shown = document::Visibility::to_people},
+          estimate_description(), [](const LawComparison& c) { return c.laws.front().parameters; })
       .sentence(missing_text)
-      .value(fragment_item(), [](Of c) { return c.laws.front().fragment; });
+      .value(fragment_item(), [](const LawComparison& c) { return c.laws.front().fragment; });
   return answer;
 }
 

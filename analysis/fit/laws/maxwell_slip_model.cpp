@@ -119,9 +119,9 @@ std::vector<Point> nearest_elements(const RecordScales& scales, Records records)
         const Eigen::VectorXd torque = path.torque(chosen);
         const Eigen::VectorXd free = numerics::solve_positive_definite(strains, torque);
         const Eigen::VectorXd stiffness = free.cwiseMax(faint * free.maxCoeff());
-        const double taken = stiffness.dot(2.0 * torque - strains * stiffness);
-        if (!(taken > most)) continue;
-        most = taken;
+        const double explained = stiffness.dot(2.0 * torque - strains * stiffness);
+        if (!(explained > most)) continue;
+        most = explained;
         nearest << stiffness.array().log(), std::log(travels[first]), std::log(travels[second]),
             std::log(travels[third]), std::log(plant.presliding_damping), std::log(plant.inertia), 0.0;
       }

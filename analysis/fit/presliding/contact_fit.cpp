@@ -191,18 +191,18 @@ FitPoint fit_roughly(Records records, const FitStart& start, double creep_torque
   rough.tolerance = 1e-3;
   FitSetting undelayed = rough;
   undelayed.free[time_offset] = false;
-  std::optional<FitResult> first;
-  const auto explains = [&](const FitResult& found) {
-    if (!first || found.squares < first->squares) first = found;
-    refuse_glitches(records, first->point, setting);
-    return are_explained(records, first->point, setting);
-  };
+  std::optional<FitResult> first;  // the best one from the points tried so far
   const auto fit_at = [&](const Point& point) {
     undelayed.prior = rough.prior = point;
     const FitPoint at = with_mean_offsets(records, setting.model, point).point;
-    return with_time_offset(records, observations, first_fit(records, observations, at, undelayed), rough);
+    const FitResult found =
+        with_time_offset(records, observations, first_fit(records, observations, at, undelayed), rough);
+    if (!first || found.squares < first->squares) first = found;
+    refuse_glitches(records, first->point, setting);
   };
-  if (explains(fit_at(start.points.front()))) return first->point;
+  const auto is_explained = [&] { return are_explained(records, first->point, setting); };
+  fit_at(start.points.front());
+  if (is_explained()) return first->point;
   // A delay that was not given: the fit has made up for it by a wrong spring and inertia, too.
   const double offset = first->point.axis[time_offset];
   constexpr double min_offset = 0.5;  // samples
@@ -213,10 +213,12 @@ FitPoint fit_roughly(Records records, const FitStart& start, double creep_torque
     const std::vector<TestRecord> shifted = with_later_torque(records, shift);
     Point point = starting_points(shifted, creep_torque, start.points.front(), setting.free).front();
     point[time_offset] = shift;
-    if (explains(fit_at(point))) return first->point;
+    fit_at(point);
+    if (is_explained()) return first->point;
   }
   for (std::size_t i = 1; i < start.points.size(); ++i) {
-    if (explains(fit_at(start.points[i]))) return first->point;
+    fit_at(start.points[i]);
+    if (is_explained()) return first->point;
   }
   FitResult best = *first;
   // The other starting points vary the one of closed forms, which has no wrong minimum of its own.

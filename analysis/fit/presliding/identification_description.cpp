@@ -69,16 +69,16 @@ std::string headline_of(const Identification& identification) {
 }
 
 document::Description<RecordSummary> record_description() {
-  using Of = const RecordSummary&;
   constexpr auto digits = document::Notation::three_digits;
   return document::Description<RecordSummary>()
-      .value({"name", "record", "file, and part of it"}, [](Of r) { return text::printable(r.name); })
+      .value({"name", "record", "file, and part of it"},
+             [](const RecordSummary& r) { return text::printable(r.name); })
       .value({"samples", "samples", "samples of the record"}, &RecordSummary::samples)
       .value({"duration", "duration", "its duration", "s"}, &RecordSummary::duration)
       .value(in_data("counted", "whether it is read in counts"), &RecordSummary::counted)
       .value(in_data("unit", "size of a unit of the readings, rad or m"), &RecordSummary::unit)
-      .value({.key = "unit_text", .heading = "read in", .shown = document::Shown::to_people},
-             [](Of r) {
+      .value({.key = "unit_text", .heading = "read in", .shown = document::Visibility::to_people},
+             [](const RecordSummary& r) {
                return fmt::format("{} of {:.6g} {}", r.counted ? "counts" : "units", r.unit,
                                   parameters::unit_on(r.axis, "rad"));
              })
@@ -93,7 +93,8 @@ document::Description<RecordSummary> record_description() {
       .value({"noise", "noise", "standard deviation of the readings, in their unit", "", digits},
              &RecordSummary::noise)
       .value({"excluded", "masked", "samples masked by --exclude"}, &RecordSummary::excluded)
-      .value({"note", "cut", "what was cut out of it"}, [](Of r) { return text::printable(r.note); });
+      .value({"note", "cut", "what was cut out of it"},
+             [](const RecordSummary& r) { return text::printable(r.note); });
 }
 
 document::Description<ResidualChecks> checks_description() {
@@ -136,24 +137,26 @@ Matrix matrix_of(const JointErrors& errors, Value value) {
 }
 
 document::Description<JointErrors> errors_description() {
-  using Of = const JointErrors&;
   return document::Description<JointErrors>()
       .value(in_data("parameters", "names, in the order of the matrices"), &JointErrors::names)
       .value(in_data("covariance", "of the errors of logarithms; of n and the time offset themselves"),
-             [](Of e) { return matrix_of(e, [&](auto i, auto j) { return e.covariance(i, j); }); })
-      .value(in_data("correlation", "of the same errors", "1"),
-             [](Of e) { return matrix_of(e, [&](auto i, auto j) { return e.correlation(i, j); }); });
+             [](const JointErrors& e) {
+               return matrix_of(e, [&](auto i, auto j) { return e.covariance(i, j); });
+             })
+      .value(in_data("correlation", "of the same errors", "1"), [](const JointErrors& e) {
+        return matrix_of(e, [&](auto i, auto j) { return e.correlation(i, j); });
+      });
 }
 
-struct LineReading {
+struct LineOfRecord {
   std::string record;
   double frequency;
 };
 
-std::optional<LineReading> line_of(const Identification& identification) {
+std::optional<LineOfRecord> line_of(const Identification& identification) {
   if (!identification.residual_line) return {};
   const ResidualLine& line = *identification.residual_line;
-  return LineReading{text::printable(identification.records[line.record].name), line.frequency};
+  return LineOfRecord{text::printable(identification.records[line.record].name), line.frequency};
 }
 
 }  // namespace
@@ -171,14 +174,13 @@ std::string second_mass_text(const Identification& identification) {
 
 document::AnswerDescription<Identification> identification_answer() {
   using Correlation = Identification::Correlation;
-  using Of = const Identification&;
   document::AnswerDescription<Identification> answer{
       {.name = "identify",
        .meaning = "friction, damping and inertia from material tests",
        .csv_table = "parameters"},
       {}};
   answer.items.headline(headline_of)
-      .include(estimates_description(), [](Of i) -> const FitReport& { return i; })
+      .include(estimates_description(), [](const Identification& i) -> const FitReport& { return i; })
       .value(in_data("sample_time", "time between samples of the first record", "s"),
              &Identification::sample_time)
       .sentence(time_offset_text)
@@ -194,16 +196,16 @@ document::AnswerDescription<Identification> identification_answer() {
       .table({"records", "Records", "what each record has of the tests"}, record_description(),
              &Identification::records)
       .object(in_data("residuals", "checks of the residuals"), checks_description(), &Identification::checks)
-      .sentence([](Of i) { return checks_text(i.checks); })
+      .sentence([](const Identification& i) { return checks_text(i.checks); })
       .object(in_data("residual_line", "spectral line of the residuals that a second mass may make"),
-              document::Description<LineReading>()
-                  .value(in_data("record", "record with the line"), &LineReading::record)
-                  .value(in_data("frequency", "its frequency", "Hz"), &LineReading::frequency),
+              document::Description<LineOfRecord>()
+                  .value(in_data("record", "record with the line"), &LineOfRecord::record)
+                  .value(in_data("frequency", "its frequency", "Hz"), &LineOfRecord::frequency),
               line_of)
-      .sentence([](Of i) { return i.residual_line ? second_mass_text(i) + "." : ""; })
+      .sentence([](const Identification& i) { return i.residual_line ? second_mass_text(i) + "." : ""; })
       .value(in_data("search_ended", "whether the search ended because of --effort"),
              &Identification::search_ended)
-      .sentence([](Of i) { return i.search_ended ? left_out_text(i.effort) + "." : ""; })
+      .sentence([](const Identification& i) { return i.search_ended ? left_out_text(i.effort) + "." : ""; })
       .value(fragment_item(), &Identification::fragment);
   return answer;
 }

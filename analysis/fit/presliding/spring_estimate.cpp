@@ -174,7 +174,7 @@ Eigen::VectorXd measured_angle(const TestRecord& record) {
 
 Eigen::VectorXd creep_extension(const TestRecord& record, const CreepEstimate& creep, double creep_torque) {
   Eigen::VectorXd extension(static_cast<Eigen::Index>(sample_count(record)));
-  const double left = std::exp(-creep.alpha * record.sample_time);
+  const double decay = std::exp(-creep.alpha * record.sample_time);
   double hardening = record.start.hardening;
   double extended = 0.0;
   double torque = 0.0;
@@ -187,7 +187,7 @@ Eigen::VectorXd creep_extension(const TestRecord& record, const CreepEstimate& c
       limit = torque == 0.0 ? 0.0 : creep.limit * numerics::exp(creep.exponent * numerics::log(ratio));
     }
     if (limit <= hardening) continue;
-    const double growth = (limit - hardening) * (1.0 - left);
+    const double growth = (limit - hardening) * (1.0 - decay);
     hardening += growth;
     extended += std::copysign(growth, torque);
   }

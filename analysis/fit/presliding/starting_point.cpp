@@ -329,8 +329,8 @@ SlowParts slow_parts_of(const TestRecord& record) {
     const double torque = torque_before(record, k);
     const double before = torque - torque_before(record, k - 1);
     const double after = record.torque[k].now - torque;
-    const bool turns = before * after < 0.0 || (before != 0.0 && after == 0.0);
-    if (read || turns) parts.points.push_back({torque, k, read});
+    const bool reverses = before * after < 0.0 || (before != 0.0 && after == 0.0);
+    if (read || reverses) parts.points.push_back({torque, k, read});
     if (read) ++parts.read;
   }
   return parts;

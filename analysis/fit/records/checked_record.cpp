@@ -148,16 +148,16 @@ std::vector<motion::TorqueCourse> courses_of(const RawSeries& series, const Test
   double lagging = 0.0;                                       // motor torque, lagging behind a commanded one
   for (std::size_t k = 0; k < series.torque.size(); ++k) {
     const double torque = k < delay ? 0.0 : series.torque[k - delay];
-    const double left = std::exp(-rate * interval_after(record, k));
+    const double decay = std::exp(-rate * interval_after(record, k));
     const double gone = -std::expm1(-rate * interval_after(record, k));
     if (rate == 0.0) {
       courses.push_back(motion::constant_torque(torque));
     } else if (series.torque_kind == TorqueKind::commanded) {
       courses.push_back({lagging, torque, rate});
-      lagging = torque + (lagging - torque) * left;
+      lagging = torque + (lagging - torque) * decay;
     } else {
       const double next = k + 1 < series.torque.size() ? series.torque[k + 1] : torque;
-      courses.push_back({torque, (next - torque * left) / gone, rate});
+      courses.push_back({torque, (next - torque * decay) / gone, rate});
     }
   }
   return courses;

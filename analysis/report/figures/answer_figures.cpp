@@ -156,7 +156,7 @@ void add_index(FigureData& data, const sensitivity::FactorSensitivity& factor, c
       {factor.name, index, datum(number.value), datum(number.low), datum(number.high), condition}));
 }
 
-/// A measure's name as a label in a figure: "settling time" for "arrival_time".
+/// A measure's name as a label in a figure: "arrival time" for "arrival_time".
 std::string label_text(std::string name) {
   std::replace(name.begin(), name.end(), '_', ' ');
   return name;

@@ -355,8 +355,8 @@ std::optional<Figure> curves_figure(const ReportedStudy& reported, const worlds:
   for (std::size_t world = 0; world < std::min(moves.size(), max_world_curves); ++world) {
     std::vector<std::pair<double, double>> steps = steps_of(moves[world], max_world_steps);
     steps.emplace_back(end, steps.back().second);
-    for (const auto& [time, share] : steps)
-      data.rows.push_back({world, datum(time), datum(share), static_cast<bool>(point.bad[world]),
+    for (const auto& [time, proportion] : steps)
+      data.rows.push_back({world, datum(time), datum(proportion), static_cast<bool>(point.bad[world]),
                            datum(colours ? inputs[input].values[world] : static_cast<double>(world))});
   }
   Figure figure = figure_of(

@@ -21,13 +21,13 @@ constexpr std::int64_t buckets = 250;
 using RankedTrials = std::vector<std::pair<goal::Badness, std::int64_t>>;
 
 std::vector<RankedTrials> ranked_trials(const ReportedStudy& reported) {
-  const study::TrialTurns turns = study::turns_of(reported.study);
+  const study::TrialIndices indices = study::trial_indices(reported.study);
   std::vector<RankedTrials> ranked(std::max<std::size_t>(reported.study.conditions.size(), 1));
   const layout::RowRange rows = rows_of(reported, reported.chosen.point);
   measures::visit_trials(
       reported.file, rows, [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
         const std::int64_t index = row - rows.first;
-        ranked[has_conditions(reported) ? static_cast<std::size_t>(turns.condition_of(index)) : 0]
+        ranked[has_conditions(reported) ? static_cast<std::size_t>(indices.condition_of(index)) : 0]
             .emplace_back(badness_of(question_of(reported), moves), index);
       });
   return ranked;

@@ -30,9 +30,9 @@ std::string moves_text(const PointValues& values) {
   const study::StudyPlan& plan = *values.study().plan;
   const std::string unit = parameters::unit_of(plan.table.rows[plan.list.first], plan.units);
   std::vector<double> each;
-  study::ValueLimits all{INFINITY, -INFINITY};
+  study::ParameterRange all{INFINITY, -INFINITY};
   for (const std::size_t slot : study::slots_of(plan.list)) {
-    const study::ValueLimits one = values.limits(slot);
+    const study::ParameterRange one = values.limits(slot);
     all.low = std::min(all.low, one.low);
     all.high = std::max(all.high, one.high);
     if (one.low == one.high) each.push_back(one.low);
@@ -90,7 +90,7 @@ void add_masses(Facts& facts, const PointValues& values, const trial::TrialParam
   const parameters::AxisKind axis = values.study().units.axis;
   add(facts, "two masses", true);
   add(facts, "friction of the load", p.load_side.friction.model != friction::LoadFrictionModel::none);
-  const study::ValueLimits constant = values.limits("disturbance.load.torque");
+  const study::ParameterRange constant = values.limits("disturbance.load.torque");
   if (constant.low != 0.0 || constant.high != 0.0)
     facts["constant on the load"] = values.text("disturbance.load.torque");
   facts["closing mass"] = name(closing);
@@ -106,7 +106,7 @@ void add_masses(Facts& facts, const PointValues& values, const trial::TrialParam
 
 void add_disturbance(Facts& facts, const PointValues& values,
                      const trial::DisturbanceParameters& disturbance) {
-  const study::ValueLimits constant = values.limits("disturbance.torque");
+  const study::ParameterRange constant = values.limits("disturbance.torque");
   add(facts, "constant", constant.low != 0.0 || constant.high != 0.0);
   add(facts, "random", !disturbance.spectra.empty());
   add(facts, "disturbed",

@@ -34,8 +34,8 @@ class PointValues {
   std::int64_t point() const { return point_; }
 
   /// The range of the parameter with this dotted path, in its unit in the manifest.
-  study::ValueLimits limits(std::string_view name) const;
-  study::ValueLimits limits(std::size_t slot) const;
+  study::ParameterRange limits(std::string_view name) const;
+  study::ParameterRange limits(std::size_t slot) const;
   /// Whether the value can be above 0 in some trial.
   bool can_be_positive(std::string_view name) const { return limits(name).high > 0.0; }
 

@@ -57,11 +57,12 @@ std::size_t PointValues::slot_of(std::string_view name) const {
   return study::find_slots(name, study_.plan->table).value().first;
 }
 
-study::ValueLimits PointValues::limits(std::size_t slot) const {
-  study::ValueLimits all = study::limits_of_slot(*study_.plan, slot, study::plan_point(*study_.plan, point_));
+study::ParameterRange PointValues::limits(std::size_t slot) const {
+  study::ParameterRange all =
+      study::range_of_slot(*study_.plan, slot, study::plan_point(*study_.plan, point_));
   for (std::int64_t condition = 1; condition < study_.plan->conditions; ++condition) {
-    const study::ValueLimits one =
-        study::limits_of_slot(*study_.plan, slot, study::plan_point(*study_.plan, point_, condition));
+    const study::ParameterRange one =
+        study::range_of_slot(*study_.plan, slot, study::plan_point(*study_.plan, point_, condition));
     all.low = std::min(all.low, one.low);
     all.high = std::max(all.high, one.high);
   }
@@ -73,12 +74,11 @@ std::vector<double> PointValues::typical_values(std::size_t slot) const {
   for (std::int64_t condition = 0; condition < std::max<std::int64_t>(study_.plan->conditions, 1);
        ++condition)
     values.push_back(
-        study::limits_of_slot(*study_.plan, slot, study::plan_point(*study_.plan, point_, condition))
-            .typical);
+        study::range_of_slot(*study_.plan, slot, study::plan_point(*study_.plan, point_, condition)).typical);
   return values;
 }
 
-study::ValueLimits PointValues::limits(std::string_view name) const {
+study::ParameterRange PointValues::limits(std::string_view name) const {
   return limits(slot_of(name));
 }
 
@@ -88,7 +88,7 @@ bool PointValues::is_none(std::string_view name) const {
 
 std::string PointValues::text(std::size_t slot) const {
   const parameters::Parameter& parameter = study_.plan->table.rows[slot];
-  const study::ValueLimits range = limits(slot);
+  const study::ParameterRange range = limits(slot);
   if (parameters::has_labels(parameter))
     return std::string(parameter.labels[static_cast<std::size_t>(range.low)]);
   if (range.low == parameter.none) return "none";

@@ -97,7 +97,7 @@ class StateReader {
   template <class Key, class Value>
   void read(std::map<Key, Value>& elements) {
     elements.clear();
-    for (std::size_t left = next_size(); left > 0; --left) {
+    for (std::size_t remaining = next_size(); remaining > 0; --remaining) {
       Key key{};
       read(key);
       require(key == key && (elements.empty() || elements.rbegin()->first < key));  // neither NaN nor twice

@@ -52,27 +52,12 @@ bool has_noise_alone(const trial::TrialParameters& p) {
 // enumerators and each structured binding all members, so that the compiler demands a decision for one that
 // is added later.
 
-bool lanes_have(loop::ControlStructure structure) {
-  switch (structure) {
-    case loop::ControlStructure::pid:
-    case loop::ControlStructure::cascade:
-      return true;
-  }
-  return false;
-}
-
 bool blocks_remember(const loop::ControlBlocks& blocks) {
   [[maybe_unused]] const auto& [structure, cascade, deadband, zone, leak, window, cutoff, filters,
                                 feedforward, observer, error_deadband, hold, standstill] = blocks;
   // At zero error and without motion, only memory other than the integral can change the torque.
   return observer.bandwidth > 0.0 || !filters.empty() || std::isfinite(cutoff) || std::isfinite(leak) ||
          has_queues(blocks);
-}
-
-std::string_view lacking(const loop::ControlBlocks& blocks) {
-  [[maybe_unused]] const auto& [structure, cascade, deadband, zone, leak, window, cutoff, filters,
-                                feedforward, observer, error_deadband, hold, standstill] = blocks;
-  return lanes_have(structure) ? "" : "the controller's structure";
 }
 
 std::string_view lacking(const loop::ControllerParameters& controller,
@@ -83,8 +68,7 @@ std::string_view lacking(const loop::ControllerParameters& controller,
       "sample_kernel has these blocks: another one needs its law there, or needs_lane_loop()");
   [[maybe_unused]] const auto& [sample_rate, kp, ki, kd, delay, anti_windup, encoder, coarse, blocks,
                                 velocity_by_other, user, dither, missed, jitter] = controller;
-  if (velocity_by_other || (user.plugin && loop::has_other(encoders))) return "encoder.load";
-  return lacking(blocks);
+  return velocity_by_other || (user.plugin && loop::has_other(encoders)) ? "encoder.load" : "";
 }
 
 /// @param max_frequency highest frequency of a vibration whose series over a sample is accurate, Hz.

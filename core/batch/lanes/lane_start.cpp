@@ -73,6 +73,16 @@ void start_noise(NoiseLanes& n, int lane, const trial::TrialParameters& p) {
   n.coarse_resolution[lane] = loop::coarse_resolution(p.encoder);
 }
 
+bool is_cascade(loop::ControlStructure structure) {
+  switch (structure) {
+    case loop::ControlStructure::pid:
+      return false;
+    case loop::ControlStructure::cascade:
+      return true;
+  }
+  return false;
+}
+
 void start_blocks(BlockLanes& b, int lane, const trial::TrialParameters& p, double resolution) {
   const loop::ControllerParameters& controller = p.controller;
   const loop::ControlBlocks& blocks = controller.blocks;
@@ -83,7 +93,7 @@ void start_blocks(BlockLanes& b, int lane, const trial::TrialParameters& p, doub
       loop::integral_constants(blocks, sample_rate,
                                loop::integral_range(controller.anti_windup, loop::lowest_torque(p.dac),
                                                     loop::highest_torque(p.dac))));
-  b.is_cascade[lane] = blocks.structure == loop::ControlStructure::cascade ? 1.0 : 0.0;
+  b.is_cascade[lane] = is_cascade(blocks.structure) ? 1.0 : 0.0;
   store_constants(b.cascade, lane,
                   loop::cascade_constants(blocks.cascade, sample_rate, resolution, resolution));
   b.pole[lane] = loop::derivative_pole(blocks, sample_rate);

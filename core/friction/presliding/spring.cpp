@@ -102,10 +102,6 @@ double stiffness_on(const SpringBranch& branch, double x) {
                          numerics::exp(-branch.softening_rate * travel_on(branch, x));
 }
 
-double branch_law(const FrictionParameters& friction, double travel) {
-  return torque_on(branch_from(friction, 0.0, 0.0, 1.0), travel);
-}
-
 double inverse_branch_law(const FrictionParameters& friction, double torque) {
   return travel_at(branch_from(friction, 0.0, 0.0, 1.0), torque);
 }
@@ -146,15 +142,6 @@ void HystereticSpring::set_direction(int direction, double x, double torque) {
 void HystereticSpring::move_on_branch(double x) {
   elongation_ = x;
   close_loops();
-}
-
-void HystereticSpring::move_to(double x) {
-  if (x == elongation_) return;
-  set_direction(x > elongation_ ? 1 : -1);
-  for (std::optional<double> end = branch_end(); end && direction_ * (x - *end) >= 0.0; end = branch_end()) {
-    move_on_branch(*end);
-  }
-  move_on_branch(x);
 }
 
 void HystereticSpring::move_to_torque(double torque) {

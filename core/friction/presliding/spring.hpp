@@ -49,11 +49,8 @@ double torque_on(const SpringBranch& branch, double x);
 /// Tangent stiffness dσ/dx (N m/rad) of the branch at the elongation x (rad): from k1 + k2 down to k1.
 double stiffness_on(const SpringBranch& branch, double x);
 
-/// f(u) = k1·u + (k2/β)·(1 − exp(−βu)) for u ≥ 0 (rad): torque gained (N m) along a branch after the travel
-/// u.
-double branch_law(const FrictionParameters& friction, double travel);
-
-/// The travel u ≥ 0 (rad) with branch_law(u) = torque, torque ≥ 0 (N m).
+/// The travel u ≥ 0 (rad) along a branch at which f(u) = k1·u + (k2/β)·(1 − exp(−βu)), the torque gained,
+/// equals `torque` ≥ 0 (N m).
 double inverse_branch_law(const FrictionParameters& friction, double torque);
 
 /// The elongation (rad) at which the virgin curve carries `torque` (N m, either sign).
@@ -112,9 +109,6 @@ class HystereticSpring {
   /// Moves along the present branch to x (rad), which lies ahead and not beyond branch_end(). Closes the loop
   /// if x is its end.
   void move_on_branch(double x);
-
-  /// Moves to x (rad) through all branches between.
-  void move_to(double x);
 
   /// Moves to the nearest elongation that carries `torque` (N m) within rounding, through all branches
   /// between. The torque of a reversal point closes its loop.

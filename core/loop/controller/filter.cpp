@@ -84,10 +84,6 @@ std::optional<Filter> resampled(const Filter& biquad, double ratio) {
   return filter;
 }
 
-bool is_stable(const BiquadConstants<double>& filter) {
-  return std::abs(filter.a2) < 1.0 && std::abs(filter.a1) < 1.0 + filter.a2;
-}
-
 Filters::Filters(const ControllerParameters& parameters, const ControlStart& /*start*/) {
   sections_.reserve(parameters.blocks.filters.size());
   for (const Filter& filter : parameters.blocks.filters) {

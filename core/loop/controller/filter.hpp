@@ -31,9 +31,6 @@ BiquadConstants<double> discretised(const Filter& filter, double sample_rate);
 /// such filter in s, because of a pole at half the sample rate.
 std::optional<Filter> resampled(const Filter& biquad, double ratio);
 
-/// Whether both poles lie inside the unit circle (Jury's criterion).
-bool is_stable(const BiquadConstants<double>& filter);
-
 /// The filters in series, applied to the torque of the control law. Past values are 0 at first.
 class Filters {
  public:

@@ -13,13 +13,13 @@
 namespace zerocount::design_commands {
 namespace {
 
-using document::Shown;
+using document::Visibility;
 using tuning::LostAges;
 using tuning::LostClaim;
 
-/// Machines of one age, as many as take the trials of the planned units, and enough to show that the goals
+/// Machines of one age, as many as take the trials of the planned machines, and enough to show that the goals
 /// are met if no move misses them.
-trials::Replicates units_of_ages(const tuning::TunedAxis& axis) {
+trials::Replicates machines_of_ages(const tuning::TunedAxis& axis) {
   const std::int64_t each = tuning::trials_of_machine(axis.study);
   const std::int64_t least = tuning::min_proof_trials(axis.study, 1) / each;
   return {trials::in_equal_worlds(axis.study, std::max(axis.trials_of_point() / each, least)),
@@ -30,12 +30,12 @@ tuning::ExtraCost cost_of_ages(const tuning::TunedAxis& axis) {
   const std::int64_t ages = std::ssize(axis.study.ages.at);
   const std::int64_t runs = tuning::points_of_lost_ages(axis.study);
   // A point has all ages.
-  return {.points = (runs + ages - 1) / ages, .trials = runs * units_of_ages(axis).trials()};
+  return {.points = (runs + ages - 1) / ages, .trials = runs * machines_of_ages(axis).trials()};
 }
 
 std::any find_lost_ages(tuning::TunedAxis& axis) {
   const study::Study tuned = trials::variant_of(axis.study, tuning::overrides_of(axis.free(), axis.values));
-  return tuning::lost_ages(tuned, units_of_ages(axis), axis.effort);
+  return tuning::lost_ages(tuned, machines_of_ages(axis), axis.effort);
 }
 
 struct LostRow {
@@ -43,7 +43,7 @@ struct LostRow {
   const study::Study& study;
 };
 
-std::vector<LostRow> lost_rows(Of tuning) {
+std::vector<LostRow> lost_rows(const Tuning& tuning) {
   std::vector<LostRow> rows;
   if (const auto* const life = tuning.answer.extra<LostAges>()) {
     for (const LostClaim& one : life->claims) rows.push_back({one, tuning.study});
@@ -52,10 +52,9 @@ std::vector<LostRow> lost_rows(Of tuning) {
 }
 
 document::Description<LostRow> lost_columns() {
-  using Row = const LostRow&;
   return document::Description<LostRow>()
       .include(named_claim_columns("goal", "condition"),
-               [](Row row) {
+               [](const LostRow& row) {
                  const auto& [goals, conditions] = std::tie(row.study.goals, row.study.condition_names);
                  tuning::ClaimNames names;
                  if (goals.size() > 1) names.goal = goals[row.claim.claim.goal].name;
@@ -66,32 +65,32 @@ document::Description<LostRow> lost_columns() {
           document::everywhere(
               "lost", "seems lost from",
               "youngest age that was tried at which less than asked for meets the goal, to 10 %; null: none; in the unit of ages"),
-          [](Row row) { return row.claim.lost; })
+          [](const LostRow& row) { return row.claim.lost; })
       .value(
           document::everywhere(
               "met_until", "shown to be met up to",
               "age up to and including which the goal is shown to be met, at its confidence; null: not at the first"),
-          [](Row row) { return row.claim.met_until; })
+          [](const LostRow& row) { return row.claim.met_until; })
       .value(document::everywhere(
                  "missed_from", "shown to be missed from",
                  "age from which on the goal is shown to be missed, at its confidence; null: none"),
-             [](Row row) { return row.claim.missed_from; })
-      .value(document::to_people("unit"), [](Row row) { return row.study.ages.unit; });
+             [](const LostRow& row) { return row.claim.missed_from; })
+      .value(document::to_people("unit"), [](const LostRow& row) { return row.study.ages.unit; });
 }
 
-std::string tried_ages_sentence(Of tuning) {
+std::string tried_ages_sentence(const Tuning& tuning) {
   const auto* const life = tuning.answer.extra<LostAges>();
   if (life == nullptr) return "";
   const study::Ages& ages = tuning.study.ages;
   return fmt::format(
       "simulated: {} machines, which the search did not use, at each of {} ages up to {}; the laws of aging "
       "are extrapolated beyond {}{}",
-      life->units, life->tried.size(), study::age_text(ages, life->tried.back().age),
+      life->machines, life->tried.size(), study::age_text(ages, life->tried.back().age),
       study::age_text(ages, ages.at.back()),
       life->refusal.empty() ? "" : "\nno older machines are simulated: " + life->refusal);
 }
 
-std::vector<document::Figure> lost_ages_figures(Of tuning) {
+std::vector<document::Figure> lost_ages_figures(const Tuning& tuning) {
   const auto* const life = tuning.answer.extra<LostAges>();
   if (!is_drawn(tuning) || life == nullptr) return {};
   const study::Study& study = tuning.study;
@@ -119,7 +118,7 @@ std::vector<document::Figure> lost_ages_figures(Of tuning) {
       fmt::format("Proportions at each age that was tried, by {} machines that the search did not use, with "
                   "one-sided bounds at the goal's confidence. Dashed: what is asked. Beyond {}, the last age "
                   "of the study, the laws of aging are extrapolated.",
-                  life->units, study::age_text(study.ages, study.ages.at.back())),
+                  life->machines, study::age_text(study.ages, study.ages.at.back())),
       {std::move(data)});
   std::vector<double> ages;
   for (const tuning::AgeVerdict& at : life->tried) ages.push_back(at.age);
@@ -135,7 +134,7 @@ void describe_lost_ages(Items& items) {
              lost_columns(), lost_rows)
       .value(optional(document::in_data(
                  "ages_tried_to", "oldest age that was tried, of a study with ages, in the unit of ages")),
-             [](Of t) -> std::optional<double> {
+             [](const Tuning& t) -> std::optional<double> {
                const auto* const life = t.answer.extra<LostAges>();
                return life == nullptr ? std::nullopt : std::optional(life->tried.back().age);
              })

@@ -31,7 +31,7 @@ tuning::ExtraCost cost_of_controls(const TunedAxis& axis) {
     least += tuning::least_trials_of_other_search(axis.study, one.free);
     ++searches;
   }
-  const trials::Effort each = axis.one_of_shares(static_cast<double>(searches), trials_of_control);
+  const trials::Effort each = axis.one_of_parts(static_cast<double>(searches), trials_of_control);
   return {.searches = least,
           .trials = searches * std::min(trials_of_control, tuning::affordable_trials(each, axis.speed)),
           .usual_part = 0.0};
@@ -62,14 +62,14 @@ tuning::SearchResult search_control(TunedAxis& axis, const study::Study& study, 
 void judge_control(const TunedAxis& axis, const study::Study& study, const OtherControl& control,
                    const Values& values, const trials::Effort& effort, Alternative& alternative) {
   alternative.gains = named(control.free, values);
-  const trials::Replicates units{tuning::units_of_judgement(study, effort, axis.speed),
-                                 tuning::trials_of_machine(study)};
+  const trials::Replicates machines{tuning::machines_of_judgement(study, effort, axis.speed),
+                                    tuning::trials_of_machine(study)};
   std::vector<std::string> fresh = tuning::overrides_of(control.free, values);
   fresh.push_back(fmt::format("seed={}", trials::fresh_seed(study.seed, "tuning, alternative")));
-  for (const std::string& one : trials::overrides_for(study, units)) fresh.push_back(one);
+  for (const std::string& one : trials::overrides_for(study, machines)) fresh.push_back(one);
   tuning::Judged judged = tuning::judged(
-      study, units,
-      tuning::results_of(trials::variant_of(study, fresh), units, units.count, nullptr, effort));
+      study, machines,
+      tuning::results_of(trials::variant_of(study, fresh), machines, machines.count, nullptr, effort));
   alternative.criterion = judged.criterion;
   alternative.worst = tuning::names_of(study, {judged.verdict.goal, judged.verdict.condition});
   alternative.verdict = std::move(judged.verdict);
@@ -96,44 +96,46 @@ std::any find_controls(TunedAxis& axis) {
   std::vector<TunedValues> tuned{values_by_name(axis.free(), axis.values)};
   Alternatives found;
   for (std::size_t i = 0; i < controls.size(); ++i) {
-    const trials::Effort share =
-        axis.one_of_shares(static_cast<double>(controls.size() - i), trials_of_control);
-    if (!tuning::ended(axis.effort, [&] { found.push_back(find_control(axis, controls[i], share, tuned)); }))
+    const trials::Effort part =
+        axis.one_of_parts(static_cast<double>(controls.size() - i), trials_of_control);
+    if (!tuning::ended(axis.effort, [&] { found.push_back(find_control(axis, controls[i], part, tuned)); }))
       axis.extras.left_out.push_back({fmt::format("controls ({})", controls[i].name), "controls"});
   }
   return found;
 }
 
 document::Description<Alternative> alternative_columns() {
-  using document::Shown;
-  using Row = const Alternative&;
+  using document::Visibility;
   return document::Description<Alternative>()
       .value(document::to_people("control"), &Alternative::name)
       .value(in_data("fixed", "parameters that are not tuned, with their values"), &Alternative::fixed)
       .value(document::everywhere("gains", "best values",
                                   "its best values by parameter; none if none keeps the margins"),
              &Alternative::gains)
-      .shown_as([](Row row) { return row.verdict ? values_text(row.gains) : "none keeps the margins"; })
+      .shown_as([](const Alternative& row) {
+        return row.verdict ? values_text(row.gains) : "none keeps the margins";
+      })
       .value({.key = "status",
               .heading = "goal",
               .meaning = "verdict on the goal",
               .words = goal::status_words()},
-             [](Row row) {
+             [](const Alternative& row) {
                return row.verdict ? std::optional(goal::text_of(row.verdict->status)) : std::nullopt;
              })
       .value(proportion("rate", "moves that meet it",
                         "proportion of moves that meet the goal, with one-sided bounds"),
-             [](Row row) {
+             [](const Alternative& row) {
                return row.verdict ? std::optional(goal::bounded(row.verdict->moves)) : std::nullopt;
              })
       .include(named_claim_columns("worst goal", "worst condition or age", "goal_name"), &Alternative::worst)
-      .value(criterion_item(),
-             [](Row row) { return row.verdict ? std::optional(row.criterion) : std::nullopt; });
+      .value(criterion_item(), [](const Alternative& row) {
+        return row.verdict ? std::optional(row.criterion) : std::nullopt;
+      });
 }
 
 /// Whether the control does clearly better than the proven values, which could be the same: its other
 /// parameters are 0 in their ranges.
-bool is_better_within_ranges(const Alternative& one, Of tuning) {
+bool is_better_within_ranges(const Alternative& one, const Tuning& tuning) {
   constexpr double clearly = 0.95;
   if (one.fixed.empty() || !one.verdict || !tuning.answer.proof) return false;
   const goal::Verdict& proven = tuning.answer.proof->verdict;
@@ -144,7 +146,7 @@ bool is_better_within_ranges(const Alternative& one, Of tuning) {
   return tuning::judged_rate(goal, *one.verdict).low > tuning::judged_rate(goal, proven).high;
 }
 
-std::string better_control_sentence(Of tuning) {
+std::string better_control_sentence(const Tuning& tuning) {
   std::string lines;
   for (const Alternative& one : found_by_extra<Alternatives>(tuning)) {
     if (!is_better_within_ranges(one, tuning)) continue;

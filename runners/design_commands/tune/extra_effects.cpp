@@ -17,16 +17,17 @@ constexpr std::int64_t points_of_delay = 13;
 constexpr double max_more_delay = 5.0;  // samples
 
 tuning::ExtraCost cost_of_delay(const tuning::TunedAxis& axis) {
-  if (!axis.is_met) return {.trials = axis.units().trials()};
+  if (!axis.is_met) return {.trials = axis.machines().trials()};
   return {.points = points_of_delay, .trials = points_of_delay * axis.trials_of_point()};
 }
 
 /// controller.delay of the first machine under each condition, samples.
 std::vector<double> delays_of(const study::Study& study) {
-  const study::TrialTurns turns = study::turns_of(study);
+  const study::TrialIndices indices = study::trial_indices(study);
   std::vector<double> delays;
-  for (std::int64_t condition = 0; condition < turns.conditions; ++condition)
-    delays.push_back(study::study_trial(study, 0, turns.trial_of(0, condition)).parameters.controller.delay);
+  for (std::int64_t condition = 0; condition < indices.conditions; ++condition)
+    delays.push_back(
+        study::study_trial(study, 0, indices.trial_of(0, condition)).parameters.controller.delay);
   return delays;
 }
 
@@ -57,7 +58,7 @@ std::optional<double> rate_in_wider_band(const tuning::TunedAxis& axis, std::siz
     for (std::size_t b = *slot; b < p.verdict.bands.count; ++b) ++p.verdict.bands.limits[b];
   };
   const tuning::Estimate estimate =
-      tuning::estimate_on(axis.tuned, axis.search.units(), axis.units().count, &wider, axis.effort);
+      tuning::estimate_on(axis.tuned, axis.search.machines(), axis.machines().count, &wider, axis.effort);
   const std::size_t conditions = tuning::aim_of(axis.tuned).conditions;
   return std::ranges::min(std::span(estimate.rates).subspan(goal * conditions, conditions));
 }
@@ -74,11 +75,11 @@ std::any find_delay(tuning::TunedAxis& axis) {
 }
 
 /// The condition under which a goal is lost first by more delay; 0 without conditions.
-std::size_t delayed_condition(const MoreDelay& delay, Of tuning) {
+std::size_t delayed_condition(const MoreDelay& delay, const Tuning& tuning) {
   return tuning::place_of_claim(tuning.study, delay.claim).condition;
 }
 
-std::string borne_delay_sentence(Of tuning) {
+std::string borne_delay_sentence(const Tuning& tuning) {
   const MoreDelay& delay = found_by_extra<MoreDelay>(tuning);
   if (delay.delays.empty()) return "";
   if (!delay.lost)
@@ -92,20 +93,20 @@ void describe_delay(Items& items) {
   items
       .value(proportion("wider_band_rate", "rate of the goal with a band one count wider",
                         "rate of the goal with a band one count wider, where it is not met"),
-             [](Of t) { return found_by_extra<MoreDelay>(t).wider_band_rate; })
+             [](const Tuning& t) { return found_by_extra<MoreDelay>(t).wider_band_rate; })
       .sentence(borne_delay_sentence)
       .value(
           document::in_data(
               "delay_lost",
               "controller.delay from which on the goal seems lost; with conditions that of the condition under which it is lost first",
               "samples"),
-          [](Of t) -> std::optional<double> {
+          [](const Tuning& t) -> std::optional<double> {
             const MoreDelay& delay = found_by_extra<MoreDelay>(t);
             if (!delay.lost) return {};
             return delay.delays[delayed_condition(delay, t)] + *delay.lost;
           })
       .value(optional(document::in_data("delay_lost_condition", "that condition, with conditions")),
-             [](Of t) -> std::optional<std::string> {
+             [](const Tuning& t) -> std::optional<std::string> {
                const MoreDelay& delay = found_by_extra<MoreDelay>(t);
                if (!delay.lost) return {};
                return tuning::names_of(t.study, {0, delayed_condition(delay, t)}).condition;
@@ -117,7 +118,7 @@ constexpr std::int64_t points_of_robustness = 14;
 tuning::ExtraCost cost_of_robustness(const tuning::TunedAxis& axis) {
   return {.applies = axis.is_met,
           .points = points_of_robustness,
-          .trials = points_of_robustness * axis.units().trials()};
+          .trials = points_of_robustness * axis.machines().trials()};
 }
 
 /// The rates at the tuned values with other premises.
@@ -126,39 +127,41 @@ struct OtherPremises {
 };
 
 std::any find_robustness(tuning::TunedAxis& axis) {
-  const study::Study tuned = axis.on_units();
+  const study::Study tuned = axis.on_machines();
   return OtherPremises{tuning::variations_of(
-      tuning::EffectRuns(tuned, axis.units(), axis.effort), axis.units(),
-      [&](std::uint64_t seed) { return axis.on_units({fmt::format("seed={}", seed)}); })};
+      tuning::EffectRuns(tuned, axis.machines(), axis.effort), axis.machines(),
+      [&](std::uint64_t seed) { return axis.on_machines({fmt::format("seed={}", seed)}); })};
 }
 
 void describe_robustness(Items& items) {
   using document::everywhere;
-  using Row = const tuning::Limit&;
   items.table(
       everywhere("robustness", "at the tuned values, with other premises",
                  "rates at the tuned values with other seeds, spreads and delays"),
       document::Description<tuning::Limit>()
           .value(everywhere("premise", "premise", "what differs from the study"), &tuning::Limit::effect)
           .value(everywhere("holds", "holds", "whether every goal is met under every condition"),
-                 [](Row one) { return one.rate ? std::optional(one.holds) : std::nullopt; })
+                 [](const tuning::Limit& one) { return one.rate ? std::optional(one.holds) : std::nullopt; })
           .value(proportion(
                      "rate", "rate",
                      "proportion of moves, or of machines, that meet the worst goal; of seeds the lowest"),
                  &tuning::Limit::rate)
           .value(optional(everywhere("note", "note", "what stayed, or why there is no rate")),
-                 [](Row one) { return one.note.empty() ? std::nullopt : std::optional(one.note); }),
-      [](Of t) { return found_by_extra<OtherPremises>(t).rates; });
+                 [](const tuning::Limit& one) {
+                   return one.note.empty() ? std::nullopt : std::optional(one.note);
+                 }),
+      [](const Tuning& t) { return found_by_extra<OtherPremises>(t).rates; });
 }
 
 tuning::ExtraCost cost_of_limits(const tuning::TunedAxis& axis) {
-  const std::int64_t points = std::llround(tuning::runs_of_limits(axis.tuned, 0, axis.search.units().count));
-  return {.points = points, .trials = points * axis.units().trials()};
+  const std::int64_t points =
+      std::llround(tuning::runs_of_causes(axis.tuned, 0, axis.search.machines().count));
+  return {.points = points, .trials = points * axis.machines().trials()};
 }
 
 std::any find_limits(tuning::TunedAxis& axis) {
-  const study::Study tuned = axis.on_units();
-  return tuning::limits_of(tuning::EffectRuns(tuned, axis.units(), axis.effort));
+  const study::Study tuned = axis.on_machines();
+  return tuning::find_causes(tuning::EffectRuns(tuned, axis.machines(), axis.effort));
 }
 
 void describe_limits(Items& items) {

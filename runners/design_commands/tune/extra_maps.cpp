@@ -19,7 +19,7 @@ using tuning::TunedAxis;
 using tuning::Values;
 
 constexpr int cells_of_side = 15;
-constexpr std::int64_t units_of_cell = 128;
+constexpr std::int64_t machines_of_cell = 128;
 
 /// A cell of a map. It is examined at the values x and y: its centre or, if it contains the tuned values,
 /// these.
@@ -45,10 +45,10 @@ struct TuningMap {
 using Maps = std::vector<TuningMap>;
 
 tuning::ExtraCost cost_of_maps(const TunedAxis& axis) {
-  const trials::Replicates& units = axis.search.units();
+  const trials::Replicates& machines = axis.search.machines();
   const auto free = std::ssize(axis.free());
   const std::int64_t trials = free * (free - 1) / 2 * cells_of_side * cells_of_side *
-                              std::min(units_of_cell, units.count) * units.trials_each;
+                              std::min(machines_of_cell, machines.count) * machines.trials_each;
   return {.maps = trials, .trials = trials};
 }
 
@@ -56,10 +56,11 @@ tuning::ExtraCost cost_of_maps(const TunedAxis& axis) {
 void simulate_cell(const TunedAxis& axis, const Values& values, MapCell& cell) {
   const std::optional<study::Study> study = tuning::at_values(axis.tuned, axis.free(), values);
   if (!study) return;
-  const auto units = tuning::results_of(*study, axis.search.units(), units_of_cell, nullptr, axis.effort);
-  cell.keeps_margins = axis.search.may_keep(values, tuning::has_slid(units));
+  const auto machines =
+      tuning::results_of(*study, axis.search.machines(), machines_of_cell, nullptr, axis.effort);
+  cell.keeps_margins = axis.search.may_keep(values, tuning::has_slid(machines));
   const tuning::Aim aim = tuning::aim_of(*study);
-  const tuning::Estimate estimate = estimate_of(aim, units, units_of_cell);
+  const tuning::Estimate estimate = estimate_of(aim, machines, machines_of_cell);
   cell.rate = estimate.rate;
   cell.seems_met = reaches(aim, estimate);
   cell.criterion = estimate.criterion;
@@ -143,7 +144,7 @@ Figure map_figure(const TuneAnswer& answer, const TuningMap& map) {
           "them. The star is the tuned point, at which its cell is examined; the others are examined at "
           "their "
           "centres.",
-          units_of_cell),
+          machines_of_cell),
       {cells_data(map, x, y),
        boundaries_of(map),
        {"tuned",
@@ -157,7 +158,7 @@ Figure map_figure(const TuneAnswer& answer, const TuningMap& map) {
 }
 
 void describe_maps(Items& items) {
-  items.figures([](Of tuning) {
+  items.figures([](const Tuning& tuning) {
     std::vector<Figure> figures;
     if (!is_drawn(tuning)) return figures;
     for (const TuningMap& map : found_by_extra<Maps>(tuning))

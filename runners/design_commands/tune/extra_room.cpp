@@ -21,16 +21,16 @@ tuning::ExtraCost cost_of_room(const tuning::TunedAxis& axis) {
 
 Room room_of(std::size_t parameter, const tuning::TunedAxis& axis) {
   const tuning::UnitCubePoint place = tuning::place_of(axis.free(), axis.values);
-  const auto values = [&](double share) {
+  const auto values = [&](double fraction) {
     tuning::UnitCubePoint moved = place;
-    moved[parameter] = share;
+    moved[parameter] = fraction;
     Values at = axis.values;
     at[parameter] = tuning::values_at(axis.free(), moved)[parameter];
     return at;
   };
   std::optional<std::size_t> lost;
-  const auto holds = [&](double share) {
-    const std::optional<study::Study> study = tuning::at_values(axis.tuned, axis.free(), values(share));
+  const auto holds = [&](double fraction) {
+    const std::optional<study::Study> study = tuning::at_values(axis.tuned, axis.free(), values(fraction));
     if (!study) return false;
     const std::optional<std::size_t> claim = axis.lost_claim(*study, nullptr);
     if (claim) lost = claim;
@@ -75,7 +75,7 @@ struct RoomRow {
   }
 };
 
-std::vector<RoomRow> room_rows(Of tuning) {
+std::vector<RoomRow> room_rows(const Tuning& tuning) {
   const Rooms& rooms = found_by_extra<Rooms>(tuning);
   std::vector<RoomRow> rows;
   for (std::size_t i = 0; i < rooms.size(); ++i)
@@ -84,17 +84,16 @@ std::vector<RoomRow> room_rows(Of tuning) {
 }
 
 document::Description<RoomRow> room_columns() {
-  using Row = const RoomRow&;
   return document::Description<RoomRow>()
-      .value({.heading = "parameter"}, [](Row row) { return row.room.name; })
-      .value({.heading = "goal seems met from"}, [](Row row) { return row.room.low; })
-      .value({.heading = "to"}, [](Row row) { return row.room.high; })
-      .value({.heading = "unit"}, [](Row row) { return row.unit; })
-      .value({.heading = "lost below"}, [](Row row) { return row.text_of(row.room.lost_below); })
-      .value({.heading = "lost above"}, [](Row row) { return row.text_of(row.room.lost_above); });
+      .value({.heading = "parameter"}, [](const RoomRow& row) { return row.room.name; })
+      .value({.heading = "goal seems met from"}, [](const RoomRow& row) { return row.room.low; })
+      .value({.heading = "to"}, [](const RoomRow& row) { return row.room.high; })
+      .value({.heading = "unit"}, [](const RoomRow& row) { return row.unit; })
+      .value({.heading = "lost below"}, [](const RoomRow& row) { return row.text_of(row.room.lost_below); })
+      .value({.heading = "lost above"}, [](const RoomRow& row) { return row.text_of(row.room.lost_above); });
 }
 
-std::vector<document::Figure> room_figures(Of tuning) {
+std::vector<document::Figure> room_figures(const Tuning& tuning) {
   const Rooms& rooms = found_by_extra<Rooms>(tuning);
   if (!is_drawn(tuning) || rooms.empty()) return {};
   const tuning::TuneAnswer& answer = tuning.answer;
@@ -131,13 +130,14 @@ void describe_room(Items& items) {
   items
       .value(document::in_data("room",
                                "range of each parameter in which the goal seems met, the others as tuned"),
-             [](Of t) {
+             [](const Tuning& t) {
                std::vector<std::pair<std::string, std::vector<double>>> ranges;
                for (const Room& one : found_by_extra<Rooms>(t))
                  ranges.emplace_back(one.name, std::vector{one.low, one.high});
                return ranges;
              })
-      .table({.heading = "room of each parameter, the others as tuned", .shown = document::Shown::to_people},
+      .table({.heading = "room of each parameter, the others as tuned",
+              .shown = document::Visibility::to_people},
              room_columns(), room_rows)
       .figures(room_figures);
 }

@@ -24,7 +24,7 @@ namespace {
 using document::Description;
 using document::everywhere;
 using document::in_data;
-using document::Shown;
+using document::Visibility;
 using document::with_words;
 using text::short_number;
 using tuning::TriedPoint;
@@ -35,7 +35,7 @@ std::string_view tune_status(goal::Status status) {
 }
 
 /// "controller.ki = 5000 N m/(rad s) in 3000 … 300000, …".
-std::optional<std::string> gains_text(Of tuning) {
+std::optional<std::string> gains_text(const Tuning& tuning) {
   std::vector<std::string> texts;
   for (std::size_t i = 0; i < tuning.answer.tuned.values.size(); ++i) {
     const study::FreeParameter& one = tuning.answer.free[i];
@@ -47,7 +47,7 @@ std::optional<std::string> gains_text(Of tuning) {
 }
 
 /// kp, ki and kd in the other system of units, of a PID.
-std::string other_units_sentence(Of tuning) {
+std::string other_units_sentence(const Tuning& tuning) {
   if (!tuning.answer.proof) return "";
   const trial::TrialParameters p = study::study_trial(tuning.answer.proof->study, 0, 0).parameters;
   if (p.controller.blocks.structure != loop::ControlStructure::pid || p.controller.user.plugin) return "";
@@ -61,7 +61,7 @@ std::string other_units_sentence(Of tuning) {
   return text("SI units", analogue.kp, analogue.ki, analogue.kd);
 }
 
-std::string file_sentence(Of tuning) {
+std::string file_sentence(const Tuning& tuning) {
   if (tuning.answer.proof)
     return fmt::format("{} {}: the proof, with the tuned manifest", tuning.is_of_file ? "read" : "wrote",
                        tuning.output.string());
@@ -72,12 +72,12 @@ std::string file_sentence(Of tuning) {
 void add_proven(Description<Tuning>& items) {
   items.headline(tune_headline)
       .value({.key = "goal", .heading = "goal", .meaning = "the goal in words"},
-             [](Of t) { return goal::claim_sentence(goal::question_of(t.study)); })
+             [](const Tuning& t) { return goal::claim_sentence(goal::question_of(t.study)); })
       .value(with_words(in_data("status", "whether the goal is met; unreachable: not in the ranges"),
                         {"met", "unreachable", "undecided"}),
-             [](Of t) { return tune_status(t.answer.status); })
+             [](const Tuning& t) { return tune_status(t.answer.status); })
       .value(everywhere("gains", "tuned", "tuned values by parameter; none where no values keep the margins"),
-             [](Of t) { return named(t.answer.free, t.answer.tuned.values); })
+             [](const Tuning& t) { return named(t.answer.free, t.answer.tuned.values); })
       .shown_as(gains_text)
       .sentence(other_units_sentence);
   add_refusals(items);
@@ -88,20 +88,20 @@ void add_proven(Description<Tuning>& items) {
   items.sentence(file_sentence);
 }
 
-std::vector<std::string> parts_left_out(Of tuning) {
+std::vector<std::string> parts_left_out(const Tuning& tuning) {
   std::vector<std::string> parts;
   for (const tuning::LeftOut& one : tuning.answer.extras.left_out) parts.push_back(one.part);
   return parts;
 }
 
-std::string unfinished_sentence(Of tuning) {
+std::string unfinished_sentence(const Tuning& tuning) {
   const tuning::SearchResult& search = tuning.answer.searched.result;
   const bool may_improve = !search.converged && search.points > 0 && !tuning.is_of_file;
   return may_improve ? "the last generation still improved, a larger --budget may find better values" : "";
 }
 
 /// Names the extras that were left out, and the command that makes them.
-std::string left_out_sentence(Of tuning) {
+std::string left_out_sentence(const Tuning& tuning) {
   const TuneAnswer& answer = tuning.answer;
   const std::vector<tuning::LeftOut>& left_out = answer.extras.left_out;
   if (left_out.empty()) return "";
@@ -122,16 +122,16 @@ std::string left_out_sentence(Of tuning) {
 Description<Tuning> search_description() {
   return Description<Tuning>()
       .value(everywhere("points", "points", "points that were simulated"),
-             [](Of t) { return t.answer.searched.result.points; })
+             [](const Tuning& t) { return t.answer.searched.result.points; })
       .value(in_data("telling_points",
                      "points at which some moves meet the worst goal, more than 1 %, and too few; "
                      "where hardly any point is one, the goal is not shown to be out of reach"),
-             [](Of t) { return t.answer.searched.landscape.telling; })
+             [](const Tuning& t) { return t.answer.searched.landscape.telling; })
       .value(everywhere("trials", "trials", "trials of the search, and of those for other controls"),
-             [](Of t) { return t.answer.searched.result.trials; })
-      .value(in_data("seconds", "time", "s"), [](Of t) { return t.answer.seconds; })
+             [](const Tuning& t) { return t.answer.searched.result.trials; })
+      .value(in_data("seconds", "time", "s"), [](const Tuning& t) { return t.answer.seconds; })
       .value(everywhere("converged", "converged", "whether the last generation improved no more"),
-             [](Of t) { return t.answer.searched.result.converged; });
+             [](const Tuning& t) { return t.answer.searched.result.converged; });
 }
 
 struct FrontierRow {
@@ -139,14 +139,14 @@ struct FrontierRow {
   const std::vector<study::FreeParameter>& free;
 };
 
-std::vector<FrontierRow> frontier_rows(Of tuning) {
+std::vector<FrontierRow> frontier_rows(const Tuning& tuning) {
   std::vector<FrontierRow> rows;
   for (const TriedPoint& one : tuning.answer.searched.frontier) rows.push_back({one, tuning.answer.free});
   return rows;
 }
 
 /// A few points of the frontier, evenly spread over it.
-std::vector<FrontierRow> some_frontier_rows(Of tuning) {
+std::vector<FrontierRow> some_frontier_rows(const Tuning& tuning) {
   constexpr std::int64_t most = 6;
   const std::vector<FrontierRow> all = frontier_rows(tuning);
   std::vector<FrontierRow> some;
@@ -157,14 +157,13 @@ std::vector<FrontierRow> some_frontier_rows(Of tuning) {
 }
 
 Description<FrontierRow> frontier_columns() {
-  using Row = const FrontierRow&;
   return Description<FrontierRow>()
       .value({.key = "gains", .heading = "values", .meaning = "values by parameter"},
-             [](Row row) { return named(row.free, row.point.values); })
+             [](const FrontierRow& row) { return named(row.free, row.point.values); })
       .value(proportion("rate", "rate of the goal",
                         "rate of the goal by the search, which is a little too good"),
-             [](Row row) { return row.point.estimate.rate; })
-      .value(criterion_item(), [](Row row) { return row.point.estimate.criterion; });
+             [](const FrontierRow& row) { return row.point.estimate.rate; })
+      .value(criterion_item(), [](const FrontierRow& row) { return row.point.estimate.criterion; });
 }
 
 document::FigureData points_data(std::string name, const TuneAnswer& answer,
@@ -178,10 +177,10 @@ document::FigureData points_data(std::string name, const TuneAnswer& answer,
        {{"values", "values", ""},
         [&](const TriedPoint& one) { return ordered_json(values_text(named(answer.free, one.values))); }},
        {{"units", "machines or trials", "1"},
-        [](const TriedPoint& one) { return ordered_json(one.estimate.units); }}});
+        [](const TriedPoint& one) { return ordered_json(one.estimate.machines); }}});
 }
 
-std::vector<document::Figure> frontier_figures(Of tuning) {
+std::vector<document::Figure> frontier_figures(const Tuning& tuning) {
   const TuneAnswer& answer = tuning.answer;
   if (!is_drawn(tuning) || answer.searched.result.tried.empty()) return {};
   std::vector<TriedPoint> tried = answer.searched.result.tried;
@@ -209,11 +208,12 @@ void add_closing(Description<Tuning>& items) {
       .table(in_data("frontier", "points of the search that no other point beats in both rate and criterion"),
              frontier_columns(), frontier_rows)
       .table({.heading = "success and speed, by the search (its rates are a little too good)",
-              .shown = Shown::to_people},
+              .shown = Visibility::to_people},
              frontier_columns(), some_frontier_rows)
       .object(everywhere("searched", "searched", "size of the search"), search_description(), std::identity())
-      .value(everywhere("spent_trials", "spent", "trials of all"), [](Of t) { return t.answer.spent_trials; })
-      .shown_as([](Of t) {
+      .value(everywhere("spent_trials", "spent", "trials of all"),
+             [](const Tuning& t) { return t.answer.spent_trials; })
+      .shown_as([](const Tuning& t) {
         const auto& [trials, seconds] = t.answer.budget;
         return fmt::format("{}{} trials in {:.3g}{} s", t.answer.spent_trials,
                            trials ? fmt::format(" of {}", *trials) : "", t.answer.seconds,
@@ -221,7 +221,7 @@ void add_closing(Description<Tuning>& items) {
       })
       .value(in_data("left_out", "parts of the answer for which the budget was not enough"), parts_left_out)
       .value(in_data("interrupted", "whether Ctrl-C ended it after the proof"),
-             [](Of t) { return t.answer.interrupted; })
+             [](const Tuning& t) { return t.answer.interrupted; })
       .sentence(unfinished_sentence)
       .sentence(left_out_sentence)
       .figures(frontier_figures);
@@ -242,7 +242,7 @@ NamedValues named(const std::vector<study::FreeParameter>& free, const tuning::V
   return named;
 }
 
-const study::Goal& worst_goal(Of tuning) {
+const study::Goal& worst_goal(const Tuning& tuning) {
   const std::optional<tuning::Proof>& proof = tuning.answer.proof;
   return tuning.study.goals[proof ? proof->verdict.goal : 0];
 }
@@ -259,7 +259,7 @@ std::string criterion_title(const study::Study& study) {
   return unit == "1" || unit.empty() ? name : fmt::format("{} ({})", name, unit);
 }
 
-bool is_drawn(Of tuning) {
+bool is_drawn(const Tuning& tuning) {
   return tuning.drawn && tuning.answer.proof;
 }
 

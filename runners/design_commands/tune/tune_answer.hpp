@@ -77,14 +77,13 @@ struct Alternative {
   tuning::ClaimNames worst{};
 };
 
-using Of = const Tuning&;
 using Items = document::Description<Tuning>;
 
 /// Values by the names of their parameters.
 NamedValues named(const std::vector<study::FreeParameter>& free, const tuning::Values& values);
 
 /// The goal that most of the answer describes: the worst goal of the proof.
-const study::Goal& worst_goal(Of tuning);
+const study::Goal& worst_goal(const Tuning& tuning);
 
 /// Item for the criterion of tried points.
 document::Item criterion_item();
@@ -94,19 +93,19 @@ std::string criterion_title(const study::Study& study);
 
 /// Result of an extra, found by its type; an empty one if the extra did not run.
 template <class Found>
-const Found& found_by_extra(Of tuning) {
+const Found& found_by_extra(const Tuning& tuning) {
   static const Found none{};
   const Found* const found = tuning.answer.extra<Found>();
   return found == nullptr ? none : *found;
 }
 
 /// Whether figures are drawn. They are drawn on a page after the proof.
-bool is_drawn(Of tuning);
+bool is_drawn(const Tuning& tuning);
 
 /// Headline such as "met: the goal is met by controller.ki = 5000", or a headline that nothing is proven.
-std::string tune_headline(Of tuning);
+std::string tune_headline(const Tuning& tuning);
 /// Headline of a page. It leaves out the values because the page shows them below.
-std::string page_headline(Of tuning);
+std::string page_headline(const Tuning& tuning);
 
 void add_refusals(Items& items);
 void add_proof(Items& items);

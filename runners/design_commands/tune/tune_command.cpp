@@ -32,9 +32,9 @@
 #include "runners/status/progress.hpp"
 #include "runners/status/status.hpp"
 #include "runners/trials/study_runner.hpp"
+#include "runners/tuning/machine_runs/machine_runner.hpp"
 #include "runners/tuning/search/proof_runner.hpp"
 #include "runners/tuning/tuner.hpp"
-#include "runners/tuning/units/unit_runner.hpp"
 
 namespace zerocount::design_commands {
 namespace {

@@ -17,7 +17,7 @@ namespace {
 using document::Description;
 using document::everywhere;
 using document::in_data;
-using document::Shown;
+using document::Visibility;
 using text::short_number;
 using tuning::CriticalLoop;
 using tuning::NearestPoint;
@@ -71,7 +71,7 @@ struct MarginRow {
   const study::Study& study;
 };
 
-std::vector<MarginRow> margin_rows(Of tuning) {
+std::vector<MarginRow> margin_rows(const Tuning& tuning) {
   std::vector<MarginRow> rows;
   if (!tuning.answer.tuned.margins) return rows;
   for (const Margin& one : all_margins) rows.push_back({one, *tuning.answer.tuned.margins, tuning.study});
@@ -79,15 +79,14 @@ std::vector<MarginRow> margin_rows(Of tuning) {
 }
 
 Description<MarginRow> margin_columns() {
-  using Row = const MarginRow&;
   return Description<MarginRow>()
-      .value({.heading = "margin"}, [](Row row) { return row.margin.title; })
+      .value({.heading = "margin"}, [](const MarginRow& row) { return row.margin.title; })
       .value({.heading = "smallest"},
-             [](Row row) {
+             [](const MarginRow& row) {
                return found_text(row.margin, (row.margins.*row.margin.found).value,
                                  row.study.tuning->margins.*row.margin.wanted);
              })
-      .value({.heading = "in the loop"}, [](Row row) {
+      .value({.heading = "in the loop"}, [](const MarginRow& row) {
         const std::optional<CriticalLoop>& loop = (row.margins.*row.margin.found).loop;
         return loop ? loop_text(*loop, row.study) : "";
       });
@@ -96,7 +95,7 @@ Description<MarginRow> margin_columns() {
 /// Sentence about the examined machines: "of 100 machines of the search while they slide, at ±10 % of
 /// inertia". A search examines its own machines. The answer for a finished proof examines the machines of the
 /// proof, so that their numbers are the numbers in the file.
-std::string examined_sentence(Of tuning) {
+std::string examined_sentence(const Tuning& tuning) {
   if (tuning.answer.blind)
     return "margins: none, because the controller is a plugin, whose transfer function is not known";
   if (!tuning.answer.tuned.margins) return "";
@@ -115,7 +114,7 @@ std::string examined_sentence(Of tuning) {
 }
 
 /// A warning where the loops reach for a mode that the study lacks.
-std::string mode_sentence(Of tuning) {
+std::string mode_sentence(const Tuning& tuning) {
   const tuning::TuneAnswer& answer = tuning.answer;
   if (!answer.tuned.lowest_mode || !answer.tuned.margins || !(answer.tuned.margins->crossover > 0.0))
     return "";
@@ -130,23 +129,22 @@ std::string mode_sentence(Of tuning) {
           : "");
 }
 
-struct LoopReading {
+struct LoopOfStudy {
   const CriticalLoop& loop;
   const study::Study& study;
 };
 
-Description<LoopReading> loop_description() {
-  using Reading = const LoopReading&;
-  return Description<LoopReading>()
-      .value(in_data("loop", "the loop in words"), [](Reading r) { return r.loop.name; })
+Description<LoopOfStudy> loop_description() {
+  return Description<LoopOfStudy>()
+      .value(in_data("loop", "the loop in words"), [](const LoopOfStudy& r) { return r.loop.name; })
       .value(
           in_data("stiffness",
                   "of the contact before it slides, N m/rad (N/m on a linear axis); unknown while sliding"),
-          [](Reading r) { return r.loop.stiffness; })
+          [](const LoopOfStudy& r) { return r.loop.stiffness; })
       .value(in_data("machine", "number of the machine; unknown where the stiffness says all of it"),
-             [](Reading r) { return r.loop.machine; })
+             [](const LoopOfStudy& r) { return r.loop.machine; })
       .value(optional(in_data("condition", "the condition under which it runs, in a study with conditions")),
-             [](Reading r) {
+             [](const LoopOfStudy& r) {
                return tuning::names_of(r.study, {0, static_cast<std::size_t>(r.loop.condition)}).condition;
              });
 }
@@ -169,7 +167,7 @@ struct ConditionMargins {
   const SmallestMargins& margins;
 };
 
-std::vector<ConditionMargins> margins_of_conditions(Of tuning) {
+std::vector<ConditionMargins> margins_of_conditions(const Tuning& tuning) {
   std::vector<ConditionMargins> rows;
   if (!tuning.answer.tuned.margins) return rows;
   for (std::size_t i = 0; i < tuning.answer.tuned.margins->conditions.size(); ++i)
@@ -190,7 +188,7 @@ NamedValues lacking_of(const NearestPoint& nearest, const study::LoopMargins& wa
   return lacking;
 }
 
-std::string nearest_sentence(Of tuning) {
+std::string nearest_sentence(const Tuning& tuning) {
   const std::optional<NearestPoint>& nearest = tuning.answer.unfound.nearest;
   if (!nearest || nearest->margins.stable) return "";
   const double gain = nearest->margins.gain.value;
@@ -201,19 +199,19 @@ std::string nearest_sentence(Of tuning) {
 Description<Tuning> nearest_description() {
   return Description<Tuning>()
       .value(everywhere("gains", "values", "its values, by parameter"),
-             [](Of t) { return named(t.answer.free, t.answer.unfound.nearest->values); })
+             [](const Tuning& t) { return named(t.answer.free, t.answer.unfound.nearest->values); })
       .object({.key = "margins", .meaning = "its smallest margins"}, margins_description(),
-              [](Of t) { return t.answer.unfound.nearest->margins; })
+              [](const Tuning& t) { return t.answer.unfound.nearest->margins; })
       .value(everywhere(
                  "lacking", "lacking",
                  "by how much margins are too small, or the sensitivity too large: dB, degrees, samples, 1"),
-             [](Of t) { return lacking_of(*t.answer.unfound.nearest, t.study.tuning->margins); });
+             [](const Tuning& t) { return lacking_of(*t.answer.unfound.nearest, t.study.tuning->margins); });
 }
 
 }  // namespace
 
 void add_margin_table(Items& items) {
-  items.table({.heading = "smallest margins", .shown = Shown::to_people}, margin_columns(), margin_rows)
+  items.table({.heading = "smallest margins", .shown = Visibility::to_people}, margin_columns(), margin_rows)
       .sentence(examined_sentence)
       .sentence(mode_sentence);
 }
@@ -221,17 +219,17 @@ void add_margin_table(Items& items) {
 void add_margins(Items& items) {
   add_margin_table(items);
   items.object(in_data("margins", "smallest margins of the tuned loops"), margins_description(),
-               [](Of t) { return t.answer.tuned.margins; });
+               [](const Tuning& t) { return t.answer.tuned.margins; });
   items.value(in_data("lowest_mode",
                       "lowest frequency of a mode of half of the inertia, which the study lacks, with which "
                       "the loops are stable",
                       "Hz"),
-              [](Of t) { return t.answer.tuned.lowest_mode; });
+              [](const Tuning& t) { return t.answer.tuned.lowest_mode; });
   for (const Margin& one : all_margins) {
     items.object(in_data(std::string(one.loop_key), fmt::format("the loop that has the worst {}", one.title)),
-                 loop_description(), [found = one.found](Of t) -> std::optional<LoopReading> {
+                 loop_description(), [found = one.found](const Tuning& t) -> std::optional<LoopOfStudy> {
                    if (!t.answer.tuned.margins || !((*t.answer.tuned.margins).*found).loop) return {};
-                   return LoopReading{*((*t.answer.tuned.margins).*found).loop, t.study};
+                   return LoopOfStudy{*((*t.answer.tuned.margins).*found).loop, t.study};
                  });
   }
   items.table(optional(everywhere("margins_by_condition", "smallest margins under each condition",
@@ -247,7 +245,7 @@ void add_nearest(Items& items) {
   items.sentence(nearest_sentence)
       .object(everywhere("nearest", "nearest",
                          "the point that comes nearest to the margins, where none keeps them"),
-              nearest_description(), [](Of t) { return t.answer.unfound.nearest ? &t : nullptr; });
+              nearest_description(), [](const Tuning& t) { return t.answer.unfound.nearest ? &t : nullptr; });
 }
 
 }  // namespace zerocount::design_commands

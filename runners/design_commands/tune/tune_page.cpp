@@ -17,11 +17,11 @@
 namespace zerocount::design_commands {
 namespace {
 
-/// The rate of the worst goal as far as the units of the search show it.
+/// The rate of the worst goal as far as the machines of the search show it.
 document::Bounded bounded_rate(const SearchMoment& moment) {
   const tuning::Estimate& estimate = moment.progress.estimate;
-  const auto meeting = std::llround(estimate.rate * static_cast<double>(estimate.units));
-  return document::bounded(estimate.rate, statistics::clopper_pearson(meeting, estimate.units));
+  const auto meeting = std::llround(estimate.rate * static_cast<double>(estimate.machines));
+  return document::bounded(estimate.rate, statistics::clopper_pearson(meeting, estimate.machines));
 }
 
 document::AnswerDescription<SearchMoment> search_answer() {
@@ -37,7 +37,7 @@ document::AnswerDescription<SearchMoment> search_answer() {
       .value({.heading = "simulated"},
              [](At at) {
                return fmt::format("{} machines, the same for all points; {} points in generation {}",
-                                  at.progress.estimate.units, at.progress.points, at.progress.generation);
+                                  at.progress.estimate.machines, at.progress.points, at.progress.generation);
              })
       .value({.heading = "budget used"}, &SearchMoment::spent)
       .sentence([](At) {

@@ -41,7 +41,7 @@ std::string unproven_headline(const TuneAnswer& answer) {
 }
 
 /// The tuned values: "controller.ki = 5000, controller.kp = 0".
-std::string tuned_text(Of tuning) {
+std::string tuned_text(const Tuning& tuning) {
   return values_text(named(tuning.answer.free, tuning.answer.tuned.values));
 }
 
@@ -51,7 +51,7 @@ tuning::ClaimPlace worst_claim(const goal::Verdict& verdict) {
 }
 
 /// "met: all goals are met by controller.ki = 5000, least 'small' under condition loaded".
-std::string met_headline(Of tuning) {
+std::string met_headline(const Tuning& tuning) {
   const goal::Verdict& verdict = tuning.answer.proof->verdict;
   const std::string least = claim_text(tuning.study, worst_claim(verdict));
   const std::vector<study::Goal>& goals = tuning.study.goals;
@@ -62,7 +62,7 @@ std::string met_headline(Of tuning) {
 
 /// "at the best values found, controller.ki = 5000, 28.2 % of the moves meet the goal, and at least 47.4 %
 /// are wanted".
-std::string missed_by(Of tuning) {
+std::string missed_by(const Tuning& tuning) {
   if (!tuning.answer.proof->keeps_margins)
     return fmt::format(
         "at the best values found, {}, machines of the proof slide, and their loop does not keep the margins "
@@ -89,23 +89,23 @@ std::string why_undecided(const tuning::Searched& searched) {
                                      : "not all values that may meet the goal were tried on fresh machines";
 }
 
-std::vector<std::string> edges_in(Of tuning) {
+std::vector<std::string> edges_in(const Tuning& tuning) {
   return tuning::edges_of(tuning.answer.free, tuning.answer.tuned.values);
 }
 
-std::vector<Refusal> refusals_of(Of tuning) {
+std::vector<Refusal> refusals_of(const Tuning& tuning) {
   return tuning::refusals_of(tuning.answer.moves(), tuning.answer.tuned.margins, tuning.study);
 }
 
 /// The proof; an empty one where nothing was proven.
-const Proof& proof_in(Of tuning) {
+const Proof& proof_in(const Tuning& tuning) {
   static const Proof none{};
   return tuning.answer.proof ? *tuning.answer.proof : none;
 }
 
 /// Sentences about the limits of the proof: what the moves of one machine cannot show, and the study that
 /// would decide the goal.
-std::string lacking_sentence(Of tuning) {
+std::string lacking_sentence(const Tuning& tuning) {
   if (!tuning.answer.proof) return "";
   const Proof& proof = *tuning.answer.proof;
   const study::Study& study = proof.study;
@@ -121,7 +121,7 @@ std::string lacking_sentence(Of tuning) {
 }
 
 /// The time after which the wanted proportion of moves are within the band for good, where it is too late.
-std::string late_sentence(Of tuning) {
+std::string late_sentence(const Tuning& tuning) {
   if (!tuning.answer.proof || tuning.answer.is_met() || !tuning::is_of_settling(tuning.study)) return "";
   const double limit = tuning.answer.proof->late_limit;
   return fmt::format("time until {:g} % of the moves stay within the {}: {}",
@@ -143,30 +143,31 @@ Description<goal::Verdict> worlds_of_proof() {
 Description<Tuning> proof_description() {
   return Description<Tuning>()
       .include(named_claim_columns("worst goal", "under"),
-               [](Of t) { return tuning::names_of(t.study, worst_claim(proof_in(t).verdict)); })
+               [](const Tuning& t) { return tuning::names_of(t.study, worst_claim(proof_in(t).verdict)); })
       .value({.key = "status",
               .meaning = "verdict on the goal by the trials of the proof, which is that of judge",
-              .shown = document::Shown::in_data,
+              .shown = document::Visibility::in_data,
               .words = goal::status_words()},
-             [](Of t) { return goal::text_of(proof_in(t).verdict.status); })
+             [](const Tuning& t) { return goal::text_of(proof_in(t).verdict.status); })
       .value(proportion("rate", "moves that meet it",
                         "proportion of moves that meet the goal, with one-sided bounds"),
-             [](Of t) { return goal::bounded(proof_in(t).verdict.moves); })
+             [](const Tuning& t) { return goal::bounded(proof_in(t).verdict.moves); })
       .value(
           proportion("machines_low", "machines that meet it, at least",
                      "lower bound of the proportion of machines that meet the goal, if it is about machines"),
-          [](Of t) {
+          [](const Tuning& t) {
             return worst_goal(t).machines ? std::optional(proof_in(t).verdict.machines.low) : std::nullopt;
           })
       .value(everywhere("machine_count", "machines", "number of machines; 0 without machines"),
-             [](Of t) { return proof_in(t).study.machines; })
-      .value(everywhere("trials", "trials", "trials"), [](Of t) { return proof_in(t).study.trials; })
-      .value(in_data("seed", "seed of the proof"), [](Of t) { return proof_in(t).study.seed; })
+             [](const Tuning& t) { return proof_in(t).study.machines; })
+      .value(everywhere("trials", "trials", "trials"),
+             [](const Tuning& t) { return proof_in(t).study.trials; })
+      .value(in_data("seed", "seed of the proof"), [](const Tuning& t) { return proof_in(t).study.seed; })
       .value(everywhere("attempts", "attempts", "candidates or sizes that were proven"),
-             [](Of t) { return proof_in(t).attempts; })
+             [](const Tuning& t) { return proof_in(t).attempts; })
       .value(everywhere("criterion", "minimised", "quantity that is minimised; unknown for never"),
-             [](Of t) { return proof_in(t).criterion; })
-      .shown_as([](Of t) {
+             [](const Tuning& t) { return proof_in(t).criterion; })
+      .shown_as([](const Tuning& t) {
         const double value = proof_in(t).criterion;
         return fmt::format(
             "{}{}: {}", criterion_title(t.study),
@@ -174,7 +175,7 @@ Description<Tuning> proof_description() {
             std::isfinite(value) ? short_number(value) : "not within the hold");
       })
       .object(optional(everywhere("worlds", "worlds of the worst goal", "verdicts by world")),
-              worlds_of_proof(), [](Of t) {
+              worlds_of_proof(), [](const Tuning& t) {
                 const goal::Verdict& verdict = proof_in(t).verdict;
                 return verdict.worlds.empty() ? nullptr : &verdict;
               });
@@ -253,7 +254,7 @@ Description<MoveBehaviour> behaviour_columns() {
 
 }  // namespace
 
-std::string tune_headline(Of tuning) {
+std::string tune_headline(const Tuning& tuning) {
   if (!tuning.answer.proof) return unproven_headline(tuning.answer);
   switch (tuning.answer.status) {
     case goal::Status::met:
@@ -271,7 +272,7 @@ std::string tune_headline(Of tuning) {
       tuned_text(tuning));
 }
 
-std::string page_headline(Of tuning) {
+std::string page_headline(const Tuning& tuning) {
   if (!tuning.answer.is_met()) return tune_headline(tuning);
   const study::Study& proof = tuning.answer.proof->study;
   return fmt::format("met by the tuned values, proven on {} that the search never saw",
@@ -282,20 +283,20 @@ std::string page_headline(Of tuning) {
 void add_proof_facts(Items& items) {
   items
       .value(everywhere("obstacles", "in the way", "what theory says of a goal that is not met"),
-             [](Of t) { return proof_in(t).obstacles; })
-      .shown_where([](Of t) { return !proof_in(t).obstacles.empty(); })
+             [](const Tuning& t) { return proof_in(t).obstacles; })
+      .shown_where([](const Tuning& t) { return !proof_in(t).obstacles.empty(); })
       .object(everywhere("proof", "proof, on machines that the search never saw",
                          "trials of the tuned values on machines that the search never saw"),
-              proof_description(), [](Of t) { return t.answer.proof ? &t : nullptr; })
+              proof_description(), [](const Tuning& t) { return t.answer.proof ? &t : nullptr; })
       .object(in_data("needed", "study that would decide the goal"), goal::needs_description(),
-              [](Of t) { return goal::practicable(proof_in(t).needs); })
+              [](const Tuning& t) { return goal::practicable(proof_in(t).needs); })
       .sentence(lacking_sentence)
       .sentence(late_sentence)
       .value(in_data("at_edges", "free parameters at an end of their range"), edges_in)
-      .sentence([](Of t) { return fmt::format("{}", fmt::join(edges_in(t), "\n")); })
+      .sentence([](const Tuning& t) { return fmt::format("{}", fmt::join(edges_in(t), "\n")); })
       .object(in_data("worst", "the worst machine of the proof"), worst_description(),
-              [](Of t) { return proof_in(t).worst; })
-      .sentence([](Of t) {
+              [](const Tuning& t) { return proof_in(t).worst; })
+      .sentence([](const Tuning& t) {
         const std::optional<tuning::WorstMachine>& worst = proof_in(t).worst;
         return worst ? "worst machine: " + worst_machine_text(*worst, t.study) : std::string();
       });
@@ -306,11 +307,11 @@ void add_proof(Items& items) {
                .heading = "each goal under each condition and at each age, by the proof",
                .meaning = "each goal under each condition, by the proof; the bounds allow for its attempts"},
               summary::cell_description({}, summary::CellsBy::claim),
-              [](Of t) { return proof_in(t).claims; });
+              [](const Tuning& t) { return proof_in(t).claims; });
   add_proof_facts(items);
 }
 
-std::string sanity_line(Of tuning) {
+std::string sanity_line(const Tuning& tuning) {
   const tuning::TuneAnswer& answer = tuning.answer;
   const std::vector<Refusal> refusals = refusals_of(tuning);
   if (answer.moves().empty() && refusals.empty()) return "";
@@ -349,7 +350,8 @@ void add_behaviour(Description<Tuning>& items) {
        .heading = "what the moves of the proof do",
        .meaning = "what the moves of the proof do, by goal and condition; "
                   "the torque at rest is of machines of the search where the study does not measure it"},
-      behaviour_columns(), [](Of t) -> const std::vector<MoveBehaviour>& { return t.answer.moves(); });
+      behaviour_columns(),
+      [](const Tuning& t) -> const std::vector<MoveBehaviour>& { return t.answer.moves(); });
 }
 
 }  // namespace zerocount::design_commands

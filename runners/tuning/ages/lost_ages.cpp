@@ -10,8 +10,8 @@
 
 #include "core/failure/failure.hpp"
 #include "core/numerics/roots.hpp"
+#include "runners/tuning/machine_runs/machine_runner.hpp"
 #include "runners/tuning/search/proof_runner.hpp"
-#include "runners/tuning/units/unit_runner.hpp"
 
 namespace zerocount::tuning {
 namespace {
@@ -31,9 +31,9 @@ using Holds = std::function<bool(const AgeVerdict&)>;
 
 class LifeOfClaims {
  public:
-  LifeOfClaims(const study::Study& study, const trials::Replicates& units, trials::Effort effort)
+  LifeOfClaims(const study::Study& study, const trials::Replicates& machines, trials::Effort effort)
       : study_(study),
-        units_(units),
+        machines_(machines),
         seed_(trials::fresh_seed(study.seed, "tuning, ages")),
         effort_(std::move(effort)) {}
 
@@ -48,14 +48,14 @@ class LifeOfClaims {
     for (std::size_t claim = 0; claim < claims; ++claim) all.claims.push_back(lost_claim(claim));
     all.tried = std::move(tried_);
     all.refusal = std::move(refusal_);
-    all.units = units_.count;
+    all.machines = machines_.count;
     return all;
   }
 
  private:
   study::Study at_age(double age) const {
     std::vector<std::string> overrides{fmt::format("ages.at=[{}]", age), fmt::format("seed={}", seed_)};
-    for (std::string& one : trials::overrides_for(study_, units_)) overrides.push_back(std::move(one));
+    for (std::string& one : trials::overrides_for(study_, machines_)) overrides.push_back(std::move(one));
     return trials::variant_of(study_, overrides);
   }
 
@@ -75,8 +75,8 @@ class LifeOfClaims {
     const auto place = std::ranges::lower_bound(tried_, age, {}, &AgeVerdict::age);
     if (place != tried_.end() && place->age == age) return;
     const study::Study study = at_age(age);
-    const auto results = results_of(study, units_, units_.count, nullptr, effort_);
-    tried_.insert(place, {age, judged(study, units_, results).verdict.claims});
+    const auto results = results_of(study, machines_, machines_.count, nullptr, effort_);
+    tried_.insert(place, {age, judged(study, machines_, results).verdict.claims});
   }
 
   void run_study_ages() {
@@ -159,7 +159,7 @@ class LifeOfClaims {
   }
 
   const study::Study& study_;
-  trials::Replicates units_;
+  trials::Replicates machines_;
   std::uint64_t seed_;
   trials::Effort effort_;
   std::vector<AgeVerdict> tried_;  ///< Verdicts so far, in ascending order of age.
@@ -179,8 +179,8 @@ std::int64_t trials_at_one_age(const study::Study& study, std::int64_t trials_ea
   return trials_each / std::ssize(study.ages.at);
 }
 
-LostAges lost_ages(const study::Study& study, const trials::Replicates& units, trials::Effort effort) {
-  return LifeOfClaims(study, units, std::move(effort)).found();
+LostAges lost_ages(const study::Study& study, const trials::Replicates& machines, trials::Effort effort) {
+  return LifeOfClaims(study, machines, std::move(effort)).found();
 }
 
 std::int64_t points_of_lost_ages(const study::Study& study) {

@@ -9,7 +9,7 @@
 #include "experiments/study/study.hpp"
 #include "runners/trials/effort.hpp"
 #include "runners/trials/variant.hpp"
-#include "runners/tuning/units/unit_runner.hpp"
+#include "runners/tuning/machine_runs/machine_runner.hpp"
 
 /// A tuned study at ages that its manifest need not name, on machines that its search did not use: the age at
 /// which the values lose each of their claims.
@@ -49,7 +49,7 @@ struct LostAges {
   std::vector<LostClaim> claims;  ///< One entry for each claim, in the order of AgeVerdict::claims.
   std::vector<AgeVerdict> tried;  ///< Verdicts on the tried ages, in ascending order of age.
   std::string refusal{};          ///< Why no older age was tried; empty if none was needed.
-  std::int64_t units{0};          ///< Number of machines; all ages use the same machines.
+  std::int64_t machines{0};       ///< Number of machines; all ages use the same machines.
 };
 
 /// Simulates the ages of the study, one between each two of them, then decades beyond the last one, on the
@@ -61,9 +61,9 @@ struct LostAges {
 ///       between the last age before and the first age after it, by geometric means to 10 %
 ///
 /// @param study study with ages, at the values of its manifest
-/// @param units machines, and their trials at one age under all conditions together
+/// @param machines machines, and their trials at one age under all conditions together
 /// @throws trial::Interrupted, trials::Spent
-LostAges lost_ages(const study::Study& study, const trials::Replicates& units, trials::Effort effort);
+LostAges lost_ages(const study::Study& study, const trials::Replicates& machines, trials::Effort effort);
 
 /// Approximate number of ages that lost_ages() simulates.
 std::int64_t points_of_lost_ages(const study::Study& study);

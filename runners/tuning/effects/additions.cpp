@@ -23,7 +23,7 @@ constexpr double allowed_loss = 0.01;      // of each rate, by a mode that is bo
 constexpr double lowest_frequency = 10.0;  // Hz
 constexpr double precision = 1.05;         // of the frequency
 constexpr double samples_of_mode = 8.0e5;  // that are simulated for its rate
-constexpr std::int64_t few = 8;            // the part of these units on which it is sought
+constexpr std::int64_t few = 8;            // the part of these machines on which it is sought
 
 // Noise.
 
@@ -76,37 +76,37 @@ class ModeSearch {
     for (std::size_t move = 0; move < first_.command.targets.size(); ++move)
       samples += static_cast<double>(samples_of_move(first_, move));
     samples *= static_cast<double>(runs.trials_each() * std::ssize(runs.conditions()));
-    units_ = whole_worlds(std::max<std::int64_t>(few, std::llround(samples_of_mode / samples)));
-    few_units_ = whole_worlds((units_ + few - 1) / few);
+    machines_ = whole_worlds(std::max<std::int64_t>(few, std::llround(samples_of_mode / samples)));
+    few_machines_ = whole_worlds((machines_ + few - 1) / few);
   }
 
   Limit lowest() const {
     const double highest = 0.5 * first_.controller.sample_rate;
-    const ChangedPoint at_highest = run(highest, few_units_);
+    const ChangedPoint at_highest = run(highest, few_machines_);
     if (!at_highest.refusal.empty()) return limit_of(runs_, at_highest);
-    if (!is_borne(at_highest, few_units_) && !is_borne(run(highest, units_), units_))
+    if (!is_borne(at_highest, few_machines_) && !is_borne(run(highest, machines_), machines_))
       return beyond_rate(highest);
     double borne = highest;
     double missed = to_three_digits(0.5 * borne);
-    while (borne >= lowest_frequency && is_borne(run(missed, few_units_), few_units_)) {
+    while (borne >= lowest_frequency && is_borne(run(missed, few_machines_), few_machines_)) {
       borne = missed;
       missed = to_three_digits(0.5 * borne);
     }
     const bool any_is_missed = borne >= lowest_frequency;
     while (any_is_missed && borne > precision * missed) {
       const double middle = to_three_digits(std::sqrt(borne * missed));
-      (is_borne(run(middle, few_units_), few_units_) ? borne : missed) = middle;
+      (is_borne(run(middle, few_machines_), few_machines_) ? borne : missed) = middle;
     }
-    ChangedPoint found = run(borne, units_);
-    if (is_borne(found, units_)) {
+    ChangedPoint found = run(borne, machines_);
+    if (is_borne(found, machines_)) {
       while (any_is_missed) {
-        ChangedPoint lower = run(missed, units_);
-        if (!is_borne(lower, units_)) break;
+        ChangedPoint lower = run(missed, machines_);
+        if (!is_borne(lower, machines_)) break;
         found = std::move(lower);
         missed = to_three_digits(missed / precision);
       }
     } else {
-      for (; !is_borne(found, units_); found = run(borne, units_)) {
+      for (; !is_borne(found, machines_); found = run(borne, machines_)) {
         if (borne >= highest) return beyond_rate(highest);
         missed = borne;
         borne = std::min(to_three_digits(precision * borne), highest);
@@ -117,8 +117,8 @@ class ModeSearch {
   }
 
  private:
-  std::int64_t whole_worlds(std::int64_t units) const {
-    return std::min(trials::in_equal_worlds(runs_.study(), units), runs_.units());
+  std::int64_t whole_worlds(std::int64_t machines) const {
+    return std::min(trials::in_equal_worlds(runs_.study(), machines), runs_.machines());
   }
 
   ChangedPoint with_mode(double frequency) const {
@@ -129,13 +129,13 @@ class ModeSearch {
         .front();
   }
 
-  /// Runs the point with a mode on up to `units` machines. Stops earlier if the mode cannot be borne any
+  /// Runs the point with a mode on up to `machines` machines. Stops earlier if the mode cannot be borne any
   /// more.
-  ChangedPoint run(double frequency, std::int64_t units) const {
+  ChangedPoint run(double frequency, std::int64_t machines) const {
     ChangedPoint point = with_mode(frequency);
     for (std::int64_t count = 2; point.refusal.empty(); count *= 2) {
-      runs_.run({&point, 1}, std::min(count, units));
-      if (count >= units || !is_borne(point, units)) break;
+      runs_.run({&point, 1}, std::min(count, machines));
+      if (count >= machines || !is_borne(point, machines)) break;
     }
     return point;
   }
@@ -143,23 +143,23 @@ class ModeSearch {
   /// Result if not even the highest mode is borne.
   Limit beyond_rate(double highest) const {
     ChangedPoint point = with_mode(highest);
-    runs_.run({&point, 1}, units_);
+    runs_.run({&point, 1}, machines_);
     return row(point, "costs more than 1 %; modes above half the sample rate are not tried");
   }
 
-  /// Whether no rate on the first `units` machines falls by more than is allowed, for any goal and condition.
-  /// Machines that have not run count as meeting all goals.
-  bool is_borne(const ChangedPoint& point, std::int64_t units) const {
-    std::vector<UnitResult> best = point.units;
-    for (std::size_t unit = best.size(); unit < static_cast<std::size_t>(units); ++unit) {
-      best.push_back(runs_.base().units[unit]);
+  /// Whether no rate on the first `machines` machines falls by more than is allowed, for any goal and
+  /// condition. Machines that have not run count as meeting all goals.
+  bool is_borne(const ChangedPoint& point, std::int64_t machines) const {
+    std::vector<MachineResult> best = point.machines;
+    for (std::size_t machine = best.size(); machine < static_cast<std::size_t>(machines); ++machine) {
+      best.push_back(runs_.base().machines[machine]);
       for (ClaimResult& claim : best.back().claims) claim.met = claim.moves;
     }
-    const Estimate with = estimate_of(runs_.aim(), best, units);
-    const Estimate without = estimate_of(runs_.aim(), runs_.base().units, units);
+    const Estimate with = estimate_of(runs_.aim(), best, machines);
+    const Estimate without = estimate_of(runs_.aim(), runs_.base().machines, machines);
     constexpr double rounding = 1e-9;
     const double allowed =
-        allowed_loss + rounding + (units < units_ ? 1.0 / static_cast<double>(with.units) : 0.0);
+        allowed_loss + rounding + (machines < machines_ ? 1.0 / static_cast<double>(with.machines) : 0.0);
     for (std::size_t claim = 0; claim < with.rates.size(); ++claim) {
       if (with.rates[claim] < without.rates[claim] - allowed) return false;
     }
@@ -169,17 +169,17 @@ class ModeSearch {
   Limit row(const ChangedPoint& point, const std::string& found) const {
     Limit limit = limit_of(runs_, point);
     limit.note = fmt::format("{}; {}", found, point.note);
-    if (units_ < runs_.units())
-      limit.note += fmt::format("; first {} of {} {}: {:.4g} % without it", units_, runs_.units(),
+    if (machines_ < runs_.machines())
+      limit.note += fmt::format("; first {} of {} {}: {:.4g} % without it", machines_, runs_.machines(),
                                 runs_.study().machines > 0 ? "machines" : "draws",
-                                100.0 * estimate_of(runs_.aim(), runs_.base().units, units_).rate);
+                                100.0 * estimate_of(runs_.aim(), runs_.base().machines, machines_).rate);
     return limit;
   }
 
   const EffectRuns& runs_;
   trial::TrialParameters first_;
-  std::int64_t units_{0};      ///< Number of machines on which the rate is estimated.
-  std::int64_t few_units_{0};  ///< Number of machines on which the frequency is sought.
+  std::int64_t machines_{0};      ///< Number of machines on which the rate is estimated.
+  std::int64_t few_machines_{0};  ///< Number of machines on which the frequency is sought.
 };
 
 bool can_have_load(const EffectRuns& runs) {
@@ -237,7 +237,7 @@ Effect other_delay(const study::Study& study, std::int64_t point, double factor,
       .change = [changed](trial::TrialParameters& p) { p.controller.delay = changed(p.controller.delay); }};
 }
 
-Limit with_other_seeds(const EffectRuns& runs, const trials::Replicates& units,
+Limit with_other_seeds(const EffectRuns& runs, const trials::Replicates& machines,
                        const std::function<study::Study(std::uint64_t)>& with_seed) {
   std::array<study::Study, other_seeds> others;
   parallel::for_each_index(
@@ -250,7 +250,7 @@ Limit with_other_seeds(const EffectRuns& runs, const trials::Replicates& units,
   int held = 0;
   double highest = 0.0;
   for (std::size_t i = 0; i < others.size(); ++i) {
-    const EffectRuns seeded(others[i], units, runs.effort());
+    const EffectRuns seeded(others[i], machines, runs.effort());
     Limit one = limit_of(seeded, seeded.base());
     held += one.holds ? 1 : 0;
     highest = std::max(highest, *one.rate);
@@ -288,7 +288,7 @@ std::vector<Limit> additions_to(const EffectRuns& runs, const TellStage& tell) {
   std::vector<ChangedPoint> points = runs.points(added_effects);
   if (!can_lose(runs)) return nothing_to_lose(runs, points);
   if (tell) tell("effects that the study may assume away");
-  runs.run(points, runs.units());
+  runs.run(points, runs.machines());
   std::vector<Limit> rows;
   rows.reserve(points.size() + 1);
   for (const ChangedPoint& one : points) rows.push_back(limit_of(runs, one));
@@ -301,11 +301,11 @@ std::vector<Effect> other_premises(const study::Study& study, std::int64_t point
           other_delay(study, point, 2.0, 2.0)};
 }
 
-std::vector<Limit> variations_of(const EffectRuns& runs, const trials::Replicates& units,
+std::vector<Limit> variations_of(const EffectRuns& runs, const trials::Replicates& machines,
                                  const std::function<study::Study(std::uint64_t)>& with_seed) {
-  std::vector<Limit> found{with_other_seeds(runs, units, with_seed)};
+  std::vector<Limit> found{with_other_seeds(runs, machines, with_seed)};
   std::vector<ChangedPoint> points = runs.points(other_premises);
-  runs.run(points, runs.units());
+  runs.run(points, runs.machines());
   for (const ChangedPoint& one : points) found.push_back(limit_of(runs, one));
   return found;
 }

@@ -17,11 +17,11 @@
 namespace zerocount::tuning {
 namespace {
 
-using study::ValueLimits;
+using study::ParameterRange;
 using trial::TrialParameters;
 
 /// Takes from the integral the torque that holds disturbances from `low` to `high`, N m.
-void release_integral(const ValueLimits& torque, TrialParameters& p) {
+void release_integral(const ParameterRange& torque, TrialParameters& p) {
   double& integral = p.initial.integral;
   integral = integral > 0.0 ? std::max(0.0, integral - std::max(0.0, -torque.low))
                             : std::min(0.0, integral + std::max(0.0, torque.high));
@@ -29,7 +29,7 @@ void release_integral(const ValueLimits& torque, TrialParameters& p) {
 
 /// Removes a constant load torque. The integral gives up as much as the largest load of the study, so that
 /// one integral for all loads is removed too.
-Change without_constant_disturbance(const ValueLimits& load) {
+Change without_constant_disturbance(const ParameterRange& load) {
   return [load](TrialParameters& p) {
     release_integral(load, p);
     constexpr double rounding = 1e-9;
@@ -42,7 +42,7 @@ Change without_constant_disturbance(const ValueLimits& load) {
   };
 }
 
-Change without_constant_load_disturbance(const ValueLimits& load) {
+Change without_constant_load_disturbance(const ParameterRange& load) {
   return [load](TrialParameters& p) {
     release_integral(load, p);
     p.load_side.disturbance.torque = 0.0;
@@ -115,8 +115,8 @@ void add_disturbances(const IdealisedPoint& point, std::vector<Effect>& all) {
   };
   const auto parameters_before = std::ranges::count_if(all, is_of_disturbance);
   const std::size_t first = all.size();
-  const ValueLimits torque = point.at.limits("disturbance.torque");
-  const ValueLimits load_torque = point.at.limits("disturbance.load.torque");
+  const ParameterRange torque = point.at.limits("disturbance.torque");
+  const ParameterRange load_torque = point.at.limits("disturbance.load.torque");
   if (can_differ_from(0.0, torque))
     all.push_back({.name = std::string(parameters::no_constant_disturbance),
                    .change = without_constant_disturbance(torque)});

@@ -7,21 +7,21 @@
 #include "runners/tuning/effects/effects.hpp"
 
 namespace zerocount::tuning {
-EffectRuns::EffectRuns(const study::Study& study, const trials::Replicates& units, trials::Effort effort)
-    : study_(study), aim_(aim_of(study)), units_(units), effort_(std::move(effort)) {
+EffectRuns::EffectRuns(const study::Study& study, const trials::Replicates& machines, trials::Effort effort)
+    : study_(study), aim_(aim_of(study)), machines_(machines), effort_(std::move(effort)) {
   for (std::int64_t condition = 0; condition < study::condition_count(study); ++condition)
     conditions_.push_back(under_condition(study, condition));
-  units_.trials_each /= std::ssize(conditions_);
+  machines_.trials_each /= std::ssize(conditions_);
   base_ = {"none", std::vector<std::vector<Effect>>(conditions_.size())};
   apply_effects(base_);
-  run({&base_, 1}, units_.count);
+  run({&base_, 1}, machines_.count);
 }
 
 std::vector<ChangedPoint> EffectRuns::points(
     const std::function<std::vector<Effect>(const study::Study&, std::int64_t)>& effects_of) const {
   std::vector<ChangedPoint> all;
   for (std::size_t condition = 0; condition < conditions_.size(); ++condition) {
-    for (Effect& effect : effects_of(conditions_[condition], units_.point)) {
+    for (Effect& effect : effects_of(conditions_[condition], machines_.point)) {
       auto same = std::ranges::find(all, effect.name, &ChangedPoint::name);
       if (same == all.end()) {
         all.push_back({effect.name, std::vector<std::vector<Effect>>(conditions_.size())});
@@ -45,7 +45,7 @@ ChangedPoint EffectRuns::together(const ChangedPoint& a, const ChangedPoint& b) 
 void EffectRuns::apply_effects(ChangedPoint& point) const {
   for (std::size_t condition = 0; condition < conditions_.size(); ++condition) {
     const std::vector<Effect>& effects = point.under[condition];
-    study::PointEdit at(conditions_[condition], units_.point);
+    study::PointEdit at(conditions_[condition], machines_.point);
     std::vector<Change> changes;
     FinerUnits finer;
     for (const Effect& one : effects) {
@@ -81,30 +81,30 @@ void EffectRuns::run(std::span<ChangedPoint> points, std::int64_t count) const {
 
 void EffectRuns::run_all(std::span<ChangedPoint> points, std::int64_t count) const {
   const std::size_t conditions = conditions_.size();
-  count = std::min(count, units_.count);
-  std::vector<std::vector<UnitResult>> results(points.size() * conditions);
-  std::vector<UnitsToRun> entries;
+  count = std::min(count, machines_.count);
+  std::vector<std::vector<MachineResult>> results(points.size() * conditions);
+  std::vector<MachinesToRun> entries;
   for (std::size_t p = 0; p < points.size(); ++p) {
     const ChangedPoint& point = points[p];
-    const std::int64_t from = std::ssize(point.units);
+    const std::int64_t from = std::ssize(point.machines);
     if (!point.refusal.empty() || from >= count) continue;
     for (std::size_t c = 0; c < conditions; ++c)
       entries.push_back(
           {&point.studies[c], from, count, &results[p * conditions + c], &point.changes[c], point.finer[c]});
   }
   if (entries.empty()) return;
-  run_units(entries, units_, effort_);
+  run_machines(entries, machines_, effort_);
   for (std::size_t p = 0; p < points.size(); ++p) {
-    std::vector<UnitResult>& units = points[p].units;
-    const std::size_t from = units.size();
+    std::vector<MachineResult>& machines = points[p].machines;
+    const std::size_t from = machines.size();
     for (std::size_t c = 0; c < conditions; ++c) {
-      std::vector<UnitResult>& of_condition = results[p * conditions + c];
-      units.resize(std::max(units.size(), of_condition.size()));
-      for (std::size_t unit = from; unit < of_condition.size(); ++unit) {
-        units[unit].claims.resize(aim_.claims.size());
-        units[unit].slid = units[unit].slid || of_condition[unit].slid;
-        for (std::size_t goal = 0; goal < of_condition[unit].claims.size(); ++goal)
-          units[unit].claims[goal * conditions + c] = std::move(of_condition[unit].claims[goal]);
+      std::vector<MachineResult>& of_condition = results[p * conditions + c];
+      machines.resize(std::max(machines.size(), of_condition.size()));
+      for (std::size_t machine = from; machine < of_condition.size(); ++machine) {
+        machines[machine].claims.resize(aim_.claims.size());
+        machines[machine].slid = machines[machine].slid || of_condition[machine].slid;
+        for (std::size_t goal = 0; goal < of_condition[machine].claims.size(); ++goal)
+          machines[machine].claims[goal * conditions + c] = std::move(of_condition[machine].claims[goal]);
       }
     }
   }

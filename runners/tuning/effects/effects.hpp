@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "experiments/study/point_edit.hpp"
+#include "runners/tuning/machine_runs/machine_runner.hpp"
 #include "runners/tuning/race/candidate.hpp"
-#include "runners/tuning/units/unit_runner.hpp"
 
 /// Sensitivity of a tuned answer: its premises are changed one by one, at the same gains.
 namespace zerocount::tuning {
@@ -37,7 +37,7 @@ struct ChangedPoint {
   std::vector<study::Study> studies{};     ///< [condition] Edited study of the condition.
   std::vector<Change> changes{};           ///< [condition] Change of each trial after its draw.
   std::vector<FinerUnits> finer{};         ///< [condition] Units of the changed trials.
-  std::vector<UnitResult> units{};         ///< Results so far, with all goals under all conditions.
+  std::vector<MachineResult> machines{};   ///< Results so far, with all goals under all conditions.
 };
 
 /// Runs a point with effects switched off or added. All runs use the random numbers of the study. Each
@@ -46,22 +46,24 @@ class EffectRuns {
  public:
   /// Runs the unchanged point.
   /// @throws trial::Interrupted, trials::Spent
-  EffectRuns(const study::Study& study, const trials::Replicates& units, trials::Effort effort);
+  EffectRuns(const study::Study& study, const trials::Replicates& machines, trials::Effort effort);
 
   const study::Study& study() const { return study_; }
   const Aim& aim() const { return aim_; }
-  std::int64_t point() const { return units_.point; }
-  /// Number of machines (units) of the study.
-  std::int64_t units() const { return units_.count; }
+  std::int64_t point() const { return machines_.point; }
+  /// Number of machines of the study.
+  std::int64_t machines() const { return machines_.count; }
   /// Number of trials of each machine under one condition.
-  std::int64_t trials_each() const { return units_.trials_each; }
+  std::int64_t trials_each() const { return machines_.trials_each; }
   /// [condition] The study under this condition alone.
   const std::vector<study::Study>& conditions() const { return conditions_; }
   const trials::Effort& effort() const { return effort_; }
   /// The unchanged point, with the results of all machines.
   const ChangedPoint& base() const { return base_; }
   /// Estimate of a point from the machines that have run.
-  Estimate estimate(const ChangedPoint& point) const { return estimate_of(aim_, point.units, units_.count); }
+  Estimate estimate(const ChangedPoint& point) const {
+    return estimate_of(aim_, point.machines, machines_.count);
+  }
 
   /// One changed point for each effect name, with this effect alone changed under all conditions that have
   /// it. No machine of the points has run. If the manifest could not describe a point, its refusal says why.
@@ -82,7 +84,7 @@ class EffectRuns {
 
   const study::Study& study_;
   Aim aim_;
-  trials::Replicates units_;  ///< Machines, with their trials under one condition.
+  trials::Replicates machines_;  ///< Machines, with their trials under one condition.
   trials::Effort effort_;
   std::vector<study::Study> conditions_;
   ChangedPoint base_;
@@ -91,12 +93,12 @@ class EffectRuns {
 /// Maximum probability of naming a cause, or a pair of causes, if nothing that is tried raises the rate.
 inline constexpr double max_false_cause = 0.05;
 
-/// Paired comparison of the machines (units) before and after a change, on the same draws. A unit is a
-/// machine, or a trial if no trials share a machine.
+/// Paired comparison of the machines before and after a change, on the same draws. If no trials share a
+/// machine, each trial counts as one.
 struct PairedGain {
-  std::int64_t units{0};   ///< Number of compared machines.
-  std::int64_t gained{0};  ///< Machines that meet the claim in more of their moves after the change.
-  std::int64_t lost{0};    ///< Machines that meet the claim in fewer of their moves after the change.
+  std::int64_t machines{0};  ///< Number of compared machines.
+  std::int64_t gained{0};    ///< Machines that meet the claim in more of their moves after the change.
+  std::int64_t lost{0};      ///< Machines that meet the claim in fewer of their moves after the change.
   /// One-sided p-value of the sign test: probability of at least this many gains among the machines that
   /// differ, if gain and loss were equally likely. If a machine either meets the claim or not, this is
   /// McNemar's exact test.
@@ -109,11 +111,11 @@ struct PairedGain {
 /// Compares two points in one claim.
 /// @param number index of the claim in Aim::claims
 /// @param alternatives number of causes, or of pairs of causes, that are tried
-PairedGain paired_gain(const Claim& claim, std::size_t number, std::span<const UnitResult> before,
-                       std::span<const UnitResult> after, std::int64_t alternatives);
+PairedGain paired_gain(const Claim& claim, std::size_t number, std::span<const MachineResult> before,
+                       std::span<const MachineResult> after, std::int64_t alternatives);
 
 /// Smallest number of machines that can show a gain, if all of them gain.
-std::int64_t units_to_show_a_gain(std::int64_t alternatives);
+std::int64_t machines_to_show_a_gain(std::int64_t alternatives);
 
 /// Success rate with an effect switched off or added. With several goals or conditions, it is the rate of the
 /// worst goal under its worst condition.
@@ -152,7 +154,7 @@ Limit limit_of(const EffectRuns& runs, const ChangedPoint& point);
 
 /// Runs the first `count` machines of a study, and returns their estimate.
 /// @param change changes each drawn trial; null: no change
-Estimate estimate_on(const study::Study& study, const trials::Replicates& units, std::int64_t count,
+Estimate estimate_on(const study::Study& study, const trials::Replicates& machines, std::int64_t count,
                      const Change* change, const trials::Effort& effort);
 
 /// Success rates on all machines with each possible cause of failures switched off, and with the best pair of
@@ -171,10 +173,10 @@ Estimate estimate_on(const study::Study& study, const trials::Replicates& units,
 /// If several pairs have nearly equal rates, another pair may be the best one.
 /// @param tell gets the name of the running stage
 /// @throws trial::Interrupted, trials::Spent
-std::vector<Limit> limits_of(const EffectRuns& runs, const TellStage& tell = {});
+std::vector<Limit> find_causes(const EffectRuns& runs, const TellStage& tell = {});
 
-/// Approximate cost of limits_of(), as a multiple of running `units` machines once.
-double runs_of_limits(const study::Study& study, std::int64_t point, std::int64_t units);
+/// Approximate cost of find_causes(), as a multiple of running `machines` machines once.
+double runs_of_causes(const study::Study& study, std::int64_t point, std::int64_t machines);
 
 /// The shown cause, or pair of causes, with the highest rate; null if none is shown.
 const Limit* main_cause(const std::vector<Limit>& limits);
@@ -227,10 +229,10 @@ std::vector<Effect> other_premises(const study::Study& study, std::int64_t point
 /// Success rates on all machines with other premises. The first entry is the lowest rate with ten other
 /// seeds. Then follow the rates with each of other_premises().
 /// @param runs runs of the unchanged study
-/// @param units machines of the unchanged study
+/// @param machines machines of the unchanged study
 /// @param with_seed returns the study with another seed
 /// @throws trial::Interrupted, trials::Spent
-std::vector<Limit> variations_of(const EffectRuns& runs, const trials::Replicates& units,
+std::vector<Limit> variations_of(const EffectRuns& runs, const trials::Replicates& machines,
                                  const std::function<study::Study(std::uint64_t seed)>& with_seed);
 
 }  // namespace zerocount::tuning

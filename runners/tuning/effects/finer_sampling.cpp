@@ -15,8 +15,8 @@
 namespace zerocount::tuning {
 namespace {
 
+using study::ParameterRange;
 using study::PointEdit;
-using study::ValueLimits;
 
 // Encoder. All lengths that the manifest gives in counts stay the same in rad or m, and so do gains per
 // count. Counts of the control, the command and the verdict are those of the fine encoder, whichever closes
@@ -31,9 +31,9 @@ constexpr double half_a_count = finer / 2.0;
 LoopEncoders encoders_of(const PointEdit& at) {
   LoopEncoders encoders;
   const auto add = [&](std::string_view choice) {
-    const ValueLimits limits = at.limits(choice);
-    encoders.fine |= limits.low == static_cast<double>(loop::EncoderChoice::fine);
-    encoders.coarse |= limits.high == static_cast<double>(loop::EncoderChoice::coarse);
+    const ParameterRange range = at.limits(choice);
+    encoders.fine |= range.low == static_cast<double>(loop::EncoderChoice::fine);
+    encoders.coarse |= range.high == static_cast<double>(loop::EncoderChoice::coarse);
   };
   add("controller.encoder");
   if (study::can_have_coarse_phase(at.limits("controller.coarse.coarse_beyond")))
@@ -150,7 +150,7 @@ constexpr std::int64_t samples_per_sample = 2;
 constexpr double rate_ratio = samples_per_sample;
 
 /// Factor by which a gain of the sampled law changes at the new sample rate, so that it is the same in SI
-/// units.
+/// machines.
 double factor_at_new_rate(std::string_view si_unit) {
   if (si_unit.ends_with("/(rad s)")) return 1.0 / rate_ratio;
   return si_unit.ends_with(" s/rad") ? rate_ratio : 1.0;
@@ -187,10 +187,10 @@ void resample_biquads(trial::TrialParameters& p) {
 void add_finer_encoders(const IdealisedPoint& point, const study::Study& study, std::vector<Effect>& all) {
   using enum motion::EncoderPlace;
   const study::StudyPlan& plan = point.at.plan();
-  const std::vector<ValueLimits> limits =
-      study::limits_at(plan, study::slots_named(plan.table, study::two_encoders), point.at.points().front());
-  if (!study::has_two_encoders(limits)) return all.push_back(with_finer_encoder(point, study));
-  const motion::EncoderPlace closing = study::closes_at_load(limits) ? load : motor;
+  const std::vector<ParameterRange> ranges =
+      study::ranges_at(plan, study::slots_named(plan.table, study::two_encoders), point.at.points().front());
+  if (!study::has_two_encoders(ranges)) return all.push_back(with_finer_encoder(point, study));
+  const motion::EncoderPlace closing = study::closes_at_load(ranges) ? load : motor;
   for (const motion::EncoderPlace mass : {motor, load})
     all.push_back(with_finer_encoder_of(mass, closing, point, study));
 }

@@ -35,9 +35,9 @@ bool acts(const IdealisedPoint& point, std::string_view name) {
   const study::StudyPlan& plan = point.at.plan();
   return std::ranges::all_of(point.rules, [&](const rules::EffectRule& rule) {
     if (!rules::covers(rule, name)) return true;
-    const std::vector<study::ValueLimits> limits =
-        study::limits_at(plan, study::slots_named(plan.table, rule.depends_on), point.at.points().front());
-    return !study::are_readable(limits) || rule.has_effect(limits);
+    const std::vector<study::ParameterRange> ranges =
+        study::ranges_at(plan, study::slots_named(plan.table, rule.depends_on), point.at.points().front());
+    return !study::are_readable(ranges) || rule.has_effect(ranges);
   });
 }
 
@@ -47,8 +47,8 @@ std::string name_in_phase(std::string_view effect, std::string_view parameter) {
 
 namespace {
 
+using study::ParameterRange;
 using study::PointEdit;
-using study::ValueLimits;
 
 // Ideal values.
 

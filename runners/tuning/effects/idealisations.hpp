@@ -24,9 +24,9 @@ struct IdealisedPoint {
   std::string fixed_rate_and_counts{};
 };
 
-/// Whether a quantity with these limits differs from `value` in some trial.
-inline bool can_differ_from(double value, const study::ValueLimits& limits) {
-  return limits.low != value || limits.high != value;
+/// Whether a quantity with this range differs from `value` in some trial.
+inline bool can_differ_from(double value, const study::ParameterRange& range) {
+  return range.low != value || range.high != value;
 }
 
 /// Whether a dotted path lies in a section.

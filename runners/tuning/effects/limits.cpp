@@ -23,12 +23,12 @@ double allowed_error(std::int64_t alternatives) {
 
 }  // namespace
 
-PairedGain paired_gain(const Claim& claim, std::size_t number, std::span<const UnitResult> before,
-                       std::span<const UnitResult> after, std::int64_t alternatives) {
-  PairedGain gain{.units = std::min(std::ssize(before), std::ssize(after))};
-  for (std::size_t unit = 0; unit < static_cast<std::size_t>(gain.units); ++unit) {
-    const double loss_before = goal_loss(claim, before[unit].claims[number]);
-    const double loss_after = goal_loss(claim, after[unit].claims[number]);
+PairedGain paired_gain(const Claim& claim, std::size_t number, std::span<const MachineResult> before,
+                       std::span<const MachineResult> after, std::int64_t alternatives) {
+  PairedGain gain{.machines = std::min(std::ssize(before), std::ssize(after))};
+  for (std::size_t machine = 0; machine < static_cast<std::size_t>(gain.machines); ++machine) {
+    const double loss_before = goal_loss(claim, before[machine].claims[number]);
+    const double loss_after = goal_loss(claim, after[machine].claims[number]);
     gain.gained += loss_after < loss_before ? 1 : 0;
     gain.lost += loss_after > loss_before ? 1 : 0;
   }
@@ -38,7 +38,7 @@ PairedGain paired_gain(const Claim& claim, std::size_t number, std::span<const U
   return gain;
 }
 
-std::int64_t units_to_show_a_gain(std::int64_t alternatives) {
+std::int64_t machines_to_show_a_gain(std::int64_t alternatives) {
   return static_cast<std::int64_t>(std::ceil(-std::log2(allowed_error(alternatives))));
 }
 
@@ -59,7 +59,7 @@ void name_claims(const EffectRuns& runs, Limit& limit) {
 /// Estimate::margin of a point on its first `count` machines; −infinity if the point cannot be simulated.
 double margin_on(const EffectRuns& runs, const ChangedPoint& point, std::int64_t count) {
   if (!point.refusal.empty()) return -std::numeric_limits<double>::infinity();
-  return estimate_of(runs.aim(), point.units, count).margin;
+  return estimate_of(runs.aim(), point.machines, count).margin;
 }
 
 std::vector<ChangedPoint> pairs_of(const EffectRuns& runs, std::span<const ChangedPoint> alone) {
@@ -84,24 +84,24 @@ void keep_promising(const EffectRuns& runs, std::span<const ChangedPoint> alone,
   std::erase_if(pairs, [&](const ChangedPoint& one) { return margin_on(runs, one, count) < least; });
 }
 
-std::int64_t first_units_of_pairs(std::int64_t units) {
+std::int64_t first_machines_of_pairs(std::int64_t machines) {
   constexpr std::int64_t fewest = 64;
   constexpr std::int64_t most = 1024;
-  return std::min(units, std::clamp(units / 8, fewest, most));
+  return std::min(machines, std::clamp(machines / 8, fewest, most));
 }
 
 /// The best pair on all machines, of those that stayed promising; null if none did.
 const ChangedPoint* best_pair(const EffectRuns& runs, std::span<const ChangedPoint> alone,
                               std::vector<ChangedPoint>& pairs) {
-  for (std::int64_t count = first_units_of_pairs(runs.units()); count < runs.units() && !pairs.empty();
-       count *= 2) {
+  for (std::int64_t count = first_machines_of_pairs(runs.machines());
+       count < runs.machines() && !pairs.empty(); count *= 2) {
     count = trials::in_equal_worlds(runs.study(), count);
     runs.run(pairs, count);
     keep_promising(runs, alone, count, pairs);
   }
-  runs.run(pairs, runs.units());
+  runs.run(pairs, runs.machines());
   const auto best = std::ranges::max_element(
-      pairs, {}, [&](const ChangedPoint& one) { return margin_on(runs, one, runs.units()); });
+      pairs, {}, [&](const ChangedPoint& one) { return margin_on(runs, one, runs.machines()); });
   return best == pairs.end() || !best->refusal.empty() ? nullptr : &*best;
 }
 
@@ -109,7 +109,7 @@ const ChangedPoint* best_pair(const EffectRuns& runs, std::span<const ChangedPoi
 PairedGain gain_between(const EffectRuns& runs, const ChangedPoint& before, const ChangedPoint& after,
                         std::int64_t alternatives) {
   const std::size_t worst = runs.estimate(runs.base()).worst;
-  return paired_gain(runs.aim().claims[worst], worst, before.units, after.units, alternatives);
+  return paired_gain(runs.aim().claims[worst], worst, before.machines, after.machines, alternatives);
 }
 
 /// Result with a cause, or a pair of causes, switched off.
@@ -126,14 +126,14 @@ Limit cause_of(const EffectRuns& runs, const ChangedPoint& without, const Limit&
 void run_alone(const EffectRuns& runs, std::vector<ChangedPoint>& alone, const TellStage& tell) {
   constexpr std::int64_t trials_of_part = 2000;
   constexpr std::int64_t most_parts = 100;
-  const std::int64_t trials = runs.units() * runs.trials_each() * std::ssize(runs.conditions()) *
+  const std::int64_t trials = runs.machines() * runs.trials_each() * std::ssize(runs.conditions()) *
                               std::max<std::int64_t>(std::ssize(alone), 1);
   const std::int64_t parts = std::clamp<std::int64_t>(trials / trials_of_part, 1, most_parts);
   for (std::int64_t part = 1; part <= parts; ++part) {
     if (tell)
       tell(fmt::format("{} causes of failures, each switched off: {} %", alone.size(),
                        100 * (part - 1) / parts));
-    runs.run(alone, runs.units() * part / parts);
+    runs.run(alone, runs.machines() * part / parts);
   }
 }
 
@@ -174,19 +174,19 @@ Limit limit_of(const EffectRuns& runs, const ChangedPoint& point) {
   limit.asked = wanted_rate(runs.aim().claims[limit.estimate.worst]);
   const Estimate base = runs.estimate(runs.base());
   if (&point != &runs.base() && base.rate < 1.0 && limit.estimate.worst == base.worst &&
-      limit.estimate.units == base.units)
+      limit.estimate.machines == base.machines)
     limit.avoided = (limit.estimate.rate - base.rate) / (1.0 - base.rate);
   limit.holds = reaches(runs.aim(), limit.estimate);
   if (has_named_claims(runs.study())) name_claims(runs, limit);
   return limit;
 }
 
-Estimate estimate_on(const study::Study& study, const trials::Replicates& units, std::int64_t count,
+Estimate estimate_on(const study::Study& study, const trials::Replicates& machines, std::int64_t count,
                      const Change* change, const trials::Effort& effort) {
-  return estimate_of(aim_of(study), results_of(study, units, count, change, effort), count);
+  return estimate_of(aim_of(study), results_of(study, machines, count, change, effort), count);
 }
 
-std::vector<Limit> limits_of(const EffectRuns& runs, const TellStage& tell) {
+std::vector<Limit> find_causes(const EffectRuns& runs, const TellStage& tell) {
   std::vector<Limit> limits{limit_of(runs, runs.base())};
   std::vector<ChangedPoint> alone = runs.points(idealisations_of);
   if (misses_nothing(limits.front())) {
@@ -202,11 +202,11 @@ std::vector<Limit> limits_of(const EffectRuns& runs, const TellStage& tell) {
   return limits;
 }
 
-double runs_of_limits(const study::Study& study, std::int64_t point, std::int64_t units) {
+double runs_of_causes(const study::Study& study, std::int64_t point, std::int64_t machines) {
   const auto causes = static_cast<double>(idealisations_of(under_condition(study, 0), point).size());
-  // Half of the pairs remain whenever their units double.
-  const double part = static_cast<double>(first_units_of_pairs(units)) /
-                      static_cast<double>(std::max<std::int64_t>(units, 1));
+  // Half of the pairs remain whenever their machines double.
+  const double part = static_cast<double>(first_machines_of_pairs(machines)) /
+                      static_cast<double>(std::max<std::int64_t>(machines, 1));
   const double each_pair = part * (1.0 - 0.5 * std::log2(part));
   return 1.0 + causes + 0.5 * causes * (causes - 1.0) * each_pair;
 }

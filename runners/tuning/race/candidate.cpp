@@ -20,18 +20,18 @@ bool machine_meets(const Claim& claim, const ClaimResult& result) {
 
 /// Counts of one world.
 struct WorldCounts {
-  std::int64_t units{0};
+  std::int64_t machines{0};
   std::int64_t moves{0};
   std::int64_t met{0};
-  std::int64_t machines{0};  ///< Machines that meet the goal.
+  std::int64_t machines_met{0};  ///< Machines that meet the goal.
 };
 
 std::size_t worlds_of(const Aim& aim) {
   return static_cast<std::size_t>(std::max<std::int64_t>(aim.worlds, 1));
 }
 
-std::size_t common_units(const Candidate& a, const Candidate& b) {
-  return std::min(a.units.size(), b.units.size());
+std::size_t common_machines(const Candidate& a, const Candidate& b) {
+  return std::min(a.machines.size(), b.machines.size());
 }
 
 /// Estimate of one claim from a candidate's first machines, in the worst world.
@@ -42,23 +42,24 @@ struct ClaimEstimate {
   bool has_moves{false};
 };
 
-ClaimEstimate estimate_of_claim(const Aim& aim, std::size_t claim, std::span<const UnitResult> units) {
+ClaimEstimate estimate_of_claim(const Aim& aim, std::size_t claim, std::span<const MachineResult> machines) {
   const Claim& wanted = aim.claims[claim];
   std::vector<WorldCounts> counts(worlds_of(aim));
-  for (std::size_t unit = 0; unit < units.size(); ++unit) {
-    const ClaimResult& result = units[unit].claims[claim];
-    WorldCounts& world = counts[unit % counts.size()];
+  for (std::size_t machine = 0; machine < machines.size(); ++machine) {
+    const ClaimResult& result = machines[machine].claims[claim];
+    WorldCounts& world = counts[machine % counts.size()];
     world.moves += result.moves;
     world.met += result.met;
-    world.machines += machine_meets(wanted, result) ? 1 : 0;
-    ++world.units;
+    world.machines_met += machine_meets(wanted, result) ? 1 : 0;
+    ++world.machines;
   }
   ClaimEstimate worst;
   for (const WorldCounts& world : counts) {
     if (world.moves == 0) continue;
     const double moves = static_cast<double>(world.met) / static_cast<double>(world.moves);
-    const double rate =
-        wanted.machines ? static_cast<double>(world.machines) / static_cast<double>(world.units) : moves;
+    const double rate = wanted.machines
+                            ? static_cast<double>(world.machines_met) / static_cast<double>(world.machines)
+                            : moves;
     worst.moves = worst.has_moves ? std::min(worst.moves, moves) : moves;
     worst.rate = worst.has_moves ? std::min(worst.rate, rate) : rate;
     worst.near_goal += std::min(rate, wanted_rate(wanted)) / static_cast<double>(counts.size());
@@ -67,28 +68,28 @@ ClaimEstimate estimate_of_claim(const Aim& aim, std::size_t claim, std::span<con
   return worst;
 }
 
-/// Logit of the rate minus logit of the wanted rate. Finite for any rate that `units` machines can have.
-double margin_of(double rate, double wanted, std::int64_t units) {
+/// Logit of the rate minus logit of the wanted rate. Finite for any rate that `machines` machines can have.
+double margin_of(double rate, double wanted, std::int64_t machines) {
   constexpr double almost_all = 1.0 - 1e-9;  // success is not claimed: of all moves
-  const auto n = static_cast<double>(units);
+  const auto n = static_cast<double>(machines);
   return goal::logit_difference((rate * n + 0.5) / (n + 1.0), std::min(wanted, almost_all));
 }
 
 /// Standing of a claim from its rates alone, without bounds.
-goal::Standing standing_of(const Claim& claim, const ClaimEstimate& estimate, std::int64_t units) {
-  goal::Standing standing{.observed = margin_of(estimate.rate, wanted_rate(claim), units)};
-  if (claim.machines) standing.observed_of_moves = margin_of(estimate.moves, claim.moves, units);
+goal::Standing standing_of(const Claim& claim, const ClaimEstimate& estimate, std::int64_t machines) {
+  goal::Standing standing{.observed = margin_of(estimate.rate, wanted_rate(claim), machines)};
+  if (claim.machines) standing.observed_of_moves = margin_of(estimate.moves, claim.moves, machines);
   return standing;
 }
 
-double standard_error(double rate, std::int64_t units) {
-  const auto n = static_cast<double>(units);
+double standard_error(double rate, std::int64_t machines) {
+  const auto n = static_cast<double>(machines);
   const double cautious = (rate * n + 1.0) / (n + 2.0);
   return std::sqrt(cautious * (1.0 - cautious) / std::max(n, 1.0));
 }
 
-bool seems_to_hold(const Claim& claim, double rate, std::int64_t units) {
-  const double error = standard_error(rate, units);
+bool seems_to_hold(const Claim& claim, double rate, std::int64_t machines) {
+  const double error = standard_error(rate, machines);
   return rate >= wanted_rate(claim) + std::min(error, 0.5 * (1.0 - wanted_rate(claim)));
 }
 
@@ -98,10 +99,10 @@ struct Latest {
   double value{0.0};
 };
 
-Latest latest_of(const Aim& aim, std::span<const UnitResult> units) {
-  Latest latest{0, late_value(units, 0, aim.quantile)};
+Latest latest_of(const Aim& aim, std::span<const MachineResult> machines) {
+  Latest latest{0, late_value(machines, 0, aim.quantile)};
   for (std::size_t claim = 1; claim < aim.claims.size(); ++claim) {
-    const double value = late_value(units, claim, aim.quantile);
+    const double value = late_value(machines, claim, aim.quantile);
     if (value > latest.value) latest = {claim, value};
   }
   return latest;
@@ -116,34 +117,34 @@ constexpr std::int64_t one_in = 20;  // points must be telling
 /// other, so each machine counts as one observation.
 statistics::ConfidenceInterval bounds_of(const Estimate& estimate) {
   const auto met =
-      static_cast<std::int64_t>(std::floor(estimate.moves * static_cast<double>(estimate.units)));
-  return statistics::clopper_pearson(met, estimate.units, confidence);
+      static_cast<std::int64_t>(std::floor(estimate.moves * static_cast<double>(estimate.machines)));
+  return statistics::clopper_pearson(met, estimate.machines, confidence);
 }
 
 bool is_telling(const Aim& aim, const Estimate& estimate) {
-  return estimate.units > 0 && estimate.rate < wanted_rate(aim.claims[estimate.worst]) &&
+  return estimate.machines > 0 && estimate.rate < wanted_rate(aim.claims[estimate.worst]) &&
          bounds_of(estimate).low > hardly_any;
 }
 
 }  // namespace
 
-Estimate estimate_of(const Aim& aim, std::span<const UnitResult> units, std::int64_t count) {
-  count = std::min<std::int64_t>(count, std::ssize(units));
-  units = units.first(static_cast<std::size_t>(count));
+Estimate estimate_of(const Aim& aim, std::span<const MachineResult> machines, std::int64_t count) {
+  count = std::min<std::int64_t>(count, std::ssize(machines));
+  machines = machines.first(static_cast<std::size_t>(count));
   const auto worlds = static_cast<std::int64_t>(worlds_of(aim));
   Estimate estimate;
   goal::Standing worst;
   std::vector<ClaimEstimate> claims;
   bool has_moves = false;
   for (std::size_t claim = 0; claim < aim.claims.size(); ++claim) {
-    claims.push_back(estimate_of_claim(aim, claim, units));
+    claims.push_back(estimate_of_claim(aim, claim, machines));
     has_moves = has_moves || claims.back().has_moves;
   }
-  estimate.units = worlds == 1 ? count : std::max<std::int64_t>(count / worlds, has_moves ? 1 : 0);
+  estimate.machines = worlds == 1 ? count : std::max<std::int64_t>(count / worlds, has_moves ? 1 : 0);
   std::vector<char> goal_is_missing((aim.claims.size() + aim.conditions - 1) / aim.conditions, 0);
   for (std::size_t claim = 0; claim < claims.size(); ++claim) {
     const ClaimEstimate& one = claims[claim];
-    const goal::Standing standing = standing_of(aim.claims[claim], one, estimate.units);
+    const goal::Standing standing = standing_of(aim.claims[claim], one, estimate.machines);
     if (claim == 0 || standing < worst) {
       worst = standing;
       estimate.worst = claim;
@@ -153,20 +154,20 @@ Estimate estimate_of(const Aim& aim, std::span<const UnitResult> units, std::int
     }
     estimate.rates.push_back(one.rate);
     estimate.near_goal += one.near_goal / static_cast<double>(claims.size());
-    if (!seems_to_hold(aim.claims[claim], one.rate, estimate.units))
+    if (!seems_to_hold(aim.claims[claim], one.rate, estimate.machines))
       goal_is_missing[claim / aim.conditions] = 1;
   }
   estimate.missing = std::ranges::count(goal_is_missing, 1);
-  if (has_moves) estimate.criterion = latest_of(aim, units).value;
+  if (has_moves) estimate.criterion = latest_of(aim, machines).value;
   return estimate;
 }
 
 std::vector<Estimate> estimates_of(const Aim& aim, std::span<const Candidate> candidates,
-                                   std::int64_t units) {
+                                   std::int64_t machines) {
   std::vector<Estimate> estimates(candidates.size());
   parallel::for_each_index(
-      candidates.size(), [&](std::size_t i) { estimates[i] = estimate_of(aim, candidates[i].units, units); },
-      "estimate");
+      candidates.size(),
+      [&](std::size_t i) { estimates[i] = estimate_of(aim, candidates[i].machines, machines); }, "estimate");
   return estimates;
 }
 
@@ -180,7 +181,7 @@ bool reaches(const Aim& aim, const Estimate& estimate) {
 bool may_meet(const Aim& aim, const Estimate& estimate) {
   for (std::size_t claim = 0; claim < aim.claims.size(); ++claim) {
     const double rate = estimate.rates[claim];
-    if (rate + 2.0 * standard_error(rate, estimate.units) < wanted_rate(aim.claims[claim])) return false;
+    if (rate + 2.0 * standard_error(rate, estimate.machines) < wanted_rate(aim.claims[claim])) return false;
   }
   return true;
 }
@@ -200,10 +201,10 @@ double goal_loss(const Claim& claim, const ClaimResult& result) {
   return result.moves == 0 ? 0.0 : 1.0 - met_proportion(result);
 }
 
-double late_value(std::span<const UnitResult> units, std::size_t claim, double quantile) {
+double late_value(std::span<const MachineResult> machines, std::size_t claim, double quantile) {
   std::vector<double> values;
-  for (const UnitResult& unit : units)
-    values.insert(values.end(), unit.claims[claim].values.begin(), unit.claims[claim].values.end());
+  for (const MachineResult& machine : machines)
+    values.insert(values.end(), machine.claims[claim].values.begin(), machine.claims[claim].values.end());
   return values.empty() ? std::numeric_limits<double>::infinity()
                         : statistics::sample_quantile(std::move(values), quantile);
 }
@@ -243,9 +244,9 @@ bool surely_meets(const Aim& aim, const Candidate& candidate, double alpha) {
     const Claim& wanted = aim.claims[claim];
     for (std::size_t world = 0; world < worlds; ++world) {
       std::vector<double> differences;
-      for (std::size_t i = world; i < candidate.units.size(); i += worlds)
+      for (std::size_t i = world; i < candidate.machines.size(); i += worlds)
         differences.push_back(1.0 - wanted_rate(wanted) -
-                              goal_loss(wanted, candidate.units[i].claims[claim]));
+                              goal_loss(wanted, candidate.machines[i].claims[claim]));
       if (evidence_of_increase(differences) <= 1.0 / alpha) return false;
     }
   }
@@ -260,10 +261,10 @@ bool surely_misses(const Aim& aim, const Candidate& candidate, const Candidate& 
     for (std::size_t world = 0; world < worlds; ++world) {
       std::vector<double> beyond_goal;
       std::vector<double> beyond_reliable;
-      for (std::size_t i = world; i < common_units(candidate, reliable); i += worlds) {
-        const double loss = goal_loss(wanted, candidate.units[i].claims[claim]);
+      for (std::size_t i = world; i < common_machines(candidate, reliable); i += worlds) {
+        const double loss = goal_loss(wanted, candidate.machines[i].claims[claim]);
         beyond_goal.push_back(loss - (1.0 - wanted_rate(wanted)));
-        beyond_reliable.push_back(loss - goal_loss(wanted, reliable.units[i].claims[claim]));
+        beyond_reliable.push_back(loss - goal_loss(wanted, reliable.machines[i].claims[claim]));
       }
       if (evidence_of_increase(beyond_goal) > wanted_evidence &&
           evidence_of_increase(beyond_reliable) > wanted_evidence)
@@ -274,23 +275,23 @@ bool surely_misses(const Aim& aim, const Candidate& candidate, const Candidate& 
 }
 
 bool is_significantly_later(const Aim& aim, const Candidate& candidate, const Candidate& best, double alpha) {
-  const std::size_t units = common_units(candidate, best);
-  const Latest latest = latest_of(aim, std::span(best.units).first(units));
+  const std::size_t machines = common_machines(candidate, best);
+  const Latest latest = latest_of(aim, std::span(best.machines).first(machines));
   const double wanted_evidence = static_cast<double>(aim.claims.size()) / alpha;
   for (std::size_t claim = 0; claim < aim.claims.size(); ++claim) {
     std::vector<double> differences;
-    for (std::size_t i = 0; i < units; ++i)
-      differences.push_back(late_part(candidate.units[i].claims[claim], latest.value) -
-                            late_part(best.units[i].claims[latest.claim], latest.value));
+    for (std::size_t i = 0; i < machines; ++i)
+      differences.push_back(late_part(candidate.machines[i].claims[claim], latest.value) -
+                            late_part(best.machines[i].claims[latest.claim], latest.value));
     if (evidence_of_increase(differences) > wanted_evidence) return true;
   }
   return false;
 }
 
-std::vector<TriedPoint> frontier_of(std::span<const TriedPoint> tried, std::int64_t units) {
+std::vector<TriedPoint> frontier_of(std::span<const TriedPoint> tried, std::int64_t machines) {
   std::vector<TriedPoint> points;
   std::ranges::copy_if(tried, std::back_inserter(points),
-                       [units](const TriedPoint& one) { return one.estimate.units >= units; });
+                       [machines](const TriedPoint& one) { return one.estimate.machines >= machines; });
   std::ranges::stable_sort(points, [](const TriedPoint& a, const TriedPoint& b) {
     if (a.estimate.criterion != b.estimate.criterion) return a.estimate.criterion < b.estimate.criterion;
     return a.estimate.rate > b.estimate.rate;
@@ -312,7 +313,7 @@ Landscape landscape_of(const Aim& aim, std::span<const TriedPoint> tried) {
   double highest = 0.0, lowest = 1.0;
   for (const TriedPoint& one : tried) {
     landscape.telling += is_telling(aim, one.estimate) ? 1 : 0;
-    if (one.estimate.units == 0) continue;
+    if (one.estimate.machines == 0) continue;
     const statistics::ConfidenceInterval bounds = bounds_of(one.estimate);
     highest = std::max(highest, bounds.low);
     lowest = std::min(lowest, bounds.high);

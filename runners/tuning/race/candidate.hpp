@@ -19,9 +19,9 @@ struct ClaimResult {
   std::vector<double> values;
 };
 
-/// Result of a candidate on one unit of the search. A unit is a machine with its trials under each condition.
+/// Result of a candidate on one machine of the search, with its trials under each condition.
 /// If no goal asks for machines, each machine has one trial under each condition.
-struct UnitResult {
+struct MachineResult {
   std::vector<ClaimResult> claims;  ///< One entry for each claim, in the order of Aim::claims.
   bool slid{false};                 ///< Whether the axis slid in some move.
 };
@@ -47,16 +47,16 @@ struct Aim {
   std::int64_t worlds{0};
 };
 
-/// A point of the search and its results on the units 0, 1, ….
+/// A point of the search and its results on the machines 0, 1, ….
 struct Candidate {
   UnitCubePoint place;
   Values values;
-  std::vector<UnitResult> units;
+  std::vector<MachineResult> machines;
 };
 
-/// Whether the axis slid in one of the units.
-inline bool has_slid(std::span<const UnitResult> units) {
-  return std::ranges::any_of(units, &UnitResult::slid);
+/// Whether the axis slid in one of the machines.
+inline bool has_slid(std::span<const MachineResult> machines) {
+  return std::ranges::any_of(machines, &MachineResult::slid);
 }
 
 /// Estimates from the first machines of a candidate.
@@ -67,9 +67,9 @@ inline bool has_slid(std::span<const UnitResult> units) {
 struct Estimate {
   /// Proportion of moves that meet the goal. If the claim is about machines: proportion of machines.
   double rate{0.0};
-  double moves{0.0};      ///< Proportion of moves that meet the goal, also if the claim is about machines.
-  double criterion{0.0};  ///< Largest criterion of all claims; infinity for "never".
-  std::int64_t units{0};  ///< Number of machines behind the rates. With worlds: in each world.
+  double moves{0.0};         ///< Proportion of moves that meet the goal, also if the claim is about machines.
+  double criterion{0.0};     ///< Largest criterion of all claims; infinity for "never".
+  std::int64_t machines{0};  ///< Number of machines behind the rates. With worlds: in each world.
   /// Mean over claims and worlds of the rate, each capped at the wanted rate. It shows how close all worlds
   /// are to the goals.
   double near_goal{0.0};
@@ -79,11 +79,12 @@ struct Estimate {
   std::int64_t missing{0};      ///< Number of goals that the candidate seems to miss under some condition.
 };
 
-/// Estimate from the first `count` units; from all if there are fewer.
-Estimate estimate_of(const Aim& aim, std::span<const UnitResult> units, std::int64_t count);
+/// Estimate from the first `count` machines; from all if there are fewer.
+Estimate estimate_of(const Aim& aim, std::span<const MachineResult> machines, std::int64_t count);
 
-/// [candidate] Estimate of each candidate from its first `units` machines.
-std::vector<Estimate> estimates_of(const Aim& aim, std::span<const Candidate> candidates, std::int64_t units);
+/// [candidate] Estimate of each candidate from its first `machines` machines.
+std::vector<Estimate> estimates_of(const Aim& aim, std::span<const Candidate> candidates,
+                                   std::int64_t machines);
 
 /// Rate that the claim asks for: of machines if the claim is about machines, of moves otherwise.
 inline double wanted_rate(const Claim& claim) {
@@ -93,7 +94,7 @@ inline double wanted_rate(const Claim& claim) {
 /// Whether the candidate's machines meet all goals, each with one standard error to spare. A candidate that
 /// barely meets the goals would not pass the proof.
 inline bool seems_to_meet(const Estimate& estimate) {
-  return estimate.units > 0 && estimate.missing == 0;
+  return estimate.machines > 0 && estimate.missing == 0;
 }
 
 /// Whether every rate is at least the wanted one; no standard error is added.
@@ -112,13 +113,13 @@ bool is_better(const Aim& aim, const Estimate& a, const Estimate& b);
 double goal_loss(const Claim& claim, const ClaimResult& result);
 
 /// Quantile of the criterion's values of one claim, pooled over these machines; infinity without values.
-double late_value(std::span<const UnitResult> units, std::size_t claim, double quantile);
+double late_value(std::span<const MachineResult> machines, std::size_t claim, double quantile);
 
 /// Proportion of the criterion's values above `limit`; 0 without values.
 double late_part(const ClaimResult& result, double limit);
 
-/// Evidence against "the mean of the differences is at most 0", for differences within [−1, 1] of units that
-/// are drawn independently: the mean of Π(1 + λ·d) over several bets λ. If the statement is true, the
+/// Evidence against "the mean of the differences is at most 0", for differences within [−1, 1] of machines
+/// that are drawn independently: the mean of Π(1 + λ·d) over several bets λ. If the statement is true, the
 /// evidence ever exceeds 1/α with probability α at most, however often one looks (Ville's inequality;
 /// Waudby-Smith and Ramdas, "Estimating means of bounded random variables by betting", 2024).
 double evidence_of_increase(std::span<const double> differences);
@@ -143,9 +144,9 @@ struct TriedPoint {
   Estimate estimate;  ///< Estimate from the largest number of machines that ran.
 };
 
-/// Frontier between success and speed. It holds the points with at least `units` machines that no other such
-/// point beats in both rate and criterion, the fastest first.
-std::vector<TriedPoint> frontier_of(std::span<const TriedPoint> tried, std::int64_t units);
+/// Frontier between success and speed. It holds the points with at least `machines` machines that no other
+/// such point beats in both rate and criterion, the fastest first.
+std::vector<TriedPoint> frontier_of(std::span<const TriedPoint> tried, std::int64_t machines);
 
 /// Summary of the success rates over the simulated points. It shows whether the search had a direction to
 /// follow, or may have overlooked good values between the points.

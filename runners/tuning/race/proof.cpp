@@ -25,16 +25,16 @@ std::optional<Attempt> next_attempt(const ProofProblem& problem, const std::vect
     case goal::Status::met:
       return std::nullopt;
     case goal::Status::undecided: {
-      const std::int64_t units = problem.more_units(last.counts, correction);
-      if (units <= before.units) return std::nullopt;
-      return Attempt{before.number + 1, before.finalist, units};
+      const std::int64_t machines = problem.more_machines(last.counts, correction);
+      if (machines <= before.machines) return std::nullopt;
+      return Attempt{before.number + 1, before.finalist, machines};
     }
     case goal::Status::missed:
       break;
   }
   const std::optional<std::size_t> finalist = surest(problem, tried);
   if (!finalist) return std::nullopt;
-  return Attempt{before.number + 1, *finalist, problem.first_units(*finalist, correction)};
+  return Attempt{before.number + 1, *finalist, problem.first_machines(*finalist, correction)};
 }
 
 }  // namespace
@@ -46,7 +46,7 @@ std::size_t correction_of(int attempt) {
 std::optional<ProvenFinalist> prove(const ProofProblem& problem) {
   std::optional<ProvenFinalist> proven;
   std::vector<bool> tried(problem.may_meet.size(), false);
-  std::optional<Attempt> attempt = Attempt{1, 0, problem.first_units(0, correction_of(1))};
+  std::optional<Attempt> attempt = Attempt{1, 0, problem.first_machines(0, correction_of(1))};
   while (attempt) {
     std::optional<AttemptResult> result = problem.run(*attempt);
     if (!result) break;

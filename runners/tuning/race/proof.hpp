@@ -12,11 +12,11 @@
 
 namespace zerocount::tuning {
 
-/// One run of a finalist on units that neither the search nor another attempt has seen.
+/// One run of a finalist on machines that neither the search nor another attempt has seen.
 struct Attempt {
-  int number{1};            ///< Number of the attempt, counted from 1.
-  std::size_t finalist{0};  ///< Index in ProofProblem::may_meet.
-  std::int64_t units{0};    ///< Number of machines.
+  int number{1};             ///< Number of the attempt, counted from 1.
+  std::size_t finalist{0};   ///< Index in ProofProblem::may_meet.
+  std::int64_t machines{0};  ///< Number of machines.
 };
 
 /// Maximum number of attempts. The error probability α = 1 − confidence is divided among the attempts as 1/2,
@@ -54,9 +54,9 @@ struct ProofProblem {
   std::vector<double> margins;  ///< [finalist] Estimate::margin. A larger margin makes success more certain.
   /// Number of machines expected to decide the goals, from the finalist's results in the search. `correction`
   /// is correction_of() of the attempt.
-  std::function<std::int64_t(std::size_t finalist, std::size_t correction)> first_units;
+  std::function<std::int64_t(std::size_t finalist, std::size_t correction)> first_machines;
   /// Number of machines expected to decide the goals, from the counts of an earlier attempt.
-  std::function<std::int64_t(const GoalCounts&, std::size_t correction)> more_units;
+  std::function<std::int64_t(const GoalCounts&, std::size_t correction)> more_machines;
   /// Runs an attempt. Returns nothing if the effort ended before.
   std::function<std::optional<AttemptResult>(const Attempt&)> run;
   /// Whether the last run shows that the finalist violates a wanted margin. Such a finalist is not the

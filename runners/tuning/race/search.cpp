@@ -18,8 +18,8 @@ namespace {
 
 constexpr int smallest = 10;  // number of the last size
 constexpr std::int64_t candidates_each = 48;
-constexpr std::int64_t units_of_world = 4;
-constexpr std::int64_t climbing_part = 8;  // of the units
+constexpr std::int64_t machines_of_world = 4;
+constexpr std::int64_t climbing_part = 8;  // of the machines
 
 /// Size number `step`. Each size has 0.75 times the candidates of the size before. Every second size has half
 /// the machines.
@@ -37,11 +37,12 @@ SearchSize size_at(const SearchScope& scope, int step) {
   size.elites = part(largest.elites, 3);
   const int halvings = step / 2;
   const std::int64_t worlds = std::max<std::int64_t>(scope.worlds, 1);
-  const std::int64_t least = units_of_world * scope.worlds;
-  const std::int64_t units = std::max(scope.max_units >> halvings, least);
-  size.max_units = (units + worlds - 1) / worlds * worlds;
-  size.first_units = std::min(std::max<std::int64_t>(largest.first_units >> halvings, 8), size.max_units);
-  size.climbing_units = std::max({size.max_units / climbing_part, size.first_units, least});
+  const std::int64_t least = machines_of_world * scope.worlds;
+  const std::int64_t machines = std::max(scope.max_machines >> halvings, least);
+  size.max_machines = (machines + worlds - 1) / worlds * worlds;
+  size.first_machines =
+      std::min(std::max<std::int64_t>(largest.first_machines >> halvings, 8), size.max_machines);
+  size.climbing_machines = std::max({size.max_machines / climbing_part, size.first_machines, least});
   return size;
 }
 
@@ -49,10 +50,10 @@ constexpr double error_of_dropping = 0.01;
 
 /// Indices of the candidates, sorted by decreasing Estimate::margin.
 std::vector<std::size_t> by_margin(const Aim& aim, const std::vector<Candidate>& candidates,
-                                   std::int64_t units) {
+                                   std::int64_t machines) {
   std::vector<std::size_t> order(candidates.size());
   std::vector<double> margins;
-  for (const Estimate& one : estimates_of(aim, candidates, units)) {
+  for (const Estimate& one : estimates_of(aim, candidates, machines)) {
     order[margins.size()] = margins.size();
     margins.push_back(one.margin);
   }
@@ -77,11 +78,11 @@ constexpr int tries_before_walking = 8;  // of a later generation, if they find 
 trials::Effort before_final_race(const SearchProblem& problem, const trials::Effort& whole) {
   const SearchSize& size = problem.size;
   const std::int64_t final_trials =
-      (size.max_units - size.climbing_units) * (size.elites + 2) * problem.trials_of_unit;
-  const std::int64_t least = std::min(size.max_units * problem.trials_of_unit, whole.trials_left());
+      (size.max_machines - size.climbing_machines) * (size.elites + 2) * problem.trials_of_replicate;
+  const std::int64_t least = std::min(size.max_machines * problem.trials_of_replicate, whole.trials_left());
   const double seconds = whole.seconds_left();
-  return whole.share(std::max(whole.trials_left() - final_trials, least),
-                     std::isinf(seconds) ? std::nullopt : std::optional((1.0 - final_part) * seconds));
+  return whole.limited_to(std::max(whole.trials_left() - final_trials, least),
+                          std::isinf(seconds) ? std::nullopt : std::optional((1.0 - final_part) * seconds));
 }
 
 class Search {
@@ -92,7 +93,7 @@ class Search {
         numbers_{designs::random_key(settings.seed, "tuning"), 0},
         step_(first_step),
         effort_(before_final_race(problem, settings.effort)),
-        most_units_(problem.size.climbing_units) {}
+        most_machines_(problem.size.climbing_machines) {}
 
   SearchResult run() {
     race_starts();
@@ -262,7 +263,7 @@ class Search {
   void next_generation() {
     std::vector<Candidate> candidates;
     const auto wanted =
-        static_cast<std::size_t>(problem_.size.candidates * problem_.size.max_units / most_units_);
+        static_cast<std::size_t>(problem_.size.candidates * problem_.size.max_machines / most_machines_);
     int tries = 0;
     find(candidates, [&] {
       std::vector<UnitCubePoint> places;
@@ -283,23 +284,25 @@ class Search {
     result_.points += std::ssize(candidates);
     for (Candidate& one : population_) candidates.push_back(std::move(one));
     population_.clear();
-    std::int64_t units = std::min(problem_.size.first_units, most_units_);
+    std::int64_t machines = std::min(problem_.size.first_machines, most_machines_);
     const bool ended = trials::within(effort_, [&] {
       while (!candidates.empty()) {
-        run_units(candidates, units);
+        run_machines(candidates, machines);
         keep_admissible(candidates);
-        sort_by_merit(candidates, units);
+        sort_by_merit(candidates, machines);
         verify_leaders(candidates);
         if (candidates.empty()) return;
-        candidates = dropped(problem_.aim, problem_.size, std::move(candidates), units);
-        const bool tells_them_apart = estimate_of(problem_.aim, candidates.front().units, units).rate > 0.0;
-        if (!tells_them_apart || (units == most_units_ && !takes_more_units(candidates.front()))) return;
-        units = std::min(2 * units, most_units_);
+        candidates = dropped(problem_.aim, problem_.size, std::move(candidates), machines);
+        const bool tells_them_apart =
+            estimate_of(problem_.aim, candidates.front().machines, machines).rate > 0.0;
+        if (!tells_them_apart || (machines == most_machines_ && !takes_more_machines(candidates.front())))
+          return;
+        machines = std::min(2 * machines, most_machines_);
       }
     });
     if (!ended) {
       result_.cut = true;
-      keep_those_with_most_units(candidates);
+      keep_those_with_most_machines(candidates);
     }
     keep_elites(candidates);
     population_ = std::move(candidates);
@@ -312,7 +315,7 @@ class Search {
     if (candidates.size() <= elites) return;
     std::vector<double> margins;
     margins.reserve(candidates.size());
-    for (const Estimate& one : estimates_of(problem_.aim, candidates, most_units_))
+    for (const Estimate& one : estimates_of(problem_.aim, candidates, most_machines_))
       margins.push_back(one.margin);
     const std::ptrdiff_t reliable = std::ranges::max_element(margins) - margins.begin();
     if (reliable >= problem_.size.elites)
@@ -323,23 +326,24 @@ class Search {
   /// Doubles the machines per candidate if the best candidate seems to meet the goal; false if not. While it
   /// seems to miss, many candidates on few machines find the way sooner than few candidates on many. Telling
   /// apart candidates that meet the goal needs more machines.
-  bool takes_more_units(const Candidate& best) {
-    const std::int64_t max_units = problem_.size.max_units;
-    if (most_units_ == max_units || !seems_to_meet(estimate_of(problem_.aim, best.units, most_units_)))
+  bool takes_more_machines(const Candidate& best) {
+    const std::int64_t max_machines = problem_.size.max_machines;
+    if (most_machines_ == max_machines ||
+        !seems_to_meet(estimate_of(problem_.aim, best.machines, most_machines_)))
       return false;
-    most_units_ = std::min(2 * most_units_, max_units);
-    if (most_units_ == max_units) effort_ = settings_.effort;
+    most_machines_ = std::min(2 * most_machines_, max_machines);
+    if (most_machines_ == max_machines) effort_ = settings_.effort;
     return true;
   }
 
-  /// Runs the candidates that have fewer than `units` machines, in order. Drops those for which no trials are
-  /// left.
+  /// Runs the candidates that have fewer than `machines` machines, in order. Drops those for which no trials
+  /// are left.
   /// @throws trials::Spent if no trials are left for the first of them
-  void run_units(std::vector<Candidate>& candidates, std::int64_t units) {
+  void run_machines(std::vector<Candidate>& candidates, std::int64_t machines) {
     std::vector<Candidate*> behind;
     std::int64_t trials = 0;
     for (Candidate& one : candidates) {
-      const std::int64_t missing = (units - std::ssize(one.units)) * problem_.trials_of_unit;
+      const std::int64_t missing = (machines - std::ssize(one.machines)) * problem_.trials_of_replicate;
       if (missing <= 0) continue;
       if (trials + missing > effort_.trials_left()) {
         if (behind.empty()) throw trials::Spent{};
@@ -350,27 +354,28 @@ class Search {
     }
     effort_.spend(trials);
     result_.trials += trials;
-    problem_.evaluate(behind, units);
-    std::erase_if(candidates, [units](const Candidate& one) { return std::ssize(one.units) < units; });
+    problem_.evaluate(behind, machines);
+    std::erase_if(candidates,
+                  [machines](const Candidate& one) { return std::ssize(one.machines) < machines; });
   }
 
   /// Drops candidates that ran fewer machines than others: few machines make candidates look better than they
   /// are.
-  void keep_those_with_most_units(std::vector<Candidate>& candidates) {
+  void keep_those_with_most_machines(std::vector<Candidate>& candidates) {
     std::int64_t most = 1;
-    for (const Candidate& one : candidates) most = std::max(most, std::ssize(one.units));
-    std::erase_if(candidates, [most](const Candidate& one) { return std::ssize(one.units) < most; });
+    for (const Candidate& one : candidates) most = std::max(most, std::ssize(one.machines));
+    std::erase_if(candidates, [most](const Candidate& one) { return std::ssize(one.machines) < most; });
     sort_by_merit(candidates, most);
   }
 
-  void sort_by_merit(std::vector<Candidate>& candidates, std::int64_t units) {
+  void sort_by_merit(std::vector<Candidate>& candidates, std::int64_t machines) {
     std::vector<std::pair<Estimate, std::size_t>> order;
     order.reserve(candidates.size());
-    std::vector<Estimate> estimates = estimates_of(problem_.aim, candidates, units);
+    std::vector<Estimate> estimates = estimates_of(problem_.aim, candidates, machines);
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       order.emplace_back(std::move(estimates[i]), i);
       Estimate& latest = estimates_[candidates[i].values];
-      if (order.back().first.units >= latest.units) latest = order.back().first;
+      if (order.back().first.machines >= latest.machines) latest = order.back().first;
     }
     std::ranges::stable_sort(
         order, [this](const auto& a, const auto& b) { return is_better(problem_.aim, a.first, b.first); });
@@ -394,7 +399,9 @@ class Search {
     }
   }
 
-  Estimate best_estimate() const { return estimate_of(problem_.aim, population_.front().units, most_units_); }
+  Estimate best_estimate() const {
+    return estimate_of(problem_.aim, population_.front().machines, most_machines_);
+  }
 
   bool improves(const Estimate& before, const Estimate& now) const {
     if (before.missing != now.missing) return now.missing < before.missing;
@@ -414,12 +421,13 @@ class Search {
   bool approaches_goal() {
     if (population_.empty() || reaches(problem_.aim, best_estimate())) return false;
     std::vector<Candidate> before{leaders_.front().candidate};
-    trials::within(effort_, [&] { run_units(before, most_units_); });
+    trials::within(effort_, [&] { run_machines(before, most_machines_); });
     if (before.empty()) return false;
-    const std::int64_t units =
-        std::min(std::ssize(before.front().units), std::ssize(population_.front().units));
-    const double now = estimate_of(problem_.aim, population_.front().units, units).margin;
-    return now - estimate_of(problem_.aim, before.front().units, units).margin > min_approach * std::abs(now);
+    const std::int64_t machines =
+        std::min(std::ssize(before.front().machines), std::ssize(population_.front().machines));
+    const double now = estimate_of(problem_.aim, population_.front().machines, machines).margin;
+    return now - estimate_of(problem_.aim, before.front().machines, machines).margin >
+           min_approach * std::abs(now);
   }
 
   void tell() const {
@@ -431,13 +439,13 @@ class Search {
   /// Whether another generation is allowed, and the effort lets at least one candidate end its race.
   bool goes_on() const {
     return (result_.generations < settings_.generations || settings_.begins_anew) && !effort_.is_spent() &&
-           effort_.trials_left() >= most_units_ * problem_.trials_of_unit;
+           effort_.trials_left() >= most_machines_ * problem_.trials_of_replicate;
   }
 
   void race_finalists() {
-    if (most_units_ == problem_.size.max_units) return;
+    if (most_machines_ == problem_.size.max_machines) return;
     effort_ = settings_.effort;
-    most_units_ = problem_.size.max_units;
+    most_machines_ = problem_.size.max_machines;
     std::vector<Candidate> left_behind;
     const auto is_best_start = [this](const Candidate& one) { return one.values == best_start_->values; };
     if (best_start_ && std::ranges::none_of(population_, is_best_start)) left_behind.push_back(*best_start_);
@@ -452,7 +460,7 @@ class Search {
       if (problem_.verified(one)) result_.finalists.push_back(std::move(one));
     }
     for (const Candidate& one : result_.finalists)
-      result_.estimates.push_back(estimate_of(problem_.aim, one.units, most_units_));
+      result_.estimates.push_back(estimate_of(problem_.aim, one.machines, most_machines_));
     result_.tried.reserve(estimates_.size());
     for (const auto& [values, estimate] : estimates_) result_.tried.push_back({values, estimate});
     return std::move(result_);
@@ -462,8 +470,8 @@ class Search {
   const SearchSettings& settings_;
   random::NumberSource numbers_;
   double step_;
-  trials::Effort effort_;    ///< Effort of the current race.
-  std::int64_t most_units_;  ///< Maximum number of machines per candidate in the current race.
+  trials::Effort effort_;       ///< Effort of the current race.
+  std::int64_t most_machines_;  ///< Maximum number of machines per candidate in the current race.
   std::set<Values> tried_;
   std::map<Values, Estimate> estimates_;  ///< Latest estimate of each simulated point.
   std::vector<Candidate> population_;     ///< The best first.
@@ -476,26 +484,26 @@ class Search {
 
 }  // namespace
 
-std::int64_t max_after(const SearchSize& size, std::int64_t units) {
-  return std::max(size.elites, 4 * size.candidates * size.first_units / units);
+std::int64_t max_after(const SearchSize& size, std::int64_t machines) {
+  return std::max(size.elites, 4 * size.candidates * size.first_machines / machines);
 }
 
-std::int64_t first_race_units(const SearchSize& size, std::size_t faces) {
+std::int64_t first_race_machines(const SearchSize& size, std::size_t faces) {
   std::int64_t candidates = size.first_candidates + static_cast<std::int64_t>(faces) * size.face_candidates;
-  std::int64_t total = candidates * size.first_units;
-  for (std::int64_t units = size.first_units; units < size.max_units;) {
-    candidates = std::min(candidates, max_after(size, units));
-    const std::int64_t next = std::min(2 * units, size.max_units);
-    total += candidates * (next - units);
-    units = next;
+  std::int64_t total = candidates * size.first_machines;
+  for (std::int64_t machines = size.first_machines; machines < size.max_machines;) {
+    candidates = std::min(candidates, max_after(size, machines));
+    const std::int64_t next = std::min(2 * machines, size.max_machines);
+    total += candidates * (next - machines);
+    machines = next;
   }
   return total;
 }
 
-SearchSize search_size(const SearchScope& scope, std::int64_t units) {
+SearchSize search_size(const SearchScope& scope, std::int64_t machines) {
   for (int step = 0; step < smallest; ++step) {
     const SearchSize size = size_at(scope, step);
-    if (first_race_units(size, scope.faces) <= units / 2) return size;
+    if (first_race_machines(size, scope.faces) <= machines / 2) return size;
   }
   return size_at(scope, smallest);
 }
@@ -505,8 +513,8 @@ SearchSize smallest_search(const SearchScope& scope) {
 }
 
 std::vector<Candidate> dropped(const Aim& aim, const SearchSize& size, std::vector<Candidate> candidates,
-                               std::int64_t units) {
-  const std::vector<std::size_t> reliable = by_margin(aim, candidates, units);
+                               std::int64_t machines) {
+  const std::vector<std::size_t> reliable = by_margin(aim, candidates, machines);
   const Candidate& most_reliable = candidates[reliable.front()];
   const auto sure = std::ranges::find_if(
       candidates, [&](const Candidate& one) { return surely_meets(aim, one, error_of_dropping); });
@@ -521,10 +529,10 @@ std::vector<Candidate> dropped(const Aim& aim, const SearchSize& size, std::vect
         stays[i] = stays_in ? 1 : 0;
       },
       "compare");
-  const auto most = static_cast<std::size_t>(max_after(size, units));
+  const auto most = static_cast<std::size_t>(max_after(size, machines));
   std::vector<char> chosen;
   chosen.reserve(candidates.size());
-  for (const Candidate& one : candidates) chosen.push_back(std::ssize(one.units) > units ? 1 : 0);
+  for (const Candidate& one : candidates) chosen.push_back(std::ssize(one.machines) > machines ? 1 : 0);
   std::size_t count = 0;
   const auto choose = [&](std::size_t i) {
     if (count == most || chosen[i] != 0 || stays[i] == 0) return;

@@ -12,56 +12,56 @@
 #include "runners/tuning/race/candidate.hpp"
 
 /// Iterated racing (López-Ibáñez et al., "The irace package", Operations Research Perspectives 3, 2016): a
-/// generation of candidates is drawn around the best of those before it, and races over units that are the
+/// generation of candidates is drawn around the best of those before it, and races over machines that are the
 /// same for all candidates. A candidate that cannot win is dropped after few machines.
 namespace zerocount::tuning {
 
-/// Numbers of candidates and machines (units) of a search. A race begins with all candidates on the first
+/// Numbers of candidates and machines of a search. A race begins with all candidates on the first
 /// machines. At each doubling of the machines fewer candidates stay, so every round costs about the same.
 struct SearchSize {
   std::int64_t first_candidates{96};  ///< Candidates of the first generation, which fills the ranges.
   std::int64_t face_candidates{0};    ///< Additional first candidates on each face (SearchProblem::faces).
-  /// Candidates of a later generation that runs max_units. A generation that runs fewer machines has
+  /// Candidates of a later generation that runs max_machines. A generation that runs fewer machines has
   /// proportionally more candidates.
   std::int64_t candidates{32};
-  std::int64_t elites{8};        ///< Candidates that survive a generation.
-  std::int64_t first_units{64};  ///< Machines in the first round of a race.
+  std::int64_t elites{8};           ///< Candidates that survive a generation.
+  std::int64_t first_machines{64};  ///< Machines in the first round of a race.
   /// Maximum number of machines per candidate while the best candidate seems to miss the goal.
-  std::int64_t climbing_units{256};
-  std::int64_t max_units{2048};  ///< Maximum number of machines per candidate.
+  std::int64_t climbing_machines{256};
+  std::int64_t max_machines{2048};  ///< Maximum number of machines per candidate.
 };
 
-/// Maximum number of candidates that stay in a race after `units` machines.
-std::int64_t max_after(const SearchSize& size, std::int64_t units);
+/// Maximum number of candidates that stay in a race after `machines` machines.
+std::int64_t max_after(const SearchSize& size, std::int64_t machines);
 
 /// Maximum number of machines that a race of the first generation simulates, summed over its candidates.
-std::int64_t first_race_units(const SearchSize& size, std::size_t faces);
+std::int64_t first_race_machines(const SearchSize& size, std::size_t faces);
 
 /// Properties of a problem that set the size of its search, besides the effort.
 struct SearchScope {
-  std::size_t free{1};           ///< Number of free parameters.
-  std::size_t faces{0};          ///< Number of SearchProblem::faces.
-  std::int64_t max_units{2048};  ///< SearchSize::max_units of the largest search.
-  std::int64_t worlds{0};        ///< Number of worlds, each of which needs some machines; 0: no worlds.
+  std::size_t free{1};              ///< Number of free parameters.
+  std::size_t faces{0};             ///< Number of SearchProblem::faces.
+  std::int64_t max_machines{2048};  ///< SearchSize::max_machines of the largest search.
+  std::int64_t worlds{0};           ///< Number of worlds, each of which needs some machines; 0: no worlds.
 };
 
-/// Size of the largest search whose first generation simulates at most half of `units` machines, summed over
-/// its candidates. If none does, the smallest search.
-SearchSize search_size(const SearchScope& scope, std::int64_t units);
+/// Size of the largest search whose first generation simulates at most half of `machines` machines, summed
+/// over its candidates. If none does, the smallest search.
+SearchSize search_size(const SearchScope& scope, std::int64_t machines);
 
 /// Size of the smallest search that still finds something.
 SearchSize smallest_search(const SearchScope& scope);
 
-/// Candidates that stay in a race after `units` machines.
+/// Candidates that stay in a race after `machines` machines.
 ///
 /// Candidates that cannot win are dropped: those that surely miss the goal, and those that are surely later
-/// than a candidate that surely meets it. At most max_after(units) of the others stay, as in successive
+/// than a candidate that surely meets it. At most max_after(machines) of the others stay, as in successive
 /// halving, so that a race between equals ends. The best and the most reliable ones are taken alternately,
 /// because few machines make fast points look as if they met the goal. Candidates that have run more than
-/// `units` machines always stay.
+/// `machines` machines always stay.
 /// @param candidates the best first
 std::vector<Candidate> dropped(const Aim& aim, const SearchSize& size, std::vector<Candidate> candidates,
-                               std::int64_t units);
+                               std::int64_t machines);
 
 /// The problem as the search sees it.
 struct SearchProblem {
@@ -74,7 +74,7 @@ struct SearchProblem {
   /// ends. It is a control with fewer blocks, which may be the better one or the only admissible one.
   std::vector<std::vector<std::size_t>> faces{};
   SearchSize size{};
-  std::int64_t trials_of_unit{1};
+  std::int64_t trials_of_replicate{1};
 
   /// Appends results to every candidate, so that each has those of `to` machines. Throws trial::Interrupted
   /// if the time is over; then no candidate is changed.
@@ -124,21 +124,21 @@ struct SearchResult {
 
 /// Seeks the best values within the effort.
 ///
-///     most_units = climbing_units
+///     most_machines = climbing_machines
 ///     population = the best of `starts`, by a race
 ///     candidates = points that fill the ranges and the faces                     // first generation
 ///     if too few of them are admissible: add points that differential evolution of `shortfall` finds
 ///     repeat until generations improve nothing, or the effort is spent:
-///       for units = first_units, 2·first_units, … most_units, while any move meets the goal:   // race
-///         evaluate all candidates up to `units`
-///         drop those not admissible, significantly worse than the best, or beyond max_after(units), but
-///         none that have more units already
-///         where the best seems to meet the goal at most_units: double them, up to max_units
+///       for machines = first_machines, 2·first_machines, … most_machines, while any move meets the goal:
+///         evaluate all candidates up to `machines`                                 // a race
+///         drop those not admissible, significantly worse than the best, or beyond max_after(machines), but
+///         none that have more machines already
+///         where the best seems to meet the goal at most_machines: double them, up to max_machines
 ///       population = the best `elites`
-///       candidates = points near them, or on a face near them, the more the smaller most_units is; or, where
-///       no move of theirs meets the goal, and where the search begins anew, points that fill the ranges and
-///       the faces
-///     race of the population up to max_units
+///       candidates = points near them, or on a face near them, the more the smaller most_machines is; or,
+///       where no move of theirs meets the goal, and where the search begins anew, points that fill the
+///       ranges and the faces
+///     race of the population up to max_machines
 ///
 /// If the effort ends within a race, the candidates with the most machines stay. Walk implements the
 /// differential evolution.

@@ -21,9 +21,9 @@ Values values_at(std::span<const study::FreeParameter> free, const UnitCubePoint
   Values values;
   for (std::size_t i = 0; i < free.size(); ++i) {
     const study::FreeParameter& one = free[i];
-    const double share = std::clamp(place[i], 0.0, 1.0);
-    const double value = one.logarithmic ? one.low * std::pow(one.high / one.low, share)
-                                         : one.low + (one.high - one.low) * share;
+    const double fraction = std::clamp(place[i], 0.0, 1.0);
+    const double value = one.logarithmic ? one.low * std::pow(one.high / one.low, fraction)
+                                         : one.low + (one.high - one.low) * fraction;
     values.push_back(std::clamp(one.whole ? std::round(value) : shortened(value), one.low, one.high));
   }
   return values;

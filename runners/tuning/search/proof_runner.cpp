@@ -25,12 +25,12 @@
 namespace zerocount::tuning {
 namespace {
 
-constexpr std::int64_t usual_units = 500;  // at least, where the effort is enough for them
+constexpr std::int64_t usual_machines = 500;  // at least, where the effort is enough for them
 
 /// Smallest number of machines that can meet one goal.
 /// @param each trials of a machine under each condition
-std::int64_t min_units_of(const study::Study& study, std::size_t goal, std::int64_t each,
-                          std::size_t points) {
+std::int64_t min_machines_of(const study::Study& study, std::size_t goal, std::int64_t each,
+                             std::size_t points) {
   const measures::CountedGoal counted = measures::asked_of_moves(study)[goal];
   const bool on_machines = study.machines > 0;
   std::int64_t fewest = 0;
@@ -46,10 +46,10 @@ std::int64_t min_units_of(const study::Study& study, std::size_t goal, std::int6
 
 /// Smallest number of machines that can meet all goals.
 /// @param each trials of a machine
-std::int64_t min_units_of(const study::Study& study, std::int64_t each, std::size_t points) {
+std::int64_t min_machines_of(const study::Study& study, std::int64_t each, std::size_t points) {
   std::int64_t least = std::max<std::int64_t>(study.worlds, 1);
   for (std::size_t goal = 0; goal < study.goals.size(); ++goal)
-    least = std::max(least, min_units_of(study, goal, each / study::condition_count(study), points));
+    least = std::max(least, min_machines_of(study, goal, each / study::condition_count(study), points));
   return least;
 }
 
@@ -72,8 +72,8 @@ measures::CellCounts at_trials_each(const measures::CellCounts& counts, std::int
 /// Smallest number of machines, with equally many trials each, that decides all goals with a probability of
 /// 1/2.
 /// @param most maximum; a fraction of it is returned if no study decides the goals
-std::int64_t deciding_units(const study::Study& study, const GoalCounts& counts, std::size_t points,
-                            std::int64_t most) {
+std::int64_t deciding_machines(const study::Study& study, const GoalCounts& counts, std::size_t points,
+                               std::int64_t most) {
   const std::vector<goal::Needs> studies = goal::deciding_studies(study.goals, counts, points, 0.5);
   if (studies.empty()) return most / 8;
   return studies.front().machines > 0 ? studies.front().machines : studies.front().trials;
@@ -128,25 +128,26 @@ void make_run(const study::Study& study, const std::filesystem::path& output, in
 
 }  // namespace
 
-GoalCounts counts_of(const study::Study& study, const trials::Replicates& units,
-                     std::span<const UnitResult> results) {
+GoalCounts counts_of(const study::Study& study, const trials::Replicates& machines,
+                     std::span<const MachineResult> results) {
   const auto conditions = static_cast<std::size_t>(study::condition_count(study));
   measures::Shape shape = measures::shape_of(study);
   if (shape.machines > 0) shape.machines = std::ssize(results);
   GoalCounts goals(study.goals.size(), measures::CellCounts(shape));
   for (std::size_t goal = 0; goal < goals.size(); ++goal) {
     measures::CellCounts& counts = goals[goal];
-    for (std::size_t unit = 0; unit < results.size(); ++unit) {
+    for (std::size_t machine = 0; machine < results.size(); ++machine) {
       for (std::size_t condition = 0; condition < conditions; ++condition) {
-        const ClaimResult& claim = results[unit].claims[goal * conditions + condition];
-        const auto number = static_cast<std::int64_t>(unit);
+        const ClaimResult& claim = results[machine].claims[goal * conditions + condition];
+        const auto number = static_cast<std::int64_t>(machine);
         if (study.machines == 0) {
-          counts.add(trials::trial_of_replicate(study, units, number, static_cast<std::int64_t>(condition)),
-                     claim.moves, claim.met);
+          counts.add(
+              trials::trial_of_replicate(study, machines, number, static_cast<std::int64_t>(condition)),
+              claim.moves, claim.met);
         } else {
           counts.add_machine(
-              unit, condition,
-              {units.trials_each / static_cast<std::int64_t>(conditions), claim.moves, claim.met});
+              machine, condition,
+              {machines.trials_each / static_cast<std::int64_t>(conditions), claim.moves, claim.met});
         }
       }
     }
@@ -164,11 +165,11 @@ std::vector<std::string> confidences_of_attempt(const study::Study& study, int a
   return confidences;
 }
 
-Judged judged(const study::Study& study, const trials::Replicates& units,
-              std::span<const UnitResult> results) {
-  Judged judged{counts_of(study, units, results), {}};
+Judged judged(const study::Study& study, const trials::Replicates& machines,
+              std::span<const MachineResult> results) {
+  Judged judged{counts_of(study, machines, results), {}};
   judged.verdict = goal::judge_goals(study.goals, judged.counts, 1);
-  judged.criterion = estimate_of(aim_of(study), results, units.count).criterion;
+  judged.criterion = estimate_of(aim_of(study), results, machines.count).criterion;
   return judged;
 }
 
@@ -178,19 +179,19 @@ GoalCounts with_trials_each(GoalCounts counts, std::int64_t each) {
   return counts;
 }
 
-std::int64_t proof_units(const study::Study& study, const GoalCounts& counts, std::int64_t each,
-                         std::size_t points, std::int64_t max_trials) {
+std::int64_t proof_machines(const study::Study& study, const GoalCounts& counts, std::int64_t each,
+                            std::size_t points, std::int64_t max_trials) {
   const std::int64_t worlds = std::max<std::int64_t>(study.worlds, 1);
   const std::int64_t most = std::max<std::int64_t>(max_trials / each / worlds, 1) * worlds;
-  const std::int64_t least = std::max(usual_units, min_units_of(study, each, points));
-  std::int64_t wanted = deciding_units(study, counts, points, most);
+  const std::int64_t least = std::max(usual_machines, min_machines_of(study, each, points));
+  std::int64_t wanted = deciding_machines(study, counts, points, most);
   wanted += wanted / 2;
   return trials::in_equal_worlds(study, std::clamp(wanted, std::min(least, most), most));
 }
 
 std::int64_t min_proof_trials(const study::Study& study, int attempt) {
   const std::int64_t each = trials_of_machine(study);
-  return trials::in_equal_worlds(study, min_units_of(study, each, correction_of(attempt))) * each;
+  return trials::in_equal_worlds(study, min_machines_of(study, each, correction_of(attempt))) * each;
 }
 
 study::Study with_values_in_text(const study::Study& study, const std::vector<std::string>& values) {
@@ -208,21 +209,22 @@ study::Study with_values_in_text(const study::Study& study, const std::vector<st
       overrides.push_back(one);
     }
   }
-  study::Study edited = manifest::parse_study(text, study.name, overrides, sections::companions_of(study));
+  study::Study edited =
+      manifest::parse_study(text, study.name, overrides, sections::external_inputs_of(study));
   edited.engine = study.engine;
   return edited;
 }
 
 ProofRun run_proof(const study::Study& study, std::vector<std::string> values,
-                   const trials::Replicates& units, const std::filesystem::path& output, int threads,
+                   const trials::Replicates& machines, const std::filesystem::path& output, int threads,
                    const trials::Effort& effort) {
-  effort.spend(units.trials());
-  for (const std::string& one : trials::overrides_for(study, units)) values.push_back(one);
+  effort.spend(machines.trials());
+  for (const std::string& one : trials::overrides_for(study, machines)) values.push_back(one);
   if (layout::has_sums(study.retention)) values.emplace_back("keep=trials");
   ProofRun run{with_values_in_text(study, values), {}};
   run.study.engine = trials::engine_that_runs(run.study);
   if (!holds_run(output, run.study)) make_run(run.study, output, threads, effort);
-  run.results = results_in(reading::AllTrialsFile(output), run.study, units);
+  run.results = results_in(reading::AllTrialsFile(output), run.study, machines);
   return run;
 }
 

@@ -100,11 +100,11 @@ StudySearch::StudySearch(const study::Study& study, std::vector<study::FreeParam
     : study_(study),
       free_(std::move(free)),
       size_(size),
-      units_{size.max_units, search_trials_of_machine(study)},
-      base_(trials::variant_of(study, trials::overrides_for(study, units_))),
-      examined_units_{trials::in_equal_worlds(study, examined_machines), units_.trials_each},
-      examined_base_(trials::variant_of(study, trials::overrides_for(study, examined_units_))),
-      examiner_(examined_base_, examined_units_.count),
+      machines_{size.max_machines, search_trials_of_machine(study)},
+      base_(trials::variant_of(study, trials::overrides_for(study, machines_))),
+      examined_machines_{trials::in_equal_worlds(study, examined_machines), machines_.trials_each},
+      examined_base_(trials::variant_of(study, trials::overrides_for(study, examined_machines_))),
+      examiner_(examined_base_, examined_machines_.count),
       journal_(journal),
       effort_(std::move(effort)) {}
 
@@ -118,7 +118,7 @@ SearchResult StudySearch::run(const SearchSettings& settings, std::vector<Values
   problem.starts = std::move(starts);
   problem.faces = zero_sets(free_);
   problem.size = size_;
-  problem.trials_of_unit = units_.trials_each;
+  problem.trials_of_replicate = machines_.trials_each;
   problem.evaluate = [this](std::span<Candidate* const> candidates, std::int64_t to) {
     evaluate(candidates, to);
   };
@@ -132,38 +132,38 @@ void StudySearch::evaluate(std::span<Candidate* const> candidates, std::int64_t 
   std::vector<Candidate*> unknown;
   std::vector<std::int64_t> from;
   for (Candidate* const one : candidates) {
-    const std::int64_t begin = std::ssize(one->units);
-    journal_.take(base_.study_sha256, one->values, begin, to, one->units);
-    if (std::ssize(one->units) >= to) continue;
-    from.push_back(std::ssize(one->units));
+    const std::int64_t begin = std::ssize(one->machines);
+    journal_.take(base_.study_sha256, one->values, begin, to, one->machines);
+    if (std::ssize(one->machines) >= to) continue;
+    from.push_back(std::ssize(one->machines));
     unknown.push_back(one);
   }
   std::vector<study::Study> studies(unknown.size());
   parallel::for_each_index(
       unknown.size(), [&](std::size_t i) { studies[i] = candidate(unknown[i]->values); }, "study");
-  std::vector<UnitsToRun> entries;
+  std::vector<MachinesToRun> entries;
   entries.reserve(unknown.size());
   for (std::size_t i = 0; i < unknown.size(); ++i)
-    entries.push_back({&studies[i], from[i], to, &unknown[i]->units, nullptr});
+    entries.push_back({&studies[i], from[i], to, &unknown[i]->machines, nullptr});
   const auto start = std::chrono::steady_clock::now();
   try {
-    run_units(entries, units_, stop_);
+    run_machines(entries, machines_, stop_);
   } catch (const trial::Interrupted&) {
     for (std::size_t i = 0; i < unknown.size(); ++i)
-      unknown[i]->units.resize(static_cast<std::size_t>(from[i]));
+      unknown[i]->machines.resize(static_cast<std::size_t>(from[i]));
     throw;
   }
   simulation_seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  for (const Candidate* const one : candidates) some_slid_ = some_slid_ || has_slid(one->units);
-  for (const std::int64_t begin : from) simulated_ += (to - begin) * units_.trials_each;
+  for (const Candidate* const one : candidates) some_slid_ = some_slid_ || has_slid(one->machines);
+  for (const std::int64_t begin : from) simulated_ += (to - begin) * machines_.trials_each;
   std::vector<std::string> lines(unknown.size());
   const double seconds = journal_.elapsed();
   parallel::for_each_index(
       unknown.size(),
       [&](std::size_t i) {
-        lines[i] =
-            evaluation_line(base_.study_sha256, unknown[i]->values, from[i],
-                            std::span(unknown[i]->units).subspan(static_cast<std::size_t>(from[i])), seconds);
+        lines[i] = evaluation_line(base_.study_sha256, unknown[i]->values, from[i],
+                                   std::span(unknown[i]->machines).subspan(static_cast<std::size_t>(from[i])),
+                                   seconds);
         studies[i] = {};  // large, and as slow to free as to make
       },
       "journal");
@@ -203,13 +203,13 @@ std::vector<bool> StudySearch::admissible(std::span<const Candidate> candidates)
       [&](std::size_t k) {
         if (stop_.stop_requested()) return;
         const Candidate& one = candidates[unknown[k]];
-        kept[unknown[k]] = may_keep(one.values, has_slid(one.units)) ? 1 : 0;
+        kept[unknown[k]] = may_keep(one.values, has_slid(one.machines)) ? 1 : 0;
       },
       "margins");
   if (stop_.stop_requested()) throw trial::Interrupted{};
   for (const std::size_t i : unknown) {
     if (kept[i] != 0) may_keep_.insert(examination_of(candidates[i]));
-    if (candidates[i].units.empty()) examined_.push_back(candidates[i].values);
+    if (candidates[i].machines.empty()) examined_.push_back(candidates[i].values);
   }
   return {kept.begin(), kept.end()};
 }
@@ -231,7 +231,7 @@ std::vector<double> StudySearch::shortfalls_of(std::span<const Values> values, b
 
 bool StudySearch::verified(const Candidate& one) {
   if (keeps_.contains(examination_of(one))) return true;
-  if (!examiner_.keeps(examined_candidate(one.values), study_.tuning->margins, has_slid(one.units),
+  if (!examiner_.keeps(examined_candidate(one.values), study_.tuning->margins, has_slid(one.machines),
                        effort_.stop())) {
     may_keep_.clear();  // there may be one more critical machine
     return false;

@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "experiments/study/study.hpp"
+#include "runners/tuning/machine_runs/loop_examiner.hpp"
+#include "runners/tuning/machine_runs/machine_runner.hpp"
 #include "runners/tuning/race/search.hpp"
 #include "runners/tuning/race/search_space.hpp"
 #include "runners/tuning/search/tuning_journal.hpp"
-#include "runners/tuning/units/loop_examiner.hpp"
-#include "runners/tuning/units/unit_runner.hpp"
 
 namespace zerocount::tuning {
 
@@ -39,7 +39,7 @@ struct NearestPoint {
 /// Search for the best values of the parameters `free`. All other values are those of the study.
 class StudySearch {
  public:
-  /// @param size its max_units must be a multiple of the number of worlds
+  /// @param size its max_machines must be a multiple of the number of worlds
   /// @param effort effort of the tuning; its end also stops the examination of finalists
   StudySearch(const study::Study& study, std::vector<study::FreeParameter> free, const SearchSize& size,
               TuningJournal& journal, trials::Effort effort);
@@ -69,7 +69,7 @@ class StudySearch {
   bool may_keep(const Values& values, bool slides) const;
   const LoopExaminer& examiner() const { return examiner_; }
   LoopExaminer& examiner() { return examiner_; }
-  const trials::Replicates& units() const { return units_; }
+  const trials::Replicates& machines() const { return machines_; }
   /// Points whose margins were examined.
   const std::vector<Values>& examined() const { return examined_; }
   /// Number of trials that this run simulated. Trials of an earlier, interrupted run are not counted.
@@ -89,15 +89,15 @@ class StudySearch {
   /// Inputs to the margins of a candidate: its values, and whether it slid.
   using Examination = std::pair<Values, bool>;
   static Examination examination_of(const Candidate& candidate) {
-    return {candidate.values, has_slid(candidate.units)};
+    return {candidate.values, has_slid(candidate.machines)};
   }
 
   const study::Study& study_;
   std::vector<study::FreeParameter> free_;
   SearchSize size_;
-  trials::Replicates units_;
+  trials::Replicates machines_;
   study::Study base_;
-  trials::Replicates examined_units_;
+  trials::Replicates examined_machines_;
   study::Study examined_base_;
   LoopExaminer examiner_;
   TuningJournal& journal_;

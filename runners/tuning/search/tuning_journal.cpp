@@ -19,9 +19,9 @@ using Json = nlohmann::ordered_json;
 
 /// JSON of a machine's result: [slid, claim, …]. Each claim is [moves, met, value, …]; null stands for an
 /// infinite value.
-Json json_of(const UnitResult& unit) {
-  Json json = Json::array({unit.slid});
-  for (const ClaimResult& claim : unit.claims) {
+Json json_of(const MachineResult& machine) {
+  Json json = Json::array({machine.slid});
+  for (const ClaimResult& claim : machine.claims) {
     Json& one = json.emplace_back(Json::array({claim.moves, claim.met}));
     for (const double value : claim.values) one.push_back(value);
   }
@@ -36,10 +36,10 @@ ClaimResult claim_of(const Json& json) {
   return claim;
 }
 
-UnitResult unit_of(const Json& json) {
-  UnitResult unit{.claims = {}, .slid = json.at(0).get<bool>()};
-  for (std::size_t i = 1; i < json.size(); ++i) unit.claims.push_back(claim_of(json[i]));
-  return unit;
+MachineResult machine_of(const Json& json) {
+  MachineResult machine{.claims = {}, .slid = json.at(0).get<bool>()};
+  for (std::size_t i = 1; i < json.size(); ++i) machine.claims.push_back(claim_of(json[i]));
+  return machine;
 }
 
 std::string header_of(const std::string& tuning) {
@@ -93,9 +93,9 @@ void TuningJournal::read_line(const std::string& line) {
       speed_ = json.at("speed").get<double>();
       return;
     }
-    std::vector<UnitResult>& known = known_[{json.at("search"), json.at("values").get<Values>()}];
+    std::vector<MachineResult>& known = known_[{json.at("search"), json.at("values").get<Values>()}];
     if (json.at("from").get<std::size_t>() != known.size()) return;
-    for (const Json& unit : json.at("units")) known.push_back(unit_of(unit));
+    for (const Json& machine : json.at("units")) known.push_back(machine_of(machine));
     seconds_ = json.at("seconds");
   } catch (const Json::exception&) {
     return;
@@ -103,11 +103,11 @@ void TuningJournal::read_line(const std::string& line) {
 }
 
 void TuningJournal::take(const std::string& search, const Values& values, std::int64_t from, std::int64_t to,
-                         std::vector<UnitResult>& units) {
+                         std::vector<MachineResult>& machines) {
   const auto known = known_.find({search, values});
   if (known == known_.end()) return;
   for (std::int64_t i = from; i < std::min(to, std::ssize(known->second)); ++i)
-    units.push_back(std::move(known->second[static_cast<std::size_t>(i)]));
+    machines.push_back(std::move(known->second[static_cast<std::size_t>(i)]));
 }
 
 void TuningJournal::add(std::span<const std::string> evaluations) {
@@ -143,9 +143,9 @@ void TuningJournal::remove() {
 }
 
 std::string evaluation_line(const std::string& search, const Values& values, std::int64_t from,
-                            std::span<const UnitResult> units, double seconds) {
+                            std::span<const MachineResult> machines, double seconds) {
   Json json{{"search", search}, {"values", values}, {"from", from}, {"units", Json::array()}};
-  for (const UnitResult& unit : units) json["units"].push_back(json_of(unit));
+  for (const MachineResult& machine : machines) json["units"].push_back(json_of(machine));
   json["seconds"] = seconds;
   return json.dump();
 }

@@ -47,10 +47,11 @@ class TuningJournal {
   /// @throws Failure (machine_failed)
   void keep_speed(double speed);
 
-  /// Appends the known results of the machines [from, to) to `units`. They are moved, so each is given once.
+  /// Appends the known results of the machines [from, to) to `machines`. They are moved, so each is given
+  /// once.
   /// @param search hash of the searched study
   void take(const std::string& search, const Values& values, std::int64_t from, std::int64_t to,
-            std::vector<UnitResult>& units);
+            std::vector<MachineResult>& machines);
 
   /// Writes evaluations.
   /// @param evaluations lines of evaluation_line()
@@ -72,13 +73,13 @@ class TuningJournal {
   double seconds_{0.0};
   std::chrono::steady_clock::time_point start_{std::chrono::steady_clock::now()};
   std::optional<double> speed_;
-  std::map<std::pair<std::string, Values>, std::vector<UnitResult>> known_;
+  std::map<std::pair<std::string, Values>, std::vector<MachineResult>> known_;
 };
 
-/// Line of a journal with the results of a candidate's machines [from, from + units.size()).
+/// Line of a journal with the results of a candidate's machines [from, from + machines.size()).
 /// @param search hash of the searched study
 /// @param seconds time that the tuning took so far, s
 std::string evaluation_line(const std::string& search, const Values& values, std::int64_t from,
-                            std::span<const UnitResult> units, double seconds);
+                            std::span<const MachineResult> machines, double seconds);
 
 }  // namespace zerocount::tuning

@@ -59,7 +59,7 @@ double age_factor(const MachineBox& box, const study::Value& value, const NamedV
   const auto drawn =
       std::ranges::find(values, plan.table.rows[aging.rate].name, &NamedValues::value_type::first);
   return study::factor_at_age(
-      aging, drawn != values.end() ? drawn->second : study::limits_of_slot(plan, aging.rate, point).typical,
+      aging, drawn != values.end() ? drawn->second : study::range_of_slot(plan, aging.rate, point).typical,
       study::age_at(plan, point));
 }
 
@@ -133,8 +133,8 @@ MachineBox::MachineBox(study::Study study, std::int64_t point)
   }
 }
 
-BoxPoint MachineBox::machine_of(std::int64_t unit) const {
-  return {given_.machines > 0 ? unit : 0, study::drawn_quantiles(given_, point_, unit, inputs_)};
+BoxPoint MachineBox::machine_of(std::int64_t machine) const {
+  return {given_.machines > 0 ? machine : 0, study::drawn_quantiles(given_, point_, machine, inputs_)};
 }
 
 /// Σ z² of the normal scores, divided by its limit for likely machines; above 1 the machine is outside the

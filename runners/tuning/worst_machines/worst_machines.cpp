@@ -41,9 +41,9 @@ double late_time(const study::Study& study, std::int64_t point) {
 }
 
 /// Sum of the values of a result, each capped at `late`.
-double lateness(const ClaimResult& unit, double late) {
+double lateness(const ClaimResult& machine, double late) {
   double sum = 0.0;
-  for (const double value : unit.values) sum += std::min(value, late);
+  for (const double value : machine.values) sum += std::min(value, late);
   return sum;
 }
 
@@ -87,12 +87,13 @@ std::pair<double, double> merit_of(const ClaimResult& result) {
 
 /// Index of the claim that the machine meets in the smallest proportion of moves. Ties go to the latest
 /// claim.
-std::size_t worst_claim(const UnitResult& unit) {
-  return static_cast<std::size_t>(std::ranges::min_element(unit.claims, {}, merit_of) - unit.claims.begin());
+std::size_t worst_claim(const MachineResult& machine) {
+  return static_cast<std::size_t>(std::ranges::min_element(machine.claims, {}, merit_of) -
+                                  machine.claims.begin());
 }
 
-const ClaimResult& worst_result(const UnitResult& unit) {
-  return unit.claims[worst_claim(unit)];
+const ClaimResult& worst_result(const MachineResult& machine) {
+  return machine.claims[worst_claim(machine)];
 }
 
 /// Runs the trials of a stage for all points, and appends their results.
@@ -194,8 +195,8 @@ NamedValues inputs_of_machine(const study::Study& study, std::int64_t point, con
 std::vector<trial::TrialParameters> trials_of_manifest(const JudgedMachine& machine, const MachineBox& box,
                                                        std::int64_t first, std::int64_t step,
                                                        std::int64_t count) {
-  const study::Study alone =
-      manifest::parse_study(machine.manifest, box.study().name, {}, sections::companions_of(box.study()));
+  const study::Study alone = manifest::parse_study(machine.manifest, box.study().name, {},
+                                                   sections::external_inputs_of(box.study()));
   std::vector<trial::TrialParameters> trials;
   for (std::int64_t i = 0; i < count; ++i)
     trials.push_back(study::study_trial(alone, 0, first + i * step).parameters);
@@ -206,7 +207,7 @@ std::vector<trial::TrialParameters> trials_of_manifest(const JudgedMachine& mach
 std::optional<std::string> worst_goal(const study::Study& study,
                                       std::span<const trial::TrialOutcome> outcomes) {
   if (study.goals.size() < 2) return std::nullopt;
-  const UnitResult all = result_of(study, outcomes);
+  const MachineResult all = result_of(study, outcomes);
   const auto worst = std::ranges::min_element(all.claims, {}, met_proportion);
   return names_of(study, {static_cast<std::size_t>(worst - all.claims.begin()), 0}).goal;
 }
@@ -252,15 +253,15 @@ JudgedMachine judged(const BoxPoint& point, const MachineBox& box, const Machine
 class MachineSearch {
  public:
   /// @param study study under the condition alone
-  /// @param units machines of the study
+  /// @param machines machines of the study
   /// @param condition name of the condition; empty: there is none
-  MachineSearch(const study::Study& study, const trials::Replicates& units, std::string condition,
+  MachineSearch(const study::Study& study, const trials::Replicates& machines, std::string condition,
                 const std::optional<std::filesystem::path>& folder, const trials::Effort& effort)
-      : box_(study, units.point),
-        units_(units),
+      : box_(study, machines.point),
+        machines_(machines),
         manifest_{std::move(condition), folder, trials_of_verdict},
         numbers_{designs::random_key(study.seed, "worst machine"), 0},
-        failures_(study, units.point),
+        failures_(study, machines.point),
         effort_(effort) {}
 
   /// Finds the worst machines under the condition.
@@ -268,8 +269,9 @@ class MachineSearch {
   /// conditions; 1 without one. A likely machine is sought only if some machine of the box meets less,
   /// because no likely machine can be worse than the box.
   WorstMachines run(double likely_met) {
-    const std::vector<UnitResult> results = results_of(box_.study(), units_, units_.count, nullptr, effort_);
-    const std::vector<std::int64_t> order = worst_units(results);
+    const std::vector<MachineResult> results =
+        results_of(box_.study(), machines_, machines_.count, nullptr, effort_);
+    const std::vector<std::int64_t> order = ranked_machines(results);
     std::vector<BoxPoint> named{worst_in(MachineRegion::box, order), box_.machine_of(order.front())};
     std::vector<JudgedMachine> judgements{judge(named[0]), judge(named[1])};
     if (!box_.is_likely(named[0]) && std::min(judgements[0].met, judgements[1].met) < likely_met) {
@@ -287,13 +289,13 @@ class MachineSearch {
     const std::size_t in_box = worst_that([](const BoxPoint&) { return true; });
     std::size_t likely = worst_that([&](const BoxPoint& point) { return box_.is_likely(point); });
     if (likely == named.size()) likely = in_box;  // not sought: no likely machine is worse
-    return {worst_machine(box_.study(), units_.point, results), judgements[1], judgements[in_box],
+    return {worst_machine(box_.study(), machines_.point, results), judgements[1], judgements[in_box],
             judgements[likely], box_.has_profile_per_machine()};
   }
 
  private:
-  /// Indices of the study's machines (units), the worst first.
-  std::vector<std::int64_t> worst_units(std::span<const UnitResult> results) const {
+  /// Indices of the study's machines, the worst first.
+  std::vector<std::int64_t> ranked_machines(std::span<const MachineResult> results) const {
     std::vector<std::int64_t> order(results.size());
     std::iota(order.begin(), order.end(), std::int64_t{0});
     std::ranges::stable_sort(order, [&](std::int64_t a, std::int64_t b) {
@@ -354,7 +356,7 @@ class MachineSearch {
   }
 
   MachineBox box_;
-  trials::Replicates units_;
+  trials::Replicates machines_;
   MachineManifest manifest_;
   random::NumberSource numbers_;
   MachineFailures failures_;
@@ -374,13 +376,14 @@ NamedValues values_at(const study::Study& study, std::int64_t point, std::span<c
 }
 
 WorstMachine worst_machine(const study::Study& study, std::int64_t point,
-                           std::span<const UnitResult> results) {
-  const auto merit = [](const UnitResult& unit) { return merit_of(worst_result(unit)); };
-  const auto unit = static_cast<std::size_t>(std::ranges::min_element(results, {}, merit) - results.begin());
-  const std::size_t claim = worst_claim(results[unit]);
-  const ClaimResult& result = results[unit].claims[claim];
+                           std::span<const MachineResult> results) {
+  const auto merit = [](const MachineResult& machine) { return merit_of(worst_result(machine)); };
+  const auto number =
+      static_cast<std::size_t>(std::ranges::min_element(results, {}, merit) - results.begin());
+  const std::size_t claim = worst_claim(results[number]);
+  const ClaimResult& result = results[number].claims[claim];
   WorstMachine machine{
-      static_cast<std::int64_t>(unit), 0, met_proportion(result), {}, place_of_claim(study, claim)};
+      static_cast<std::int64_t>(number), 0, met_proportion(result), {}, place_of_claim(study, claim)};
   const std::int64_t asked =
       measures::asked_moves(measures::asked_of_moves(study)[machine.claim.goal], study.moves);
   const std::int64_t trial_under_condition =
@@ -393,22 +396,22 @@ WorstMachine worst_machine(const study::Study& study, std::int64_t point,
   return machine;
 }
 
-std::int64_t trials_of_worst_machines(const study::Study& study, const trials::Replicates& units) {
+std::int64_t trials_of_worst_machines(const study::Study& study, const trials::Replicates& machines) {
   // A race takes 4 trials of each machine, 12 more of a quarter, and 48 more of a quarter of these.
   constexpr auto of_newcomer =
       stage_trials[0] + (stage_trials[1] - stage_trials[0]) / 4 + (stage_trials[2] - stage_trials[1]) / 16;
   constexpr auto first = static_cast<std::int64_t>(starting_machines + max_corners + filling_points);
   constexpr auto later = static_cast<std::int64_t>(generations * children);
-  return units.trials() +
+  return machines.trials() +
          study::condition_count(study) * (of_newcomer * (first + later) + 3 * trials_of_verdict);
 }
 
-WorstMachines worst_machines(const study::Study& study, const trials::Replicates& units,
+WorstMachines worst_machines(const study::Study& study, const trials::Replicates& machines,
                              const std::optional<std::filesystem::path>& folder,
                              const trials::Effort& effort) {
   std::vector<WorstMachines> under;  // [condition]
   double likely_met = 1.0;
-  trials::Replicates alone = units;
+  trials::Replicates alone = machines;
   alone.trials_each /= study::condition_count(study);
   for (std::int64_t condition = 0; condition < study::condition_count(study); ++condition) {
     const std::string name =
@@ -419,7 +422,7 @@ WorstMachines worst_machines(const study::Study& study, const trials::Replicates
         MachineSearch(under_condition(study, condition), alone, name, folder, effort).run(likely_met));
     likely_met = std::min(likely_met, found.likely.met);
     found.of_study.claim.condition = static_cast<std::size_t>(condition);
-    found.of_study.trial = study::turns_of(study).trial_of(found.of_study.trial, condition);
+    found.of_study.trial = study::trial_indices(study).trial_of(found.of_study.trial, condition);
     found.of_study.names = names_of(study, found.of_study.claim);
     for (JudgedMachine* one : {&found.again, &found.in_box, &found.likely}) {
       one->condition = condition;
@@ -440,9 +443,10 @@ WorstMachines worst_machines(const study::Study& study, const trials::Replicates
   const study::Study under_worst = under_condition(study, found.in_box.condition);
   const auto all_at = [&](double place) {
     NamedValues values;
-    for (const study::MachineInput& one : study::machine_inputs(under_worst, units.point)) {
+    for (const study::MachineInput& one : study::machine_inputs(under_worst, machines.point)) {
       if (one.slots.size() > 1) continue;  // the rows of joint samples have no order
-      for (const auto& value : study::values_at_quantile(under_worst, units.point, one, quantile_at(place)))
+      for (const auto& value :
+           study::values_at_quantile(under_worst, machines.point, one, quantile_at(place)))
         values.push_back(value);
     }
     return values;

@@ -14,8 +14,8 @@
 #include "experiments/study/plan.hpp"
 #include "experiments/study/study_trial.hpp"
 #include "runners/trials/effort.hpp"
+#include "runners/tuning/machine_runs/machine_runner.hpp"
 #include "runners/tuning/race/candidate.hpp"
-#include "runners/tuning/units/unit_runner.hpp"
 
 namespace zerocount::tuning {
 
@@ -54,7 +54,7 @@ class MachineBox {
   bool has_profile_per_machine() const { return has_profile_per_machine_; }
 
   /// Box point of a machine of the study. If the study has no machines: of the machine of a trial.
-  BoxPoint machine_of(std::int64_t unit) const;
+  BoxPoint machine_of(std::int64_t machine) const;
   /// Moves a point into the region and to values that a machine can have, by steps towards the median. Each
   /// quantile is first clamped to the box.
   BoxPoint inside(BoxPoint point, MachineRegion region) const;
@@ -116,7 +116,7 @@ struct WorstMachine {
 /// to the machine with the largest criterion.
 /// @param results results of all machines of the study
 WorstMachine worst_machine(const study::Study& study, std::int64_t point,
-                           std::span<const UnitResult> results);
+                           std::span<const MachineResult> results);
 
 /// A machine under a condition, judged by fresh trials.
 ///
@@ -182,12 +182,12 @@ struct WorstMachines {
 /// file
 /// @throws trial::Interrupted, trials::Spent; Failure (bad_input) if the study draws nothing that differs
 /// between machines
-WorstMachines worst_machines(const study::Study& study, const trials::Replicates& units,
+WorstMachines worst_machines(const study::Study& study, const trials::Replicates& machines,
                              const std::optional<std::filesystem::path>& folder,
                              const trials::Effort& effort);
 
 /// Approximate number of trials that worst_machines() runs.
-std::int64_t trials_of_worst_machines(const study::Study& study, const trials::Replicates& units);
+std::int64_t trials_of_worst_machines(const study::Study& study, const trials::Replicates& machines);
 
 /// Why no manifest can describe a machine of the point at its age; empty if one can. The reason is a value
 /// with `aging` that is drawn per contact or per study.

@@ -1,8 +1,8 @@
 // Two results files: what they have in common, which points belong together, and what comes of it.
 #include "analysis/comparison/comparison.hpp"
 #include "core/hash/sha256.hpp"
-#include "results/storage/file_contents.hpp"
 #include "tests/analysis/study_files.hpp"
+#include "tests/support/checksum.hpp"
 #include "tests/support/merged_file.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -128,7 +128,7 @@ void give_commit(const std::filesystem::path& path, const std::string& commit) {
       "{}",
       ZEROCOUNT_PYTHON, path.string(), commit);
   ASSERT_EQ(std::system(command.c_str()), 0);
-  storage::append_checksum(path);
+  append_checksum(path);
 }
 
 TEST_F(ComparedStudies, OneBuildMustMakeOneResult) {

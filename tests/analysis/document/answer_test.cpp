@@ -37,9 +37,9 @@ Description<Axis> axis_description() {
              &Axis::torque)
       .value({.key = "rate", .heading = "rate", .unit = "1", .notation = Notation::percent}, &Axis::rate)
       .value({.key = "load", .heading = "load", .unit = "kg"}, &Axis::load)
-      .value({.key = "shown", .heading = "for people", .shown = Shown::to_people},
+      .value({.key = "shown", .heading = "for people", .shown = Visibility::to_people},
              [](const Axis&) { return "composed"; })
-      .value({.key = "hidden", .heading = "for data", .shown = Shown::in_data},
+      .value({.key = "hidden", .heading = "for data", .shown = Visibility::in_data},
              [](const Axis&) { return 7; });
 }
 

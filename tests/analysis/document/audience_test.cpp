@@ -26,13 +26,14 @@ AnswerDescription<Gains> gains_answer(std::vector<std::string>& computed) {
   };
   Description<Gain> columns;
   columns
-      .value({.key = "axes", .shown = Shown::in_json},
+      .value({.key = "axes", .shown = Visibility::in_json},
              told("axes",
                   [](const Gain& gain) {
                     using Value = std::variant<double, std::string>;
                     return std::vector<std::pair<std::string, Value>>{{"ki", gain.value}, {"case", "a"}};
                   }))
-      .value({.key = "ki", .shown = Shown::in_csv}, told("ki", [](const Gain& gain) { return gain.value; }))
+      .value({.key = "ki", .shown = Visibility::in_csv},
+             told("ki", [](const Gain& gain) { return gain.value; }))
       .value({.key = "settling", .heading = "settled", .unit = "s", .numeric = true},
              told("settling", [](const Gain& gain) { return gain.settling; }))
       .shown_as(told("settled", [](const Gain& gain) { return gain.settling < 0.3 ? "0.25" : "> 0.3 s"; }));
@@ -66,21 +67,20 @@ TEST(Audience, ItemsForOtherAudiencesAreNotComputed) {
 
 // People find the members of an object without heading among the columns of its row, in data it is an object.
 TEST(Audience, TextShowsObjectsAsColumnsOrAsTables) {
-  using Of = const Gain&;
-  const auto same = [](Of gain) -> const Gain& { return gain; };
+  const auto same = [](const Gain& gain) -> const Gain& { return gain; };
   Description<Gain> goal, speed, gain, when;
   goal.value({.key = "rate", .heading = "in goal", .unit = "1", .notation = Notation::percent},
-             [](Of g) { return g.settling; });
-  when.value({.key = "s", .heading = "when", .unit = "s"}, [](Of g) { return g.settling; });
-  speed.value({.key = "of", .heading = "speed"}, [](Of g) { return 1.0 / g.settling; })
-      .value({.key = "unit", .meaning = "its unit"}, [](Of) { return "1/s"; })
-      .sentence([](Of g) { return g.value > 1.0 ? "it is slow" : ""; });
-  gain.value({.key = "ki", .heading = "ki"}, [](Of g) { return g.value; })
+             [](const Gain& g) { return g.settling; });
+  when.value({.key = "s", .heading = "when", .unit = "s"}, [](const Gain& g) { return g.settling; });
+  speed.value({.key = "of", .heading = "speed"}, [](const Gain& g) { return 1.0 / g.settling; })
+      .value({.key = "unit", .meaning = "its unit"}, [](const Gain&) { return "1/s"; })
+      .sentence([](const Gain& g) { return g.value > 1.0 ? "it is slow" : ""; });
+  gain.value({.key = "ki", .heading = "ki"}, [](const Gain& g) { return g.value; })
       .value({.key = "label", .heading = "gain", .names_row = true},
-             [](Of g) { return g.value > 1.0 ? "high" : "low"; })
+             [](const Gain& g) { return g.value > 1.0 ? "high" : "low"; })
       .object({.key = "speed", .own_table = "speeds", .note = "of settling"}, speed, same)
-      .table({.key = "times", .shown = Shown::not_in_csv, .own_table = "times"}, when,
-             [](Of g) {
+      .table({.key = "times", .shown = Visibility::not_in_csv, .own_table = "times"}, when,
+             [](const Gain& g) {
                return std::vector{g, Gain{0.0, 3.0}};
              })
       .object({.key = "goal"}, goal, same);
@@ -113,7 +113,7 @@ TEST(Csv, NumbersAreUnroundedAndColumnsAreNamed) {
                return Bounded{g.settling, 0.0, 1.0};
              })
       .value({.key = "hold", .unit = "s", .column = "hold_at_least"}, [](const Gain& g) { return g.value; });
-  gain.value({.key = "trials", .shown = Shown::in_csv},
+  gain.value({.key = "trials", .shown = Visibility::in_csv},
              [](const Gain& g) { return static_cast<int>(g.value); })
       .object({.key = "goal"}, goal, [](const Gain& g) { return g.value > 1.0 ? &g : nullptr; });
   AnswerDescription<Gains> answer{{.name = "gains", .meaning = "gains", .csv_table = "gains"}, {}};
@@ -149,7 +149,7 @@ AnswerDescription<Report> report_description() {
   const auto points = Description<Point>()
                           .title(&Point::label)
                           .value(in_data("label", "label of the point"), &Point::label)
-                          .value({.key = "advice", .heading = "advice", .shown = Shown::in_json},
+                          .value({.key = "advice", .heading = "advice", .shown = Visibility::in_json},
                                  [](const Point&) { return "more trials"; })
                           .table({.key = "rates", .heading = "rates"}, rates, &Point::rates);
   AnswerDescription<Report> answer{{.name = "report", .meaning = "points", .csv_table = "points.rates"}, {}};

@@ -12,7 +12,7 @@
 #include "core/failure/failure.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/study/study.hpp"
-#include "tests/analysis/identification/material_tests.hpp"
+#include "tests/analysis/fit/presliding/material_tests.hpp"
 
 namespace zerocount::experiment_design {
 namespace {

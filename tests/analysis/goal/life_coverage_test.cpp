@@ -77,11 +77,11 @@ measures::CellCounts counts_over(testing::Draws& draws, const Aging& aging, cons
       {.machines = one.machines, .conditions = static_cast<std::int64_t>(one.conditions * ages.size())});
   for (std::int64_t number = 0; number < one.machines; ++number) {
     const Machine machine = aging.draw(draws);
-    for (std::size_t turn = 0; turn < one.conditions * ages.size(); ++turn) {
-      const double chance = machine.proportion(ages[turn / one.conditions], turn % one.conditions);
+    for (std::size_t setting = 0; setting < one.conditions * ages.size(); ++setting) {
+      const double chance = machine.proportion(ages[setting / one.conditions], setting % one.conditions);
       std::int64_t met = 0;
       for (std::int64_t move = 0; move < one.moves; ++move) met += draws.chance(chance) ? 1 : 0;
-      counts.add_machine(static_cast<std::size_t>(number), turn, {one.moves, one.moves, met});
+      counts.add_machine(static_cast<std::size_t>(number), setting, {one.moves, one.moves, met});
     }
   }
   return counts;

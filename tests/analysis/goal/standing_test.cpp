@@ -97,7 +97,7 @@ std::vector<measures::SettlingTimes> settling_after(const std::vector<double>& p
   for (const double part : parts_of_time) {
     measures::SettlingTimes& one = all.emplace_back();
     one.allowed = 0.05;
-    one.share = part;
+    one.time_ratio = part;
   }
   return all;
 }
@@ -146,7 +146,7 @@ TEST(Standing, TheLaterOfEqualConditionsCountsAsTheWorst) {
   point.goal_settling = {settling_after({0.4, std::numeric_limits<double>::infinity(), 0.6})};
   EXPECT_EQ(verdict_on(question, point).condition, 1U);
   EXPECT_EQ(&settling_of(question, point), &point.goal_settling[0][1].times);
-  point.goal_settling[0][1].share = 0.5;
+  point.goal_settling[0][1].time_ratio = 0.5;
   EXPECT_EQ(verdict_on(question, point).condition, 2U);
 }
 

@@ -45,10 +45,10 @@ struct GoalSettlingTimes {
   /// where a move never settles.
   template <class Scale>
   std::vector<double> times_under(std::int64_t condition, Scale scale) const {
-    const study::TrialTurns turns{std::max<std::int64_t>(machines, 1), conditions};
+    const study::TrialIndices indices{std::max<std::int64_t>(machines, 1), conditions};
     std::vector<double> times;
     for (std::int64_t trial = 0; trial < trials; ++trial) {
-      if (turns.condition_of(trial) != condition) continue;
+      if (indices.condition_of(trial) != condition) continue;
       for (const std::int64_t move : goal.on) {
         const trial::MoveOutcome& outcome =
             of_trials[static_cast<std::size_t>(trial)][static_cast<std::size_t>(move)];
@@ -102,16 +102,16 @@ TEST_EACH_SEED(GoalSettlingTimes, CoverTheJudgedMovesUnderEachCondition) {
     EXPECT_EQ(one.n, std::ranges::count_if(times, [](double time) { return std::isfinite(time); }));
     expect_same(one.median.value, quantile_of(times, 0.5));
     expect_same(one.p95.value, quantile_of(times, 0.95));
-    const std::vector<double> shares =
+    const std::vector<double> ratios =
         times_under(condition, [&](const trial::MoveOutcome& move) { return allowed(move); });
-    const double share = quantile_of(shares, 0.95);
-    EXPECT_DOUBLE_EQ(found[static_cast<std::size_t>(condition)].share,
-                     std::isnan(share) ? std::numeric_limits<double>::infinity() : share);
+    const double ratio = quantile_of(ratios, 0.95);
+    EXPECT_DOUBLE_EQ(found[static_cast<std::size_t>(condition)].time_ratio,
+                     std::isnan(ratio) ? std::numeric_limits<double>::infinity() : ratio);
     double longest = goal.within.after_profile ? 0.0 : goal.within.time;
-    const study::TrialTurns turns{std::max<std::int64_t>(machines, 1), conditions};
+    const study::TrialIndices indices{std::max<std::int64_t>(machines, 1), conditions};
     for (std::int64_t trial = 0; trial < trials; ++trial)
       for (const std::int64_t move : goal.on)
-        if (turns.condition_of(trial) == condition)
+        if (indices.condition_of(trial) == condition)
           longest = std::max(
               longest, allowed(of_trials[static_cast<std::size_t>(trial)][static_cast<std::size_t>(move)]));
     EXPECT_EQ(found[static_cast<std::size_t>(condition)].allowed, longest);
@@ -135,7 +135,7 @@ TEST_EACH_SEED(GoalSettlingTimes, DoNotDependOnTheDivisionOfTheTrials) {
     expect_same(found[condition].times.p95.value, expected[condition].times.p95.value);
     expect_same(found[condition].times.p95.low, expected[condition].times.p95.low);
     expect_same(found[condition].times.max, expected[condition].times.max);
-    EXPECT_EQ(found[condition].share, expected[condition].share);
+    EXPECT_EQ(found[condition].time_ratio, expected[condition].time_ratio);
     EXPECT_EQ(found[condition].allowed, expected[condition].allowed);
   }
 }

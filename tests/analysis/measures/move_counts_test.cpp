@@ -55,11 +55,12 @@ struct CountsInCells {
     std::vector<statistics::MachineMoves> machines(static_cast<std::size_t>(shape.machines));
     std::vector<bool> asked(machines.size(), false);
     for (std::int64_t trial = 0; trial < trials; ++trial) {
-      // All machines in turn, under one condition after the other.
-      const std::int64_t turn = std::max<std::int64_t>(shape.machines, 1);
+      // All machines, one after the other, under one condition after the other.
+      const std::int64_t machine_count = std::max<std::int64_t>(shape.machines, 1);
       const std::int64_t conditions = std::max<std::int64_t>(shape.conditions, 1);
-      const std::int64_t draw = trial % turn + turn * (trial / (turn * conditions));
-      if (cells.condition && !std::cmp_equal(trial / turn % conditions, *cells.condition)) continue;
+      const std::int64_t draw =
+          trial % machine_count + machine_count * (trial / (machine_count * conditions));
+      if (cells.condition && !std::cmp_equal(trial / machine_count % conditions, *cells.condition)) continue;
       if (cells.world && !std::cmp_equal(draw % shape.worlds, *cells.world)) continue;
       const std::int64_t hits = met[static_cast<std::size_t>(trial)];
       sum.moves += moves;
@@ -67,8 +68,8 @@ struct CountsInCells {
       if (shape.machines == 0) {
         sum.of_trials.add(hits, moves);
       } else {
-        asked[static_cast<std::size_t>(trial % turn)] = true;
-        machines[static_cast<std::size_t>(trial % turn)] += {1, moves, hits};
+        asked[static_cast<std::size_t>(trial % machine_count)] = true;
+        machines[static_cast<std::size_t>(trial % machine_count)] += {1, moves, hits};
       }
     }
     for (std::size_t machine = 0; machine < machines.size(); ++machine)

@@ -75,7 +75,7 @@ TEST(ParameterChange, IntervalCoversTheTrueChange) {
     const ChangeExplanation found =
         explain_change(candidates, changed_machine(own, stiffness, factor, 200, 300), measures);
     EXPECT_NEAR(static_cast<double>(found.since), 201.0, 60.0) << i;
-    if (found.told != ChangeTold::one || found.parameters[0].parameter != "stiffness") continue;
+    if (found.told != ExplanationKind::one || found.parameters[0].parameter != "stiffness") continue;
     ++told;
     covered += found.parameters[0].low <= factor && factor <= found.parameters[0].high ? 1 : 0;
   }
@@ -90,7 +90,7 @@ TEST(ParameterChange, TwoParametersThatActAlikeAreNotDistinguished) {
                                                 candidate("damping", simulated, damping)};
   const ChangeExplanation found =
       explain_change(candidates, changed_machine(Machines(3, 0.5), stiffness, 0.8, 200, 300), measures);
-  EXPECT_EQ(found.told, ChangeTold::several);
+  EXPECT_EQ(found.told, ExplanationKind::several);
   ASSERT_EQ(found.parameters.size(), 2u);
   EXPECT_NEAR(found.parameters[0].probability, 0.5, 1e-6);
 }
@@ -104,7 +104,7 @@ TEST(ParameterChange, AParameterThatWasZeroChangesByAnAmount) {
   const std::vector<ChangeCandidate> candidates{candidate("stiffness", simulated, stiffness), noise};
   const ChangeExplanation found = explain_change(
       candidates, changed_machine(Machines(9, 0.5), damping, std::exp(0.3), 200, 300), measures);
-  ASSERT_EQ(found.told, ChangeTold::one);
+  ASSERT_EQ(found.told, ExplanationKind::one);
   EXPECT_EQ(found.parameters[0].parameter, "noise");
   EXPECT_EQ(found.parameters[0].kind, ChangeKind::amount);
   EXPECT_EQ(found.parameters[0].unit, "count");
@@ -120,7 +120,7 @@ TEST(ParameterChange, AChangeThatNoParameterExplainsIsReported) {
   const Slopes other{3.0, 3.0, -3.0};
   const ChangeExplanation found =
       explain_change(candidates, changed_machine(Machines(5, 0.5), other, 0.6, 200, 300), measures);
-  EXPECT_EQ(found.told, ChangeTold::none);
+  EXPECT_EQ(found.told, ExplanationKind::none);
   EXPECT_GT(found.misfit, found.max_misfit);
 }
 
@@ -136,7 +136,7 @@ TEST(ParameterChange, MovesThatScatterMoreThanAnyParameterExplainsMatchNone) {
     const MoveValues later = own.moves_of(stiffness, 0.7, 1000, 300, 2, width);
     moves.insert(moves.end(), later.begin(), later.end());
     EXPECT_EQ(explain_change(candidates, moves, measures).told,
-              width > 1.0 ? ChangeTold::none : ChangeTold::one)
+              width > 1.0 ? ExplanationKind::none : ExplanationKind::one)
         << width;
   }
 }
@@ -166,7 +166,7 @@ TEST(ParameterChange, TheTrueParameterIsAmongTheNamedOnes) {
           candidates,
           changed_machine(own, slopes[changed], std::exp(0.6 * uniform(random)), log % 2 == 0 ? 150 : 0, 200),
           measures);
-      told += found.told == ChangeTold::none || found.told == ChangeTold::unknown ? 0 : 1;
+      told += found.told == ExplanationKind::none || found.told == ExplanationKind::unknown ? 0 : 1;
       named += std::ranges::any_of(
           found.parameters, [&](const ParameterChange& one) { return one.parameter == names[changed]; });
     }
@@ -194,11 +194,11 @@ TEST(ParameterChange, WithoutMovesOrCandidatesIsUnknown) {
   const Machines simulated(8, 0.5);
   const std::vector<ChangeCandidate> candidates{candidate("nothing", simulated, {0.0, 0.0, 0.0})};
   const MoveValues some = changed_machine(Machines(9, 0.5), stiffness, 0.8, 100, 100);
-  EXPECT_EQ(explain_change(candidates, some, measures).told, ChangeTold::unknown);
-  EXPECT_EQ(explain_change({}, some, measures).told, ChangeTold::unknown);
+  EXPECT_EQ(explain_change(candidates, some, measures).told, ExplanationKind::unknown);
+  EXPECT_EQ(explain_change({}, some, measures).told, ExplanationKind::unknown);
   const std::vector<ChangeCandidate> acts{candidate("stiffness", simulated, stiffness)};
   const MoveValues few(some.begin(), some.begin() + 30);
-  EXPECT_EQ(explain_change(acts, few, measures).told, ChangeTold::unknown);
+  EXPECT_EQ(explain_change(acts, few, measures).told, ExplanationKind::unknown);
 }
 
 }  // namespace

@@ -118,8 +118,8 @@ TEST(Quantile, AnEmptySampleHasNoQuantile) {
   EXPECT_TRUE(std::isnan(none.high));
 }
 
-/// Share of samples of size n from `draw` whose bounds of the p-quantile enclose `truth`; a missing bound
-/// encloses.
+/// Proportion of samples of size n from `draw` whose bounds of the p-quantile enclose `truth`; a missing
+/// bound encloses.
 template <typename Draw>
 double quantile_coverage(int n, double p, double truth, Draw draw) {
   constexpr int rounds = 4000;

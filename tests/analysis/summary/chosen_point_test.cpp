@@ -20,7 +20,10 @@ namespace zerocount::summary {
 namespace {
 
 using summary_answer::PointSelection;
-using summary_answer::selected_points;
+
+std::vector<std::int64_t> selected_points(const StudySummary& summary, const PointSelection& selection) {
+  return summary_answer::first_points(summary_answer::matching_points(summary, selection), selection);
+}
 
 trial::MoveOutcome move_that(bool succeeds) {
   trial::MoveOutcome move;

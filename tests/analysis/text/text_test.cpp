@@ -64,7 +64,7 @@ std::size_t width_of(const std::string& text) {
 }
 
 /// The words of a text without the lines that underline heads, sorted.
-std::vector<std::string> words_of(const std::string& text) {
+std::vector<std::string> split_words(const std::string& text) {
   std::vector<std::string> words;
   std::istringstream stream(text);
   for (std::string word; stream >> word;) {
@@ -104,7 +104,7 @@ TEST(AlignedTable, HasTheWidthAndEveryWordOfATable) {
       EXPECT_EQ(shown, table);
     }
     // The first column stands in every part.
-    std::vector<std::string> words = words_of(shown), expected = words_of(table);
+    std::vector<std::string> words = split_words(shown), expected = split_words(table);
     words.erase(std::unique(words.begin(), words.end()), words.end());
     EXPECT_EQ(words, expected);
   }
@@ -163,7 +163,7 @@ TEST(FittedText, WrapsSentencesBetweenWords) {
   for (int i = 0; i < 60; ++i) sentence += "word ";
   EXPECT_LE(width_of(fitted(sentence, 300)), width_of_prose);
   EXPECT_EQ(fitted(sentence, std::nullopt), sentence);
-  EXPECT_EQ(words_of(fitted(sentence, 40)), words_of(sentence));
+  EXPECT_EQ(split_words(fitted(sentence, 40)), split_words(sentence));
 }
 
 TEST(FittedText, AnEntryContinuesBelowItsText) {
@@ -204,7 +204,7 @@ TEST(UnwrappedText, JoinsTheLinesOfAParagraph) {
             "  - an item that is as\n"
             "  - long as the width\n"
             "    or longer\n");
-  EXPECT_EQ(words_of(unwrapped(by_hand, 10)), words_of(by_hand));
+  EXPECT_EQ(split_words(unwrapped(by_hand, 10)), split_words(by_hand));
 }
 
 TEST(FittedText, KeepsALineWithoutABreakAtItsEnd) {

@@ -17,6 +17,11 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
+PointTheory examine(const study::Study& study, std::int64_t point) {
+  std::vector<KnownRotor> none;
+  return examine(study, point, 0, none);
+}
+
 /// The parameters of a loop.
 struct LoopParts {
   double stiffness{0.0};
@@ -25,12 +30,12 @@ struct LoopParts {
   loop::ControllerParameters controller;
   LinearDrive drive;
 
-  FrozenLoop frozen() const { return frozen_loop(stiffness, damping, plant, {}, controller, drive); }
+  FrozenLoop frozen() const { return frozen_loop({stiffness, damping}, plant, {}, controller, drive); }
   /// L at a frequency (Hz), by its formula.
   std::complex<double> response(double frequency) const {
     const double T = 1.0 / controller.sample_rate;
     const double resolution = loop::fine_resolution({});
-    return OpenLoop(hold_plant(stiffness, damping, plant, resolution, T, drive, controller.delay),
+    return OpenLoop(hold_plant({stiffness, damping}, plant, resolution, T, drive, controller.delay),
                     loop::linear_chain(controller, {}))
         .at_angle(2.0 * pi * frequency * T);
   }

@@ -9,6 +9,7 @@
 #include "core/theory/gains.hpp"
 #include "core/trial/trial.hpp"
 #include "tests/core/loop/random_blocks.hpp"
+#include "tests/core/theory/analogue_controller.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount::theory {

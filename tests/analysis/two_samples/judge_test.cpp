@@ -50,7 +50,7 @@ class Draws {
   std::mt19937_64 random_;
 };
 
-void add_shares(JudgedCases& cases, Draws& draws) {
+void add_proportions(JudgedCases& cases, Draws& draws) {
   for (int i = 0; i < 150; ++i) {
     const std::int64_t pairs = draws.whole(1, 400);
     const std::int64_t worse = draws.whole(0, pairs);
@@ -93,7 +93,7 @@ TEST(ComparisonStatistics, MatchSciPy) {
   const TemporaryFolder folder;
   JudgedCases cases(folder / "cases");
   Draws draws(20);
-  add_shares(cases, draws);
+  add_proportions(cases, draws);
   add_numbers(cases, draws);
   cases.close();
   const std::string command = fmt::format("{} {} {} > {} 2>&1", ZEROCOUNT_PYTHON, ZEROCOUNT_COMPARISON_JUDGE,

@@ -117,7 +117,7 @@ void Comparison::compare_after_slide(const trial::SampleRecord& a, const batch::
     return;
   }
   result_.theta_after = std::max(result_.theta_after, difference);
-  result_.share_after = std::max(result_.share_after, difference / allowed());
+  result_.ratio_after = std::max(result_.ratio_after, difference / allowed());
 }
 
 /// Every measure of the table is the same, but for positions, which agree to the accuracy of θ, and the
@@ -235,7 +235,7 @@ void BatchAgreement::add(const BatchAgreement& other) {
   stray += other.stray;
   if (other.part == 0) {
     theta_after = std::max(theta_after, other.theta_after);
-    share_after = std::max(share_after, other.share_after);
+    ratio_after = std::max(ratio_after, other.ratio_after);
   }
   failures.insert(failures.end(), other.failures.begin(), other.failures.end());
 }
@@ -248,7 +248,7 @@ std::string BatchAgreement::figures() const {
       "the steps), other discrete measure {}, on an edge {}; of the sliding ones {} part, {} not on an "
       "edge, the others stay within {:.1e} count ({:.1e} of what is promised)",
       trials, in_lanes, slides, samples, theta, floating, other_counts, other_depth, depth_apart,
-      depth_by_steps, other_measures, on_edge, part, stray, theta_after, share_after);
+      depth_by_steps, other_measures, on_edge, part, stray, theta_after, ratio_after);
 }
 
 }  // namespace zerocount::testing

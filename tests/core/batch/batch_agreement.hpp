@@ -60,7 +60,7 @@ struct BatchAgreement {
   std::int64_t stray{0};
   double theta_after{0.0};  ///< largest difference of θ after the slide, in trials that do not part, counts
   /// Largest ratio of that difference to the promised accuracy, 1e-3 count + 1e-7 of the travel.
-  double share_after{0.0};
+  double ratio_after{0.0};
   std::vector<std::string>
       failures{};  ///< one line for each trial of other_counts to other_measures, or stray
 
@@ -87,7 +87,7 @@ inline BatchAgreement expect_agreement(const std::vector<trial::TrialParameters>
   EXPECT_LE(agreement.depth_by_steps, 1 + agreement.trials / 100);
   EXPECT_LE(agreement.part, 1 + agreement.slides / 20);
   EXPECT_LT(agreement.theta, 1e-7);
-  EXPECT_LT(agreement.share_after, 0.1);
+  EXPECT_LT(agreement.ratio_after, 0.1);
   return agreement;
 }
 

@@ -21,14 +21,14 @@ struct HeldTorque {
 /// The torques of a trial by run_trial(), [move][hold], with one hold per sample.
 std::vector<std::vector<HeldTorque>> torques_of(const trial::TrialParameters& parameters) {
   std::vector<std::vector<HeldTorque>> moves;
-  std::int64_t left = 0;
+  std::int64_t remaining = 0;
   trial::TrialObservers observers;
   observers.sample = [&](const trial::SampleRecord& sample) {
-    if (left == 0) {
-      left = trial::samples_of_move(parameters, moves.size());
+    if (remaining == 0) {
+      remaining = trial::samples_of_move(parameters, moves.size());
       moves.emplace_back();
     }
-    --left;
+    --remaining;
     moves.back().push_back({sample.drive_torque, 1.0 / parameters.controller.sample_rate});
   };
   trial::run_trial(parameters, observers);

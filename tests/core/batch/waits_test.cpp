@@ -243,9 +243,9 @@ trial::TrialParameters vibrated_trial(RandomBlocks& draw, double peak, int lines
   p.command.hold = 0.02;
   constexpr double by_rate[] = {0.25, 0.5, 1.25, 1.5, 2.25};
   for (int i = 0; i < lines; ++i) {
-    const double share = lines == 1 ? by_rate[number % 5] : draw.uniform(0.05, 0.5);
+    const double proportion = lines == 1 ? by_rate[number % 5] : draw.uniform(0.05, 0.5);
     const double phase = number % 3 == 2 ? draw.uniform(0.0, 6.28) : 0.5 * M_PI * (number % 4);
-    p.disturbance.vibration.push_back({0.1 * peak / lines, share * p.controller.sample_rate, phase});
+    p.disturbance.vibration.push_back({0.1 * peak / lines, proportion * p.controller.sample_rate, phase});
   }
   return p;
 }

@@ -320,8 +320,8 @@ TEST(Reference, ARecordIsStraightBetweenItsRows) {
     const double before = record.time[row - 1], xb = record.position[row - 1];
     const ReferenceMotion motion = reference.motion_at(t0);
     EXPECT_NEAR(motion.velocity, (x1 - xb) / (t1 - before), 1e-9 * std::abs(motion.velocity));
-    const double bend = (x1 - x0) / (t1 - t0) - (x0 - xb) / (t0 - before);
-    EXPECT_NEAR(motion.acceleration, 2.0 * bend / (t1 - before), 1e-9 * std::abs(motion.acceleration));
+    const double curvature = (x1 - x0) / (t1 - t0) - (x0 - xb) / (t0 - before);
+    EXPECT_NEAR(motion.acceleration, 2.0 * curvature / (t1 - before), 1e-9 * std::abs(motion.acceleration));
     EXPECT_EQ(reference.exact_at(9.0), record.position.back() / paper_resolution);
   }
 }

@@ -37,8 +37,8 @@ TEST(PlantWithALoad, MatchesTheMatrixExponentialOnALinearSpring) {
       parameters.load.damping_to_ground = 0.02;
       parameters.load.encoder = at_load ? motion::EncoderPlace::load : motion::EncoderPlace::motor;
       const friction::FrictionAlongRotor friction = linear_spring();
-      const theory::HeldPlant held =
-          theory::hold_plant(friction.uniform.k1, parameters.presliding_damping, parameters, 1.0, sample, {});
+      const theory::HeldPlant held = theory::hold_plant({friction.uniform.k1, parameters.presliding_damping},
+                                                        parameters, 1.0, sample, {});
       ASSERT_EQ(held.A.rows(), 4);
       Eigen::Vector4d state = Eigen::Vector4d::Zero();
       Plant plant(parameters, friction, {}, machine_tolerance);

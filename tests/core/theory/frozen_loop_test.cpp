@@ -10,6 +10,7 @@
 #include "core/theory/margins.hpp"
 #include "tests/core/loop/random_blocks.hpp"
 #include "tests/core/loop/test_blocks.hpp"
+#include "tests/core/theory/analogue_controller.hpp"
 #include "tests/core/theory/frozen_loops.hpp"
 #include "tests/support/test.hpp"
 
@@ -222,7 +223,7 @@ constexpr loop::ControlStart wide{
     .integral_range = {-1e300, 1e300}, .resolution = count_of_paper, .velocity_resolution = count_of_paper};
 
 HeldPlant paper_machine(double delay) {
-  return hold_plant(300.0, 0.2, {}, 2.0 * std::numbers::pi / 1'620'000, 5e-4, {1.1, 400.0}, delay);
+  return hold_plant({300.0, 0.2}, {}, 2.0 * std::numbers::pi / 1'620'000, 5e-4, {1.1, 400.0}, delay);
 }
 
 /// Growth per sample of the loop run with the blocks' own `step`.

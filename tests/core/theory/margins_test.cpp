@@ -32,7 +32,7 @@ TEST(Margins, GainMarginIsTheFactorToTheEdgeOfStability) {
     drive.gain *= margins.gain.value;
     const double T = 1.0 / controller.sample_rate;
     const double resolution = loop::fine_resolution({});
-    const HeldPlant plant = hold_plant(stiffness, 0.2, {}, resolution, T, drive, controller.delay);
+    const HeldPlant plant = hold_plant({stiffness, 0.2}, {}, resolution, T, drive, controller.delay);
     const Eigen::MatrixXd map = loop_map(plant, loop::linear_chain(controller, {}));
     const std::complex<double> expected =
         std::polar(1.0, 2.0 * std::numbers::pi * margins.gain.frequency * T);

@@ -1,5 +1,6 @@
 #include "core/theory/gains.hpp"
 #include "core/theory/stability.hpp"
+#include "tests/core/theory/frozen_loops.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount::theory {

@@ -7,6 +7,8 @@
 #include "core/theory/move_times.hpp"
 #include "core/trial/trial.hpp"
 #include "tests/core/loop/random_blocks.hpp"
+#include "tests/core/theory/analogue_controller.hpp"
+#include "tests/core/theory/frozen_loops.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount::theory {

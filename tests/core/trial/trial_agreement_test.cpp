@@ -48,7 +48,7 @@ void expect_odeint(const Family& family, std::uint64_t trials) {
   EXPECT_LE(total.edge_trials, static_cast<std::int64_t>(trials / 50));
   // Promised are 1e-6 count and a proportion of 1; an integrator that lost an order would show here first.
   EXPECT_LT(total.before_breakaway, 1e-7);
-  EXPECT_LT(total.after_breakaway_share, 0.1);
+  EXPECT_LT(total.after_breakaway_ratio, 0.1);
 }
 
 TEST_P(RandomTrialAgreement, EqualsBoostOdeintSampleBySample) {

@@ -232,7 +232,7 @@ TEST(WidenedMotion, AgreesWithAnotherIntegrator) {
   std::cout << total.figures() << "\n";
   for (const std::string& failure : total.failures) ADD_FAILURE() << failure;
   EXPECT_LT(total.before_breakaway, 1e-7);
-  EXPECT_LT(total.after_breakaway_share, 0.1);
+  EXPECT_LT(total.after_breakaway_ratio, 0.1);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/study_trial.hpp"
 #include "tests/experiments/manifest_texts.hpp"
+#include "tests/support/branch_law.hpp"
 
 namespace zerocount::guides {
 namespace {
@@ -132,7 +133,7 @@ TEST(Guides, EveryMachineHasTheMeasuredSpring) {
       for (std::int64_t machine = 0; machine < study.machines; ++machine) {
         const friction::FrictionParameters contact =
             friction::friction_at(study::study_trial(study, 0, machine).parameters.friction, 0.0);
-        const auto torque = [&](double travel) { return 0.5 * friction::branch_law(contact, 2.0 * travel); };
+        const auto torque = [&](double travel) { return 0.5 * testing::branch_law(contact, 2.0 * travel); };
         EXPECT_NEAR(torque(spring.travel) / spring.breakaway, 1.0, 1e-12);
         EXPECT_NEAR(torque(spring.secant_travel) / (spring.secant_stiffness * spring.secant_travel), 1.0,
                     1e-12);

@@ -4,6 +4,7 @@
 #include "experiments/study/point_limits.hpp"
 #include "experiments/study/study_trial.hpp"
 #include "tests/experiments/manifest_texts.hpp"
+#include "tests/support/branch_law.hpp"
 
 namespace zerocount::manifest {
 namespace {
@@ -109,7 +110,7 @@ TEST(MeasuredCreep, CanBeSweptOverriddenAndCorrelated) {
     EXPECT_EQ(contact_of(swept, point, 0).n, n);
     EXPECT_NEAR(contact_of(swept, point, 0).lambda, std::pow(2.0, n) * 1e5, 1e-7);
     const auto slot = parameters::find_parameter("friction.lambda").value();
-    EXPECT_EQ(study::limits_of_slot(*swept.plan, slot, static_cast<std::size_t>(point)).low,
+    EXPECT_EQ(study::range_of_slot(*swept.plan, slot, static_cast<std::size_t>(point)).low,
               contact_of(swept, point, 0).lambda);
   }
   EXPECT_NEAR(
@@ -167,7 +168,7 @@ double drawn(const study::Study& study, std::int64_t index, const std::string& n
 }
 
 double virgin_torque(const friction::FrictionParameters& contact, double travel) {
-  return 0.5 * friction::branch_law(contact, 2.0 * travel);
+  return 0.5 * testing::branch_law(contact, 2.0 * travel);
 }
 
 /// Expects that the contact of the trial has the measured values, and that the stored inputs equal those of
@@ -243,8 +244,8 @@ TEST(MeasuredSpringOfStudy, IsCheckedByTheDrawsOfItsMachines) {
                {"trials=200"});
   for (std::int64_t i = 0; i < study.trials; ++i) expect_as_measured(study, i, false);
   const std::size_t beta = parameters::find_parameter("friction.beta").value();
-  const study::ValueLimits limits = study::limits_of_slot(*study.plan, beta, 0);
-  EXPECT_TRUE(limits.low > 0.0 && std::isfinite(limits.high) && limits.typical >= limits.low);
+  const study::ParameterRange range = study::range_of_slot(*study.plan, beta, 0);
+  EXPECT_TRUE(range.low > 0.0 && std::isfinite(range.high) && range.typical >= range.low);
   EXPECT_TRUE(has_faults(refusal_of(with_spring(values), {"trials=200"}),
                          "6:83: friction.measured.final_stiffness | trial | of 200 trials"));
 }

@@ -169,7 +169,7 @@ TEST(Worlds, TakeRowsOfSamplesEquallyOften) {
   for (const std::string& design : designs_with_worlds) {
     const study::Study study =
         parse_study(minimal_manifest("worlds: 16\nsamples: {file: p.csv, per: world}\n"), "m.yaml",
-                    {"trials=48", "design=" + design}, sections::known_companions(nullptr, table));
+                    {"trials=48", "design=" + design}, sections::known_external_inputs(nullptr, table));
     EXPECT_EQ(study.samples->level, study::DrawLevel::world);
     EXPECT_EQ(study::samples_text(*study.samples),
               "friction.k1, friction.k2: a row of p.csv (8 draws) for each world");

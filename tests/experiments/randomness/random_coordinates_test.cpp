@@ -135,14 +135,14 @@ command: {targets: [10], hold: 0.1}
 
 // Joint draws are one coordinate, which chooses the row.
 TEST(RandomCoordinates, RowsOfJointDrawsAreOneCoordinate) {
-  sections::Companions companions;
-  companions.samples = [](const std::string&, std::string_view) {
+  sections::ExternalInputs external;
+  external.samples = [](const std::string&, std::string_view) {
     return std::string("friction.k1,friction.k2\n100,700\n110,710\n120,720\n130,730\n");
   };
   const study::Study study = manifest::parse_study(
       "zerocount: 1\nname: rows\nseed: 5\ntrials: 100\nsamples: {file: p.csv, per: trial}\n"
       "friction: {alpha: {uniform: [0.1, 1.0]}}\ncommand: {targets: [10], hold: 0.1}\n",
-      "test.yaml", {}, companions);
+      "test.yaml", {}, external);
   const std::vector<RandomCoordinate> coordinates = random_coordinates(study, 0);
   ASSERT_EQ(coordinates.size(), 2U);
   const std::size_t rows = coordinates[0].rows > 0 ? 0 : 1;

@@ -10,9 +10,9 @@ std::string followed(const std::string& reference, const std::string& more = "")
 }
 
 study::Study followed_study(const std::string& manifest, const std::string& table = "") {
-  Companions companions;
-  companions.samples = [&table](const std::string&, std::string_view) { return table; };
-  return manifest::parse_study(manifest, "followed.yaml", {}, companions);
+  ExternalInputs external;
+  external.samples = [&table](const std::string&, std::string_view) { return table; };
+  return manifest::parse_study(manifest, "followed.yaml", {}, external);
 }
 
 std::string refusal(const std::string& manifest, const std::string& table = "") {

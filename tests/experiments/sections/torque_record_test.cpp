@@ -13,9 +13,9 @@ std::string replay(const std::string& torque, const std::string& more = "") {
 }
 
 study::Study replayed_study(const std::string& manifest, const Files& files = {}) {
-  Companions companions;
-  companions.samples = [&files](const std::string& path, std::string_view) { return files.at(path); };
-  return manifest::parse_study(manifest, "replay.yaml", {}, companions);
+  ExternalInputs external;
+  external.samples = [&files](const std::string& path, std::string_view) { return files.at(path); };
+  return manifest::parse_study(manifest, "replay.yaml", {}, external);
 }
 
 std::string refusal_of_replay(const std::string& manifest, const Files& files = {}) {
@@ -120,13 +120,13 @@ TEST(TorqueFromAFile, ATorqueBeyondTheConverterGivesAWarning) {
 }
 
 TEST(TorqueFromAFile, AMissingFileIsDescribedAsATableOfTorques) {
-  Companions companions;
+  ExternalInputs external;
   std::string expected;
-  companions.samples = [&](const std::string&, std::string_view what) {
+  external.samples = [&](const std::string&, std::string_view what) {
     expected = what;
     return table.begin()->second;
   };
-  manifest::parse_study(replay("{file: record.csv}"), "replay.yaml", {}, companions);
+  manifest::parse_study(replay("{file: record.csv}"), "replay.yaml", {}, external);
   EXPECT_EQ(expected, "a table of torques");
 }
 
@@ -139,9 +139,9 @@ std::string with_spectrum(const std::string& spectrum) {
 }
 
 study::Study study_with(const std::string& spectrum, const std::map<std::string, std::string>& files = {}) {
-  Companions companions;
-  companions.samples = [&files](const std::string& path, std::string_view) { return files.at(path); };
-  return manifest::parse_study(with_spectrum(spectrum), "floor.yaml", {}, companions);
+  ExternalInputs external;
+  external.samples = [&files](const std::string& path, std::string_view) { return files.at(path); };
+  return manifest::parse_study(with_spectrum(spectrum), "floor.yaml", {}, external);
 }
 
 std::string error_with(const std::string& spectrum, const std::map<std::string, std::string>& files = {}) {
@@ -191,7 +191,7 @@ TEST(Spectrum, AbsurdSizesAreRefused) {
 using Draw = std::vector<double>;
 
 study::Study study_with_samples(const std::string& table, const std::string& more) {
-  return manifest::parse_study(minimal_manifest(more), "m.yaml", {}, known_companions(nullptr, table));
+  return manifest::parse_study(minimal_manifest(more), "m.yaml", {}, known_external_inputs(nullptr, table));
 }
 
 std::string refusal_with(const std::string& table, const std::string& more) {
@@ -235,8 +235,9 @@ TEST(Samples, AreDrawnAsWholeRows) {
 
 TEST(Samples, AreEquallyLikely) {
   const RandomTable table(10, 5);
-  const study::Study study = manifest::parse_study(minimal_manifest("samples: p.csv\n"), "m.yaml",
-                                                   {"trials=20000"}, known_companions(nullptr, table.text));
+  const study::Study study =
+      manifest::parse_study(minimal_manifest("samples: p.csv\n"), "m.yaml", {"trials=20000"},
+                            known_external_inputs(nullptr, table.text));
   double chi_squared = 0.0;
   for (const auto& [draw, count] : counts_of(study)) {
     const double expected = 2000.0;
@@ -252,7 +253,7 @@ TEST_P(EvenDesigns, UseEveryRowEquallyOften) {
   const RandomTable table(16, 3);
   const study::Study study = manifest::parse_study(minimal_manifest("samples: p.csv\n"), "m.yaml",
                                                    {"trials=64", std::string("design=") + GetParam()},
-                                                   known_companions(nullptr, table.text));
+                                                   known_external_inputs(nullptr, table.text));
   const auto counts = counts_of(study);
   EXPECT_EQ(counts.size(), 16U);
   for (const auto& [draw, count] : counts) EXPECT_EQ(count, 4);
@@ -264,7 +265,7 @@ TEST(Samples, AreDrawnPerMachineIfThereAreMachines) {
   const RandomTable table(30, 8);
   const study::Study study =
       manifest::parse_study(minimal_manifest("samples: p.csv\n"), "m.yaml", {"trials=40", "machines=10"},
-                            known_companions(nullptr, table.text));
+                            known_external_inputs(nullptr, table.text));
   EXPECT_EQ(study.samples->level, study::DrawLevel::machine);
   for (std::int64_t trial = 10; trial < 40; ++trial)
     EXPECT_EQ(inputs_of(study, trial), inputs_of(study, trial % 10));
@@ -276,7 +277,7 @@ TEST(Samples, CanBeDrawnForEveryTrialWithMachines) {
   const RandomTable table(1000, 8);
   const study::Study study =
       manifest::parse_study(minimal_manifest("samples: {file: p.csv, per: trial}\n"), "m.yaml",
-                            {"trials=40", "machines=10"}, known_companions(nullptr, table.text));
+                            {"trials=40", "machines=10"}, known_external_inputs(nullptr, table.text));
   EXPECT_GT(counts_of(study).size(), 30U);
 }
 

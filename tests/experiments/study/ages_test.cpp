@@ -150,21 +150,22 @@ double rate_of(const AgedValue& value, const Study& study, const StudyTrial& tri
 TEST(Groupings, DivideTheTrialsEquallyAndIndependently) {
   constexpr std::int64_t trials = 240;
   for (const std::int64_t machines : {1, 4}) {
-    const TrialTurns turns{.machines = machines, .conditions = 6, .worlds = 2, .ages = 2};
+    const TrialIndices indices{.machines = machines, .conditions = 6, .worlds = 2, .ages = 2};
     const std::vector<std::int64_t> sizes{machines, 2, 3, 2};
     for (const GroupingTraits& of : groupings) {
       std::vector<std::int64_t> counted(
           static_cast<std::size_t>(sizes.at(static_cast<std::size_t>(of.grouping))));
       for (std::int64_t i = 0; i < trials; ++i)
-        ++counted.at(static_cast<std::size_t>(turns.group_of(of.grouping, i)));
+        ++counted.at(static_cast<std::size_t>(indices.group_of(of.grouping, i)));
       EXPECT_EQ(counted, std::vector<std::int64_t>(counted.size(), trials / std::ssize(counted))) << of.name;
     }
     for (std::int64_t i = 0; i < trials; ++i) {
       // The conditions of an age are together. What a machine bears in turn leaves its draw as it is.
-      EXPECT_EQ(turns.group_of(Grouping::condition, i) + 3 * turns.group_of(Grouping::age, i),
-                turns.condition_of(i));
+      EXPECT_EQ(indices.group_of(Grouping::condition, i) + 3 * indices.group_of(Grouping::age, i),
+                indices.condition_of(i));
       for (const Grouping of_draw : {Grouping::machine, Grouping::world})
-        EXPECT_EQ(turns.group_of(of_draw, turns.trial_of(turns.draw_of(i), 0)), turns.group_of(of_draw, i));
+        EXPECT_EQ(indices.group_of(of_draw, indices.trial_of(indices.draw_of(i), 0)),
+                  indices.group_of(of_draw, i));
     }
   }
 }
@@ -189,7 +190,7 @@ TEST(Ages, TrialsTakeThemInRotationWithTheDrawsOfAStudyWithoutAges) {
       const std::int64_t same = i % r + r * (c + shape.of_age() * (j / r));
       const StudyTrial trial = study_trial(study, 0, i);
       const StudyTrial young = study_trial(without, 0, same);
-      EXPECT_EQ(turns_of(study).draw_of(i), j);
+      EXPECT_EQ(trial_indices(study).draw_of(i), j);
       EXPECT_EQ(trial.parameters.randomness.trial, young.parameters.randomness.trial);
       EXPECT_EQ(trial.parameters.command.targets, young.parameters.command.targets);
       EXPECT_EQ(trial.parameters.controller.ki, young.parameters.controller.ki);
@@ -330,11 +331,11 @@ TEST(Ages, TheStudyUnderOneSettingHasItsTrials) {
     const Shape shape = random.shape();
     const Study study =
         study_of(manifest_of_shape(shape, random.values(shape.worlds > 0), random.ages(shape.ages)));
-    for (std::int64_t turn = 0; turn < condition_count(study); ++turn) {
-      const Study alone = under_condition(study, turn);
+    for (std::int64_t setting = 0; setting < condition_count(study); ++setting) {
+      const Study alone = under_condition(study, setting);
       EXPECT_EQ(alone.trials, shape.machines * shape.each);
       for (std::int64_t j = 0; j < alone.trials; ++j) {
-        const std::int64_t i = turns_of(study).trial_of(j, turn);
+        const std::int64_t i = trial_indices(study).trial_of(j, setting);
         EXPECT_EQ(fmt::format("{}", fmt::join(study_trial(alone, 0, j).inputs, " ")),
                   fmt::format("{}", fmt::join(study_trial(study, 0, i).inputs, " ")));
       }
@@ -353,9 +354,9 @@ TEST(Ages, AreNamedInFewDigits) {
   EXPECT_EQ(study.conditions, (std::vector<std::string>{"b, 0 km", "a, 0 km", "b, 100000 km", "a, 100000 km",
                                                         "b, 1234567 km", "a, 1234567 km"}));
   EXPECT_EQ(study.condition_names, (std::vector<std::string>{"b", "a"}));
-  EXPECT_EQ(turn_named(study, "a", 100000.0), 3);
-  EXPECT_THROW(turn_named(study, "a", std::nullopt), std::exception);
-  EXPECT_THROW(turn_named(study, "a", 5.0), std::exception);
+  EXPECT_EQ(setting_named(study, "a", 100000.0), 3);
+  EXPECT_THROW(setting_named(study, "a", std::nullopt), std::exception);
+  EXPECT_THROW(setting_named(study, "a", 5.0), std::exception);
 }
 
 std::string refusal_with(const std::string& more, const std::string& ages = "ages: {at: [0, 10]}\n") {

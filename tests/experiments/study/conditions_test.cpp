@@ -133,7 +133,7 @@ TEST(Conditions, ATrialEqualsThatOfTheStudyWithTheOverrides) {
               if (i / r % conditions != c) continue;
               const std::int64_t j = i % r + r * (i / (r * conditions));
               draws.insert(j);
-              EXPECT_EQ(turns_of(study).trial_of(j, c), i);
+              EXPECT_EQ(trial_indices(study).trial_of(j, c), i);
               if (worlds > 0) {
                 EXPECT_EQ(group_of(study, Grouping::world, i), group_of(other, Grouping::world, j));
               }
@@ -189,7 +189,7 @@ TEST(Conditions, MachinesAndWorldsListOverriddenValuesPerCondition) {
     const std::string place = "@" + study.conditions[static_cast<std::size_t>(c)];
     const std::set<std::string> overridden{"friction.k2", "friction.lambda", "plant.inertia"};
     for (std::int64_t machine = 0; machine < study.machines; ++machine) {
-      const StudyTrial trial = study_trial(study, 0, turns_of(study).trial_of(machine, c));
+      const StudyTrial trial = study_trial(study, 0, trial_indices(study).trial_of(machine, c));
       const std::int64_t world = machine % study.worlds;
       const auto of_machine =
           values_of(study.columns.shared[Grouping::machine], group_inputs(study, Grouping::machine, machine));

@@ -3,13 +3,13 @@
 #include <Eigen/LU>
 #include <boost/math/distributions/normal.hpp>
 
-#include "core/theory/stability.hpp"
 #include "core/trial/trial_of.hpp"
 #include "experiments/study/draws.hpp"
 #include "experiments/study/group_inputs.hpp"
 #include "experiments/study/point_limits.hpp"
 #include "experiments/study/study_trial.hpp"
 #include "tests/core/friction/spring_damper.hpp"
+#include "tests/core/theory/frozen_loops.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
 namespace zerocount::study {

@@ -254,7 +254,7 @@ TEST(Machines, AVariantSharesEqualProfilesWithTheStudy) {
   const auto shares = [&](const std::vector<std::string>& overrides) {
     std::vector<std::string> all{"machines=4", "trials=8"};
     all.insert(all.end(), overrides.begin(), overrides.end());
-    const Study variant = manifest::parse_study(text, "m.yaml", all, sections::companions_of(study));
+    const Study variant = manifest::parse_study(text, "m.yaml", all, sections::external_inputs_of(study));
     return variant.plan->profiles.front() == study.plan->profiles.front();
   };
   EXPECT_TRUE(shares({"plant.inertia=1e-3"}));

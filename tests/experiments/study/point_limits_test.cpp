@@ -13,7 +13,7 @@ using Combination = std::vector<double>;
 
 Combination combination_at(const StudyPlan& plan, const std::vector<std::size_t>& slots, std::size_t point) {
   Combination values;
-  for (const ValueLimits& limits : limits_at(plan, slots, point)) values.push_back(limits.low);
+  for (const ParameterRange& range : ranges_at(plan, slots, point)) values.push_back(range.low);
   return values;
 }
 
@@ -72,24 +72,24 @@ TEST(PointVisits, AVisitMayEndEarly) {
   EXPECT_EQ(count, 2u);
 }
 
-ValueLimits limits_of_velocity(const std::string& velocity) {
+ParameterRange range_of_velocity(const std::string& velocity) {
   const Study study = study_of(minimal_manifest("initial: {velocity: " + velocity + "}\n"));
   const std::vector<std::string_view> name{"initial.velocity"};
-  return limits_at(*study.plan, slots_named(study.plan->table, name), 0).front();
+  return ranges_at(*study.plan, slots_named(study.plan->table, name), 0).front();
 }
 
 TEST(PointRanges, AreTheSupportAndKnowWhetherItContainsZero) {
-  EXPECT_EQ(limits_of_velocity("0.5").low, 0.5);
-  EXPECT_FALSE(limits_of_velocity("0.5").can_be_zero);
-  EXPECT_TRUE(limits_of_velocity("0").can_be_zero);
-  EXPECT_EQ(limits_of_velocity("{uniform: [-1, 2]}").low, -1);
-  EXPECT_EQ(limits_of_velocity("{uniform: [-1, 2]}").high, 2);
-  EXPECT_TRUE(limits_of_velocity("{uniform: [0, 1]}").can_be_zero);
-  EXPECT_FALSE(limits_of_velocity("{uniform: [-1, 0]}").can_be_zero) << "the upper end is not drawn";
-  EXPECT_FALSE(limits_of_velocity("{choice: [-1, 1]}").can_be_zero);
-  EXPECT_TRUE(limits_of_velocity("{choice: [-1, 0, 1]}").can_be_zero);
-  EXPECT_FALSE(limits_of_velocity("{lognormal: {median: 1, cv: 1}}").can_be_zero);
-  EXPECT_TRUE(limits_of_velocity("{integers: [-1, 1]}").can_be_zero);
+  EXPECT_EQ(range_of_velocity("0.5").low, 0.5);
+  EXPECT_FALSE(range_of_velocity("0.5").can_be_zero);
+  EXPECT_TRUE(range_of_velocity("0").can_be_zero);
+  EXPECT_EQ(range_of_velocity("{uniform: [-1, 2]}").low, -1);
+  EXPECT_EQ(range_of_velocity("{uniform: [-1, 2]}").high, 2);
+  EXPECT_TRUE(range_of_velocity("{uniform: [0, 1]}").can_be_zero);
+  EXPECT_FALSE(range_of_velocity("{uniform: [-1, 0]}").can_be_zero) << "the upper end is not drawn";
+  EXPECT_FALSE(range_of_velocity("{choice: [-1, 1]}").can_be_zero);
+  EXPECT_TRUE(range_of_velocity("{choice: [-1, 0, 1]}").can_be_zero);
+  EXPECT_FALSE(range_of_velocity("{lognormal: {median: 1, cv: 1}}").can_be_zero);
+  EXPECT_TRUE(range_of_velocity("{integers: [-1, 1]}").can_be_zero);
 }
 
 // A list of values need not be in their order.
@@ -98,10 +98,10 @@ TEST(PointRanges, AChoiceHasItsLowestHighestAndMedianValue) {
   const std::size_t slot =
       slots_named(study.plan->table, std::vector<std::string_view>{"friction.k1"}).front();
   EXPECT_EQ(extremes_of(*study.plan, slot, 0), (std::pair{50.0, 600.0}));
-  const ValueLimits limits = limits_of_slot(*study.plan, slot, 0);
-  EXPECT_EQ(limits.low, 50.0);
-  EXPECT_EQ(limits.high, 600.0);
-  EXPECT_EQ(limits.typical, 90.0);
+  const ParameterRange range = range_of_slot(*study.plan, slot, 0);
+  EXPECT_EQ(range.low, 50.0);
+  EXPECT_EQ(range.high, 600.0);
+  EXPECT_EQ(range.typical, 90.0);
 }
 
 }  // namespace

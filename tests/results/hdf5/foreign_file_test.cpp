@@ -12,6 +12,7 @@
 #include "core/failure/failure.hpp"
 #include "results/storage/file_contents.hpp"
 #include "tests/results/samples.hpp"
+#include "tests/support/checksum.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount::testing {
@@ -36,7 +37,7 @@ class ForeignFile : public ::testing::Test {
     bytes.at(collection + place) = value;
     bytes.resize(bytes.size() - storage::checksum_trailer_length);
     write_bytes(directory / "changed.h5", bytes);
-    storage::append_checksum(directory / "changed.h5");
+    append_checksum(directory / "changed.h5");
     return directory / "changed.h5";
   }
 

@@ -70,13 +70,13 @@ std::string type_name(hdf5::Element element) {
 TEST(Documentation, DescribesExactlyTheGroupsAndMeasuresOfAFile) {
   const TemporaryFolder directory;
   const TemporaryFolder directory_with_machines;
-  const TemporaryFolder directory_with_companions;
+  const TemporaryFolder directory_with_external_inputs;
   const TemporaryFolder directory_with_worlds;
-  study::Study with_companions = sample_study();
-  with_companions.features.own_controller = true;
-  with_companions.plugin = std::make_shared<const plugin::ControllerPlugin>(
+  study::Study with_external_inputs = sample_study();
+  with_external_inputs.features.own_controller = true;
+  with_external_inputs.plugin = std::make_shared<const plugin::ControllerPlugin>(
       plugin::ControllerPlugin{{"own", "1", "0123", {{"gain", "1", "a gain", 1.0, 0.0, 2.0}}}});
-  with_companions.samples = study::JointSamples{
+  with_external_inputs.samples = study::JointSamples{
       .file = "posterior.csv", .text = "friction.k1\n110\n", .parameters = {"friction.k1"}, .rows = 1};
   std::map<std::string, std::vector<std::string>> measures;
   for (const std::vector<std::string>& row : documented("path")) measures.emplace(row[0], row);
@@ -106,7 +106,7 @@ TEST(Documentation, DescribesExactlyTheGroupsAndMeasuresOfAFile) {
   };
   for_each_dataset(write_sample_file(directory.path(), sample_study()), look_up);
   for_each_dataset(write_sample_file(directory_with_machines.path(), sample_study_with_machines()), look_up);
-  for_each_dataset(write_sample_file(directory_with_companions.path(), with_companions), look_up);
+  for_each_dataset(write_sample_file(directory_with_external_inputs.path(), with_external_inputs), look_up);
   study::Study in_worlds = sample_study_in_worlds();
   in_worlds.conditions = in_worlds.condition_names = {"empty", "loaded"};
   in_worlds.ages.at = {0.0, 1.0};

@@ -1,9 +1,9 @@
 #include "results/hdf5/hdf5.hpp"
 #include "results/reading/all_trials_file.hpp"
-#include "results/storage/file_contents.hpp"
 #include "tests/results/failures.hpp"
 #include "tests/results/samples.hpp"
 #include "tests/results/walk.hpp"
+#include "tests/support/checksum.hpp"
 #include "tests/support/raw_hdf5.hpp"
 #include "tests/support/test.hpp"
 
@@ -37,11 +37,11 @@ class StoredValues : public ::testing::Test {
   fs::path forged(const std::string& dataset, std::int64_t row, Value value) const {
     fs::path path = directory / "forged.h5";
     fs::copy_file(original, path, fs::copy_options::overwrite_existing);
-    unseal(path);
+    remove_checksum(path);
     hdf5::File file = hdf5::File::open_to_change(path);
     write_row(file.open_dataset(dataset), row, value);
     file.close();
-    storage::append_checksum(path);
+    append_checksum(path);
     return path;
   }
 
@@ -182,7 +182,7 @@ TEST_F(UnusableFile, AnotherFormatIsReported) {
   expect_bad(directory / "empty.h5", "not in the HDF5 format");
   write_empty_hdf5(directory / "foreign.h5");
   expect_bad(directory / "foreign.h5", "the checksum at its end is missing");
-  storage::append_checksum(directory / "foreign.h5");
+  append_checksum(directory / "foreign.h5");
   expect_bad(directory / "foreign.h5", "foreign.h5: not a results file of zerocount");
   replace_attribute(copy("format.h5"), "format", std::string("else"));
   expect_bad(directory / "format.h5", "format.h5: its format is 'else'; expected 'zerocount-study'");
@@ -266,8 +266,8 @@ TEST_F(UnusableFile, AFlippedBitFailsTheChecksum) {
     damaged[chunk_address(original, column) + 5] ^= 4;
     write_bytes(path, damaged);
     expect_bad(path, "changed since it was written, or damaged");
-    unseal(path);
-    storage::append_checksum(path);
+    remove_checksum(path);
+    append_checksum(path);
     expect_bad(path, column);
     expect_bad(path, "their checksum is wrong");
   }

@@ -49,7 +49,7 @@ TEST(Merge, KeepsEverythingOfEveryTrial) {
   std::int64_t record = 0;
   for (std::int64_t row = 0; row < study::trial_count(study); ++row) {
     const shards::TrialResult expected = sample_result(study, row);
-    EXPECT_EQ(file.inputs_of(row), expected.inputs);
+    EXPECT_EQ(inputs_of(file, row), expected.inputs);
     expect_equal_records(file.measures(), file.outcomes({row, 1}), expected.outcome.moves);
     std::vector<layout::JerkRecord> jerks;
     for (const trial::Jerk& each : expected.jerks) jerks.push_back({each, row});

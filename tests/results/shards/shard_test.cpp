@@ -12,6 +12,7 @@
 #include "tests/results/equality.hpp"
 #include "tests/results/failures.hpp"
 #include "tests/results/samples.hpp"
+#include "tests/support/checksum.hpp"
 #include "tests/support/merged_file.hpp"
 #include "tests/support/raw_hdf5.hpp"
 #include "tests/support/test.hpp"
@@ -25,7 +26,7 @@ void replace_version(const std::filesystem::path& path, int version) {
   bytes.resize(bytes.size() - storage::checksum_trailer_length);
   const std::string start = "zerocount-shard ";
   write_bytes(path, start + std::to_string(version) + bytes.substr(bytes.find(' ', start.size())));
-  storage::append_checksum(path);
+  append_checksum(path);
 }
 
 TEST(Shard, ReadsBackWhatWasWritten) {
@@ -40,7 +41,7 @@ TEST(Shard, ReadsBackWhatWasWritten) {
   EXPECT_EQ(file.header().study_sha256, study.study_sha256);
   for (std::int64_t row = rows.first; row < rows.end(); ++row) {
     const shards::TrialResult expected = sample_result(study, row);
-    EXPECT_EQ(file.inputs_of(row), expected.inputs);
+    EXPECT_EQ(inputs_of(file, row), expected.inputs);
     expect_equal_records(file.measures(), file.outcomes({row, 1}), expected.outcome.moves);
     std::vector<layout::JerkRecord> jerks;
     for (const trial::Jerk& jerk : expected.jerks) jerks.push_back({jerk, row});
@@ -101,7 +102,7 @@ TEST(Shard, AShardOfAnotherBuildIsNotRead) {
   bytes.resize(bytes.size() - storage::checksum_trailer_length);
   bytes[bytes.find(layout::current_provenance().git_commit)] ^= 1;
   write_bytes(shard.path, bytes);
-  storage::append_checksum(shard.path);
+  append_checksum(shard.path);
   EXPECT_NO_THROW(shards::unchecked_header(shard.path));
   EXPECT_THROW(reading::AllTrialsFile(shard.path, reading::Require::any_part, nullptr, &study),
                layout::ForeignFile);

@@ -6,9 +6,9 @@
 #include "results/hdf5/hdf5.hpp"
 #include "results/reading/export.hpp"
 #include "results/reading/first_difference.hpp"
-#include "results/storage/file_contents.hpp"
 #include "tests/results/failures.hpp"
 #include "tests/results/samples.hpp"
+#include "tests/support/checksum.hpp"
 #include "tests/support/merged_file.hpp"
 #include "tests/support/raw_hdf5.hpp"
 #include "tests/support/test.hpp"
@@ -200,7 +200,7 @@ std::filesystem::path with_world_count(const std::filesystem::path& original, co
                                        std::int64_t point, std::size_t world, std::int64_t count) {
   const std::filesystem::path path = original.parent_path() / "forged.h5";
   std::filesystem::copy_file(original, path, std::filesystem::copy_options::overwrite_existing);
-  unseal(path);
+  remove_checksum(path);
   hdf5::File file = hdf5::File::open_to_change(path);
   {
     hdf5::Dataset counts = file.open_dataset(dataset);
@@ -210,7 +210,7 @@ std::filesystem::path with_world_count(const std::filesystem::path& original, co
     counts.write(point, 1, row.data());
   }
   file.close();
-  storage::append_checksum(path);
+  append_checksum(path);
   return path;
 }
 

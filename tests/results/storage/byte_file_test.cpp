@@ -11,6 +11,7 @@
 #include "results/timeline/timeline.hpp"
 #include "tests/results/failures.hpp"
 #include "tests/results/samples.hpp"
+#include "tests/support/checksum.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount::testing {
@@ -92,7 +93,7 @@ TEST(ChecksumTrailer, IsTheChecksumOfEverythingBeforeIt) {
     std::string bytes(size, '\0');
     for (char& byte : bytes) byte = static_cast<char>(random());
     const std::filesystem::path path = folder.write("file", bytes);
-    storage::append_checksum(path);
+    append_checksum(path);
     const std::string text = "zerocount-seal sha256 " + hash::sha256_hex(bytes) + "\n";
     EXPECT_EQ(text.size(), storage::checksum_trailer_length);
     EXPECT_TRUE(folder.read("file") == bytes + text) << size;
@@ -147,7 +148,7 @@ TEST(ChecksumTrailer, AMissingOrWrongTrailerMeansChangedOrDamaged) {
       folder.write("file", "some contents, longer than a trailer" + std::string(200, '.'));
   const std::string words = "changed since it was written, or damaged";
   expect_failure(ExitCode::bad_data, words, [&] { storage::require_valid_checksum(path); });
-  storage::append_checksum(path);
+  append_checksum(path);
   std::string bytes = folder.read("file");
   bytes[3] = 'E';
   folder.write("file", bytes);

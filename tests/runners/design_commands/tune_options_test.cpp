@@ -133,8 +133,8 @@ TEST_F(TuneBudget, NeverExceedsTheBudgetOfTime) {
   write_axis("goal: {band: 1, within: 0.06, moves: 0.9}\n" + std::string(two_gains));
   const auto start = std::chrono::steady_clock::now();
   const ProgramResult result = tune({}, "2s");
-  const double taken = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  EXPECT_LE(taken, 1.1 * 2.0 + 0.5) << "half a second for a busy machine";
+  const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  EXPECT_LE(elapsed, 1.1 * 2.0 + 0.5) << "half a second for a busy machine";
   EXPECT_LE(Json::parse(result.out)["searched"]["seconds"], 1.1 * 2.0);
   const ProgramResult none = tune({}, "0.06s");
   EXPECT_EQ(none.code, 3);

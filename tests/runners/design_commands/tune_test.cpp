@@ -180,7 +180,7 @@ TEST_F(Tune, BehaviourOfTheTunedValuesMatchesAPlainRun) {
   // Quantiles, proportions and units by goal and condition, from the moves themselves.
   const reading::AllTrialsFile file(folder_.path() / "again.h5");
   const study::Study study = file.study();
-  const study::TrialTurns turns = study::turns_of(study);
+  const study::TrialIndices indices = study::trial_indices(study);
   const double count = 2.0 * 3.14159265358979323846 / 1620000.0;
   constexpr double range = 0.128;
   for (const Json& row : answer["behaviour"]) {
@@ -189,7 +189,8 @@ TEST_F(Tune, BehaviourOfTheTunedValuesMatchesAPlainRun) {
     double saturated = 0.0, power = 0.0, changes = 0.0;
     std::int64_t at_rest = 0;
     for (std::int64_t trial = 0; trial < study.trials; ++trial) {
-      if (study.conditions[static_cast<std::size_t>(turns.condition_of(trial))] != row["condition"]) continue;
+      if (study.conditions[static_cast<std::size_t>(indices.condition_of(trial))] != row["condition"])
+        continue;
       const std::vector<trial::MoveOutcome> moves = file.outcomes({trial, 1});
       const trial::MoveOutcome& one = moves[move];
       // From 0 to the first target, and back.

@@ -4,7 +4,7 @@
 #include "experiments/study/plan.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/all_trials_file.hpp"
-#include "runners/tuning/units/unit_runner.hpp"
+#include "runners/tuning/machine_runs/machine_runner.hpp"
 #include "tests/runners/design_commands/tune_fixture.hpp"
 #include "tests/runners/program.hpp"
 
@@ -184,7 +184,7 @@ TEST_F(Worst, IsSoughtAtOneAge) {
   ASSERT_EQ(one.code, 0) << one.err;
   const Json found = Json::parse(one.out);
   EXPECT_EQ(found["condition"], "cold, 1000000 cycles");
-  // Trials of the last turn, of the whole study.
+  // Trials of the last condition and age, of the whole study.
   EXPECT_GE(found["trial"].get<int>() / 8 % 4, 3);
   EXPECT_LE(Json::parse(all.out)["box"]["met"], found["box"]["met"]);
   EXPECT_EQ(program({"limits", "aging.yaml", "--age", "2"}).code, 2);

@@ -335,7 +335,7 @@ WeightedPoints two_clusters(NumberSource& numbers) {
   return points;
 }
 
-// The mean of a likelihood ratio is 1, and it is at most the inverse of the natural share.
+// The mean of a likelihood ratio is 1, and it is at most the inverse of the natural proportion.
 TEST(NormalMixture, ImportanceWeightsHaveTheMeanOne) {
   NumberSource numbers = numbers_of(1);
   const TrialSpace space = trial_space(4, {});

@@ -142,11 +142,11 @@ TEST(Variant, UnderAConditionHasTheTrialsOfThatCondition) {
   const std::vector<std::string> names{"controller.ki"};
   const study::Study edited = with_values(study, names, std::vector<double>{2.0e-5}).value();
   for (const study::Study* one : {&study, &edited}) {
-    const study::TrialTurns turns = study::turns_of(*one);
+    const study::TrialIndices indices = study::trial_indices(*one);
     for (std::int64_t trial = 0; trial < one->trials; ++trial) {
-      const study::Study alone = under_condition(*one, turns.condition_of(trial));
+      const study::Study alone = under_condition(*one, indices.condition_of(trial));
       EXPECT_EQ(alone.trials, study::draw_count(*one));
-      EXPECT_EQ(motion_of(*one, trial), motion_of(alone, turns.draw_of(trial))) << trial;
+      EXPECT_EQ(motion_of(*one, trial), motion_of(alone, indices.draw_of(trial))) << trial;
     }
   }
 }
@@ -168,22 +168,22 @@ TEST(Effort, WithoutLimitsIsNeverExhausted) {
   EXPECT_EQ(effort.seconds_left(), std::numeric_limits<double>::infinity());
 }
 
-// However the whole is divided, its trials are not exceeded, and what a share leaves stays with the whole.
+// However the whole is divided, its trials are not exceeded, and what a part leaves stays with the whole.
 TEST(Effort, NeverSpendsMoreTrialsThanItHas) {
   std::mt19937 random(3);
   std::uniform_int_distribution<std::int64_t> number(1, 400);
   for (int round = 0; round < 200; ++round) {
     const std::int64_t limit = number(random);
-    const Effort whole = Effort().share(limit, {});
+    const Effort whole = Effort().limited_to(limit, {});
     std::vector<Effort> efforts{whole};
     std::int64_t counted = 0;
     for (int i = 0; i < 30; ++i) {
       const Effort one = efforts[static_cast<std::size_t>(number(random)) % efforts.size()];
-      if (i % 3 == 0) efforts.push_back(one.share(number(random), {}));
+      if (i % 3 == 0) efforts.push_back(one.limited_to(number(random), {}));
       const std::int64_t trials = number(random) / 8;
-      const std::int64_t left = one.trials_left();
+      const std::int64_t remaining = one.trials_left();
       const bool enough = within(one, [&] { one.spend(trials); });
-      EXPECT_EQ(enough, trials <= left);
+      EXPECT_EQ(enough, trials <= remaining);
       counted += enough ? trials : 0;
     }
     EXPECT_LE(counted, limit);
@@ -195,7 +195,7 @@ TEST(Effort, NeverSpendsMoreTrialsThanItHas) {
 // Equal parts, taken one after the other, are all that there is; what one of them leaves goes to the later
 // ones.
 TEST(Effort, IsDividedIntoEqualParts) {
-  const Effort whole = Effort().share(1000, 60.0);
+  const Effort whole = Effort().limited_to(1000, 60.0);
   for (std::int64_t left = 4; left > 0; --left) {
     const Effort part = whole.part(left);
     EXPECT_EQ(part.trials_left(), whole.trials_left() / left);
@@ -208,9 +208,9 @@ TEST(Effort, IsDividedIntoEqualParts) {
 }
 
 TEST(Effort, StopsRunningWorkWhenItsTimeIsOver) {
-  const Effort whole = Effort().share({}, 60.0);
+  const Effort whole = Effort().limited_to({}, 60.0);
   const auto start = std::chrono::steady_clock::now();
-  const Effort part = whole.share({}, 0.05);
+  const Effort part = whole.limited_to({}, 0.05);
   const bool ended = within(part, [&] {
     while (!part.stop().stop_requested()) std::this_thread::sleep_for(milliseconds(1));
     throw trial::Interrupted{};
@@ -224,7 +224,7 @@ TEST(Effort, StopsRunningWorkWhenItsTimeIsOver) {
 
 TEST(Effort, DistinguishesAStopRequestFromATimeout) {
   std::stop_source user;
-  const Effort part = Effort(user.get_token()).share(1000, 60.0).share({}, 30.0);
+  const Effort part = Effort(user.get_token()).limited_to(1000, 60.0).limited_to({}, 30.0);
   user.request_stop();
   EXPECT_TRUE(part.stop().stop_requested());
   EXPECT_TRUE(part.is_interrupted());
@@ -249,15 +249,15 @@ initial: {{encoder_phase: {{uniform: [0, 1]}}}}
 )";
 
 void expect_same(const study::Study& one, const study::Study& whole) {
-  const study::TrialTurns turns = study::turns_of(one);
-  const study::TrialTurns all = study::turns_of(whole);
+  const study::TrialIndices indices = study::trial_indices(one);
+  const study::TrialIndices all = study::trial_indices(whole);
   EXPECT_EQ(study::draw_count(one), study::draw_count(whole));
   for (std::int64_t trial = 0; trial < one.trials; ++trial) {
-    const std::string& name = one.conditions[static_cast<std::size_t>(turns.condition_of(trial))];
-    const auto turn = std::ranges::find(whole.conditions, name) - whole.conditions.begin();
-    ASSERT_LT(turn, std::ssize(whole.conditions)) << name;
+    const std::string& name = one.conditions[static_cast<std::size_t>(indices.condition_of(trial))];
+    const auto setting = std::ranges::find(whole.conditions, name) - whole.conditions.begin();
+    ASSERT_LT(setting, std::ssize(whole.conditions)) << name;
     EXPECT_EQ(study::study_trial(one, 0, trial).inputs,
-              study::study_trial(whole, 0, all.trial_of(turns.draw_of(trial), turn)).inputs)
+              study::study_trial(whole, 0, all.trial_of(indices.draw_of(trial), setting)).inputs)
         << name << ", trial " << trial;
   }
 }

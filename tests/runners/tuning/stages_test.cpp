@@ -24,7 +24,7 @@ study::Study axis_study(const std::vector<std::string>& overrides = {}) {
 struct Searching {
   explicit Searching(std::int64_t trials, const std::vector<std::string>& overrides = {})
       : study(axis_study(overrides)),
-        space(space_of(study, {.trials = trials}, trials::Effort().share(trials, {}), {})),
+        space(space_of(study, {.trials = trials}, trials::Effort().limited_to(trials, {}), {})),
         plan(plan_search(study, space.budget, space.effort, space.speed)),
         search(study, space.free(), plan.size, journal, space.effort) {}
 
@@ -56,8 +56,8 @@ std::optional<Proven> proof_of_values(Searching& of, const Values& values,
                                       const std::filesystem::path& path) {
   SearchResult found;
   found.finalists.push_back(
-      {{}, values, results_of(of.search.candidate(values), of.search.units(), 200, nullptr, {})});
-  found.estimates.push_back(estimate_of(aim_of(of.study), found.finalists[0].units, 200));
+      {{}, values, results_of(of.search.candidate(values), of.search.machines(), 200, nullptr, {})});
+  found.estimates.push_back(estimate_of(aim_of(of.study), found.finalists[0].machines, 200));
   status::StatusLine line(true);
   return prove_values(of.space, of.search, found, {path, 1}, line);
 }
@@ -69,8 +69,8 @@ TEST(TuningStages, ProofEqualsTheVerdictOfItsFile) {
   const std::optional<Proven> proven = proof_of_values(of, values, folder.path() / "proof.h5");
   ASSERT_TRUE(proven);
   const reading::AllTrialsFile file(folder.path() / "proof.h5");
-  const trials::Replicates units = trials::replicates_of(file.study(), 0);
-  const Judged alone = judged(file.study(), units, results_in(file, file.study(), units));
+  const trials::Replicates machines = trials::replicates_of(file.study(), 0);
+  const Judged alone = judged(file.study(), machines, results_in(file, file.study(), machines));
   EXPECT_EQ(proven->proof.verdict.status, alone.verdict.status);
   EXPECT_EQ(proven->proof.verdict.moves.low, alone.verdict.moves.low);
   EXPECT_EQ(proven->proof.criterion, alone.criterion);

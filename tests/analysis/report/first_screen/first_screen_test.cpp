@@ -3,7 +3,7 @@
 
 #include "analysis/summary/move_behaviour.hpp"
 #include "experiments/manifest/load_study.hpp"
-#include "experiments/sections/companions.hpp"
+#include "experiments/sections/external_inputs.hpp"
 #include "tests/analysis/report/run_studies.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/test.hpp"

@@ -99,9 +99,9 @@ TEST(LuGre, StickSlipsBehindASpring) {
   constexpr double step = 1e-3;
   std::vector<double> force;
   for (int k = 0; k < 60000; ++k) {
-    const double pull = 2.0 * (0.1 * step * (k + 0.5) - plant.theta());
-    plant.advance(motion::constant_torque(pull), step);
-    force.push_back(pull);
+    const double torque = 2.0 * (0.1 * step * (k + 0.5) - plant.theta());
+    plant.advance(motion::constant_torque(torque), step);
+    force.push_back(torque);
   }
   EXPECT_NEAR(oscillation_of(force, step).period, 6.36, 0.01);
 }

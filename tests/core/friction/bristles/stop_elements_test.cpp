@@ -3,6 +3,7 @@
 #include "tests/support/stop_elements.hpp"
 
 #include "core/friction/presliding/spring.hpp"
+#include "tests/support/spring_moves.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount::testing {
@@ -30,7 +31,7 @@ Difference largest_difference(const friction::FrictionParameters& friction, std:
     const double x = uniform(engine, 0.0, 1.0) < 0.1
                          ? uniform(engine, -2.0, 2.0) * reach
                          : spring.elongation() + uniform(engine, -0.5, 0.5) * reach;
-    spring.move_to(x);
+    move_to(spring, x);
     stops.move_to(x);
     const double difference = std::abs(spring.torque() - stops.torque());
     worst.absolute = std::max(worst.absolute, difference);

@@ -56,11 +56,11 @@ TEST(PlantAtRest, AgreesWithTheFullEquations) {
     PreslidingPlant plant = plant_of(machine);
     OdeintMotion judge(machine);
     for (const Hold& h : random_holds(draws, machine)) {
-      for (double left = h.duration; left > 0.0;) {
-        const double piece = std::min(left, draws.uniform(0.0, 0.05));
+      for (double remaining = h.duration; remaining > 0.0;) {
+        const double piece = std::min(remaining, draws.uniform(0.0, 0.05));
         hold(plant, h.torque, piece);
         judge.advance(h.torque, piece);
-        left -= piece;
+        remaining -= piece;
         worst =
             std::max(worst, std::abs(static_cast<double>(plant.theta() - judge.theta())) / count_of(machine));
       }

@@ -4,7 +4,9 @@
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <boost/math/special_functions/lambert_w.hpp>
 
+#include "tests/support/branch_law.hpp"
 #include "tests/support/each_seed.hpp"
+#include "tests/support/spring_moves.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount::friction {
@@ -40,7 +42,7 @@ struct SpringProperties {
 
 TEST_EACH_SEED(SpringProperties, TangentFallsFromTheHighestToTheLowestStiffness) {
   HystereticSpring spring(friction_);
-  spring.move_to(5.0 * length_);
+  testing::move_to(spring, 5.0 * length_);
   spring.set_direction(-1);
   EXPECT_NEAR(stiffness_on(spring.branch(), spring.elongation()), friction_.k1 + friction_.k2,
               1e-9 * friction_.k2);
@@ -51,16 +53,16 @@ TEST_EACH_SEED(SpringProperties, TangentFallsFromTheHighestToTheLowestStiffness)
 TEST_EACH_SEED(SpringProperties, VirginCurveIsHalfTheBranchLawOfTwiceTheElongation) {
   for (const double x : random_targets(random_, friction_.beta, 20)) {
     HystereticSpring spring(friction_);
-    spring.move_to(x);
+    testing::move_to(spring, x);
     EXPECT_EQ(spring.depth(), 0u);
-    EXPECT_NEAR(spring.torque(), std::copysign(0.5 * branch_law(friction_, 2.0 * std::abs(x)), x),
+    EXPECT_NEAR(spring.torque(), std::copysign(0.5 * testing::branch_law(friction_, 2.0 * std::abs(x)), x),
                 1e-14 * torque_scale_);
   }
 }
 
 TEST_EACH_SEED(SpringProperties, ClosedMinorLoopDissipatesTheClosedForm) {
   HystereticSpring spring(friction_);
-  spring.move_to(random_targets(random_, friction_.beta, 1)[0] + 10.0 * length_);
+  testing::move_to(spring, random_targets(random_, friction_.beta, 1)[0] + 10.0 * length_);
   const double top = spring.elongation();
   const double span = length_ * std::uniform_real_distribution<double>(0.05, 6.0)(random_);
   const auto work_to = [&](double x) {  // ∫σ dx from here to x along the branch
@@ -71,7 +73,7 @@ TEST_EACH_SEED(SpringProperties, ClosedMinorLoopDissipatesTheClosedForm) {
     const double low = std::min(from, x);
     const double work =
         boost::math::quadrature::gauss_kronrod<double, 61>::integrate(torque, low, std::max(from, x));
-    spring.move_to(x);
+    testing::move_to(spring, x);
     return x > from ? work : -work;
   };
   const double dissipated = work_to(top - span) + work_to(top);
@@ -83,9 +85,9 @@ TEST_EACH_SEED(SpringProperties, ClosedMinorLoopDissipatesTheClosedForm) {
 
 TEST_EACH_SEED(SpringProperties, DepthStaysAlternatingAndNested) {
   HystereticSpring spring(friction_);
-  for (int n = 40; n > 0; --n) spring.move_to((n % 2 == 0 ? 1.0 : -1.0) * n * 0.3 * length_);
+  for (int n = 40; n > 0; --n) testing::move_to(spring, (n % 2 == 0 ? 1.0 : -1.0) * n * 0.3 * length_);
   EXPECT_EQ(spring.depth(), 39u);  // a shrinking zigzag forgets nothing
-  spring.move_to(13.0 * length_);
+  testing::move_to(spring, 13.0 * length_);
   EXPECT_EQ(spring.depth(), 0u);  // one excursion beyond all of it forgets everything
 }
 
@@ -98,9 +100,10 @@ TEST_EACH_SEED(SpringProperties, InverseOfTheBranchLawIsLambertsW) {
     const double closed_form =
         shift + boost::math::lambert_w0(ratio * std::exp(-friction_.beta * shift)) / friction_.beta;
     EXPECT_NEAR(inverse_branch_law(friction_, torque), closed_form, 1e-12 * (closed_form + length_));
-    EXPECT_NEAR(branch_law(friction_, inverse_branch_law(friction_, torque)), torque, 1e-13 * torque_scale_);
+    EXPECT_NEAR(testing::branch_law(friction_, inverse_branch_law(friction_, torque)), torque,
+                1e-13 * torque_scale_);
     HystereticSpring spring(friction_);
-    spring.move_to(virgin_elongation(friction_, -torque));
+    testing::move_to(spring, virgin_elongation(friction_, -torque));
     EXPECT_NEAR(spring.torque(), -torque, 1e-13 * torque_scale_);
   }
 }
@@ -114,8 +117,8 @@ TEST_EACH_SEED(SpringProperties, PreloadLeavesOneReversalPointAndNoTorque) {
     EXPECT_GT(spring.elongation() * preload, 0.0);  // it does not spring back all the way
 
     HystereticSpring loaded(friction_);
-    loaded.move_to(virgin_elongation(friction_, preload));
-    loaded.move_to(spring.elongation());
+    testing::move_to(loaded, virgin_elongation(friction_, preload));
+    testing::move_to(loaded, spring.elongation());
     EXPECT_NEAR(loaded.torque(), spring.torque(), 1e-13 * torque_scale_);
   }
 }
@@ -146,9 +149,9 @@ TEST_EACH_SEED(SpringProperties, PointAtATorqueEqualsTheEndOfAMoveToIt) {
     const double start = normal(random_) / friction_.k2;
     if (history % 2 == 0) spring.start_virgin(start, start > 0.0 ? -1 : 1);
     for (const double part : {0.8, 0.5}) {
-      if (history % 2 == 0) spring.move_to(part * start);
+      if (history % 2 == 0) testing::move_to(spring, part * start);
     }
-    for (const double x : random_targets(random_, friction_.beta, history % 6)) spring.move_to(x);
+    for (const double x : random_targets(random_, friction_.beta, history % 6)) testing::move_to(spring, x);
     for (int i = 0; i < 4; ++i) {
       const double torque = normal(random_);
       HystereticSpring moved = spring;
@@ -161,7 +164,7 @@ TEST_EACH_SEED(SpringProperties, PointAtATorqueEqualsTheEndOfAMoveToIt) {
 
 // The spring that follows from what one measures of it: its virgin curve passes through what was measured.
 
-class MeasuredSpring : public testing::Test {
+class MeasuredSpring : public ::testing::Test {
  protected:
   double uniform(double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random_);
@@ -183,7 +186,7 @@ double virgin_torque(double final, const Softening& softening, double travel) {
   contact.k1 = final;
   contact.k2 = softening.k2;
   contact.beta = softening.beta;
-  return 0.5 * branch_law(contact, 2.0 * travel);
+  return 0.5 * testing::branch_law(contact, 2.0 * travel);
 }
 
 TEST_F(MeasuredSpring, PassesThroughThePointAndHasBothStiffnesses) {
@@ -258,10 +261,10 @@ TEST(PreslidingRange, IsTheTravelAtWhichAVirginContactCarriesBreakaway) {
     contact.beta = log_uniform(1e2, 1e7);
     contact.breakaway = log_uniform(1e-3, 1e3);
     const double range = presliding_range(contact);
-    EXPECT_NEAR(0.5 * branch_law(contact, 2.0 * range) / contact.breakaway, 1.0, 1e-13);
+    EXPECT_NEAR(0.5 * testing::branch_law(contact, 2.0 * range) / contact.breakaway, 1.0, 1e-13);
     HystereticSpring spring(contact);
     spring.start_virgin(0.0, 1);
-    spring.move_to(range * (1.0 - 1e-9));
+    testing::move_to(spring, range * (1.0 - 1e-9));
     EXPECT_LT(spring.torque(), contact.breakaway);
     EXPECT_LE(range, contact.breakaway / contact.k1);
     EXPECT_GE(range, contact.breakaway / (contact.k1 + contact.k2));

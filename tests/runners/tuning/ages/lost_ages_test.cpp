@@ -3,7 +3,7 @@
 
 #include "core/numerics/roots.hpp"
 #include "experiments/manifest/load_study.hpp"
-#include "runners/tuning/units/unit_runner.hpp"
+#include "runners/tuning/machine_runs/machine_runner.hpp"
 #include "tests/support/test.hpp"
 
 namespace zerocount::testing {

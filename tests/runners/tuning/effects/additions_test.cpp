@@ -226,9 +226,9 @@ TEST(Additions, LargeStudiesTryResonancesOnTheirFirstMachines) {
   const study::Study study = parsed(of_trials, {larger, "command.hold=0.06"});
   const EffectRuns runs = runs_of(study);
   const Limit row = additions_to(runs).back();
-  EXPECT_LT(row.estimate.units, 6000);
-  EXPECT_NEAR(static_cast<double>(row.estimate.units) * 240, 8.0e5, 240);
-  EXPECT_TRUE(says(row.note, fmt::format("first {} of 6000 draws", row.estimate.units)));
+  EXPECT_LT(row.estimate.machines, 6000);
+  EXPECT_NEAR(static_cast<double>(row.estimate.machines) * 240, 8.0e5, 240);
+  EXPECT_TRUE(says(row.note, fmt::format("first {} of 6000 draws", row.estimate.machines)));
 }
 
 TEST(Additions, CasesThatAreNotSimulatedGiveTheReason) {
@@ -267,8 +267,8 @@ double rate_of(const study::Study& study) {
 
 std::vector<Limit> variations() {
   const study::Study study = stated();
-  const trials::Replicates units = trials::replicates_of(study, 0);
-  return variations_of(EffectRuns(study, units, {}), units,
+  const trials::Replicates machines = trials::replicates_of(study, 0);
+  return variations_of(EffectRuns(study, machines, {}), machines,
                        [](std::uint64_t seed) { return stated({fmt::format("seed={}", seed)}); });
 }
 

@@ -7,10 +7,10 @@ namespace zerocount::tuning {
 namespace {
 
 /// Machines with `moves` moves each, of which these meet the goal.
-std::vector<UnitResult> machines(const std::vector<int>& met, int moves) {
-  std::vector<UnitResult> units;
-  for (const int one : met) units.push_back({.claims = {{moves, one, {}}}});
-  return units;
+std::vector<MachineResult> machines(const std::vector<int>& met, int moves) {
+  std::vector<MachineResult> machines;
+  for (const int one : met) machines.push_back({.claims = {{moves, one, {}}}});
+  return machines;
 }
 
 double tail(int differing, int gained) {
@@ -28,7 +28,7 @@ TEST(PairedGain, IsTheExactSignTestOfTheMachinesThatDiffer) {
   const PairedGain gain = paired_gain({}, 0, machines(before, 4), machines(after, 4), 1);
   EXPECT_EQ(gain.gained, 11);
   EXPECT_EQ(gain.lost, 3);
-  EXPECT_EQ(gain.units, 40);
+  EXPECT_EQ(gain.machines, 40);
   EXPECT_NEAR(gain.p_value, tail(14, 11), 1e-12);
   EXPECT_FALSE(gain.shown) << "0.029 is above 0.05/2";
   EXPECT_TRUE(paired_gain({}, 0, machines(std::vector(40, 0), 4), machines(std::vector(40, 1), 4), 20).shown);
@@ -48,7 +48,7 @@ TEST(PairedGain, CountsMachinesRatherThanTheirMoves) {
       paired_gain({}, 0, machines({0, 0, 0, 0, 0}, 100), machines({90, 80, 95, 70, 99}, 100), 10);
   EXPECT_NEAR(gain.p_value, 1.0 / 32.0, 1e-12);
   EXPECT_FALSE(gain.shown);
-  EXPECT_EQ(units_to_show_a_gain(10), 9);  // 2⁻⁹ ≤ 0.025/10 < 2⁻⁸
+  EXPECT_EQ(machines_to_show_a_gain(10), 9);  // 2⁻⁹ ≤ 0.025/10 < 2⁻⁸
 }
 
 // Of a claim about machines those count that meet it in as many of their moves as it asks.

@@ -41,42 +41,44 @@ struct MadeUpProblem {
   }
   double typical_time(const Values& at) const { return 0.01 + squared_distance(at, fast); }
 
-  double uniform(std::uint64_t stream, std::uint64_t unit, const Values& at) const {
+  double uniform(std::uint64_t stream, std::uint64_t machine, const Values& at) const {
     const auto hash = [](double x) { return static_cast<std::uint64_t>(x * 1e9); };
     std::uint64_t place = 0;
     for (const double x : at) place = place * 0x9E3779B97F4A7C15U + hash(x);
     return random::open_uniform(
         random::random_bits({{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(stream)}, 0},
-                            unit + (place << 20U), random::Draw::trial));
+                            machine + (place << 20U), random::Draw::trial));
   }
 
-  double normal(std::uint64_t stream, std::uint64_t unit, const Values& at) const {
-    return std::sqrt(-2.0 * std::log(uniform(stream, unit, at))) *
-           std::cos(2.0 * std::numbers::pi * uniform(stream + 1, unit, at));
+  double normal(std::uint64_t stream, std::uint64_t machine, const Values& at) const {
+    return std::sqrt(-2.0 * std::log(uniform(stream, machine, at))) *
+           std::cos(2.0 * std::numbers::pi * uniform(stream + 1, machine, at));
   }
 
   /// The result of a machine at a point. Half of its luck belongs to the machine and is the same at all
   /// points; the other half belongs to the point.
-  UnitResult result(const Values& at, std::uint64_t unit) const {
-    auto [machine, is_new] = machines.try_emplace(unit);
+  MachineResult result(const Values& at, std::uint64_t machine) const {
+    auto [known, is_new] = machines.try_emplace(machine);
     if (is_new) {
       const Values everywhere(at.size(), 0.0);
-      machine->second = {normal(1, unit, everywhere), std::exp(0.3 * normal(5, unit, everywhere))};
+      known->second = {normal(1, machine, everywhere), std::exp(0.3 * normal(5, machine, everywhere))};
     }
-    const double luck = std::sqrt(0.5) * (machine->second.first + normal(3, unit, at));
+    const double luck = std::sqrt(0.5) * (known->second.first + normal(3, machine, at));
     const bool met = 0.5 * std::erfc(luck / std::sqrt(2.0)) < rate(at);
-    return {.claims = {{1, met ? 1 : 0, {typical_time(at) * machine->second.second}}}};
+    return {.claims = {{1, met ? 1 : 0, {typical_time(at) * known->second.second}}}};
   }
 
-  SearchProblem problem(std::int64_t units) const {
+  SearchProblem problem(std::int64_t machines) const {
     SearchProblem problem;
     for (std::size_t i = 0; i < fast.size(); ++i)
       problem.free.push_back({.name = std::string(1, "xyzwv"[i]), .low = 0.0, .high = 1.0});
     problem.aim = {.claims = {{.moves = goal.moves}}, .quantile = 0.95};
-    problem.size = search_size({.free = problem.free.size(), .max_units = units}, std::int64_t{1} << 40);
+    problem.size =
+        search_size({.free = problem.free.size(), .max_machines = machines}, std::int64_t{1} << 40);
     problem.evaluate = [this](std::span<Candidate* const> candidates, std::int64_t to) {
       for (Candidate* one : candidates) {
-        while (std::ssize(one->units) < to) one->units.push_back(result(one->values, one->units.size()));
+        while (std::ssize(one->machines) < to)
+          one->machines.push_back(result(one->values, one->machines.size()));
       }
     };
     problem.admissible = [](std::span<const Candidate> candidates) {

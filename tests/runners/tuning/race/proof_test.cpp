@@ -9,11 +9,12 @@
 namespace zerocount::tuning {
 namespace {
 
-GoalCounts counts_of(const MadeUpProblem& truth, const Values& at, std::uint64_t first, std::int64_t units) {
+GoalCounts counts_of(const MadeUpProblem& truth, const Values& at, std::uint64_t first,
+                     std::int64_t machines) {
   measures::CellCounts counts;
-  for (std::int64_t i = 0; i < units; ++i) {
-    const ClaimResult unit = truth.result(at, first + static_cast<std::uint64_t>(i)).claims.front();
-    counts.add(i, unit.moves, unit.met);
+  for (std::int64_t i = 0; i < machines; ++i) {
+    const ClaimResult machine = truth.result(at, first + static_cast<std::uint64_t>(i)).claims.front();
+    counts.add(i, machine.moves, machine.met);
   }
   return {counts};
 }
@@ -28,7 +29,7 @@ struct ProvenSearch {
   ProvenFinalist proven;
 };
 
-/// A search on 256 units, and a proof on at most 6000.
+/// A search on 256 machines, and a proof on at most 6000.
 ProvenSearch searched_and_proven(const MadeUpProblem& truth) {
   const SearchProblem searched = truth.problem(256);
   ProvenSearch both{search(searched, {.seed = truth.seed, .generations = 4}), {}};
@@ -37,12 +38,13 @@ ProvenSearch searched_and_proven(const MadeUpProblem& truth) {
     problem.may_meet.push_back(may_meet(searched.aim, one));
     problem.margins.push_back(one.margin);
   }
-  problem.first_units = [](std::size_t, std::size_t) { return std::int64_t{2000}; };
-  problem.more_units = [](const GoalCounts&, std::size_t) { return std::int64_t{6000}; };
+  problem.first_machines = [](std::size_t, std::size_t) { return std::int64_t{2000}; };
+  problem.more_machines = [](const GoalCounts&, std::size_t) { return std::int64_t{6000}; };
   problem.run = [&](const Attempt& attempt) -> std::optional<AttemptResult> {
     const auto first = static_cast<std::uint64_t>(attempt.number) << 16U;
-    return result_of(truth.goal, attempt,
-                     counts_of(truth, both.found.finalists[attempt.finalist].values, first, attempt.units));
+    return result_of(
+        truth.goal, attempt,
+        counts_of(truth, both.found.finalists[attempt.finalist].values, first, attempt.machines));
   };
   problem.rejects = [](const Attempt&) { return false; };
   problem.goes_on = [] { return true; };
@@ -107,16 +109,16 @@ TEST(Proof, TriesTheNextFinalistAfterAMissAndMoreUnitsIfUndecided) {
   ProofProblem problem;
   problem.may_meet = {true, true};
   problem.margins = {0.1, 0.1};
-  problem.first_units = [](std::size_t, std::size_t) { return std::int64_t{1000}; };
-  problem.more_units = [](const GoalCounts&, std::size_t) { return std::int64_t{4000}; };
+  problem.first_machines = [](std::size_t, std::size_t) { return std::int64_t{1000}; };
+  problem.more_machines = [](const GoalCounts&, std::size_t) { return std::int64_t{4000}; };
   problem.goes_on = [] { return true; };
   problem.rejects = [](const Attempt&) { return false; };
   problem.run = [&](const Attempt& attempt) -> std::optional<AttemptResult> {
     attempts.push_back(attempt);
-    const double rate = attempt.finalist == 0 ? 0.8 : attempt.units == 1000 ? 0.955 : 0.97;
+    const double rate = attempt.finalist == 0 ? 0.8 : attempt.machines == 1000 ? 0.955 : 0.97;
     measures::CellCounts counts;
-    for (std::int64_t i = 0; i < attempt.units; ++i) {
-      const bool met = static_cast<double>(i) < rate * static_cast<double>(attempt.units);
+    for (std::int64_t i = 0; i < attempt.machines; ++i) {
+      const bool met = static_cast<double>(i) < rate * static_cast<double>(attempt.machines);
       counts.add(i, 1, met ? 1 : 0);
     }
     return result_of(goal, attempt, {counts});
@@ -125,7 +127,7 @@ TEST(Proof, TriesTheNextFinalistAfterAMissAndMoreUnitsIfUndecided) {
   ASSERT_EQ(attempts.size(), 3U);
   EXPECT_EQ(attempts[1].finalist, 1U);
   EXPECT_EQ(attempts[2].finalist, 1U);
-  EXPECT_EQ(attempts[2].units, 4000);
+  EXPECT_EQ(attempts[2].machines, 4000);
   EXPECT_EQ(proven.verdict.status, goal::Status::met);
 }
 
@@ -135,11 +137,11 @@ TEST(Proof, TriesTheNextFinalistIfItRejectsOneThatMeetsTheGoal) {
   ProofProblem problem;
   problem.may_meet = {true, true};
   problem.margins = {0.1, 0.1};
-  problem.first_units = [](std::size_t, std::size_t) { return std::int64_t{1000}; };
+  problem.first_machines = [](std::size_t, std::size_t) { return std::int64_t{1000}; };
   problem.goes_on = [] { return true; };
   problem.run = [&](const Attempt& attempt) -> std::optional<AttemptResult> {
     measures::CellCounts counts;
-    for (std::int64_t i = 0; i < attempt.units; ++i) counts.add(i, 1, 1);
+    for (std::int64_t i = 0; i < attempt.machines; ++i) counts.add(i, 1, 1);
     return result_of(goal, attempt, {counts});
   };
   problem.rejects = [](const Attempt& attempt) { return attempt.finalist == 0; };
@@ -157,10 +159,10 @@ TEST(Proof, TriesTheNextFinalistIfItRejectsOneThatMeetsTheGoal) {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-/// A candidate with one claim, [unit] its results.
+/// A candidate with one claim, [machine] its results.
 Candidate candidate_of(const std::vector<ClaimResult>& results) {
   Candidate candidate;
-  for (const ClaimResult& one : results) candidate.units.push_back({.claims = {one}});
+  for (const ClaimResult& one : results) candidate.machines.push_back({.claims = {one}});
   return candidate;
 }
 
@@ -171,9 +173,9 @@ Aim aim_with(const Claim& claim, double quantile = 0.95) {
 
 TEST(Candidate, RateCountsMovesOrMachines) {
   const Candidate candidate = candidate_of({{10, 10, {}}, {10, 9, {}}, {10, 5, {}}, {10, 10, {}}});
-  EXPECT_DOUBLE_EQ(estimate_of(aim_with({.moves = 0.9}), candidate.units, 4).rate, 34.0 / 40.0);
-  EXPECT_DOUBLE_EQ(estimate_of(aim_with({.moves = 0.9, .machines = 0.7}), candidate.units, 4).rate, 0.75);
-  EXPECT_DOUBLE_EQ(estimate_of(aim_with({.moves = 0.9}), candidate.units, 2).rate, 19.0 / 20.0);
+  EXPECT_DOUBLE_EQ(estimate_of(aim_with({.moves = 0.9}), candidate.machines, 4).rate, 34.0 / 40.0);
+  EXPECT_DOUBLE_EQ(estimate_of(aim_with({.moves = 0.9, .machines = 0.7}), candidate.machines, 4).rate, 0.75);
+  EXPECT_DOUBLE_EQ(estimate_of(aim_with({.moves = 0.9}), candidate.machines, 2).rate, 19.0 / 20.0);
 }
 
 // The product over the moves in their order, whatever is computed once for those that are alike.
@@ -194,21 +196,21 @@ TEST(Candidate, EvidenceIsTheMeanCapitalOfTheBets) {
 }
 
 TEST(Candidate, CriterionCountsMovesThatNeverSettleAsLate) {
-  std::vector<ClaimResult> units;
-  for (int i = 1; i <= 100; ++i) units.push_back({1, 1, {i > 96 ? never : static_cast<double>(i)}});
-  const Candidate candidate = candidate_of(units);
-  EXPECT_EQ(estimate_of(aim_with({}, 0.95), candidate.units, 100).criterion, 95.0);
-  EXPECT_EQ(estimate_of(aim_with({}, 0.5), candidate.units, 100).criterion, 50.0);
-  EXPECT_EQ(estimate_of(aim_with({}, 0.97), candidate.units, 100).criterion, never);
+  std::vector<ClaimResult> machines;
+  for (int i = 1; i <= 100; ++i) machines.push_back({1, 1, {i > 96 ? never : static_cast<double>(i)}});
+  const Candidate candidate = candidate_of(machines);
+  EXPECT_EQ(estimate_of(aim_with({}, 0.95), candidate.machines, 100).criterion, 95.0);
+  EXPECT_EQ(estimate_of(aim_with({}, 0.5), candidate.machines, 100).criterion, 50.0);
+  EXPECT_EQ(estimate_of(aim_with({}, 0.97), candidate.machines, 100).criterion, never);
 }
 
 TEST(Candidate, OneThatMeetsTheGoalIsBetterThanAFasterOne) {
   const Aim aim = aim_with({.moves = 0.9});
   /// The estimate from 1000 moves, which all settle at the time `time`; `met` of them meet the goal.
   const auto estimate = [&](int met, double time) {
-    std::vector<ClaimResult> units;
-    for (int i = 0; i < 1000; ++i) units.push_back({1, i < met ? 1 : 0, {time}});
-    return estimate_of(aim, candidate_of(units).units, 1000);
+    std::vector<ClaimResult> machines;
+    for (int i = 0; i < 1000; ++i) machines.push_back({1, i < met ? 1 : 0, {time}});
+    return estimate_of(aim, candidate_of(machines).machines, 1000);
   };
   const Estimate fast = estimate(850, 0.01);
   const Estimate good = estimate(950, 0.05);
@@ -223,12 +225,12 @@ struct MadeUpClaim {
   double rate{1.0};
   double time{0.0};
 };
-Candidate candidate_with(const std::vector<MadeUpClaim>& claims, int units = 400) {
+Candidate candidate_with(const std::vector<MadeUpClaim>& claims, int machines = 400) {
   Candidate candidate;
-  for (int i = 0; i < units; ++i) {
-    UnitResult& unit = candidate.units.emplace_back();
+  for (int i = 0; i < machines; ++i) {
+    MachineResult& machine = candidate.machines.emplace_back();
     for (const MadeUpClaim& one : claims)
-      unit.claims.push_back({1, i < one.rate * units ? 1 : 0, {one.time}});
+      machine.claims.push_back({1, i < one.rate * machines ? 1 : 0, {one.time}});
   }
   return candidate;
 }
@@ -237,7 +239,7 @@ const Aim two_goals{.claims = {{.moves = 0.9}, {.moves = 0.9}, {.moves = 0.6}, {
 
 TEST(Candidate, TheWorstOfSeveralClaimsDecides) {
   const Candidate lacking = candidate_with({{0.99, 0.1}, {0.95, 0.2}, {0.99, 0.3}, {0.62, 0.4}});
-  const Estimate estimate = estimate_of(two_goals, lacking.units, 400);
+  const Estimate estimate = estimate_of(two_goals, lacking.machines, 400);
   EXPECT_EQ(estimate.worst, 3U) << "62 % of 60 % is nearer to the goal than 95 % of 90 %";
   EXPECT_DOUBLE_EQ(estimate.rate, 0.62);
   EXPECT_DOUBLE_EQ(estimate.criterion, 0.4) << "the largest of all claims";
@@ -248,7 +250,7 @@ TEST(Candidate, TheWorstOfSeveralClaimsDecides) {
 
 TEST(Candidate, RanksByGoalsMetThenByTheWorstClaim) {
   const auto estimate = [](const std::vector<MadeUpClaim>& claims) {
-    return estimate_of(two_goals, candidate_with(claims).units, 400);
+    return estimate_of(two_goals, candidate_with(claims).machines, 400);
   };
   const Estimate none = estimate({{0.89, 0.1}, {0.89, 0.1}, {0.59, 0.1}, {0.59, 0.1}});
   const Estimate one = estimate({{0.99, 0.1}, {0.99, 0.1}, {0.3, 0.1}, {0.9, 0.1}});
@@ -280,17 +282,17 @@ TEST(Candidate, IsDroppedByTheClaimThatItMisses) {
 // The criterion is the largest of all claims: a claim with 3 % beyond the limit is as early as the latest of
 // `best`, of which 4 % are beyond it.
 TEST(Candidate, IsNotSlowerByAClaimThatIsFasterThanTheSlowestOfTheBest) {
-  constexpr int units = 2000;
-  Candidate best = candidate_with({{1.0, 0.2}, {1.0, 0.2}, {1.0, 0.2}, {1.0, 0.4}}, units);
-  for (int i = 0; i < units; i += 25) best.units[static_cast<std::size_t>(i)].claims[3].values = {0.9};
+  constexpr int machines = 2000;
+  Candidate best = candidate_with({{1.0, 0.2}, {1.0, 0.2}, {1.0, 0.2}, {1.0, 0.4}}, machines);
+  for (int i = 0; i < machines; i += 25) best.machines[static_cast<std::size_t>(i)].claims[3].values = {0.9};
   Candidate other = best;
-  for (int i = 0; i < units; i += 33) other.units[static_cast<std::size_t>(i)].claims[0].values = {0.9};
+  for (int i = 0; i < machines; i += 33) other.machines[static_cast<std::size_t>(i)].claims[0].values = {0.9};
   EXPECT_FALSE(is_significantly_later(two_goals, other, best, 0.01));
-  for (int i = 0; i < units; i += 5) other.units[static_cast<std::size_t>(i)].claims[0].values = {0.9};
+  for (int i = 0; i < machines; i += 5) other.machines[static_cast<std::size_t>(i)].claims[0].values = {0.9};
   EXPECT_TRUE(is_significantly_later(two_goals, other, best, 0.01));
 }
 
-// The error probability holds for all numbers of units together, for differences of any shape.
+// The error probability holds for all numbers of machines together, for differences of any shape.
 TEST(Candidate, EvidenceSeldomDropsAnEqualCandidate) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
@@ -335,13 +337,13 @@ TEST(SearchSize, FirstGenerationTakesAtMostHalfOfTheEffort) {
   for (std::size_t free = 1; free <= 6; ++free) {
     for (const std::int64_t worlds : {0, 7, 30}) {
       const SearchScope scope{free, free / 2, 2048, worlds};
-      const std::int64_t least = first_race_units(smallest_search(scope), scope.faces);
-      for (std::int64_t units = 2 * least; units < 1'000'000; units = units * 5 / 4) {
-        const SearchSize size = search_size(scope, units);
-        EXPECT_LE(first_race_units(size, scope.faces), units / 2);
-        EXPECT_GE(size.max_units, size.first_units);
-        EXPECT_EQ(size.max_units % std::max<std::int64_t>(worlds, 1), 0);
-        EXPECT_GE(size.max_units, 4 * worlds) << "each world has some units";
+      const std::int64_t least = first_race_machines(smallest_search(scope), scope.faces);
+      for (std::int64_t machines = 2 * least; machines < 1'000'000; machines = machines * 5 / 4) {
+        const SearchSize size = search_size(scope, machines);
+        EXPECT_LE(first_race_machines(size, scope.faces), machines / 2);
+        EXPECT_GE(size.max_machines, size.first_machines);
+        EXPECT_EQ(size.max_machines % std::max<std::int64_t>(worlds, 1), 0);
+        EXPECT_GE(size.max_machines, 4 * worlds) << "each world has some machines";
       }
     }
   }
@@ -351,15 +353,15 @@ TEST(SearchSize, GrowsWithTheEffort) {
   const SearchScope scope{3, 3, 2048, 0};
   SearchSize last = smallest_search(scope);
   int sizes = 1;
-  for (std::int64_t units = 500; units < 500'000; units = units * 6 / 5) {
-    const SearchSize size = search_size(scope, units);
+  for (std::int64_t machines = 500; machines < 500'000; machines = machines * 6 / 5) {
+    const SearchSize size = search_size(scope, machines);
     EXPECT_GE(size.first_candidates, last.first_candidates);
-    EXPECT_GE(size.max_units, last.max_units);
+    EXPECT_GE(size.max_machines, last.max_machines);
     sizes += size.first_candidates > last.first_candidates ? 1 : 0;
     last = size;
   }
   EXPECT_GT(sizes, 8) << "small efforts differ too";
-  EXPECT_EQ(last.max_units, 2048);
+  EXPECT_EQ(last.max_machines, 2048);
 }
 
 // The frontier between success and speed. Rates that led a search show that a goal is out of reach; a rate of
@@ -367,10 +369,10 @@ TEST(SearchSize, GrowsWithTheEffort) {
 
 const Aim aim{.claims = {{.moves = 0.9}}};
 
-TriedPoint point(double rate, std::int64_t units = 64) {
+TriedPoint point(double rate, std::int64_t machines = 64) {
   TriedPoint tried;
   tried.estimate.rate = tried.estimate.moves = rate;
-  tried.estimate.units = units;
+  tried.estimate.machines = machines;
   return tried;
 }
 
@@ -425,9 +427,9 @@ TEST(Frontier, HasThePointsThatNoOtherDominates) {
       });
     };
     for (const TriedPoint& one : tried) {
-      if (one.estimate.units < 512) continue;
+      if (one.estimate.machines < 512) continue;
       const bool beaten = std::ranges::any_of(tried, [&](const TriedPoint& other) {
-        return other.estimate.units >= 512 && other.estimate.rate >= one.estimate.rate &&
+        return other.estimate.machines >= 512 && other.estimate.rate >= one.estimate.rate &&
                other.estimate.criterion <= one.estimate.criterion &&
                (other.estimate.rate > one.estimate.rate || other.estimate.criterion < one.estimate.criterion);
       });

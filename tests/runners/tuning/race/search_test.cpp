@@ -22,7 +22,7 @@ double best_time(const MadeUpProblem& truth) {
 }
 
 trials::Effort effort_of(std::int64_t trials) {
-  return trials::Effort().share(trials, {});
+  return trials::Effort().limited_to(trials, {});
 }
 
 TEST(Search, FindsTheFastestPointThatMeetsTheGoal) {
@@ -50,19 +50,19 @@ TEST(Search, SpendsNoMoreThanItsEffort) {
   for (std::int64_t trials = 500; trials < 60'000; trials = trials * 3 / 2) {
     SearchProblem problem = truth.problem(2048);
     problem.size = search_size({.free = 2}, trials);
-    const trials::Effort whole = trials::Effort().share(trials + 77, {});
-    const SearchResult result = search(problem, {.seed = 3, .effort = whole.share(trials, {})});
+    const trials::Effort whole = trials::Effort().limited_to(trials + 77, {});
+    const SearchResult result = search(problem, {.seed = 3, .effort = whole.limited_to(trials, {})});
     EXPECT_LE(result.trials, trials);
     EXPECT_EQ(result.trials, whole.spent_trials());
     EXPECT_GT(result.trials, last / 2);
     last = result.trials;
     ASSERT_FALSE(result.finalists.empty()) << trials;
     for (const Candidate& one : result.finalists)
-      EXPECT_EQ(one.units.size(), result.finalists.front().units.size()) << "compared on equal units";
+      EXPECT_EQ(one.machines.size(), result.finalists.front().machines.size()) << "compared on equal units";
   }
 }
 
-// Trials that end within a race: the candidates are judged by the units that all of them had.
+// Trials that end within a race: the candidates are judged by the machines that all of them had.
 TEST(Search, WithTooFewTrialsJudgesAllByTheSameUnits) {
   const MadeUpProblem truth;
   for (std::int64_t trials = 64; trials < 40'000; trials = 2 * trials + 1) {
@@ -71,7 +71,7 @@ TEST(Search, WithTooFewTrialsJudgesAllByTheSameUnits) {
     ASSERT_FALSE(result.finalists.empty());
     EXPECT_TRUE(result.cut);
     for (const Candidate& one : result.finalists)
-      EXPECT_EQ(one.units.size(), result.finalists.front().units.size());
+      EXPECT_EQ(one.machines.size(), result.finalists.front().machines.size());
   }
 }
 
@@ -101,7 +101,7 @@ MadeUpProblem narrow_peak(std::uint64_t seed) {
   return truth;
 }
 
-// Where no candidate meets the goal yet, many candidates with few units come nearer than few with many.
+// Where no candidate meets the goal yet, many candidates with few machines come nearer than few with many.
 TEST(Search, FewUnitsPerCandidateFindNarrowPeaksBetter) {
   double with_few = 0.0;
   double with_many = 0.0;
@@ -109,8 +109,8 @@ TEST(Search, FewUnitsPerCandidateFindNarrowPeaksBetter) {
     const MadeUpProblem truth = narrow_peak(seed);
     const auto part_reached = [&](bool climbs) {
       SearchProblem problem = truth.problem(512);
-      problem.size = search_size({.free = 5, .max_units = 512}, 15'000);
-      if (!climbs) problem.size.climbing_units = problem.size.max_units;
+      problem.size = search_size({.free = 5, .max_machines = 512}, 15'000);
+      if (!climbs) problem.size.climbing_machines = problem.size.max_machines;
       const SearchResult result =
           search(problem, {.seed = seed, .begins_anew = true, .effort = effort_of(30'000)});
       return truth.rate(result.finalists.front().values) / truth.highest_rate;
@@ -121,13 +121,13 @@ TEST(Search, FewUnitsPerCandidateFindNarrowPeaksBetter) {
   EXPECT_GE(with_few, with_many + 0.05);
 }
 
-// A candidate that ran all units is not dropped because it looks worse on the first few.
+// A candidate that ran all machines is not dropped because it looks worse on the first few.
 TEST(Search, DISABLED_KeepsTheBestThatItHasSeen) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const MadeUpProblem truth{.seed = seed};
     SearchProblem problem = truth.problem(512);
     problem.size = {
-        .first_candidates = 30, .candidates = 12, .elites = 3, .first_units = 8, .max_units = 512};
+        .first_candidates = 30, .candidates = 12, .elites = 3, .first_machines = 8, .max_machines = 512};
     std::optional<Estimate> before;
     SearchSettings settings{.seed = seed, .begins_anew = true, .effort = effort_of(50'000)};
     settings.tell = [&](const SearchProgress& progress) {
@@ -192,7 +192,7 @@ Values values_of(const TunedControl& control) {
 
 /// Tunes a control from those that are tuned already.
 TunedControl tuned(const MadeUpProblem& truth, std::vector<std::size_t> zeros,
-                   const std::vector<TunedControl>& before, std::int64_t units) {
+                   const std::vector<TunedControl>& before, std::int64_t machines) {
   TunedControl control{std::move(zeros), {}};
   SearchProblem problem = truth.problem(512);
   problem.free.clear();
@@ -204,8 +204,8 @@ TunedControl tuned(const MadeUpProblem& truth, std::vector<std::size_t> zeros,
     blocks.push_back(i);
   }
   problem.faces = zero_sets(problem.free);
-  problem.size =
-      search_size({.free = problem.free.size(), .faces = problem.faces.size(), .max_units = 512}, units);
+  problem.size = search_size(
+      {.free = problem.free.size(), .faces = problem.faces.size(), .max_machines = 512}, machines);
   std::vector<TunedValues> starts;
   for (const TunedControl& one : before) starts.push_back(one.values);
   problem.starts = starts_from(starts, problem.free);
@@ -213,11 +213,11 @@ TunedControl tuned(const MadeUpProblem& truth, std::vector<std::size_t> zeros,
     for (Candidate* one : candidates) {
       Values at(four_blocks.size(), 0.0);
       for (std::size_t i = 0; i < blocks.size(); ++i) at[blocks[i]] = one->values[i];
-      while (std::ssize(one->units) < to) one->units.push_back(truth.result(at, one->units.size()));
+      while (std::ssize(one->machines) < to) one->machines.push_back(truth.result(at, one->machines.size()));
     }
   };
   const SearchResult found =
-      search(problem, {.seed = truth.seed, .begins_anew = true, .effort = effort_of(units)});
+      search(problem, {.seed = truth.seed, .begins_anew = true, .effort = effort_of(machines)});
   for (std::size_t i = 0; i < blocks.size(); ++i)
     control.values[problem.free[i].name] = found.finalists.front().values[i];
   return control;
@@ -225,8 +225,8 @@ TunedControl tuned(const MadeUpProblem& truth, std::vector<std::size_t> zeros,
 
 // In the order of a tuning: PID, which seeks on its faces too; the controls with fewer blocks, the fewest
 // first; an observer beside the PID. Of each pair of which one has all blocks of the other it is not worse by
-// the truth, but for what 512 units cannot tell. The places that are any good fill 2e-5 to all of the ranges;
-// only from the tuned values of others does the observer find the smallest of them.
+// the truth, but for what 512 machines cannot tell. The places that are any good fill 2e-5 to all of the
+// ranges; only from the tuned values of others does the observer find the smallest of them.
 TEST(Search, DISABLED_MoreControlBlocksAreWorseOnlyByChance) {
   int compared = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
@@ -264,7 +264,7 @@ TEST(Search, DISABLED_MoreControlBlocksAreWorseOnlyByChance) {
 TEST(Search, FindsPointsThatAreAdmissibleOnlyOnAFace) {
   const MadeUpProblem truth{.reliable = {0.0, 0.6}, .fast = {0.0, 0.4}};
   SearchProblem problem = truth.problem(512);
-  problem.size = search_size({.free = 2, .faces = 1, .max_units = 512}, 20'000);
+  problem.size = search_size({.free = 2, .faces = 1, .max_machines = 512}, 20'000);
   problem.admissible = [](std::span<const Candidate> candidates) {
     std::vector<bool> kept;
     for (const Candidate& one : candidates) kept.push_back(one.values[0] <= 1e-4);
@@ -322,7 +322,7 @@ struct Ending {
 
 Ending ending_of(const MadeUpProblem& truth, std::int64_t trials) {
   SearchProblem problem = truth.problem(512);
-  problem.size = search_size({.free = problem.free.size(), .max_units = 512}, trials);
+  problem.size = search_size({.free = problem.free.size(), .max_machines = 512}, trials);
   const SearchResult result =
       search(problem, {.seed = truth.seed, .begins_anew = true, .effort = effort_of(trials)});
   return {!reaches(problem.aim, result.estimates.front()), result.approaching};

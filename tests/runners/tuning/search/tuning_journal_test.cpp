@@ -8,12 +8,12 @@ namespace zerocount::testing {
 namespace {
 
 using tuning::ClaimResult;
-using tuning::UnitResult;
+using tuning::MachineResult;
 
-UnitResult random_unit(std::mt19937_64& random) {
-  UnitResult unit{.claims = {}, .slid = random() % 2 == 0};
+MachineResult random_unit(std::mt19937_64& random) {
+  MachineResult machine{.claims = {}, .slid = random() % 2 == 0};
   for (std::uint64_t claims = random() % 3 + 1; claims > 0; --claims) {
-    ClaimResult& claim = unit.claims.emplace_back();
+    ClaimResult& claim = machine.claims.emplace_back();
     for (std::uint64_t moves = random() % 4; moves > 0; --moves) {
       ++claim.moves;
       claim.met += random() % 2 == 0 ? 1 : 0;
@@ -22,7 +22,7 @@ UnitResult random_unit(std::mt19937_64& random) {
                                  : std::exp(std::uniform_real_distribution<double>(-30.0, 30.0)(random)));
     }
   }
-  return unit;
+  return machine;
 }
 
 TEST(TuningJournal, ReadsBackWrittenEntries) {
@@ -30,12 +30,12 @@ TEST(TuningJournal, ReadsBackWrittenEntries) {
   const std::filesystem::path path = folder.path() / "journal";
   std::mt19937_64 random(12);
   std::vector<tuning::Values> values;
-  std::vector<std::vector<UnitResult>> results;
+  std::vector<std::vector<MachineResult>> results;
   std::vector<std::string> lines;
   for (int candidate = 0; candidate < 20; ++candidate) {
     values.push_back({static_cast<double>(candidate), std::exp(-1.0 * candidate)});
     results.emplace_back();
-    for (int unit = 0; unit < candidate; ++unit) results.back().push_back(random_unit(random));
+    for (int machine = 0; machine < candidate; ++machine) results.back().push_back(random_unit(random));
     lines.push_back(tuning::evaluation_line("search", values.back(), 0, results.back(), 1.5));
   }
   tuning::TuningJournal(path, "tuning", false).add(lines);
@@ -43,17 +43,17 @@ TEST(TuningJournal, ReadsBackWrittenEntries) {
   EXPECT_TRUE(journal.resumed());
   EXPECT_EQ(journal.seconds(), 1.5);
   for (std::size_t i = 0; i < values.size(); ++i) {
-    std::vector<UnitResult> found;
+    std::vector<MachineResult> found;
     journal.take("search", values[i], 0, std::ssize(results[i]), found);
     ASSERT_EQ(found.size(), results[i].size());
-    for (std::size_t unit = 0; unit < found.size(); ++unit) {
-      const UnitResult& written = results[i][unit];
-      EXPECT_EQ(found[unit].slid, written.slid);
-      ASSERT_EQ(found[unit].claims.size(), written.claims.size());
+    for (std::size_t machine = 0; machine < found.size(); ++machine) {
+      const MachineResult& written = results[i][machine];
+      EXPECT_EQ(found[machine].slid, written.slid);
+      ASSERT_EQ(found[machine].claims.size(), written.claims.size());
       for (std::size_t c = 0; c < written.claims.size(); ++c) {
-        EXPECT_EQ(found[unit].claims[c].moves, written.claims[c].moves);
-        EXPECT_EQ(found[unit].claims[c].met, written.claims[c].met);
-        EXPECT_EQ(found[unit].claims[c].values, written.claims[c].values);
+        EXPECT_EQ(found[machine].claims[c].moves, written.claims[c].moves);
+        EXPECT_EQ(found[machine].claims[c].met, written.claims[c].met);
+        EXPECT_EQ(found[machine].claims[c].values, written.claims[c].values);
       }
     }
   }

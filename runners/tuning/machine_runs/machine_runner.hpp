@@ -1,0 +1,111 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "core/trial/outcome.hpp"
+#include "core/trial/parameters.hpp"
+#include "experiments/study/study.hpp"
+#include "results/layout/measure_table.hpp"
+#include "results/reading/all_trials_file.hpp"
+#include "runners/trials/effort.hpp"
+#include "runners/trials/variant.hpp"
+#include "runners/tuning/machine_runs/finer_units.hpp"
+#include "runners/tuning/race/candidate.hpp"
+
+/// Tuning of a study: the search on machines of its own, the proof on other machines, and the sensitivity of
+/// the answer to its premises.
+namespace zerocount::tuning {
+
+/// Dotted paths of the free parameters.
+std::vector<std::string> names_of(std::span<const study::FreeParameter> free);
+
+/// Study with these values; nothing if the values are not allowed together.
+std::optional<study::Study> at_values(const study::Study& study, std::span<const study::FreeParameter> free,
+                                      const Values& values);
+
+/// Overrides such as "controller.ki=5000", with enough digits to read back the same values.
+std::vector<std::string> overrides_of(std::span<const study::FreeParameter> free, const Values& values);
+
+/// Quantity that tuning minimises: a quantile of a measure over the moves of one goal.
+struct Criterion {
+  const layout::Measure* measure{nullptr};
+  double quantile{0.95};
+  /// Time that the goal allows for a move. If set, settling times are divided by it, so that several goals
+  /// can be compared.
+  std::optional<study::TimeLimit> scale{};
+};
+
+/// [goal] Criterion of each goal; a single one if the study has no goal. The criterion of a candidate is the
+/// largest over all goals and conditions.
+/// @throws Failure (bad_input) if Tuning::minimise names no quantile of a measure
+std::vector<Criterion> criteria_of(const study::Study& study);
+/// Name of the criterion: "band_settling_time.p95" if all goals have bands, "tolerance_settling_time.p95" if
+/// all have tolerances, "goal_settling_time.p95" if there are goals of both kinds; otherwise
+/// Tuning::minimise.
+std::string criterion_name(const study::Study& study);
+/// Whether the criterion is a settling time within the bands or tolerances of the goals.
+bool is_of_settling(const study::Study& study);
+/// Whether the criterion is a settling time divided by the time that its goal allows.
+bool is_proportion_of_allowed(const study::Study& study);
+
+/// Aim of a tuning: all goals of the study under each of its conditions.
+Aim aim_of(const study::Study& study);
+/// Goal and condition of a claim, as indices. Aim::claims is ordered goal by goal.
+struct ClaimPlace {
+  std::size_t goal{0};
+  std::size_t condition{0};
+};
+ClaimPlace place_of_claim(const study::Study& study, std::size_t claim);
+std::size_t claim_at(const study::Study& study, const ClaimPlace& place);
+/// Text such as " 'small' under condition loaded". It names the goal only if there are several, and the
+/// condition only if there are any.
+std::string claim_text(const study::Study& study, const ClaimPlace& place);
+/// Whether there is more than one goal, or any condition.
+bool has_named_claims(const study::Study& study);
+/// Names of a claim in data.
+struct ClaimNames {
+  std::optional<std::string>
+      goal{};  ///< Name of the goal; nothing if the study has no other claim or the goal has no name.
+  std::optional<std::string> condition{};  ///< Name of the condition; nothing without conditions.
+};
+ClaimNames names_of(const study::Study& study, const ClaimPlace& place);
+
+/// Changes the parameters of a trial after they are drawn.
+using Change = std::function<void(trial::TrialParameters&)>;
+
+/// Machines [from, to) of a study that are to run.
+struct MachinesToRun {
+  const study::Study* study{nullptr};
+  std::int64_t from{0};
+  std::int64_t to{0};
+  std::vector<MachineResult>* results{nullptr};  ///< [machine] Results, with one claim for each of aim_of().
+  const Change* change{nullptr};                 ///< Changes each drawn trial; null: no change.
+  FinerUnits finer{};                            ///< Units of the changed trials.
+};
+
+/// Result of trials that all belong to one machine, under the first condition.
+MachineResult result_of(const study::Study& study, std::span<const trial::TrialOutcome> outcomes);
+
+/// Runs the trials of all entries on all cores. The results do not depend on the number of cores.
+/// @param machines machines of each study, with their trials
+/// @throws trial::Interrupted, trials::Spent
+void run_machines(std::span<const MachinesToRun> entries, const trials::Replicates& machines,
+                  const trials::Effort& effort);
+
+/// Runs the first `count` machines of a study. Returns their results.
+/// @param change changes each drawn trial; null: no change
+/// @throws trial::Interrupted, trials::Spent
+std::vector<MachineResult> results_of(const study::Study& study, const trials::Replicates& machines,
+                                      std::int64_t count, const Change* change, const trials::Effort& effort);
+
+/// Results of all machines of a study with one design point, from its results file.
+std::vector<MachineResult> results_in(const reading::AllTrialsFile& file, const study::Study& study,
+                                      const trials::Replicates& machines);
+
+}  // namespace zerocount::tuning

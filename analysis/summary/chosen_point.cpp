@@ -143,11 +143,6 @@ std::vector<std::int64_t> points_by_merit(const StudySummary& summary) {
   return order;
 }
 
-std::int64_t best_point(const StudySummary& summary) {
-  const std::vector<std::int64_t> order = points_by_merit(summary);
-  return order.empty() ? 0 : order.front();
-}
-
 double value_at(const StudySummary& summary, const EndOfRange& end, std::int64_t point) {
   return summary.axes[end.axis].numbers[static_cast<std::size_t>(point)];
 }

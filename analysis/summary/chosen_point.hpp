@@ -22,9 +22,6 @@ namespace zerocount::summary {
 /// keep their order.
 std::vector<std::int64_t> points_by_merit(const StudySummary& summary);
 
-/// The first of points_by_merit().
-std::int64_t best_point(const StudySummary& summary);
-
 /// A swept number that is at the end of its range. Better values may lie beyond the end.
 struct EndOfRange {
   std::size_t axis{0};  ///< Index in StudySummary::axes.

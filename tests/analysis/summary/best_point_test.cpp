@@ -23,14 +23,14 @@ measures::PointSummary point_with(std::int64_t successes, std::int64_t trials) {
 
 TEST(BestPoint, HasTheHighestRate) {
   const StudySummary study = swept_study({point_with(3, 10), point_with(9, 10), point_with(9, 10)});
-  EXPECT_EQ(best_point(study), 1);
+  EXPECT_EQ(points_by_merit(study).front(), 1);
   EXPECT_EQ(points_by_merit(study), (std::vector<std::int64_t>{1, 2, 0}));
 }
 
 TEST(BestPoint, TheSimplestOfEqualPointsIsTheBest) {
   StudySummary study = swept_study({point_with(9, 10), point_with(9, 10)});
   study.axes.push_back({"controller.kp", "N m/count", "", study::SweepAxis::Kind::number, {0.1, 0.0}, {}});
-  EXPECT_EQ(best_point(study), 1);
+  EXPECT_EQ(points_by_merit(study).front(), 1);
 }
 
 TEST(BestPoint, LeavesOutPointsWithoutTrials) {
@@ -56,7 +56,8 @@ TEST(BestPoint, BoundsAllowForTheChoice) {
   for (int round = 0; round < rounds; ++round) {
     std::vector<measures::PointSummary> points;
     for (int i = 0; i < 20; ++i) points.push_back(point_with(successes(random), trials));
-    const measures::PointSummary& best = points[static_cast<std::size_t>(best_point(swept_study(points)))];
+    const measures::PointSummary& best =
+        points[static_cast<std::size_t>(points_by_merit(swept_study(points)).front())];
     too_high += goal::claim_of_chosen(best, points.size(), false).success_at_least > truth;
     too_high_alone += best.claim.success_at_least > truth;
     EXPECT_LE(goal::bounds_of_chosen(best, points.size(), false, 0.95).low,

@@ -348,6 +348,13 @@ std::size_t blocks_at_once(std::size_t threads) {
   return std::min(threads + 2, threads / 4 + 6);
 }
 
+/// @throws Failure (interrupted) if Wanted::stop requests it
+void require_no_stop(const Wanted& wanted) {
+  if (wanted.stop.stop_requested())
+    throw Failure(ExitCode::interrupted,
+                  "interrupted while the statistics were computed; the trials are kept");
+}
+
 /// Sums of consecutive trials.
 using Sums = std::vector<SummedPoint>;
 constexpr std::size_t sums_added_at_once = 8;
@@ -416,6 +423,7 @@ void StudyAccumulator::add(const reading::AllTrialsFile& file, layout::RowRange 
   };
   // A thread that waits here must not begin another task meanwhile, such as a block of trials.
   tbb::this_task_arena::isolate(pipeline);
+  require_no_stop(wanted_);  // otherwise the trials of the blocks that were not fetched would be missing
   add(added(std::move(waiting)), file);
 }
 
@@ -449,9 +457,7 @@ SummedPoint& StudyAccumulator::point(std::int64_t number, const layout::MeasureT
 
 void StudyAccumulator::finish() {
   if (!point_) return;
-  if (wanted_.stop.stop_requested())
-    throw Failure(ExitCode::interrupted,
-                  "interrupted while the statistics were computed; the trials are kept");
+  require_no_stop(wanted_);
   const timeline::TimeSpan span(wanted_.timeline, "statistics", timeline::Work::serial);
   PointResults results;
   results.prediction = point_->prediction();

@@ -119,7 +119,7 @@ TEST_F(Judge, ChoosesAndJudgesAsIfAllStatisticsOfAllPointsWereKnown) {
       "goal: {band: 1, within: 0.1, moves: 0.6}\n",
       "goal: {band: 1, within: 0.1, moves: 0.6}\nkeep: statistics\n",
       "machines: 8\ngoal: {band: 3, within: 0.1, moves: 0.6, machines: 0.5}\n",
-      "machines: 8\nkeep: statistics\ngoal:\n  near: {band: 1, within: 0.1, moves: 0.6, machines: 0.5}\n"
+      "machines: 8\nkeep: statistics\ngoals:\n  near: {band: 1, within: 0.1, moves: 0.6, machines: 0.5}\n"
       "  calm: {band: 2, within: 0.12, moves: 0.5, machines: 0.5, limits: {jerk_count: 3}}\n",
       "conditions: {cold: {}, warm: {plant.presliding_damping: 0.4}}\n"
       "goal: {band: 1, within: 0.1, moves: 0.6}\n"};

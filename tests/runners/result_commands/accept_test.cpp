@@ -270,7 +270,7 @@ TEST_F(Accept, ComparesMachinesWithEachWorld) {
   EXPECT_EQ(bad["goals"][0]["like_worlds"], 0);
   EXPECT_EQ(bad["goals"][0]["agreement"], "differs");
   const std::string text = program({"accept", "study.h5", "good.csv"}).out;
-  EXPECT_TRUE(says(text, "of 4 worlds"));
+  EXPECT_TRUE(says(text, "with 4 worlds"));
 }
 
 // The runs of a machine of the study itself have the values of its summary.

@@ -27,7 +27,7 @@ command: {targets: [7], hold: 0.3}
 sweep: {grid: {controller.kp: [0, 3.0e-4], controller.ki: [1.0e-5, 4.0e-5]}}
 """
 
-# Its statistics take some seconds.
+# Its statistics take many seconds, so that a program that computes them to the end exceeds SOON.
 MANY_POINTS = """zerocount: 1
 name: points
 seed: 1
@@ -35,8 +35,10 @@ trials: 1
 plant: {inertia: 8.0e-4, presliding_damping: 0.2}
 controller: {units: si, sample_rate: 4000}
 command: {targets: [5], hold: 0.06}
-sweep: {grid: {controller.ki: {logspace: [5.0e+3, 1.0e+5, 400]}, controller.kp: {linspace: [0, 100, 100]}}}
+sweep: {grid: {controller.ki: {logspace: [5.0e+3, 1.0e+5, 1000]}, controller.kp: {linspace: [0, 100, 100]}}}
 """
+
+SOON = 3.0  # s, on a busy machine
 
 
 class Runs(unittest.TestCase):
@@ -156,19 +158,20 @@ class Signals(Runs):
                 process.send_signal(kind)
                 process.wait()
                 self.assertEqual(process.returncode, 130)
-                self.assertLess(time.monotonic() - start, 3.0)  # on a busy machine
+                self.assertLess(time.monotonic() - start, SOON)
 
     def test_a_run_that_is_interrupted_while_it_computes_statistics_ends_soon_and_keeps_its_trials(self):
         (self.folder / "points.yaml").write_text(MANY_POINTS)
         process = subprocess.Popen([PROGRAM, "run", "points.yaml", "-o", "points.h5"], cwd=self.folder, stderr=subprocess.PIPE, text=True)
         while not (self.folder / "points.h5.part").exists():
             time.sleep(0.01)
+        time.sleep(0.7)  # the shards are joined
         start = time.monotonic()
         process.send_signal(signal.SIGTERM)
         process.communicate()
         self.assertEqual(process.returncode, 130)
-        self.assertLess(time.monotonic() - start, 3.0)  # on a busy machine
-        self.assertIn("40000 of them from before", self.complete("run", "points.yaml", "-o", "points.h5").stderr)
+        self.assertLess(time.monotonic() - start, SOON)
+        self.assertIn("100000 of them from before", self.complete("run", "points.yaml", "-o", "points.h5").stderr)
 
     def test_verify_ends_within_a_second_and_removes_its_temporary_files(self):
         (self.folder / "points.yaml").write_text(MANY_POINTS)
@@ -182,11 +185,12 @@ class Signals(Runs):
         while not list(temporary.glob("*/*")):
             self.assertIsNone(process.poll())
             time.sleep(0.01)
+        time.sleep(0.7)  # the trials are copied
         start = time.monotonic()
         process.send_signal(signal.SIGINT)
         process.wait()
         self.assertEqual(process.returncode, 130)
-        self.assertLess(time.monotonic() - start, 3.0)  # on a busy machine
+        self.assertLess(time.monotonic() - start, SOON)
         self.assertEqual(list(temporary.iterdir()), [])
 
 

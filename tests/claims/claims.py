@@ -28,6 +28,7 @@ CODE = 2.4e-4  # N m, a code of the converter of the paper's axis
 UNITS = {"%": lambda value: 100 * value,
          "ms": lambda value: 1000 * value,
          "codes": lambda value: math.sqrt(value) / CODE}  # rms of a torque from its mean square
+KEYS = {"at", "of", "mark", "row", "page", "in_words", "is", "within", "unit", "times", "counts"}  # of a value in claims.yaml
 NUMBER = re.compile(r"\d[\d ]*(?:\.\d+)?")
 
 
@@ -55,7 +56,7 @@ def values_of(claim):
 
 
 def notations(value):
-    """How a page may write the value: with bounds or without, if it has counts."""
+    """How a page may write the value. If it has counts: with bounds, as its own page must, or without."""
     if "counts" not in value:
         return [str(value["is"])]
     with_bounds = cell(*value["counts"])
@@ -64,7 +65,7 @@ def notations(value):
 
 def is_word(value):
     """Whether the value is a word, such as the status of a goal."""
-    return "counts" not in value and not NUMBER.match(str(value["is"]))
+    return "counts" not in value and not re.search(r"\d", str(value["is"]))
 
 
 def limits_of(value):
@@ -78,8 +79,15 @@ def limits_of(value):
 
 
 def unclear_values(name, claim):
-    """Values that have no mark and are not said in words either, and those that disagree with their own limits; a message each."""
+    """Messages about values without a mark or words, with unknown keys, without their unit, or outside their own limits."""
     for value in values_of(claim):
+        if unknown := set(value) - KEYS:
+            yield f"{name}: {value['of']} has unknown keys: {', '.join(sorted(unknown))}"
+        if ("is" in value) == ("counts" in value):
+            yield f"{name}: {value['of']} needs either `is` or `counts`"
+            continue
+        if not is_word(value) and "counts" not in value and value["of"].endswith("rate") and value.get("unit") != "%":
+            yield f"{name}: {value['of']} is a proportion; state it with unit: \"%\""
         if not is_word(value) and not {"mark", "row", "in_words"} & set(value):
             yield f"{name}: {value['of']} has no `mark`, `row` or `in_words`"
         if "within" in value:
@@ -113,6 +121,8 @@ def check_pages(root):
             messages.append(f"{name}: claims.yaml has two numbers with this name")
     for name, claim in documented["claims"].items():
         messages += unclear_values(name, claim)
+    for page, text in marks.pages_of(root).items():
+        messages += [f"{page}: {comment}: write <!-- claim: NAME -->" for comment in marks.misspelled_marks(text)]
     return messages + list(marks.problems(marks.marks_of(root), claims))
 
 
@@ -159,7 +169,7 @@ def value_at(summary, wanted, path):
 
 def in_unit_of_page(found, value):
     """The value that was found, in the unit in which the page states it. None, which is later than any time, is infinite."""
-    convert = UNITS.get(value.get("unit"), lambda number: number)
+    convert = UNITS[value["unit"]] if "unit" in value else float
     return float("inf") if found is None else value.get("times", 1) * convert(found)
 
 
@@ -175,7 +185,7 @@ def judged_range(points, value):
     """Whether the value of each seed is what is stated, and all as text."""
     if is_word(value):
         values = [found for found, _ in points]
-        return all(found == value["is"] for found in values), f"{', '.join(values)}; stated {value['is']}"
+        return all(found == value["is"] for found in values), f"{', '.join(map(str, values))}; stated {value['is']}"
     low, high = limits_of(value)
     values = [in_unit_of_page(found, value) for found, _ in points]
     shown = ", ".join(f"{number:.4g}" for number in values)

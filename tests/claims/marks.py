@@ -13,6 +13,11 @@ import re
 
 MARK = re.compile(r"<!-- claim: ([\w.+-]+) -->")
 CODE = re.compile(r"^```.*?^```$|`[^`\n]*`", re.MULTILINE | re.DOTALL)
+# What looks like a mark and is not one, so that it would be ignored.
+MISSPELLED = re.compile(r"<!--(?! claim: [\w.+-]+ -->)\W*(?i:claim)\b.*?-->", re.DOTALL)
+# The number goes on to the left of what stands before the mark, or to the right of the mark.
+PART_BEFORE = re.compile(r"[\w.,−–±×·/-]$|\d $|\d to $|[±–] $")
+PART_BEHIND = re.compile(r"[.,]?\d|[\[–]|to \d")
 SKIPPED = {"node_modules", "build", "out", ".git"}
 
 
@@ -23,6 +28,7 @@ class Mark:
     page: str
     line: int
     before: str       # the paragraph, or the row of a table, up to the mark
+    after: str        # a few characters of the text behind the mark
     rows: list        # the cells of the row that has the mark, or of the rows below it; empty in text
     begins_line: bool  # whether nothing stands before it in its line
 
@@ -50,7 +56,13 @@ def marks_in(text, page=""):
             rows = [cells_of(row) for row in itertools.takewhile(lambda row: row.startswith("|"), below)]
         else:
             start = text.rfind("\n\n", 0, match.start()) + 1
-        yield Mark(match[1], page, text.count("\n", 0, match.start()) + 1, plain(text[start:match.start()]), rows, begins_line)
+        yield Mark(match[1], page, text.count("\n", 0, match.start()) + 1, plain(text[start:match.start()]),
+                   plain(text[match.end():match.end() + 12]), rows, begins_line)
+
+
+def misspelled_marks(text):
+    """Comments outside code that look like a mark and are not one."""
+    return MISSPELLED.findall(CODE.sub("", text))
 
 
 def pages_of(root):
@@ -64,26 +76,26 @@ def marks_of(root):
     return [mark for page, text in pages_of(root).items() for mark in marks_in(text, page)]
 
 
-def rows_below(root, name):
-    """The rows of the table with the mark `name`, without its head."""
-    for mark in marks_of(root):
-        if mark.name == name and len(mark.rows) > 2:
-            return mark.rows[2:]
-    raise SystemExit(f"no table has the mark {name}")
+def rows_below(root, name, count):
+    """The `count` rows of the table with the mark `name`, without its head."""
+    rows = next((mark.rows[2:] for mark in marks_of(root) if mark.name == name), [])
+    if len(rows) != count:
+        raise SystemExit(f"the table with the mark {name} has {len(rows)} rows and not {count}")
+    return rows
 
 
 def follows(mark, number):
-    """Whether the mark follows this number, and not a longer one that ends like it."""
+    """Whether the mark stands behind this whole number: nothing beside it makes it a longer number, a range or bounds."""
     rest = mark.before.removesuffix(number)
-    return rest != mark.before and not re.search(r"[\d.,−-]$|\d $", rest)
+    return rest != mark.before and not PART_BEFORE.search(rest) and not PART_BEHIND.match(mark.after)
 
 
 @dataclasses.dataclass
 class Numbers:
-    """What must stand beside the marks of a claim: for each number its notations. Without numbers a command reads the page."""
+    """Required numbers beside a mark; for each its notations, the complete one first. Empty: a command reads the page itself."""
     numbers: list
     is_row: bool = False
-    pages: list = dataclasses.field(default_factory=list)  # where a mark must be; elsewhere it may be
+    pages: list = dataclasses.field(default_factory=list)  # pages that must have the mark, with the complete notation; others may have it
 
 
 def difference(mark, claimed):
@@ -93,11 +105,13 @@ def difference(mark, claimed):
     if claimed.is_row:
         found = mark.rows[0][-len(claimed.numbers):] if mark.rows else []
         if len(found) == len(claimed.numbers) and all(cell == number[0] for cell, number in zip(found, claimed.numbers)):
-            return None
+            wrong_cell = not follows(mark, claimed.numbers[-1][0])
+            return "it is not behind the last number of its row" if wrong_cell else None
         return f"the row ends in {' | '.join(found)}; claims.yaml has {' | '.join(number[0] for number in claimed.numbers)}"
-    if any(follows(mark, number) for number in claimed.numbers[0]):
+    allowed = claimed.numbers[0][:1] if mark.page in claimed.pages else claimed.numbers[0]
+    if any(follows(mark, number) for number in allowed):
         return None
-    return f'it follows "…{mark.before[-30:]}"; claims.yaml has {" or ".join(claimed.numbers[0])}'
+    return f'it follows "…{mark.before[-30:]}" and stands before "{mark.after}…"; claims.yaml has {" or ".join(allowed)}'
 
 
 def problems(marks, claims):

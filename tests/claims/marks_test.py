@@ -1,10 +1,9 @@
-#!/usr/bin/env python3
 """Tests of the marks: words around a marked number do not matter, another number and a lost mark are found."""
 import re
 import unittest
 
 import claims
-from marks import Numbers, marks_in, problems
+from marks import Numbers, marks_in, misspelled_marks, problems
 
 TEXT = """# A page
 
@@ -38,9 +37,9 @@ CLAIMS = {
 }
 
 
-def found(text, expected=None):
+def found(text):
     """The names of the marks with a problem."""
-    messages = problems(marks_in(text, "page.md"), expected or CLAIMS)
+    messages = problems(marks_in(text, "page.md"), CLAIMS)
     return [re.match(r"(?:page\.md:\d+: )?([\w.]+): ", message)[1] for message in messages]
 
 
@@ -73,8 +72,29 @@ class Marks(unittest.TestCase):
         self.assertEqual(self.changed("is 72.4", "is 99.1"), ["row.2"])
 
     def test_longer_number_with_the_same_end_is_found(self):
-        for longer in ("133 to 39", "0.33 to 39", "1 33 to 39", "-33 to 39", "−33 to 39", "1,33 to 39"):
+        for longer in ("133 to 39", "0.33 to 39", "1 33 to 39", "-33 to 39", "−33 to 39", "1,33 to 39", "12 to 33 to 39", "12–33 to 39", "±33 to 39"):
             self.assertEqual(self.changed("33 to 39", longer), ["range"], longer)
+
+    def test_number_that_goes_on_behind_its_mark_is_found(self):
+        for rest in (".9", "0", " [30, 40]", "–50", " to 50"):
+            self.assertEqual(self.changed("39<!-- claim: range -->", f"39<!-- claim: range -->{rest}"), ["range"], rest)
+
+    def test_page_of_a_claim_must_state_its_bounds(self):
+        claimed = {"half": Numbers([["97.8 [97.6, 98.1]", "97.8"]], pages=["page.md"])}
+        text = "97.8<!-- claim: half --> %"
+        self.assertEqual(len(list(problems(marks_in(text, "page.md"), claimed))), 1)
+        with_bounds = "97.8 [97.6, 98.1]<!-- claim: half --> %"
+        both = [*marks_in(with_bounds, "page.md"), *marks_in(text, "other.md")]
+        self.assertEqual(list(problems(both, claimed)), [])
+
+    def test_misspelled_marks_are_found(self):
+        for comment in ("<!-- claim:half -->", "<!--claim: half-->", "<!-- Claim: half -->"):
+            self.assertEqual(misspelled_marks(f"1{comment} %"), [comment])
+        self.assertEqual(misspelled_marks(TEXT), [])
+
+    def test_mark_of_a_row_stands_behind_its_last_number(self):
+        moved = TEXT.replace("<!-- claim: row -->", "").replace("99.1 [98.7, 99.4]", "99.1 [98.7, 99.4]<!-- claim: row -->")
+        self.assertEqual(found(moved), ["row"])
 
     def test_mark_apart_from_its_number_is_found(self):
         self.assertEqual(self.changed("33 to 39<!-- claim: range --> %", "33 to 39 % of them<!-- claim: range -->"), ["range"])
@@ -131,6 +151,14 @@ class Values(unittest.TestCase):
         self.assertEqual(len(messages()), 1)
         self.assertEqual(messages(in_words="all succeed"), [])
         self.assertEqual(messages(**{"is": "met"}), [])
+
+    def test_unclear_values_are_found(self):
+        def messages(**value):
+            return list(claims.unclear_values("x", {"checks": [{"values": [{"mark": "x"} | value]}]}))
+        self.assertEqual(messages(of="goal.rate", unit="%", **{"is": 98}), [])
+        self.assertEqual(messages(of="goal.rate", **{"is": 1}), ['x: goal.rate is a proportion; state it with unit: "%"'])
+        self.assertEqual(messages(of="y", withn=[1, 2], **{"is": 1}), ["x: y has unknown keys: withn"])
+        self.assertEqual(messages(of="y"), ["x: y needs either `is` or `counts`"])
 
     def test_words_must_be_equal(self):
         self.assertTrue(self.agrees({"is": "met"}, "met"))

@@ -70,9 +70,9 @@ def machines_by_blocks(program, machines):
 def check_blocks(program, root, machines):
     failed = False
     found = machines_by_blocks(program, machines)
-    for row in marks.rows_below(root, "monitor-blocks"):
+    for row in marks.rows_below(root, "monitor-blocks", 5):
         block = int(row[0])
-        for measure, cell in zip(MEASURES, row[1:]):
+        for measure, cell in zip(MEASURES, row[1:], strict=True):
             said, here = int(cell.split()[0]), found[measure][block]
             near = abs(here - said * machines / 200) <= spread_of(said, 200, machines)
             print(f"--block {block}, {measure}: {here} of {machines}; stated: {said} of 200{'' if near else '  <- differs'}", flush=True)
@@ -85,15 +85,15 @@ def check_rates(rates, root):
     failed = False
     printed = subprocess.run([rates], capture_output=True, text=True, check=True).stdout.splitlines()
     rows = {tuple(marks.cells_of(line)[:2]): marks.cells_of(line)[2:] for line in printed if line.startswith("|")}
-    for row in marks.rows_below(root, "monitor-exchangeable"):
+    for row in marks.rows_below(root, "monitor-exchangeable", 9):
         kind = next(key for key in rows if key[1] == row[1] and key[0] in (row[0], {"continuous": "lognormal"}.get(row[0])))
-        for alarm, said, here in zip((0.05, 0.01, 0.001), row[2:], rows[kind]):
+        for alarm, said, here in zip((0.05, 0.01, 0.001), row[2:], rows[kind], strict=True):
             most = 1000 * alarm + 3 * math.sqrt(1000 * alarm)
             good = int(here) <= most and abs(int(here) - int(said)) <= spread_of(int(said), 1000, 1000)
             print(f"{row[0]}, baseline {row[1]}, --alarm {alarm}: {here} of 1000; stated: {said}{'' if good else '  <- differs'}", flush=True)
             failed = failed or not good
-    for row in marks.rows_below(root, "monitor-days"):
-        for said, here in zip(row[2:5], rows[tuple(row[:2])]):
+    for row in marks.rows_below(root, "monitor-days", 8):
+        for said, here in zip(row[2:5], rows[tuple(row[:2])][:3], strict=True):
             near = abs(int(here) - int(said)) <= spread_of(int(said), 200, 200)
             print(f"days, {row[0]}, {row[1]}: {here} of 200; stated: {said}{'' if near else '  <- differs'}", flush=True)
             failed = failed or not near
@@ -101,9 +101,9 @@ def check_rates(rates, root):
     for line in printed:                       # the first table of delays is of lognormal values
         if line.startswith("|") and re.match(r"\| [+-]", line):
             first.setdefault(tuple(marks.cells_of(line)[:2]), marks.cells_of(line)[2:])
-    for row in marks.rows_below(root, "monitor-delays"):
+    for row in marks.rows_below(root, "monitor-delays", 6):
         here = first[(row[0].replace("−", "-"), row[1])]
-        for said, found in zip(row[2:], here):
+        for said, found in zip(row[2:], here, strict=True):
             pairs = list(zip(np.fromstring(said, sep=","), np.fromstring(found, sep=",")))
             near = len(pairs) == 2 and all(a / 1.5 - 4 <= b <= 1.5 * a + 4 for a, b in pairs)
             print(f"{row[0]}, baseline {row[1]}: {found}; stated: {said}{'' if near else '  <- differs'}", flush=True)

@@ -137,7 +137,7 @@ def main():
         delays, fixed, measures = row_of(arguments.program, name, same, heads)
         print(f"| {name} | {delays[0]:g}, {delays[1]:g} | {fixed[0]}, {fixed[1]} | {', '.join(measures[:3])} |", flush=True)
         stated = stated_delays(arguments.root, name)
-        for found, said in zip(delays, stated or [np.inf, np.inf]):
+        for found, said in zip(delays, stated or [np.inf, np.inf], strict=True):
             near = found == said or said / 1.5 - 4 <= found <= 1.5 * said + 4
             failed = failed or not near
             if not near:

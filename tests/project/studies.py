@@ -23,7 +23,7 @@ from marks import MARK  # noqa: E402
 from page_table import replace_table, table_in  # noqa: E402
 
 PAGE = "docs/studies.md"
-ROW = re.compile(r"^\| \[`([\w-]+)`\]\([^)]*\) \|.*\| (.*) \|$", re.MULTILINE)
+ROW = re.compile(r"^\| \[`([\w-]+)`\]\([^)]*\) \|.*\| (.*?) *\|\s*$", re.MULTILINE)
 
 
 def question_of(text, manifest):
@@ -57,7 +57,11 @@ def claimed_studies(root):
 def results_of(root):
     """The result of each study that has one in the page."""
     studies = claimed_studies(root)
-    results = dict(ROW.findall(table_in(root / PAGE, "studies")))
+    table = table_in(root / PAGE, "studies")
+    results = dict(ROW.findall(table))
+    rows = [line for line in table.splitlines() if line.startswith("| [")]
+    if len(rows) != len(results):  # a row that is not read would be replaced by a link
+        sys.exit(f"{PAGE}: {len(rows)} rows, of which {len(results)} are like | [`NAME`](LINK) | QUESTION | RESULT |")
     for name, result in results.items():
         marks = [mark if mark in studies else mark.rpartition(".")[0] for mark in MARK.findall(result)]
         if name not in [studies.get(mark) for mark in marks]:

@@ -182,12 +182,26 @@ TemporaryFolder::~TemporaryFolder() {
 
 std::filesystem::path ScratchFolder::make() {
   const std::lock_guard lock(mutex_);
+  if (is_closed_)
+    throw Failure(ExitCode::interrupted, "interrupted: the folder for temporary files is closed");
   folder_.reset();
   return folder_.emplace().path();
 }
 
 void ScratchFolder::remove() {
   const std::lock_guard lock(mutex_);
+  folder_.reset();
+}
+
+void ScratchFolder::close() {
+  const std::lock_guard lock(mutex_);
+  is_closed_ = true;
+  if (!folder_) return;
+  // Under another name nobody makes a file in it while its contents are removed.
+  const std::filesystem::path hidden = folder_->path().string() + ".removed";
+  std::error_code ignored;
+  std::filesystem::rename(folder_->path(), hidden, ignored);
+  std::filesystem::remove_all(hidden, ignored);
   folder_.reset();
 }
 

@@ -125,16 +125,21 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-/// A place for one temporary folder at a time. Another thread may remove the folder at any time, for example
-/// before it ends the process.
+/// A place for one temporary folder at a time. Another thread may close it at any time, for example before
+/// that thread ends the process.
 class ScratchFolder {
  public:
-  /// Makes an empty folder in place of the previous one, and returns its path. @throws as TemporaryFolder()
+  /// Makes an empty folder in place of the previous one, and returns its path.
+  /// @throws as TemporaryFolder(), and Failure (interrupted) after close()
   std::filesystem::path make();
+  /// Removes the folder.
   void remove();
+  /// Removes the folder for good, although another thread may be writing in it.
+  void close();
 
  private:
   std::mutex mutex_;
+  bool is_closed_{false};
   std::optional<TemporaryFolder> folder_;
 };
 

@@ -119,7 +119,7 @@ ExitCode verify(const command_line::Arguments& arguments) {
     arguments.refuse("option '--seed' needs trials to run again, but '--trials' is 0");
   settings.plugin = commands::plugin_option(arguments);
   const status::InterruptionWatch interruption(status::InterruptionWatch::Unstopped::end,
-                                               [scratch = settings.scratch] { scratch->remove(); });
+                                               [scratch = settings.scratch] { scratch->close(); });
   settings.stop = interruption.token();
   const std::vector<std::filesystem::path> operands(arguments.operands().begin(), arguments.operands().end());
   const Reports reports = verification::verify(operands, settings);

@@ -44,8 +44,8 @@ void write_statistics(shards::MergedFile& file, const study::Study& study, const
         [&](const layout::StoredStatistics& block) { file.write_statistics(block); },
         {settings.timeline, settings.stop});
     if (!study.sequence.empty()) iso230::write_repeatability(file.file(), study);
-  } catch (const Failure&) {
-    file.require_trials();
+  } catch (const Failure& failure) {
+    if (failure.code() != ExitCode::interrupted) file.require_trials();
     throw;
   }
 }

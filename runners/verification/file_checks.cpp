@@ -149,14 +149,22 @@ void rebuild(const reading::ResultsFile& file, const study::Study& study,
   try {
     study_run::assemble(trials, study, rebuilt, file.rows(), {.stop = stop});
   } catch (const Failure& failure) {
+    require_no_stop(stop);
     if (failure.code() != ExitCode::bad_data) throw;
     throw Failure(failure.code(), problem_of(failure, storage::part_of(rebuilt)));
   }
 }
 
+/// Removes the folder at the end of its scope.
+struct RemovedAtEnd {
+  storage::ScratchFolder& scratch;
+  ~RemovedAtEnd() { scratch.remove(); }
+};
+
 void compare_rebuilt(const reading::ResultsFile& file, const study::Study& study, const CheckReport& report,
                      ProblemList& problems) {
-  const std::filesystem::path rebuilt = report.scratch->make() / "rebuilt.h5";
+  const RemovedAtEnd folder{*report.scratch};
+  const std::filesystem::path rebuilt = folder.scratch.make() / "rebuilt.h5";
   rebuild(file, study, rebuilt, report.stop);
   const reading::ResultsFile other(rebuilt, reading::Require::unfinished);
   const bool exact = equality_of(file.header()) == Equality::bits;

@@ -30,7 +30,7 @@ struct CheckReport {
   std::vector<Check> checks{};
   bool unreadable{false};  ///< The computer failed to read the file, or to write what a check needs.
   std::stop_token stop{};  ///< Interrupts the checks.
-  std::shared_ptr<storage::ScratchFolder> scratch = std::make_shared<storage::ScratchFolder>();
+  std::shared_ptr<storage::ScratchFolder> scratch{};  ///< VerifySettings::scratch; null: nothing is written.
 };
 
 /// Whether all checks hold.

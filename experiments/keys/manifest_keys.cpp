@@ -304,7 +304,7 @@ std::span<const Shape> general_keys() {
       of(Form::entries,
          {.name = "conditions",
           .meaning =
-              "conditions under which every machine has to run, names and overrides of parameters: {empty: {}, loaded: {plant.inertia: 4.6}}; "
+              "conditions under which every machine must run, as names and overrides of parameters: {empty: {}, loaded: {plant.inertia: 4.6}}; "
               "trial i runs under condition floor(i/R) mod C (R machines, or 1), and `trials` must be a multiple of R*C",
           .min_count = 1,
           .max_count = 1000,

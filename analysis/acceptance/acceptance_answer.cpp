@@ -236,8 +236,8 @@ Description<StandardValue> standard_rows() {
 std::string worlds_sentence(const Acceptance& a) {
   if (a.worlds == 0) return "";
   return fmt::format(
-      "with {} worlds, the prediction is that of the world that agrees best with the machines, and the "
-      "interval that of all worlds",
+      "with {} worlds, the prediction is that of the world that agrees best with the machines; the "
+      "interval covers all worlds",
       a.worlds);
 }
 

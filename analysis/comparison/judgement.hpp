@@ -20,10 +20,10 @@ inline constexpr double decision_probability = 0.8;
 
 /// The gate's verdict on a measure, a requirement, a point or the whole comparison; the worst first.
 enum class GateVerdict {
-  regression,    ///< Visibility: worse by more than the margin, or the requirement is not met.
-  changed,       ///< Visibility: better by more than the margin, and every change fails.
+  regression,    ///< Shown: worse by more than the margin, or the requirement is not met.
+  changed,       ///< Shown: better by more than the margin, and every change fails.
   inconclusive,  ///< Neither a failure nor its absence is shown.
-  passed,        ///< Visibility: no failing change exceeds the margin, or the requirement is met.
+  passed,        ///< Shown: no failing change exceeds the margin, or the requirement is met.
   not_measured   ///< Too few trials have a value; does not affect the other verdicts.
 };
 

@@ -174,8 +174,8 @@ double counting_noise(const TestRecord& record, const Eigen::VectorXd& path,
   const double largest = largest_difference(path, readings);
   TravelHistogram travels;
   double observed = 0.0;
-  double noiseless = 0.0;  // of the counts on the path
-  double reversals = 1.0;  // of the path
+  double noiseless = 0.0;  // weighted sum of squares, computed for the counts of the path
+  double stretches = 1.0;  // number of parts of the path between reversals
   double last_sign = 0.0;
   for (Eigen::Index lag = 1; lag <= noise_lags; ++lag) {
     // Each lag sees the edges of slow motion again; the weight counts them once.
@@ -189,7 +189,7 @@ double counting_noise(const TestRecord& record, const Eigen::VectorXd& path,
       observed += weight * square_beside(counts, travel);
       noiseless += weight * square_beside(std::floor(path[k + lag]) - std::floor(path[k]), travel);
       if (lag > 1 || travel == 0.0) continue;
-      if (travel * last_sign < 0.0) reversals += 1.0;
+      if (travel * last_sign < 0.0) stretches += 1.0;
       last_sign = travel;
     }
   }
@@ -198,7 +198,7 @@ double counting_noise(const TestRecord& record, const Eigen::VectorXd& path,
   };
   // Without noise, a stretch of the path between two reversals has what is expected, to within the square of
   // an edge, and exactly what the path has, except near the reversals.
-  const double by_chance = 3.0 + 2.0 * std::sqrt(reversals);
+  const double by_chance = 3.0 + 2.0 * std::sqrt(stretches);
   if (-excess(0.0) < by_chance || observed - noiseless < by_chance) return 0.0;
   constexpr double max_noise = 100.0;
   if (excess(max_noise) <= 0.0) return max_noise;

@@ -175,10 +175,10 @@ SampledPath sampled_path(const TestRecord& record, plant::Plant plant, double of
 
 namespace {
 
-constexpr double reversal_threshold = 0.02;   // of the range
-constexpr double hold_tolerance = 1e-3;       // of the range
-constexpr double step_threshold = 0.05;       // of the range
-constexpr double slow_threshold = 0.2;        // of the range
+constexpr double reversal_threshold = 0.02;   // fraction of the range
+constexpr double hold_tolerance = 1e-3;       // fraction of the range
+constexpr double step_threshold = 0.05;       // fraction of the range
+constexpr double slow_threshold = 0.2;        // fraction of the range
 constexpr std::size_t min_part_samples = 20;  // for a hold and for a slow branch
 constexpr std::size_t step_samples = 8;
 

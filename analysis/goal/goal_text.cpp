@@ -268,12 +268,13 @@ std::string needs_sentence(const study::Goal& goal, const Needs& needs, bool on_
         on_machines ? " on 10⁵ machines" : "", chance);
   }
   if (needs.machines == 0)
-    return fmt::format("About {} decide it with a probability of {}, on the evidence of these",
+    return fmt::format("About {} decide it with a probability of {}, judging by the present trials",
                        text::counted(needs.trials, "trial"), chance);
   const std::int64_t each = needs.trials / needs.machines;
-  return fmt::format("About {} with {} each decide it with a probability of {}, {}",
-                     text::counted(needs.machines, "machine"), text::counted(each, "trial"), chance,
-                     goal.machines ? "if other machines are like these" : "on the evidence of these");
+  return fmt::format(
+      "About {} with {} each decide it with a probability of {}, {}",
+      text::counted(needs.machines, "machine"), text::counted(each, "trial"), chance,
+      goal.machines ? "if other machines are like the present ones" : "judging by the present trials");
 }
 
 std::vector<std::string> status_words() {

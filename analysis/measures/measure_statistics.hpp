@@ -26,14 +26,16 @@ struct RateWithBounds {
 struct MeasureStatistics {
   static constexpr statistics::Quantile no_quantile{statistics::unknown, statistics::unknown,
                                                     statistics::unknown};
-  std::int64_t n{0};                  ///< values that are known
-  std::int64_t moves{0};              ///< values, including the censored ones
-  std::int64_t nonfinite{0};          ///< values left out as not finite
-  std::int64_t trials{0};             ///< trials with the quality, or values above 0
-  std::int64_t total{0};              ///< sum of the values of the trials
+  std::int64_t n{0};          ///< values that are known
+  std::int64_t moves{0};      ///< values, including the censored ones
+  std::int64_t nonfinite{0};  ///< values left out as not finite
+  std::int64_t trials{0};     ///< Trials with the quality that the measure states, or with a value above 0.
+  std::int64_t total{0};      ///< sum of the values of the trials
   std::vector<std::int64_t> by_move;  ///< [move] number of trials whose move has the quality
-  RateWithBounds rate;                ///< Proportion of trials with the quality.
-  RateWithBounds moves_rate;  ///< Proportion of moves with it; Korn–Graubard instead of Clopper–Pearson.
+  RateWithBounds rate;                ///< Proportion of trials with the quality that the measure states.
+  /// Proportion of moves that have the quality which the measure states, such as "arrived". The bounds treat
+  /// trials, or machines, as clusters of moves: `clopper_pearson` holds the bounds of Korn and Graubard here.
+  RateWithBounds moves_rate;
   double mean{statistics::unknown};
   double sd{statistics::unknown};
   double rms{statistics::unknown};

@@ -26,12 +26,14 @@ struct SecondMass {
 /// follows from the torque, so errors of the readings do not drive it. For many ω and ζ, A is fitted with the
 /// parameters of the fit, by one step of Gauss and Newton, with free initial states of q in each window.
 ///
-/// Visibility is an A that explains 3 % or more of the squares and exceeds its standard error by what happens
-/// by chance once in 1000 records, in any of 100 places, and no torque of tried_torques() explains more. The
-/// error is the larger of that of independent residuals and of the jackknife over windows. Windows are tried
-/// of a twentieth of the samples and of 256 and 128: in long ones forces that the law lacks hide A, and in
-/// closed loop shorter ones imitate a small A, because both the torque and the free initial states depend on
-/// the same errors of the readings.
+/// The second mass counts as visible under three conditions. A explains at least 3 % of the squares of the
+/// residuals. A exceeds its standard error by so much that chance does the same in one of 1000 records, in
+/// any of 100 places. No torque of tried_torques() explains more. The standard error is the larger one of
+/// two: that for independent residuals, and that of the jackknife over windows.
+///
+/// Three lengths of windows are tried: a twentieth of the samples, 256 and 128 samples. In long windows,
+/// forces that the law lacks hide A. In closed loop, short windows imitate a small A, because the torque and
+/// the free initial states depend on the same errors of the readings.
 std::optional<SecondMass> visible_second_mass(const SlidingFit& fit, std::vector<SlidingRecord> records);
 
 }  // namespace zerocount::sliding_identification

@@ -129,13 +129,15 @@ document::Description<ReversalFriction> reversal_description() {
       .value(in_data("swing", "sum of the levels of both directions near a reversal, median, N m or N"),
              &ReversalFriction::swing)
       .value(
-          in_data("travel", "travel after a reversal in which nine tenths of it turn over, median, rad or m"),
+          in_data(
+              "travel",
+              "travel after a reversal in which nine tenths of the change of the friction take place, median, rad or m"),
           &ReversalFriction::travel)
       .value(in_data("min_travel", "smallest of them, rad or m"), &ReversalFriction::min_travel)
       .value(in_data("max_travel", "largest of them, rad or m"), &ReversalFriction::max_travel)
       .value(in_data("samples", "samples in that travel, median; below 6 the travel is an upper bound"),
              &ReversalFriction::samples)
-      .value(in_data("stiffness", "0.9 of the change of the friction over the travel, N m/rad or N/m"),
+      .value(in_data("stiffness", "0.9 times swing, divided by travel, N m/rad or N/m"),
              &ReversalFriction::stiffness);
 }
 

@@ -116,7 +116,8 @@ struct JudgedClaim {
   std::size_t condition;
 };
 
-/// Counts the moves of a results file that the claim is about. Empty if the file does not keep every trial.
+/// Counts the moves that miss and that meet the goal of the claim, each with the number of moves in which the
+/// converter clipped the torque. Empty if the file does not keep every trial.
 std::optional<SaturatedMoves> saturated_moves(const std::filesystem::path& path, const study::Study& study,
                                               const JudgedClaim& claim);
 

@@ -52,6 +52,11 @@ void add_trials(StudyAccumulator& accumulator, const reading::ResultsFile& file)
 
 template <class File>
 ChosenSummary summarise_chosen(const File& file, std::optional<std::int64_t> point) {
+  if (file.point_labels().size() == 1) {  // there is nothing to compare
+    ChosenSummary only{summarise(file), {}, {}};
+    only.chosen = choose_point(only.summary, point);
+    return only;
+  }
   ChosenSummary result{summary_without_points(file, statistics::summary_confidence), {}, {}};
   StudySummary& summary = result.summary;
   result.measures = compared_measures(table_of(file), summary.question);

@@ -23,7 +23,7 @@ layout::StoredStatistics stored_statistics(std::span<const measures::PointSummar
                                            std::span<const theory::PointPrediction> predictions,
                                            const layout::MeasureTable& table);
 
-/// How statistics are computed: who watches the work, and who may interrupt it.
+/// Record of the stages of a computation of statistics, and a request to stop it.
 struct StatisticsWork {
   timeline::Timeline* timeline{nullptr};  ///< Receives spans of the stages; may be null.
   std::stop_token stop{};                 ///< Interrupts the work.

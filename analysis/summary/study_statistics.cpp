@@ -352,7 +352,7 @@ std::size_t blocks_at_once(std::size_t threads) {
 void require_no_stop(const Wanted& wanted) {
   if (wanted.stop.stop_requested())
     throw Failure(ExitCode::interrupted,
-                  "interrupted while the statistics were computed; the trials are kept");
+                  "interrupted while the statistics were computed; the finished shards are kept");
 }
 
 /// Sums of consecutive trials.

@@ -273,8 +273,7 @@ std::string design_line(const StudySummary& summary) {
   if (features.machines && !summary.points.empty()) {
     line += fmt::format(
         ", {} machines: bounds hold for all machines that the manifest describes, and more trials on the "
-        "same "
-        "machines narrow them only so far",
+        "same machines narrow them only so far",
         machines_of(summary));
   }
   if (summary.question.worlds > 0) {

@@ -102,7 +102,8 @@ double hold_of(const trial::TrialParameters& p) {
   return static_cast<double>(trial::samples_of_move(p, 0)) / p.controller.sample_rate;
 }
 
-/// Adds the bound of the trial's sampled loop about a spring of `stiffness` (N m/rad).
+/// Adds the integral gain below which the trial's sampled loop is stable if the friction is a spring of
+/// `stiffness` (N m/rad), and whether the trial's gain is below it.
 void add_sampled_bound(const study::Study& study, const trial::TrialParameters& p, double stiffness,
                        GainTheory& gain) {
   const double bound = sampled_bound(stiffness, p);

@@ -26,9 +26,8 @@ double sample_time(const loop::ControllerParameters& controller);
 AnalogueGains analogue_gains(const loop::ControllerParameters& controller,
                              const loop::EncoderParameters& encoder);
 
-/// The gains of the sampled law that stand for `gains` at the sample rate of `controller`, the inverse of
-/// analogue_gains: kp = kP·Δx, ki =
-/// kI·Δx·T/2, kd = kD·Δx/T.
+/// The gains of the sampled law that stand for `gains` at the sample rate of `controller`: kp = kP·Δx,
+/// ki = kI·Δx·T/2, kd = kD·Δx/T. Inverse of analogue_gains().
 loop::PidGains sampled_gains(const AnalogueGains& gains, const loop::ControllerParameters& controller,
                              const loop::EncoderParameters& encoder);
 

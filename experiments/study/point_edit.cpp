@@ -77,7 +77,7 @@ void PointEdit::scale(std::size_t slot, const Scaling& scaling) {
       assign(slot, drawn_from(value, scaled_by(scaling, plan_.distributions[value.index], none)));
       return;
     case Value::Kind::profile:
-    case Value::Kind::derived:  // of friction, which has no unit that depends on the loop
+    case Value::Kind::derived:  // a friction parameter, whose unit does not depend on the loop
       return;
   }
 }

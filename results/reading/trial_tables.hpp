@@ -68,7 +68,7 @@ class TrialTables {
   const std::vector<layout::RecordField<trial::MoveOutcome>>& measures() const { return measures_; }
   const layout::MeasureTable& table() const { return *table_; }
   /// All measures of the moves, [trial][move], flattened. Measures that the study does not use are 0 or
-  /// false.
+  /// false. Only one thread at a time may call it: it reads the file and keeps the last chunk.
   std::vector<trial::MoveOutcome> outcomes(layout::RowRange positions) const;
   /// The steps of outcomes(). Only stored_outcomes() calls the HDF5 library; any thread may take the other
   /// steps.
@@ -130,8 +130,8 @@ class TrialTables {
   std::optional<layout::TableReader> tolerances_;
   layout::TableReader jerks_;
   std::optional<layout::TableReader> trace_;
-  /// The chunk of which some outcomes were read last. Small ranges of trials are usually read one after the
-  /// other, and a read by the library costs much more than the few rows of a small range.
+  /// The chunk from which outcomes were read last. Small ranges of trials are usually read one after the
+  /// other, so this saves reads of the same chunk.
   mutable std::optional<OutcomeColumns> last_chunk_;
 };
 

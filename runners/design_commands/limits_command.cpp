@@ -137,8 +137,9 @@ std::string causes_sentence(const std::vector<Limit>& limits) {
               : fmt::format("gained, lost: in {}, the worst with nothing switched off; each rate is "
                             "that of the worst in its row\n",
                             fmt::join(names, ", "))) +
-         (machines < needed ? fmt::format("{} units cannot show a cause, at least {} can\n", machines, needed)
-                            : "") +
+         (machines < needed
+              ? fmt::format("{} machines cannot show a cause, at least {} can\n", machines, needed)
+              : "") +
          fmt::format(
              "not tried: other values of {} that have no ideal one, other gains, another friction law{}",
              fmt::join(tuning::sections_with_other_values(), ", "), not_simulated_text(limits));

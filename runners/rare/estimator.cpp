@@ -32,7 +32,7 @@ struct Retrial {
 constexpr std::array<Retrial, 2> retrials{{{200, 50}, {20, 500}}};
 constexpr std::int64_t min_failures_of_pinned = 2;
 constexpr double enrichment_of_pinned = 5.0;  // of failures at a value, over those of plain trials
-constexpr double proportion_of_pinned = 0.5;  // of the proposal, beside a mixture
+constexpr double proportion_of_pinned = 0.5;  // weight in the proposal, beside a mixture
 constexpr std::int64_t enough_plain_failures = 30;
 constexpr int searches_of_first_score = 2;
 constexpr double min_probability = 1e-11;
@@ -46,7 +46,7 @@ constexpr double narrow_cap = 30.0;                 // of the weights, over the 
 constexpr std::size_t drawn_at_once = 500;
 constexpr double natural_proportion = 0.1;
 constexpr double proportion_of_levels = 0.35;
-constexpr double proportion_of_new = 0.4;  // of the mixture, after a failure that it did not foresee
+constexpr double proportion_of_new = 0.4;  // weight in the mixture, after a failure that it did not foresee
 constexpr double cap_beyond_usual = 2.0;
 constexpr double quantile_of_cap = 0.998;  // of the likelihood ratio of failures
 constexpr std::int64_t max_learnings = 8;

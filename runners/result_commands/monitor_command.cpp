@@ -120,7 +120,8 @@ std::optional<monitor::ChangeExplanation> explanation_of(const command_line::Arg
 std::optional<double> change_from(const command_line::Arguments& arguments) {
   const std::optional<double> change = command_line::number_option(arguments, "change", 0.0);
   if (change && !(*change > 0.0))
-    arguments.refuse("option '--change': 0 means no change; expected a number above 0");
+    arguments.refuse(
+        fmt::format("option '--change': {} is not the size of a change; expected a number above 0", *change));
   return change;
 }
 

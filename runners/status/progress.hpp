@@ -26,8 +26,9 @@ class InterruptionWatch {
     end    ///< The process ends, with the exit code of an interruption; nothing is lost.
   };
 
-  /// @param before_end is called in the thread of the watch before Unstopped::end ends the process, to remove
-  /// temporary files; may be empty
+  /// @param before_end is called in the thread of the watch before this object ends the process
+  /// (Unstopped::end, or a second SIGINT or SIGTERM), for example to remove temporary files. It must not wait
+  /// for the work. May be empty.
   explicit InterruptionWatch(Unstopped unstopped = Unstopped::wait, std::function<void()> before_end = {});
   InterruptionWatch(const InterruptionWatch&) = delete;
   InterruptionWatch& operator=(const InterruptionWatch&) = delete;

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::int64_t machines_of_behaviour = 128;  // that show what values do, before their proof
+constexpr std::int64_t machines_of_behaviour = 128;  // simulated before the proof, to describe the moves
 
 /// Opens the journal, and refuses to overwrite what another run made.
 TuningJournal open_journal(const study::Study& study, const TuneSettings& settings) {

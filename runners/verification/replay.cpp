@@ -31,9 +31,9 @@ bool same(double a, double b, Equality equality, double allowed = 0.0) {
   return std::abs(a - b) <= std::max(allowed, 1e-9 * std::max(std::abs(a), std::abs(b)));
 }
 
-/// Absolute tolerance of a column. A position in counts is the difference of large numbers and has the
-/// accuracy of θ. After a breakaway θ is accurate to 1e-3 count, which is more than this for encoders of up
-/// to 60 million counts per revolution.
+/// Absolute tolerance with which a column of a replayed trial must agree: 1e-10 rad for angles, 1e-3 count
+/// for positions in counts. A position in counts is the difference of large numbers, so it has the accuracy
+/// of the angle: 1e-10 rad is less than 1e-3 count for encoders of up to 60 million counts per revolution.
 double allowed_in(const layout::Column& column) {
   if (column.unit == "rad") return 1e-10;
   return column.unit == "count" ? 1e-3 : 0.0;

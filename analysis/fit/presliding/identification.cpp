@@ -186,7 +186,7 @@ JointDraws draw_jointly(const Estimation& from, std::vector<EstimatedQuantity> e
   return draws;
 }
 
-/// A fit and its errors.
+/// A fit, and the standard errors of its parameters by replicates of the readings.
 struct CheckedFit {
   ContactFit fit;
   FitErrors errors;

@@ -139,13 +139,17 @@ Matrix matrix_of(const JointErrors& errors, Value value) {
 document::Description<JointErrors> errors_description() {
   return document::Description<JointErrors>()
       .value(in_data("parameters", "names, in the order of the matrices"), &JointErrors::names)
-      .value(in_data("covariance", "of the errors of logarithms; of n and the time offset themselves"),
+      .value(
+          in_data(
+              "covariance",
+              "covariance of the errors of the logarithms; for n and the time offset: of the errors themselves"),
+          [](const JointErrors& e) {
+            return matrix_of(e, [&](auto i, auto j) { return e.covariance(i, j); });
+          })
+      .value(in_data("correlation", "correlation of the errors whose covariance is given", "1"),
              [](const JointErrors& e) {
-               return matrix_of(e, [&](auto i, auto j) { return e.covariance(i, j); });
-             })
-      .value(in_data("correlation", "of the same errors", "1"), [](const JointErrors& e) {
-        return matrix_of(e, [&](auto i, auto j) { return e.correlation(i, j); });
-      });
+               return matrix_of(e, [&](auto i, auto j) { return e.correlation(i, j); });
+             });
 }
 
 struct LineOfRecord {

@@ -25,23 +25,24 @@ inline constexpr std::array<double, 3> tolerance_contents{0.95, 0.99, 0.999};
 
 /// An upper tolerance limit of the settling time.
 struct ToleranceLimit {
-  double content{0.0};     ///< Proportion of axes that settle in time.
-  double within{unknown};  ///< Time within which they settle, s; NaN if there is no limit.
+  double content{0.0};     ///< Proportion of machines to which the limit applies, such as 0.95.
+  double within{unknown};  ///< Time within which they settle, s; NaN if too few trials support a limit.
 };
 
-/// Tolerance statement about the success of all axes that the manifest describes, from the trials of a point.
+/// Tolerance statement about the success of all machines that the manifest describes, from the trials of a
+/// point.
 struct SuccessClaim {
   std::int64_t trials{0};
   std::int64_t failures{0};
   double confidence{summary_confidence};
-  /// Lower bound of the proportion of axes that succeed, by proportion_at_least().
+  /// Lower bound of the proportion of machines that succeed, by proportion_at_least().
   double success_at_least{0.0};
-  /// Upper bound of the proportion of axes that fail: 1 − success_at_least.
+  /// Upper bound of the proportion of machines that fail: 1 − success_at_least.
   double failure_at_most{1.0};
-  /// Upper bound of the proportion of axes that succeed, by proportion_at_most(). It is not claimed together
-  /// with success_at_least.
+  /// Upper bound of the proportion of machines that succeed, by proportion_at_most(). It is not claimed
+  /// together with success_at_least.
   double success_at_most{1.0};
-  /// Number of machines that ran the trials; 0: every trial is a different axis.
+  /// Number of machines that ran the trials; 0: every trial has a machine of its own.
   std::int64_t machines{0};
 };
 

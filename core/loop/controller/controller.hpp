@@ -93,7 +93,7 @@ class Controller {
 
   ControlPhase phase() const { return switch_.phase(); }            ///< Phase of the last sample.
   std::int64_t phase_changes() const { return switch_.changes(); }  ///< Number of phase changes so far.
-  double integral() const;                                          ///< Integral I of the phase in force, N m
+  double integral() const;  ///< Integral I of the phase (coarse or fine) of the last sample, N m
 
  private:
   double count_of(EncoderChoice encoder, const EncoderReading& reading) const;

@@ -121,7 +121,8 @@ tuning::ExtraCost cost_of_robustness(const tuning::TunedAxis& axis) {
           .trials = points_of_robustness * axis.machines().trials()};
 }
 
-/// The rates at the tuned values with other premises.
+/// Proportion of moves that meet the goal at the tuned values, if a premise of the study differs: other
+/// seeds, another spread of the random parameters, another delay.
 struct OtherPremises {
   std::vector<tuning::Limit> rates{};
 };

@@ -281,26 +281,28 @@ ExitCode tune(const command_line::Arguments& arguments) {
 }  // namespace
 
 commands::Command tune_command() {
-  return {{"tune",
-           "MANIFEST -o FILE | FILE",
-           {command_line::renewed_file(
-                {"output,o", "FILE", "the results file of the proof (required with a manifest)"}),
-            answers::format_option(),
-            {"budget", "B", "budget of the tuning: a number of trials, or a time such as 60s or 5min"},
-            command_line::written_file({"manifest,m", "TUNED", "write the manifest with the tuned values"}),
-            extras_spec(),
-            command_line::page_file(
-                {"report", "PAGE", "write a page (*.html) with maps, what was tried, and the proof"}),
-            commands::watch_option(),
-            commands::timeline_option(),
-            {"threads", "N", "threads to use; default: all cores"},
-            set_option(),
-            {"quiet,q", "", "print no progress"},
-            command_line::force_option()}},
-          "find gains that meet the goal, and prove them",
-          tune_help,
-          tune,
-          [] { return std::vector{tune_answer().complete_type()}; }};
+  return {
+      {"tune",
+       "MANIFEST -o FILE | FILE",
+       {command_line::renewed_file(
+            {"output,o", "FILE", "the results file of the proof (required with a manifest)"}),
+        answers::format_option(),
+        {"budget", "B",
+         "budget of search, proof and extras together: a number of trials, or a time such as 60s or 5min"},
+        command_line::written_file({"manifest,m", "TUNED", "write the manifest with the tuned values"}),
+        extras_spec(),
+        command_line::page_file(
+            {"report", "PAGE", "write a page (*.html) with maps, what was tried, and the proof"}),
+        commands::watch_option(),
+        commands::timeline_option(),
+        {"threads", "N", "threads to use; default: all cores"},
+        set_option(),
+        {"quiet,q", "", "print no progress"},
+        command_line::force_option()}},
+      "find gains that meet the goal, and prove them",
+      tune_help,
+      tune,
+      [] { return std::vector{tune_answer().complete_type()}; }};
 }
 
 }  // namespace zerocount::design_commands

@@ -220,11 +220,12 @@ void add_margins(Items& items) {
   add_margin_table(items);
   items.object(in_data("margins", "smallest margins of the tuned loops"), margins_description(),
                [](const Tuning& t) { return t.answer.tuned.margins; });
-  items.value(in_data("lowest_mode",
-                      "lowest frequency of a mode of half of the inertia, which the study lacks, with which "
-                      "the loops are stable",
-                      "Hz"),
-              [](const Tuning& t) { return t.answer.tuned.lowest_mode; });
+  items.value(
+      in_data(
+          "lowest_mode",
+          "frequency at and above which a mode of half of the inertia, which the study lacks, leaves the loops stable",
+          "Hz"),
+      [](const Tuning& t) { return t.answer.tuned.lowest_mode; });
   for (const Margin& one : all_margins) {
     items.object(in_data(std::string(one.loop_key), fmt::format("the loop that has the worst {}", one.title)),
                  loop_description(), [found = one.found](const Tuning& t) -> std::optional<LoopOfStudy> {

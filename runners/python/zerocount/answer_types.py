@@ -677,9 +677,9 @@ class Errors(Record):
     parameters : list[str]
         Names, in the order of the matrices.
     covariance : list[list[float or None]]
-        Of the errors of logarithms; of n and the time offset themselves.
+        Covariance of the errors of the logarithms; for n and the time offset: of the errors themselves.
     correlation : list[list[float or None]]
-        Of the same errors.
+        Correlation of the errors whose covariance is given.
     """
 
     parameters: list[str]
@@ -931,7 +931,7 @@ class Reversal(Record):
     swing : float or None
         Sum of the levels of both directions near a reversal, median, N m or N.
     travel : float or None
-        Travel after a reversal in which nine tenths of it turn over, median, rad or m.
+        Travel after a reversal in which nine tenths of the change of the friction take place, median, rad or m.
     min_travel : float or None
         Smallest of them, rad or m.
     max_travel : float or None
@@ -939,7 +939,7 @@ class Reversal(Record):
     samples : int
         Samples in that travel, median; below 6 the travel is an upper bound.
     stiffness : float or None
-        0.9 of the change of the friction over the travel, N m/rad or N/m.
+        0.9 times swing, divided by travel, N m/rad or N/m.
     """
 
     reversals: int
@@ -1686,7 +1686,7 @@ class TuneAnswer(Answer):
     margins : Margins or None
         Smallest margins of the tuned loops.
     lowest_mode : float or None
-        Lowest frequency of a mode of half of the inertia, which the study lacks, with which the loops are stable, Hz.
+        Frequency at and above which a mode of half of the inertia, which the study lacks, leaves the loops stable, Hz.
     gain_margin_loop : GainMarginLoop or None
         The loop that has the worst gain margin.
     phase_margin_loop : PhaseMarginLoop or None

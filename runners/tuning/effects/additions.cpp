@@ -19,11 +19,11 @@ namespace {
 
 constexpr double added_noise = 0.1;        // counts rms
 constexpr double added_delay = 1.0;        // samples
-constexpr double allowed_loss = 0.01;      // of each rate, by a mode that is borne
+constexpr double allowed_loss = 0.01;      // largest fall of each rate by a mode that is tolerated
 constexpr double lowest_frequency = 10.0;  // Hz
-constexpr double precision = 1.05;         // of the frequency
-constexpr double samples_of_mode = 8.0e5;  // that are simulated for its rate
-constexpr std::int64_t few = 8;            // the part of these machines on which it is sought
+constexpr double precision = 1.05;         // ratio of frequencies at which the search ends
+constexpr double samples_of_mode = 8.0e5;  // samples simulated for the rate with one mode
+constexpr std::int64_t few = 8;            // the search uses one machine in this many
 
 // Noise.
 

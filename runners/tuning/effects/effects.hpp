@@ -51,7 +51,7 @@ class EffectRuns {
   const study::Study& study() const { return study_; }
   const Aim& aim() const { return aim_; }
   std::int64_t point() const { return machines_.point; }
-  /// Number of machines of the study.
+  /// Number of machines that are run. If no trials share a machine, each draw counts as one.
   std::int64_t machines() const { return machines_.count; }
   /// Number of trials of each machine under one condition.
   std::int64_t trials_each() const { return machines_.trials_each; }

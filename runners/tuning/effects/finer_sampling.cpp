@@ -149,8 +149,8 @@ Effect with_finer_encoder_of(motion::EncoderPlace mass, motion::EncoderPlace clo
 constexpr std::int64_t samples_per_sample = 2;
 constexpr double rate_ratio = samples_per_sample;
 
-/// Factor by which a gain of the sampled law changes at the new sample rate, so that it is the same in SI
-/// machines.
+/// Factor by which a gain of the sampled law changes at the new sample rate, so that it keeps
+/// its value in SI units.
 double factor_at_new_rate(std::string_view si_unit) {
   if (si_unit.ends_with("/(rad s)")) return 1.0 / rate_ratio;
   return si_unit.ends_with(" s/rad") ? rate_ratio : 1.0;

@@ -64,8 +64,8 @@ void take_over_friction(trial::TrialParameters& p) {
   p.initial.mode = trial::InitialMode::stick;
 }
 
-/// Moves the disturbances of the load to the one mass. The contact carries their constant torque, and the
-/// integral carries the rest.
+/// Moves the disturbances of the load to the one mass. If the study starts in equilibrium (initial.holding),
+/// the integral of the controller starts with the constant torque that the friction contact does not carry.
 void take_over_disturbances(trial::TrialParameters& p) {
   const trial::HeldStart held = trial::held_start(p);
   const trial::DisturbanceParameters& of_load = p.load_side.disturbance;

@@ -19,7 +19,7 @@ namespace {
 constexpr int smallest = 10;  // number of the last size
 constexpr std::int64_t candidates_each = 48;
 constexpr std::int64_t machines_of_world = 4;
-constexpr std::int64_t climbing_part = 8;  // of the machines
+constexpr std::int64_t climbing_part = 8;  // max_machines over the machines of a climb
 
 /// Size number `step`. Each size has 0.75 times the candidates of the size before. Every second size has half
 /// the machines.

@@ -74,7 +74,7 @@ struct SearchProblem {
   /// ends. It is a control with fewer blocks, which may be the better one or the only admissible one.
   std::vector<std::vector<std::size_t>> faces{};
   SearchSize size{};
-  std::int64_t trials_of_replicate{1};
+  std::int64_t trials_of_replicate{1};  ///< Trials of each machine, under all conditions together.
 
   /// Appends results to every candidate, so that each has those of `to` machines. Throws trial::Interrupted
   /// if the time is over; then no candidate is changed.
@@ -129,15 +129,16 @@ struct SearchResult {
 ///     candidates = points that fill the ranges and the faces                     // first generation
 ///     if too few of them are admissible: add points that differential evolution of `shortfall` finds
 ///     repeat until generations improve nothing, or the effort is spent:
-///       for machines = first_machines, 2·first_machines, … most_machines, while any move meets the goal:
-///         evaluate all candidates up to `machines`                                 // a race
+///       race, for machines = first_machines, 2·first_machines, … most_machines, while any move meets the
+///       goal:
+///         evaluate all candidates up to `machines`
 ///         drop those not admissible, significantly worse than the best, or beyond max_after(machines), but
 ///         none that have more machines already
-///         where the best seems to meet the goal at most_machines: double them, up to max_machines
+///         if the best seems to meet the goal at most_machines: double them, up to max_machines
 ///       population = the best `elites`
-///       candidates = points near them, or on a face near them, the more the smaller most_machines is; or,
-///       where no move of theirs meets the goal, and where the search begins anew, points that fill the
-///       ranges and the faces
+///       candidates = points near them, or on a face near them, the more the smaller most_machines is;
+///       if no move of theirs meets the goal, or if the search begins anew: points that fill the ranges
+///       and the faces
 ///     race of the population up to max_machines
 ///
 /// If the effort ends within a race, the candidates with the most machines stay. Walk implements the

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -80,6 +81,24 @@ TEST(StudyStatistics, FromAFileEqualThoseOfItsTrials) {
   testing::write_study_file(folder / "study.h5", study, trials);
   EXPECT_EQ(text_of(study, study_statistics(reading::AllTrialsFile(folder / "study.h5"), study)),
             text_of(study, expected));
+}
+
+// A chunk of the file is decoded once for several ranges. Single measures are read without it.
+TEST(AllTrialsFile, SmallRangesHaveTheOutcomesOfTheirTrials) {
+  const study::Study study = testing::plain_study(3, 300, 64);  // 4 chunks of 256 trials
+  const testing::TemporaryFolder folder;
+  testing::write_study_file(folder / "study.h5", study, random_trials(study));
+  const reading::AllTrialsFile file(folder / "study.h5");
+  std::mt19937 random(12);
+  for (int i = 0; i < 200; ++i) {
+    const auto count = std::uniform_int_distribution<std::int64_t>(1, i % 4 == 0 ? 300 : 5)(random);
+    const auto first = std::uniform_int_distribution<std::int64_t>(0, 900 - count)(random);
+    const std::vector<trial::MoveOutcome> outcomes = file.outcomes({first, count});
+    const std::vector<double> counts = file.measure("jerk_count", {first, count});
+    ASSERT_EQ(outcomes.size(), counts.size());
+    for (std::size_t move = 0; move < counts.size(); ++move)
+      ASSERT_EQ(static_cast<double>(outcomes[move].jerk_count), counts[move]) << first << " " << count;
+  }
 }
 
 TEST(StudyStatistics, FromAFileAgreeWithNumPyAndSciPy) {

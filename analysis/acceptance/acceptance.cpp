@@ -167,7 +167,7 @@ Agreement agreement_with(const MetMoves& met_of_machines, const measures::MoveCo
 void compare_with_prediction(Claim& claim, const measures::CellCounts& simulated, const MetMoves& met,
                              std::uint64_t seed) {
   if (simulated.shape().worlds > 0) claim.like_worlds = 0;
-  const std::vector<measures::MoveCounts> worlds = simulated.worlds_under(0);
+  const std::vector<measures::MoveCounts> worlds = simulated.worlds_in(0);
   statistics::ConfidenceInterval all{1.0, 0.0};
   for (std::size_t world = 0; world < worlds.size(); ++world) {
     const Agreement one = agreement_with(met, worlds[world], seed);

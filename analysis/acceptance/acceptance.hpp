@@ -118,7 +118,7 @@ ExitCode exit_code_of(Status status);
 /// Judges the logged machines by the goals of the study, and compares them with the study's machines at the
 /// point. Machines that are as predicted are found below the prediction of any goal with a probability of at
 /// most 5 %.
-/// @param file of one condition, with goals
+/// @param file of one setting, with goals
 ///
 /// If only these machines are judged, a goal refers to all their moves, or to `machines` of them. Each
 /// machine is then judged by the bounds of its own moves, with the confidence 1 − (1 − γ)/m for m machines.

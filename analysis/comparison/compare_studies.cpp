@@ -86,7 +86,7 @@ PointComparison compare_point(const StudyComparison& comparison, const GateRules
   const PointPair trials = read_trials(pair, point);
   PointComparison result{.label = point.label,
                          .design_point = point.design_point,
-                         .condition = point.condition,
+                         .setting = point.setting,
                          .baseline_point = point.baseline,
                          .current_point = point.current,
                          .baseline_trials = trials.baseline.trials,
@@ -98,7 +98,7 @@ PointComparison compare_point(const StudyComparison& comparison, const GateRules
   result.judgements = of_compared(trials, paired, [&](const BothTrials& compared) {
     return compare_measures(rules, point.label, compared);
   });
-  const std::size_t claims = pair.goals.size() * static_cast<std::size_t>(pair.conditions);
+  const std::size_t claims = pair.goals.size() * static_cast<std::size_t>(pair.settings);
   for (std::size_t goal = 0; goal < pair.goals.size(); ++goal) {
     const auto status = [&](const PointTrials& all) {
       return goal::judge_goal(all.judged[goal].goal, all.judged[goal].counts, 1, claims).status;
@@ -195,26 +195,26 @@ Forecast forecast_of(const StudyComparison& comparison, const GateRules& rules, 
   return forecast_decision(samples, options);
 }
 
-/// Finds the number of trials, per design point under all conditions, that would decide the open judgements.
+/// Finds the number of trials, per design point in all settings, that would decide the open judgements.
 /// The trials are read again only then, because most comparisons leave nothing open.
 void forecast(StudyComparison& result, const GateRules& rules, const StudyPair& pair) {
   const std::vector<Judgement*> judgements = judgements_of(result.points);
   if (std::ranges::none_of(judgements, [](const Judgement* one) { return one->is_open(); })) return;
   const Forecast found = forecast_of(result, rules, pair);
-  const auto conditions = static_cast<double>(pair.conditions);
+  const auto settings = static_cast<double>(pair.settings);
   const auto under_all = [&](const std::optional<double>& trials) {
-    return trials ? std::optional(*trials * conditions) : std::nullopt;
+    return trials ? std::optional(*trials * settings) : std::nullopt;
   };
   const bool all_forecast = std::ranges::all_of(judgements, [](const Judgement* one) {
     return !one->is_measure() || !one->is_open() || has_finite_bounds(*one);
   });
-  if (all_forecast) result.max_trials_to_decide = conditions * found.max_trials;
+  if (all_forecast) result.max_trials_to_decide = settings * found.max_trials;
   if (all_forecast && result.verdict == GateVerdict::inconclusive) {
     const std::int64_t limit = trial_limit(rules, pair.current.file);
     if (found.trials > static_cast<double>(limit))
       result.notes.push_back(
           fmt::format("more than {} trials of each point{} are judged only with --max-trials (here {:.0f})",
-                      limit, pair.conditions > 1 ? " under each condition" : "", *found.trials));
+                      limit, pair.settings > 1 ? " under each condition" : "", *found.trials));
     result.trials_to_decide = under_all(found.trials);
   }
   auto next = found.judgements.begin();
@@ -282,7 +282,7 @@ void note_trials(StudyComparison& result, const StudyPair& pair) {
     if (study.trials == trials) return;
     result.notes.push_back(fmt::format(
         "of the {} trials of each point{} in {}, the first {} are judged; more: --max-trials", trials,
-        pair.conditions > 1 ? " under each condition" : "", study.file.path().string(), study.trials));
+        pair.settings > 1 ? " under each condition" : "", study.file.path().string(), study.trials));
   };
   note_left_out(pair.baseline);
   if (!compares_points(result)) note_left_out(pair.current);

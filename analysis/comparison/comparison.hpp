@@ -37,11 +37,11 @@ struct GoalStatuses {
   goal::Status current{goal::Status::undecided};
 };
 
-/// The comparison of one design point in the two files, under one condition if there are conditions.
+/// The comparison of one design point in the two files, in one setting if there are settings.
 struct PointComparison {
-  std::string label;         ///< Label of the point, with the condition if there is one.
-  std::string design_point;  ///< Label of the point without the condition.
-  std::string condition;     ///< Condition of the trials; empty without conditions.
+  std::string label;         ///< Label of the point, with the setting if there is one.
+  std::string design_point;  ///< Label of the point without the setting.
+  std::string setting;       ///< Setting of the trials; empty without settings.
   std::int64_t baseline_point{0};
   std::int64_t current_point{0};
   std::int64_t baseline_trials{0};

@@ -108,7 +108,7 @@ std::string advice_text(Comparison comparison) {
 }
 
 /// For the comparison of two points: the measures by their change, "better: success_rate, arrival_time;
-/// worse: none; ...", under each condition.
+/// worse: none; ...", in each setting.
 std::string answer_text(Comparison comparison) {
   std::string text = fmt::format("{} against {}", text::printable(comparison.points.front().design_point),
                                  text::printable(comparison.baseline_label));
@@ -118,7 +118,7 @@ std::string answer_text(Comparison comparison) {
     for (const JudgementRow& row : all_rows(comparison)) {
       if (!row.has(change)) continue;
       names.push_back(row.one.measure);
-      if (!row.point.condition.empty()) names.back() += " under " + text::printable(row.point.condition);
+      if (!row.point.setting.empty()) names.back() += " under " + text::printable(row.point.setting);
     }
     if (!names.empty()) text += fmt::format("; {}: {}", to_string(change), fmt::join(names, ", "));
   }
@@ -277,7 +277,7 @@ Description<PointComparison> point_description() {
               .meaning = "condition that the trials are under",
               .shown = document::Visibility::in_json,
               .optional = true},
-             [](Point p) { return p.condition.empty() ? std::nullopt : std::optional(p.condition); })
+             [](Point p) { return p.setting.empty() ? std::nullopt : std::optional(p.setting); })
       .value(gate_item("verdict", "verdict of the gate"), [](Point p) { return to_string(p.verdict); })
       .value(in_data("baseline_point", "number of the point in the baseline"),
              &PointComparison::baseline_point)

@@ -20,8 +20,9 @@ namespace zerocount::comparison {
 struct GoalTrials {
   study::Goal goal{};
   measures::CountedGoal counted{};
-  std::int64_t machines{0};             ///< Number of machines, even if worlds take their place; 0: none.
-  measures::CellCounts counts{};        ///< Counts of moves by machine and world.
+  std::int64_t machines{0};  ///< Number of machines, even if worlds take their place; 0: none.
+  /// Counts of moves by machine; without machines, by world (a draw of what all machines share).
+  measures::CellCounts counts{};
   std::vector<double> moves_in_goal{};  ///< [trial] number of moves that meet the goal
 
   /// Number of moves of a trial that the goal judges. @param moves number of moves of a trial
@@ -36,7 +37,7 @@ struct AlsoRead {
   std::vector<GateMeasure> bands{};    ///< Measures of error bands and tolerances that the file has.
   std::vector<GoalTrials> required{};  ///< Counts by the goals that a requirement asks for.
   std::vector<GoalTrials> judged{};    ///< Counts by the goals whose measures are judged.
-  std::size_t claims{1};  ///< Claims on a design point that must all be met: goals times conditions.
+  std::size_t claims{1};  ///< Claims on a design point that must all be met: goals times settings.
   /// Number of machines, or of worlds in their place. Trial i is on machine i mod machines. 0: no trials
   /// share a machine.
   std::int64_t machines{0};

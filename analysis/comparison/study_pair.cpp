@@ -15,7 +15,7 @@
 #include "analysis/goal/question.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/keys/manifest_keys.hpp"
-#include "experiments/study/condition_study.hpp"
+#include "experiments/study/setting_study.hpp"
 #include "results/layout/recorded_values.hpp"
 
 namespace zerocount::comparison {
@@ -103,29 +103,28 @@ void match_points(StudyPair& pair) {
   require_equal_axes(pair);
 }
 
-/// The names of the conditions; with ages, of each condition at each age. Empty without conditions; the
-/// manifest is then not parsed.
-std::vector<std::string> conditions_of(const AllTrialsFile& file) {
+/// The labels of the settings. Empty without settings; the manifest is then not parsed.
+std::vector<std::string> labels_of_settings(const AllTrialsFile& file) {
   const bool any = file.root().contains("condition") || file.root().contains("age");
-  return any ? file.study().conditions : std::vector<std::string>();
+  return any ? study::labels_of(file.study().settings) : std::vector<std::string>();
 }
 
-/// Replaces the points of the pair by each point under each condition, ordered by point.
-void match_conditions(StudyPair& pair) {
-  const std::vector<std::string> names = conditions_of(pair.baseline.file);
-  require_same_names(pair, names, conditions_of(pair.current.file), "conditions");
+/// Replaces the points of the pair by each point in each setting, ordered by point.
+void match_settings(StudyPair& pair) {
+  const std::vector<std::string> names = labels_of_settings(pair.baseline.file);
+  require_same_names(pair, names, labels_of_settings(pair.current.file), "conditions");
   if (names.empty()) return;
   for (ComparedStudy* study : {&pair.baseline, &pair.current}) {
     for (const std::string& name : names)
-      study->under.push_back(study::condition_named(study->file.study(), name));
+      study->under.push_back(study::setting_labelled(study->file.study(), name));
   }
-  pair.conditions = std::ssize(names);
+  pair.settings = std::ssize(names);
   for (const MatchedPoint& point : std::exchange(pair.points, {})) {
     for (std::size_t i = 0; i < names.size(); ++i) {
       MatchedPoint& one = pair.points.emplace_back(point);
       one.label = study::label_under(point.label, names[i]);
-      one.condition = names[i];
-      one.condition_at = i;
+      one.setting = names[i];
+      one.setting_at = i;
     }
   }
 }
@@ -221,7 +220,7 @@ void take_goals(StudyPair& pair, const GateRules& rules) {
   for (ComparedStudy* study : {&pair.baseline, &pair.current})
     study->also.judged = counted_in(*study, pair.goals);
   AlsoRead& also = pair.current.also;
-  also.claims = std::max(after.size(), std::size_t{1}) * static_cast<std::size_t>(pair.conditions);
+  also.claims = std::max(after.size(), std::size_t{1}) * static_cast<std::size_t>(pair.settings);
   if (requires_goal(rules)) {
     if (after.empty()) refuse_without_goal(pair.current.file, "which a requirement asks for");
     also.required = counted_in(pair.current, after);
@@ -315,7 +314,7 @@ StudyPair pair_studies(const AllTrialsFile& baseline, const AllTrialsFile& curre
   for (ComparedStudy* study : {&pair.baseline, &pair.current})
     study->values = layout::manifest_values(study->file.header(), study->file.path().string());
   require_same_kind(pair);
-  match_conditions(pair);
+  match_settings(pair);
   take_trials(pair, rules);
   take_goals(pair, rules);
   return pair;
@@ -329,7 +328,7 @@ StudyPair pair_points(const AllTrialsFile& file, std::int64_t baseline, std::int
   pair.baseline.values = layout::manifest_values(file.header(), file.path().string());
   pair.current.values = pair.baseline.values;
   require_independent_trials(pair.current);
-  match_conditions(pair);
+  match_settings(pair);
   take_trials(pair, rules);
   take_goals(pair, rules);
   return pair;

@@ -10,12 +10,14 @@
 #include "analysis/statistics/quantile.hpp"
 #include "core/friction/law.hpp"
 #include "core/plant/plant.hpp"
+#include "experiments/parameters/handles.hpp"
 
 namespace zerocount::fit {
 
-Quantity coordinate_quantity(const std::string& name, const std::string& key, const std::string& unit,
+Quantity coordinate_quantity(const std::string& name, std::string_view key, const std::string& unit,
                              const Point& point, Eigen::Index coordinate) {
-  Quantity quantity{name, key, unit, point[coordinate], Eigen::VectorXd::Zero(point.size()), true};
+  Quantity quantity{name, std::string(key), unit, point[coordinate], Eigen::VectorXd::Zero(point.size()),
+                    true};
   quantity.slope[coordinate] = 1.0;
   return quantity;
 }
@@ -47,7 +49,7 @@ QuantityEstimate on_parameter_scale(const Quantity& quantity, QuantityEstimate e
     const double value = std::exp(estimate.value);
     return {value, value * estimate.standard_error, std::exp(estimate.low), std::exp(estimate.high)};
   }
-  if (quantity.key != "friction.n") return estimate;
+  if (quantity.key != parameter::friction::n) return estimate;
   constexpr double min_exponent = 1.0;
   for (double* number : {&estimate.value, &estimate.low, &estimate.high}) {
     *number = std::max(*number, min_exponent);

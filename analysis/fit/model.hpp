@@ -7,6 +7,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
@@ -35,7 +36,7 @@ struct Quantity {
 };
 
 /// A quantity whose logarithm is one of the coordinates.
-Quantity coordinate_quantity(const std::string& name, const std::string& key, const std::string& unit,
+Quantity coordinate_quantity(const std::string& name, std::string_view key, const std::string& unit,
                              const Point& point, Eigen::Index coordinate);
 
 /// The time offset, the last coordinate.

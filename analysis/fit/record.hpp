@@ -31,7 +31,8 @@ struct TorqueHold {
   std::size_t last{0};
   double torque{0.0};  ///< Torque during the hold, N m.
   double from{0.0};    ///< Torque 8 samples before the hold, N m.
-  /// True if the hold begins with a ring-down: the torque has changed by 5 % of its range since `from`.
+  /// Whether the axis still oscillates when the hold begins: the torque changed from `from` by at least 5 %
+  /// of its range in the record.
   bool rings_down{false};
 };
 

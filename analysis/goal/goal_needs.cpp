@@ -225,7 +225,7 @@ class ObservedWorld {
   std::map<std::pair<std::int64_t, std::int64_t>, double> passing_{};  ///< cache of machines_passing()
 };
 
-/// One claim: a goal under one condition, in all worlds. Worlds with the same observation have the same
+/// One claim: a goal in one setting, in all worlds. Worlds with the same observation have the same
 /// chances, which are computed once.
 class ObservedClaim {
  public:
@@ -262,29 +262,29 @@ class ObservedClaim {
   std::vector<std::pair<ObservedWorld, std::int64_t>> different_{};  ///< distinct worlds with their numbers
 };
 
-/// All claims of a study: each goal under each condition. The claims are evaluated one by one; nothing is
+/// All claims of a study: each goal in each setting. The claims are evaluated one by one; nothing is
 /// assumed about their dependence.
 class ObservedStudy {
  public:
   ObservedStudy(std::span<const study::Goal> goals, std::span<const measures::CellCounts> counts,
                 std::size_t points) {
-    conditions_ = static_cast<std::int64_t>(counts.front().conditions());
+    settings_ = static_cast<std::int64_t>(counts.front().settings());
     for (std::size_t i = 0; i < goals.size(); ++i) {
-      for (std::size_t c = 0; c < static_cast<std::size_t>(conditions_); ++c) {
-        const std::vector<measures::MoveCounts> worlds = counts[i].worlds_under(c);
+      for (std::size_t c = 0; c < static_cast<std::size_t>(settings_); ++c) {
+        const std::vector<measures::MoveCounts> worlds = counts[i].worlds_in(c);
         has_moves_ = has_moves_ && std::ranges::all_of(worlds, [](const auto& of) { return of.moves > 0; });
         if (!has_moves_) return;
         worlds_ = std::ssize(worlds);
         if (!worlds.front().machines.empty()) trials_of_machine_ = worlds.front().machines.front().trials;
-        claims_.emplace_back(goals[i], worlds, points, goals.size() * static_cast<std::size_t>(conditions_));
+        claims_.emplace_back(goals[i], worlds, points, goals.size() * static_cast<std::size_t>(settings_));
       }
     }
   }
 
   bool has_moves() const { return has_moves_; }
   std::int64_t worlds() const { return worlds_; }
-  std::int64_t conditions() const { return conditions_; }
-  /// Trials of one machine under one condition; 0 without machines.
+  std::int64_t settings() const { return settings_; }
+  /// Trials of one machine in one setting; 0 without machines.
   std::int64_t trials_of_machine() const { return trials_of_machine_; }
 
   /// Lower bound of the probability that a study whose worlds have this size is decided. It is decided if no
@@ -302,7 +302,7 @@ class ObservedStudy {
 
  private:
   std::vector<ObservedClaim> claims_{};
-  std::int64_t worlds_{1}, conditions_{1}, trials_of_machine_{0};
+  std::int64_t worlds_{1}, settings_{1}, trials_of_machine_{0};
   bool has_moves_{true};
 };
 
@@ -343,7 +343,7 @@ std::vector<Needs> deciding_studies(std::span<const study::Goal> goals,
   };
   std::vector<Needs> studies;
   if (observed.trials_of_machine() == 0) {
-    const std::int64_t trials = worlds * observed.conditions() * smallest_with(max_trials / worlds, 1);
+    const std::int64_t trials = worlds * observed.settings() * smallest_with(max_trials / worlds, 1);
     if (trials > 0) studies.push_back({0, trials});
     return studies;
   }
@@ -352,7 +352,7 @@ std::vector<Needs> deciding_studies(std::span<const study::Goal> goals,
   const bool has_machines =
       std::ranges::any_of(goals, [](const study::Goal& goal) { return goal.machines.has_value(); });
   for (std::int64_t more = 1; more <= max_more_trials; more *= 2) {
-    const std::int64_t each = more * observed.trials_of_machine() * observed.conditions();
+    const std::int64_t each = more * observed.trials_of_machine() * observed.settings();
     const std::int64_t most = studies.empty() ? max_machines : studies.back().machines / worlds - 1;
     const std::int64_t machines = smallest_with(std::min(most, max_trials / each / worlds), more);
     if (machines > 0) studies.push_back({machines * worlds, machines * each * worlds});
@@ -389,9 +389,9 @@ std::vector<Needs> smallest_studies(std::span<const AskedGoal> goals, const Stud
     if (!can_be_met) continue;
     units *= worlds;
     if (!shape.on_machines) {
-      studies.push_back({0, units * shape.conditions});
+      studies.push_back({0, units * shape.settings});
     } else if (studies.empty() || units < studies.back().machines) {
-      studies.push_back({units, units * trials * shape.conditions});
+      studies.push_back({units, units * trials * shape.settings});
     }
   }
   return studies;

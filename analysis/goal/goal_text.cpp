@@ -189,16 +189,16 @@ std::string ending_text(const Question& question, std::span<const trial::MoveOut
 std::string goals_text(const Question& question, const measures::PointSummary& point,
                        const Verdict& verdict) {
   const auto readings = [&](const JudgedPart& part, const ClaimVerdict& of_goal) {
-    const measures::MoveCounts counts = point.goals[part.number].sum({.condition = of_goal.condition});
-    return (question.conditions.empty()
+    const measures::MoveCounts counts = point.goals[part.number].sum({.setting = of_goal.setting});
+    return (question.settings.empty()
                 ? ""
-                : fmt::format(" {}, the worst:\n", under_text(question, of_goal.condition))) +
+                : fmt::format(" {}, the worst:\n", under_text(question, of_goal.setting))) +
            readings_text(*part.claim, counts, of_goal) +
            (of_goal.of_load ? fmt::format("  of the load, {} of all moves meet it{}: {}\n",
                                           text::percent_near(of_goal.of_load->value),
-                                          question.conditions.empty()
+                                          question.settings.empty()
                                               ? ""
-                                              : under_text(question, of_goal.load_condition) + ", its worst",
+                                              : under_text(question, of_goal.load_setting) + ", its worst",
                                           with_bounds(*of_goal.of_load))
                             : "");
   };

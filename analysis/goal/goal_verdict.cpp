@@ -159,12 +159,12 @@ Verdict judge_goals(std::span<const study::Goal> goals, std::span<const measures
                     std::size_t points, std::size_t parts) {
   Verdict verdict;
   for (std::size_t goal = 0; goal < goals.size(); ++goal) {
-    const std::size_t conditions = counts[goal].conditions();
-    for (std::size_t condition = 0; condition < conditions; ++condition) {
-      ClaimVerdict& claim = verdict.claims.emplace_back(judge_claim(
-          goals[goal], counts[goal].worlds_under(condition), points, parts * goals.size() * conditions));
+    const std::size_t settings = counts[goal].settings();
+    for (std::size_t setting = 0; setting < settings; ++setting) {
+      ClaimVerdict& claim = verdict.claims.emplace_back(
+          judge_claim(goals[goal], counts[goal].worlds_in(setting), points, parts * goals.size() * settings));
       claim.goal = goal;
-      claim.condition = condition;
+      claim.setting = setting;
       if (counts[goal].shape().worlds == 0) claim.worlds.clear();
     }
   }

@@ -55,7 +55,7 @@ struct WorldVerdict {
   std::int64_t machines_without_miss{0};  ///< machines all of whose moves meet the goal
 };
 
-/// The verdict on a claim, which is one goal under one condition, for all machines that the manifest
+/// The verdict on a claim, which is one goal in one setting, for all machines that the manifest
 /// describes. The goal is judged by Goal::machines, or by Goal::moves if it does not ask for machines. With
 /// worlds each proportion, lower bound and upper bound is the lowest over the worlds.
 ///
@@ -65,12 +65,12 @@ struct WorldVerdict {
 /// 1 − (1 − γ)/worlds (Bonferroni).
 struct ClaimVerdict : WorldVerdict {
   std::size_t goal{0};                 ///< Index of the goal among those that were judged.
-  std::size_t condition{0};            ///< 0 without conditions
+  std::size_t setting{0};              ///< 0 without settings
   std::vector<WorldVerdict> worlds{};  ///< [world]; empty without worlds
-  /// Proportion of moves in which the load meets a goal of the motor, under the condition with the lowest
-  /// proportion (`load_condition`). Empty unless the moves of the load are counted (Goal::beside_load).
+  /// Proportion of moves in which the load meets a goal of the motor, in the setting with the lowest
+  /// proportion (`load_setting`). Empty unless the moves of the load are counted (Goal::beside_load).
   std::optional<BoundedProportion> of_load{};
-  std::size_t load_condition{0};
+  std::size_t load_setting{0};
   Standing standing{};
 };
 
@@ -79,10 +79,10 @@ struct ClaimVerdict : WorldVerdict {
 /// proportion demanded, as a difference of logits. The upper bounds allow for the number of claims
 /// (Bonferroni).
 struct Verdict : ClaimVerdict {
-  std::vector<ClaimVerdict> claims{};  ///< One for each goal and condition: [goal, condition].
+  std::vector<ClaimVerdict> claims{};  ///< One for each goal and setting: [goal, setting].
 };
 
-/// The verdict on each goal under each condition. @param counts [goal]
+/// The verdict on each goal in each setting. @param counts [goal]
 /// @param points number of design points from which the point was chosen by its trials; 1 if it was chosen
 /// before. The bounds have the confidence 1 − (1 − γ)/points (Bonferroni).
 /// @param parts number of parts in each of which all these claims must be met
@@ -124,8 +124,8 @@ struct Needs {
 /// Probability with which a study of the size of needs_of() is decided, unless another is asked for.
 inline constexpr double probability_of_needs = 0.9;
 
-/// Studies large enough to decide the verdict on all goals under all conditions with at least this
-/// probability. The chances follow from the observed counts (goal_needs.cpp). The goals and conditions may
+/// Studies large enough to decide the verdict on all goals in all settings with at least this
+/// probability. The chances follow from the observed counts (goal_needs.cpp). The goals and settings may
 /// depend on each other in any way, because
 ///
 ///   P(decided) ≥ max(1 − Σ P(a claim is undecided), max P(a claim is missed)).
@@ -155,11 +155,11 @@ struct AskedGoal {
   std::int64_t moves{1};
 };
 
-/// Grouping of the trials of a study by machines, worlds and conditions.
+/// Grouping of the trials of a study by machines, worlds and settings.
 struct StudyShape {
-  bool on_machines{false};     ///< whether trials share machines
-  std::int64_t worlds{0};      ///< Number of worlds; the goals must be met in each. 0: the study has none.
-  std::int64_t conditions{1};  ///< Number of conditions; the goals must be met under each.
+  bool on_machines{false};   ///< whether trials share machines
+  std::int64_t worlds{0};    ///< Number of worlds; the goals must be met in each. 0: the study has none.
+  std::int64_t settings{1};  ///< Number of settings; the goals must be met in each.
 };
 
 /// The smallest studies that can meet the goals, if no move misses them. With machines: for several numbers
@@ -168,7 +168,7 @@ struct StudyShape {
 /// chosen
 std::vector<Needs> smallest_studies(std::span<const AskedGoal> goals, const StudyShape& shape,
                                     std::size_t points);
-/// The smallest studies that can meet one goal under one condition. @param moves moves per trial
+/// The smallest studies that can meet one goal in one setting. @param moves moves per trial
 inline std::vector<Needs> smallest_studies(const study::Goal& goal, bool on_machines, std::int64_t moves,
                                            std::size_t points, std::int64_t worlds = 0) {
   const AskedGoal asked{goal, moves};

@@ -116,17 +116,15 @@ std::string name_of_settling(const study::Goal& goal, std::string_view statistic
              : layout::name_of_band(fmt::format("band_settling_time{}", statistic), goal.band);
 }
 
-std::string under_text(const Question& question, std::size_t condition) {
-  if (question.conditions.empty()) return "";
-  return (question.ages.at.empty() ? " under condition " : " at ") + question.conditions[condition];
+std::string under_text(const Question& question, std::size_t setting) {
+  return study::setting_phrase(question.settings, static_cast<std::int64_t>(setting));
 }
 
 Question question_of(const study::Study& study) {
   Question question{.parts = {},
                     .worlds = study.worlds,
                     .stopped = study.stop.has_value(),
-                    .conditions = study.conditions,
-                    .ages = study.ages,
+                    .settings = study.settings,
                     .of_mass = study::of_closing_mass(study.features)};
   const std::vector<measures::CountedGoal> counted = measures::asked_of_moves(study);
   for (std::size_t i = 0; i < counted.size(); ++i) {
@@ -210,13 +208,13 @@ Verdict verdict_on(const Question& question, const measures::PointSummary& point
     if (!part.claim->beside_load || part.number >= point.for_the_load.size()) continue;
     const Verdict load =
         judge_goal(study::for_the_load(*part.claim), point.for_the_load[part.number], points);
-    // Under its own worst condition, which may be another than the motor's.
+    // In its own worst setting, which may be another than the motor's.
     const ClaimVerdict& worst =
         *std::ranges::min_element(load.claims, {}, [](const ClaimVerdict& one) { return one.moves.value; });
     for (ClaimVerdict& claim : verdict.claims) {
       if (claim.goal != goal) continue;
       claim.of_load = worst.moves;
-      claim.load_condition = worst.condition;
+      claim.load_setting = worst.setting;
     }
   }
   if (verdict.claims.size() > 1 && has_settling_times(question, point)) {
@@ -242,7 +240,7 @@ Needs needs_of(const Question& question, const measures::PointSummary& point, st
 measures::MoveCounts counts_of(const Question& question, const measures::PointSummary& point) {
   if (!question.claim()) return successes_of(point);
   const Verdict verdict = verdict_on(question, point);
-  return point.goals.at(question.parts[verdict.goal].number).sum({.condition = verdict.condition});
+  return point.goals.at(question.parts[verdict.goal].number).sum({.setting = verdict.setting});
 }
 
 std::vector<GoalTimes> goal_times(const Question& question, const measures::PointSummary& point) {
@@ -258,8 +256,8 @@ std::vector<GoalTimes> goal_times(const Question& question, const measures::Poin
       continue;
     }
     for (const measures::SettlingTimes& own : point.goal_settling[part.number]) {
-      const auto condition = static_cast<std::size_t>(&own - point.goal_settling[part.number].data());
-      all.push_back({i, condition, &own.times, own.allowed, own.time_ratio});
+      const auto setting = static_cast<std::size_t>(&own - point.goal_settling[part.number].data());
+      all.push_back({i, setting, &own.times, own.allowed, own.time_ratio});
     }
   }
   return all;
@@ -270,9 +268,8 @@ GoalTimes slowest_goal_times(const Question& question, const measures::PointSumm
 }
 
 const GoalTimes& times_of_claim(const std::vector<GoalTimes>& times, const ClaimVerdict& claim) {
-  return *std::ranges::find_if(times, [&](const GoalTimes& one) {
-    return one.part == claim.goal && one.condition == claim.condition;
-  });
+  return *std::ranges::find_if(
+      times, [&](const GoalTimes& one) { return one.part == claim.goal && one.setting == claim.setting; });
 }
 
 const measures::MeasureStatistics& settling_of(const Question& question,
@@ -327,7 +324,7 @@ QuestionRate rate_of(const Question& question, const measures::PointSummary& poi
             point.outcomes.zero_count, point.trials};
   }
   const Verdict verdict = verdict_on(question, point, points);
-  measures::Cells cells{.condition = verdict.condition};
+  measures::Cells cells{.setting = verdict.setting};
   if (!verdict.worlds.empty()) {
     const auto known = [](const WorldVerdict& one) {
       return std::isnan(one.moves.value) ? 2.0 : one.moves.value;  // without trials: the last
@@ -359,8 +356,8 @@ std::optional<MachinesWithoutFailure> machines_meeting_all(const Question& quest
   for (const JudgedPart& part : question.parts) {
     if (!part.claim || !part.claim->machines) continue;
     const measures::CellCounts& counts = point.goals[part.number];
-    for (std::size_t condition = 0; condition < counts.conditions(); ++condition)
-      claims.emplace_back(part.claim->moves, counts.sum({.condition = condition}));
+    for (std::size_t setting = 0; setting < counts.settings(); ++setting)
+      claims.emplace_back(part.claim->moves, counts.sum({.setting = setting}));
   }
   if (claims.size() < 2) return std::nullopt;
   MachinesWithoutFailure meeting{0, std::ssize(claims.front().second.machines)};
@@ -421,7 +418,7 @@ statistics::ConfidenceInterval bounds_of_chosen(const measures::PointSummary& po
 
 namespace {
 
-/// One goal under one condition at one age.
+/// One goal in one setting at one age.
 struct ClaimAtAge {
   study::Goal goal;  ///< Always on machines: a goal on moves is given a usual proportion of machines.
   measures::CellCounts counts;
@@ -431,19 +428,20 @@ struct ClaimAtAge {
     return statistics::rate(machines[machine].met, machines[machine].moves) >= goal.moves;
   }
 };
-using ClaimsAtAge = std::vector<std::vector<ClaimAtAge>>;  ///< [goal][condition]
+using ClaimsAtAge = std::vector<std::vector<ClaimAtAge>>;  ///< [goal][setting]
 
 ClaimsAtAge claims_at_age(const Question& question, const std::vector<measures::CellCounts>& counts,
                           std::size_t age) {
   constexpr double usual_machines = 0.9;
-  const std::size_t of_age = question.conditions.size() / question.ages.at.size();
+  const std::vector<std::int64_t> settings =
+      study::settings_at_age(question.settings.counts(), static_cast<std::int64_t>(age));
   ClaimsAtAge claims;
   for (const JudgedPart& part : question.parts) {
     study::Goal goal = *part.claim;
     goal.machines = goal.machines.value_or(usual_machines);
     std::vector<ClaimAtAge>& of_goal = claims.emplace_back();
-    for (std::size_t c = 0; c < of_age; ++c) {
-      measures::CellCounts one = counts[part.number].under(age * of_age + c);
+    for (const std::int64_t setting : settings) {
+      measures::CellCounts one = counts[part.number].in_setting(static_cast<std::size_t>(setting));
       std::vector<statistics::MachineMoves> machines = one.sum().machines;
       of_goal.push_back({goal, std::move(one), std::move(machines)});
     }
@@ -491,11 +489,11 @@ double most_of(const ClaimAtAge& claim, std::size_t claims) {
   return judge_goal(goal, claim.counts, 1).machines.high;
 }
 
-/// The fewest moves of a machine that meet one goal under any of the conditions. If the machine made more
-/// moves under some conditions than under others, the surplus moves count as met and are left out.
-statistics::MachineMoves least_moves(const std::vector<ClaimAtAge>& conditions, std::size_t machine) {
-  statistics::MachineMoves least = conditions.front().machines[machine];
-  for (const ClaimAtAge& claim : conditions) {
+/// The fewest moves of a machine that meet one goal in any of the settings. If the machine made more
+/// moves in some settings than in others, the surplus moves count as met and are left out.
+statistics::MachineMoves least_moves(const std::vector<ClaimAtAge>& settings, std::size_t machine) {
+  statistics::MachineMoves least = settings.front().machines[machine];
+  for (const ClaimAtAge& claim : settings) {
     const statistics::MachineMoves& one = claim.machines[machine];
     const std::int64_t missed = std::max(least.moves - least.met, one.moves - one.met);
     least.trials = std::min(least.trials, one.trials);
@@ -505,17 +503,17 @@ statistics::MachineMoves least_moves(const std::vector<ClaimAtAge>& conditions, 
   return least;
 }
 
-/// Lower bound of the proportion of machines that meet one goal under every condition. @param goals number of
+/// Lower bound of the proportion of machines that meet one goal in every setting. @param goals number of
 /// goals that share the error probability (Bonferroni)
-double least_of(const std::vector<ClaimAtAge>& conditions, std::int64_t worlds, std::size_t goals) {
-  const study::Goal& goal = conditions.front().goal;
+double least_of(const std::vector<ClaimAtAge>& settings, std::int64_t worlds, std::size_t goals) {
+  const study::Goal& goal = settings.front().goal;
   const statistics::MachineClaim claim{.proportion = goal.moves,
                                        .wanted = *goal.machines,
                                        .confidence = statistics::confidence_of_each(goal.confidence, goals),
-                                       .of_least = conditions.size() > 1};
+                                       .of_least = settings.size() > 1};
   return least_of_worlds(
-      conditions.front().machines.size(), worlds,
-      [&](std::size_t machine) { return least_moves(conditions, machine); },
+      settings.front().machines.size(), worlds,
+      [&](std::size_t machine) { return least_moves(settings, machine); },
       [&](const std::vector<statistics::MachineMoves>& machines) {
         return statistics::machine_proportion(machines, claim).low;
       });
@@ -526,12 +524,12 @@ double least_of(const std::vector<ClaimAtAge>& conditions, std::int64_t worlds, 
 std::vector<BoundedProportion> machines_at_ages(const Question& question,
                                                 const std::vector<measures::CellCounts>& counts) {
   std::vector<BoundedProportion> machines;
-  for (std::size_t age = 0; age < question.ages.at.size(); ++age) {
+  for (std::size_t age = 0; age < question.settings.ages.at.size(); ++age) {
     const ClaimsAtAge claims = claims_at_age(question, counts, age);
     BoundedProportion all{proportion_meeting(claims, question.worlds), 1.0, 1.0};
     double lost = 0.0;
-    for (const std::vector<ClaimAtAge>& conditions : claims)
-      lost += 1.0 - least_of(conditions, question.worlds, claims.size());
+    for (const std::vector<ClaimAtAge>& settings : claims)
+      lost += 1.0 - least_of(settings, question.worlds, claims.size());
     all.low = std::max(1.0 - lost, 0.0);
     for (const ClaimAtAge& claim : std::views::join(claims))
       all.high = std::min(all.high, most_of(claim, claims.size() * claims.front().size()));
@@ -543,12 +541,12 @@ std::vector<BoundedProportion> machines_at_ages(const Question& question,
 std::vector<double> lives_of_machines(const Question& question,
                                       const std::vector<measures::CellCounts>& counts) {
   std::vector<double> lives;
-  for (std::size_t age = 0; age < question.ages.at.size(); ++age) {
+  for (std::size_t age = 0; age < question.settings.ages.at.size(); ++age) {
     const ClaimsAtAge claims = claims_at_age(question, counts, age);
     lives.resize(machine_count(claims), statistics::unknown);
     for (std::size_t machine = 0; machine < lives.size(); ++machine) {
-      const bool lived = age == 0 || lives[machine] == question.ages.at[age - 1];
-      if (lived && meets_all(claims, machine)) lives[machine] = question.ages.at[age];
+      const bool lived = age == 0 || lives[machine] == question.settings.ages.at[age - 1];
+      if (lived && meets_all(claims, machine)) lives[machine] = question.settings.ages.at[age];
     }
   }
   return lives;

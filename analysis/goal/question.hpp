@@ -32,12 +32,9 @@ struct JudgedPart {
 /// for success.
 struct Question {
   std::vector<JudgedPart> parts{JudgedPart{}};
-  std::int64_t worlds{0};  ///< Number of worlds; the criteria must be met in each. 0: no worlds.
-  bool stopped{false};     ///< the outcomes decided the number of trials (`stop`)
-  /// Names of the conditions; the criteria must be met under each. With ages: each condition at each age
-  /// (Study::conditions).
-  std::vector<std::string> conditions{};
-  study::Ages ages{};
+  std::int64_t worlds{0};      ///< Number of worlds; the criteria must be met in each. 0: no worlds.
+  bool stopped{false};         ///< the outcomes decided the number of trials (`stop`)
+  study::Settings settings{};  ///< Conditions and ages; the criteria must be met in each setting.
   /// study::of_closing_mass(): " of the motor", the mass whose zero counts are success.
   std::string_view of_mass{};
 
@@ -47,8 +44,8 @@ struct Question {
 };
 
 Question question_of(const study::Study& study);
-/// " under condition loaded", " at loaded, 100000 cycles"; empty without conditions.
-std::string under_text(const Question& question, std::size_t condition);
+/// " under condition loaded", " at loaded, 100000 cycles"; empty without settings.
+std::string under_text(const Question& question, std::size_t setting);
 
 /// Whether the study has several goals.
 inline bool has_several(const Question& question) {
@@ -126,20 +123,20 @@ measures::MoveCounts counts_of(const Question& question, const measures::PointSu
 /// The final settling times of the moves that one goal judges: from when on the error stays within its band
 /// or tolerance.
 struct GoalTimes {
-  std::size_t part{0};       ///< Index in Question::parts.
-  std::size_t condition{0};  ///< 0 without conditions
+  std::size_t part{0};     ///< Index in Question::parts.
+  std::size_t setting{0};  ///< 0 without settings
   const measures::MeasureStatistics* statistics{nullptr};
   double allowed{statistics::unknown};  ///< Longest time allowed to a judged move, s from its start.
   /// 95 % quantile of settling time / allowed time; infinite if it is never reached.
   double time_ratio{statistics::unknown};
 };
-/// Settling times for each pair of goal and condition. Only moves that the goal judges are counted.
+/// Settling times for each pair of goal and setting. Only moves that the goal judges are counted.
 /// @param question with a claim
 std::vector<GoalTimes> goal_times(const Question& question, const measures::PointSummary& point);
 /// The settling times with the largest GoalTimes::time_ratio. @param question with a claim
 GoalTimes slowest_goal_times(const Question& question, const measures::PointSummary& point);
 
-/// The element of `times` for the goal and the condition of the claim. @param times goal_times() of the same
+/// The element of `times` for the goal and the setting of the claim. @param times goal_times() of the same
 /// point
 const GoalTimes& times_of_claim(const std::vector<GoalTimes>& times, const ClaimVerdict& claim);
 /// Statistics of the final settling time for the worst claim at a point; without a claim, of the arrival
@@ -201,7 +198,7 @@ inline bool is_of_machines(const Question& question) {
 }
 
 /// Number of machines of a point that meet every goal on machines, each in its proportion of moves, under
-/// every condition, and number of all machines. Empty if fewer than two claims are on machines.
+/// every setting, and number of all machines. Empty if fewer than two claims are on machines.
 std::optional<MachinesWithoutFailure> machines_meeting_all(const Question& question,
                                                            const measures::PointSummary& point);
 
@@ -226,16 +223,16 @@ statistics::ConfidenceInterval bounds_of_chosen(const measures::PointSummary& po
 
 /// [age] the proportion of machines that meet the question at the age, with one-sided bounds.
 ///
-/// For one goal under one condition these are the bounds of a claim on machines (judge_goal()).
+/// For one goal in one setting these are the bounds of a claim on machines (judge_goal()).
 ///
-/// Several conditions: a machine that misses the goal under some condition reaches c good moves under all
-/// conditions at most as often as under that one. So the machines that meet the goal under all conditions are
-/// bounded by the fewest good moves of each machine under any condition, in the same way as those that meet
-/// it under one condition are bounded by their good moves (statistics::MachineClaim). This holds however the
-/// moves under the conditions depend on each other.
+/// Several settings: a machine that misses the goal in some setting reaches c good moves in all
+/// settings at most as often as in that one. So the machines that meet the goal in all settings are
+/// bounded by the fewest good moves of each machine in any setting, in the same way as those that meet
+/// it in one setting are bounded by their good moves (statistics::MachineClaim). This holds however the
+/// moves in the settings depend on each other.
 ///
 /// Several goals: the lower bound for G goals is 1 − Σ(1 − low of each goal), each at the confidence
-/// 1 − (1 − γ)/G. The upper bound is the minimum over the K pairs of goal and condition, each at
+/// 1 − (1 − γ)/G. The upper bound is the minimum over the K pairs of goal and setting, each at
 /// 1 − (1 − γ)/K (Bonferroni). With worlds all values are those of the worst world.
 /// @param counts [goal of the study] (PointSummary::goals)
 std::vector<BoundedProportion> machines_at_ages(const Question& question,

@@ -8,7 +8,7 @@ double logit_difference(double a, double b);
 
 /// Rank of a claim; the smaller standing is the worse one. The members are compared in their order: the
 /// bounds decide if the statuses are equal, the observed proportions if the bounds are equal too, and so on.
-/// Conditions, goals and ages are ranked by their standing. Design points are ranked by the number of goals
+/// Settings, goals and ages are ranked by their standing. Design points are ranked by the number of goals
 /// met, then by the standing, and last by the slowest goal (merits_of()).
 ///
 /// Few machines cap the lower bounds, and the bounds of claims on machines are often 0. So the bounds may be

@@ -19,8 +19,9 @@
 #include "analysis/summary/summary.hpp"
 #include "core/failure/failure.hpp"
 #include "core/hash/sha256.hpp"
+#include "experiments/parameters/handles.hpp"
 #include "experiments/parameters/parameter_table.hpp"
-#include "experiments/study/condition_study.hpp"
+#include "experiments/study/setting_study.hpp"
 #include "experiments/yaml/text_file.hpp"
 #include "results/layout/header.hpp"
 #include "results/layout/recorded_values.hpp"
@@ -228,12 +229,12 @@ std::vector<RunValue> goal_values(const goal::Question& question, const measures
   return values;
 }
 
-/// Adds the values of trials, all of one condition. @param condition empty without conditions
+/// Adds the values of trials, all of one setting. @param setting empty without settings
 void add_values(std::vector<RunValue>& values, const summary::StudySummary& summary,
-                const std::string& condition) {
+                const std::string& setting) {
   for (std::size_t i = 0; i < summary.points.size(); ++i) {
     const measures::PointSummary& point = summary.points[i];
-    const std::string label = study::label_under(summary.labels[i], condition);
+    const std::string label = study::label_under(summary.labels[i], setting);
     std::vector<RunValue> of_point;
     for (const goal::JudgedPart& part : summary.question.parts) {
       if (!part.claim) continue;  // success is one of the gate measures
@@ -295,7 +296,7 @@ std::string series_sha256(const reading::AllTrialsFile& file) {
   if (!drawn_per_study(values, file.study())) values.erase("seed");
   // A part of the hash since this default was another one: databases have it.
   const parameters::Parameter& beta =
-      parameters::parameter_table()[parameters::find_parameter("friction.beta").value()];
+      parameters::parameter_table()[parameters::find_parameter(parameter::friction::beta).value()];
   values["default of friction.beta"] = fmt::format("{}", parameters::default_value(beta));
   std::string text;
   for (const auto& [key, value] : values) text += fmt::format("{}: {}\n", key, value);
@@ -317,9 +318,9 @@ RunRecord record_of(const reading::AllTrialsFile& file) {
                  storage::recorded_checksum(file.path()), std::to_string(header.seed), header.trials,
                  header.provenance.zerocount_version, header.provenance.git_commit,
                  header.provenance.created}};
-  reading::for_each_condition(file, [&](const reading::AllTrialsFile& one, const std::string& condition) {
+  reading::for_each_setting(file, [&](const reading::AllTrialsFile& one, const std::string& setting) {
     add_values(run.values, summary::summarise(one, statistics::summary_confidence, /*bootstrap=*/true),
-               condition);
+               setting);
   });
   if (run.values.empty() || features.open_loop) fail_without_values(name);
   return run;

@@ -37,7 +37,7 @@ struct ValueComparison {
 
 /// The value of one measure at one point of a run.
 struct RunValue {
-  /// Label of the design point, with the condition if there is one: "high, loaded".
+  /// Label of the design point, with the setting if there is one: "high, loaded".
   std::string point;
   /// Name of a gate measure or of a measure of a goal: "goal_rate", "goal_rate[large]".
   std::string measure;
@@ -75,7 +75,7 @@ struct RunRecord : RunIdentity {
 /// included if something is drawn once per study, because another seed is then another axis.
 std::string series_sha256(const reading::AllTrialsFile& file);
 
-/// The values of a complete results file with the bounds of its summary, for each point under each condition:
+/// The values of a complete results file with the bounds of its summary, for each point in each setting:
 /// first the measures of its goals if it has any (comparison::goal_measures), then the gate measures.
 /// @throws Failure: inconclusive where there is no value, bad_input where the trials are not independent,
 /// and as summarise().

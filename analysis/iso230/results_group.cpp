@@ -52,11 +52,11 @@ const DeviationSources& stored_sources(const hdf5::Group& root, const study::Stu
   return has_all ? sources : deviation_sources({});
 }
 
-/// Finds the masses of the trials of a point, which differ by conditions only.
+/// Finds the masses of the trials of a point, which differ by settings only.
 void find_masses(const study::Study& study, std::int64_t number, PointRepeatability& point) {
   bool differ = false;
-  for (std::int64_t condition = 0; condition < study::condition_count(study); ++condition) {
-    const std::int64_t trial = condition * std::max<std::int64_t>(study.machines, 1);  // TrialIndices
+  for (std::int64_t setting = 0; setting < study.settings.total(); ++setting) {
+    const std::int64_t trial = setting * std::max<std::int64_t>(study.machines, 1);  // TrialIndices
     const motion::PlantParameters plant = study::commanded_trial(study, number, trial).parameters.plant;
     if (!motion::has_load(plant)) continue;
     differ = differ || (point.has_load && point.closing != plant.load.encoder);

@@ -13,8 +13,8 @@
 namespace zerocount::jerks {
 namespace {
 
-/// @param file of the trials under the condition
-PointJerks jerks_at(const reading::AllTrialsFile& file, const measures::PointUnderCondition& place,
+/// @param file of the trials in the setting
+PointJerks jerks_at(const reading::AllTrialsFile& file, const measures::PointInSetting& place,
                     double confidence, std::int64_t creep_trials) {
   const study::Study& study = file.study();
   PointJerks jerks{place,
@@ -188,7 +188,7 @@ Description<PointJerks> point_description() {
   return Description<PointJerks>()
       .title([](const PointJerks& p) { return text::printable(p.label); })
       .include(measures::name_of_point(),
-               [](const PointJerks& p) -> const measures::PointUnderCondition& { return p; })
+               [](const PointJerks& p) -> const measures::PointInSetting& { return p; })
       .include(statistics_description(), &PointJerks::statistics)
       .object(everywhere("creep", "Creep at constant torque",
                          "comparison with the closed form of creep at constant torque"),
@@ -218,7 +218,7 @@ constexpr const char* legend =
 
 JerkReport jerk_report(const reading::AllTrialsFile& file, std::vector<std::int64_t> points,
                        double confidence, std::int64_t creep_trials) {
-  const auto jerks = [&](const reading::AllTrialsFile& one, const measures::PointUnderCondition& place) {
+  const auto jerks = [&](const reading::AllTrialsFile& one, const measures::PointInSetting& place) {
     return jerks_at(one, place, confidence, creep_trials);
   };
   return {file.study().name, confidence, measures::at_points<PointJerks>(file, std::move(points), jerks)};

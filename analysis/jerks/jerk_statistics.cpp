@@ -19,6 +19,7 @@
 #include "core/failure/failure.hpp"
 #include "core/numerics/sign.hpp"
 #include "core/trial/divergence.hpp"
+#include "experiments/parameters/handles.hpp"
 #include "experiments/study/study_trial.hpp"
 #include "results/layout/table_io.hpp"
 
@@ -32,8 +33,8 @@ namespace {
 /// Whether the timing parameters differ between trials. Where they do not, they are drawn once.
 bool have_own_timing(const study::Study& study) {
   return std::ranges::any_of(study.columns.inputs, [](const study::InputColumn& input) {
-    return input.name == "controller.sample_rate" || input.name == "command.hold" ||
-           input.name == "verdict.dwell";
+    return input.name == parameter::controller::sample_rate || input.name == parameter::command::hold ||
+           input.name == parameter::verdict::dwell;
   });
 }
 

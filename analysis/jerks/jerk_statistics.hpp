@@ -11,7 +11,7 @@
 #include "analysis/document/answer.hpp"
 #include "analysis/jerks/creep_comparison.hpp"
 #include "analysis/jerks/laplace_trend.hpp"
-#include "analysis/measures/point_under_condition.hpp"
+#include "analysis/measures/point_in_setting.hpp"
 #include "analysis/statistics/clusters/clustered_proportion.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/statistics/quantile.hpp"
@@ -164,7 +164,7 @@ class JerkRates {
 // Output of the command `jerks`.
 
 /// The data of one point that the command `jerks` reports.
-struct PointJerks : measures::PointUnderCondition {
+struct PointJerks : measures::PointInSetting {
   JerkStatistics statistics{};
   CreepComparison creep;  ///< Comparison with the closed form of creep, from trials simulated again.
   CreepAgreement creep_agreement;
@@ -177,7 +177,7 @@ struct JerkReport {
   std::vector<PointJerks> points;
 };
 
-/// The jerks of `points` (all points if empty) of a complete results file, under each condition.
+/// The jerks of `points` (all points if empty) of a complete results file, in each setting.
 /// `creep_trials` trials of each point are simulated again and compared with the closed form of creep.
 /// @throws Failure as jerk_statistics.
 JerkReport jerk_report(const reading::AllTrialsFile& file, std::vector<std::int64_t> points,

@@ -90,8 +90,8 @@ std::int64_t count_moves(CellCounts& counts, const CountedGoal& goal, std::int64
 
 GoalSettling::GoalSettling(const CountedGoal& goal, const Shape& shape)
     : machines_(shape.machines), within_(goal.within) {
-  if (goal.on.empty() && shape.conditions == 0 && !within_.after_profile) return;
-  times_.assign(static_cast<std::size_t>(std::max<std::int64_t>(shape.conditions, 1)),
+  if (goal.on.empty() && shape.settings == 0 && !within_.after_profile) return;
+  times_.assign(static_cast<std::size_t>(std::max<std::int64_t>(shape.settings, 1)),
                 statistics::TrialClusters(shape.machines));
   if (!within_.after_profile) return;
   time_ratios_ = times_;
@@ -102,20 +102,20 @@ void GoalSettling::add(std::int64_t trial, const CountedGoal& goal,
                        std::span<const trial::MoveOutcome> moves) {
   if (times_.empty()) return;
   const study::TrialIndices indices{std::max<std::int64_t>(machines_, 1), std::ssize(times_)};
-  const auto condition = static_cast<std::size_t>(indices.condition_of(trial));
+  const auto setting = static_cast<std::size_t>(indices.setting_of(trial));
   const auto add_to = [&](statistics::TrialClusters& clusters, auto value) {
     values_.clear();
     for (const trial::MoveOutcome& move : moves)
       if (asks(goal, move) && !std::isnan(settling_time(goal, move))) values_.push_back(value(move));
     clusters.add_trial(indices.draw_of(trial), values_, asked_moves(goal, std::ssize(moves)));
   };
-  add_to(times_[condition], [&](const trial::MoveOutcome& move) { return settling_time(goal, move); });
+  add_to(times_[setting], [&](const trial::MoveOutcome& move) { return settling_time(goal, move); });
   if (time_ratios_.empty()) return;
-  add_to(time_ratios_[condition], [&](const trial::MoveOutcome& move) {
+  add_to(time_ratios_[setting], [&](const trial::MoveOutcome& move) {
     return settling_time(goal, move) / allowed_time(goal, move);
   });
   for (const trial::MoveOutcome& move : moves)
-    if (asks(goal, move)) allowed_[condition] = std::max(allowed_[condition], allowed_time(goal, move));
+    if (asks(goal, move)) allowed_[setting] = std::max(allowed_[setting], allowed_time(goal, move));
 }
 
 GoalSettling& GoalSettling::operator+=(const GoalSettling& next) {
@@ -182,8 +182,9 @@ bool allows_several_times(const MoveEvent& event) {
   return event.goals.size() > 1 || event.goals.front().within.after_profile;
 }
 
-/// The settling time of the move for the event's goal, s. If moves may be allowed different times: the
-/// largest ratio of settling time and allowed time over the goals. NaN if never.
+/// How late a move settles. If the event has one goal with the same allowed time for all moves, the settling
+/// time, s. Otherwise the settling time divided by the allowed time, the largest of all goals. NaN if the
+/// move does not settle for one of the goals.
 double lateness_of(const MoveEvent& event, const trial::MoveOutcome& move) {
   const bool by_ratio = allows_several_times(event);
   double latest = event.goals.size() > 1 ? 0.0 : statistics::unknown;

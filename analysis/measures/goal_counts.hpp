@@ -106,8 +106,8 @@ struct SettlingTimes {
   double time_ratio{statistics::unknown};
 };
 
-/// Collects the settling times of the moves that one goal judges, under each condition. Nothing is collected
-/// for a goal on all moves of a study without conditions that allows all moves the same time: its times are
+/// Collects the settling times of the moves that one goal judges, in each setting. Nothing is collected
+/// for a goal on all moves of a study without settings that allows all moves the same time: its times are
 /// then a measure of the study, the settling time of its band or tolerance.
 class GoalSettling {
  public:
@@ -117,7 +117,7 @@ class GoalSettling {
   void add(std::int64_t trial, const CountedGoal& goal, std::span<const trial::MoveOutcome> moves);
   /// Adds the trials of another accumulator for the same goal.
   GoalSettling& operator+=(const GoalSettling& next);
-  /// [condition, or 0 without conditions] the statistics; empty if nothing is collected.
+  /// [setting, or 0 without settings] the statistics; empty if nothing is collected.
   std::vector<SettlingTimes> statistics(double confidence) const;
 
   template <class Self, class Archive>
@@ -133,10 +133,10 @@ class GoalSettling {
   std::int64_t machines_;
   study::TimeLimit within_;
   std::vector<double> values_{};                    ///< Values of the current trial.
-  std::vector<statistics::TrialClusters> times_{};  ///< [condition] settling times
-  /// [condition] settling time / allowed time; empty if all moves are allowed the same time.
+  std::vector<statistics::TrialClusters> times_{};  ///< [setting] settling times
+  /// [setting] settling time / allowed time; empty if all moves are allowed the same time.
   std::vector<statistics::TrialClusters> time_ratios_{};
-  /// [condition] longest allowed time, s; empty if all moves are allowed the same time.
+  /// [setting] longest allowed time, s; empty if all moves are allowed the same time.
   std::vector<double> allowed_{};
 };
 

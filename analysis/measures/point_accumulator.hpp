@@ -40,7 +40,7 @@ struct MoveKind {
 
   /// Whether trials are counted as well as their moves (PointSummary::trials_of_groups).
   bool counts_trials() const {
-    return shape.worlds > 0 || shape.conditions > 0 || (has_observed_counts && !goals.empty());
+    return shape.worlds > 0 || shape.settings > 0 || (has_observed_counts && !goals.empty());
   }
 };
 

@@ -125,8 +125,8 @@ struct PointSummary : StatisticsOfMeasures, PointCounts {
   /// [goal] counts of the moves in which the load meets the goal (MoveKind::for_the_load); empty if no goal
   /// is counted for the load.
   std::vector<CellCounts> for_the_load;
-  /// [goal][condition, or 0 without conditions] settling times of the moves that the goal judges. Empty for a
-  /// goal on all moves of a study without conditions: its times are then those of the measure of its band.
+  /// [goal][setting, or 0 without settings] settling times of the moves that the goal judges. Empty for a
+  /// goal on all moves of a study without settings: its times are then those of the measure of its band.
   std::vector<std::vector<SettlingTimes>> goal_settling;
   /// Counts of trials. Empty unless MoveKind::counts_trials() and the moves have targets.
   std::optional<GroupTrials> trials_of_groups;

@@ -9,7 +9,8 @@
 namespace zerocount::measures {
 namespace {
 
-/// The value that ranks an event that never came: the worst of all values.
+/// The value that ranks a move in which the event never came, such as settling: +∞ if larger values are
+/// worse, otherwise −∞.
 double worst_value(const layout::CountedValues& values) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   return values.worse == layout::Worse::more ? infinity : -infinity;

@@ -241,7 +241,7 @@ class MachineMonitor {
   std::vector<std::size_t> baseline_classes_{};  ///< [value of the baseline] Class of the value.
   std::string last_group_{};                     ///< Last group of the baseline; empty without groups.
   std::vector<MeasureState> states_{};
-  std::vector<Watched> watched_{};   ///< [measure] Tests.
+  std::vector<Watched> watched_{};   ///< [measure] The tests that watch the measure, and their state.
   std::vector<Unit> units_{};        ///< [value of the log] Moves of the values that were compared.
   std::vector<std::size_t> open_{};  ///< Moves of the value that is not complete yet, as indices in the log.
   std::vector<std::size_t> open_likes_{};  ///< [move of open_] Class of the move.

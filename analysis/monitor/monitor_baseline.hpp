@@ -37,7 +37,7 @@ struct ModelMoves {
 Baseline baseline_of(const MoveLog& log);
 
 /// The moves of a results file, trial after trial.
-/// @param file of one condition
+/// @param file of one setting
 Baseline baseline_of(const reading::AllTrialsFile& file, const ModelMoves& moves);
 
 /// Labels by which moves are grouped into classes of similar moves.

@@ -61,9 +61,9 @@ PageSection success_section(const ReportedStudy& reported) {
   return section;
 }
 
-/// Says in the captions of figures of worst_of_conditions() which condition that is.
-std::vector<Figure> under_worst_condition(const ReportedStudy& reported, std::vector<Figure> figures) {
-  for (Figure& figure : figures) figure.caption = worst_condition_text(reported) + figure.caption;
+/// Says in the captions of figures of worst_of_settings() which setting that is.
+std::vector<Figure> under_worst_setting(const ReportedStudy& reported, std::vector<Figure> figures) {
+  for (Figure& figure : figures) figure.caption = worst_setting_phrase(reported) + figure.caption;
   return figures;
 }
 
@@ -76,14 +76,14 @@ PageSection zero_count_section(const ReportedStudy& reported) {
   return section;
 }
 
-/// Converts all figures from a rotary axis, for which they are written, and names the conditions, which have
+/// Converts all figures from a rotary axis, for which they are written, and names the settings, which have
 /// the same colours in all.
 void put_on_axis(const study::Study& study, ReportPage& page) {
   for (PageSection& section : page.sections) {
     section.title = parameters::text_on(study.units.axis, section.title);
     for (Figure& figure : section.figures) {
       report::put_on_axis(figure, study.units.axis);
-      figure.parameters["conditions"] = study.conditions;
+      figure.parameters["conditions"] = study::labels_of(study.settings);
     }
   }
 }
@@ -130,19 +130,19 @@ StudyReport study_report(const reading::AllTrialsFile& file, const ReportOptions
   if (options.history) add(page, history_section(*options.history, max_history_figures));
   add(page, success_section(reported));
   add(page, {"ages", "Over a life", "", age_figures(reported)});
-  const ReportedStudy& worst = worst_of_conditions(reported);
-  add(page, {"worlds", "Worlds", "", under_worst_condition(reported, world_figures(worst))});
+  const ReportedStudy& worst = worst_of_settings(reported);
+  add(page, {"worlds", "Worlds", "", under_worst_setting(reported, world_figures(worst))});
   add(page, {"settling", "Arrival and settling", "", distribution_figures(reported)});
   add(page, zero_count_section(reported));
   add(page,
       {"jerks", "Jerks", "",
        reported.study.open_loop || !options.jerks ? std::vector<Figure>{}
-                                                  : under_worst_condition(reported, jerk_figures(worst))});
+                                                  : under_worst_setting(reported, jerk_figures(worst))});
   if (std::optional<PageSection> sensitivity = sensitivity_section(reported))
     add(page, std::move(*sensitivity));
-  add(page, {"rotor", "Along the $track", "", under_worst_condition(reported, rotor_figures(worst))});
+  add(page, {"rotor", "Along the $track", "", under_worst_setting(reported, rotor_figures(worst))});
   if (std::optional<Figure> bode = bode_figure(worst))
-    add(page, {"loop", "Stability margins", "", under_worst_condition(reported, {std::move(*bode)})});
+    add(page, {"loop", "Stability margins", "", under_worst_setting(reported, {std::move(*bode)})});
   if (reported.study.plugin) {
     add(page, {"traces", "Response", without_traces_html(*reported.study.plugin), {}});
   } else {

@@ -24,21 +24,20 @@ ReportedStudy summarised(const reading::AllTrialsFile& file) {
   return reported;
 }
 
-void add_conditions(ReportedStudy& reported) {
-  const std::vector<std::string>& names = reported.study.conditions;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    auto file = std::make_shared<const reading::AllTrialsFile>(
-        reported.file.under_condition(static_cast<std::int64_t>(i)));
+void add_settings(ReportedStudy& reported) {
+  const study::Settings& settings = reported.study.settings;
+  if (settings.empty()) return;
+  for (std::int64_t i = 0; i < settings.total(); ++i) {
+    auto file = std::make_shared<const reading::AllTrialsFile>(reported.file.in_setting(i));
     auto study = std::make_shared<ReportedStudy>(summarised(*file));
     study->chosen = reported.chosen;
-    reported.conditions.push_back({names[i], std::move(file), std::move(study)});
+    reported.settings.push_back({study::label_of(settings, i), std::move(file), std::move(study)});
   }
-  if (names.empty()) return;
   const goal::Question& question = question_of(reported);
   const std::int64_t chosen = reported.chosen.point;
-  reported.worst_condition =
-      question.claim() ? verdict_on(question, point_of(reported, chosen)).condition
-                       : summary::worst_cell(summary::conditions_of_point(reported.summary, chosen));
+  reported.worst_setting = question.claim()
+                               ? verdict_on(question, point_of(reported, chosen)).setting
+                               : summary::worst_cell(summary::settings_of_point(reported.summary, chosen));
 }
 
 }  // namespace
@@ -50,25 +49,25 @@ ReportedStudy reported_study(const reading::AllTrialsFile& file, std::optional<s
   }
   ReportedStudy reported = summarised(file);
   reported.chosen = summary::choose_point(reported.summary, point);
-  if (!reported.study.open_loop) add_conditions(reported);
+  if (!reported.study.open_loop) add_settings(reported);
   return reported;
 }
 
-const ReportedStudy& worst_of_conditions(const ReportedStudy& reported) {
-  return has_conditions(reported) ? *reported.conditions[reported.worst_condition].study : reported;
+const ReportedStudy& worst_of_settings(const ReportedStudy& reported) {
+  return has_settings(reported) ? *reported.settings[reported.worst_setting].study : reported;
 }
 
-std::string worst_condition_text(const ReportedStudy& reported) {
-  if (!has_conditions(reported)) return "";
-  const bool ages = !question_of(reported).ages.at.empty();
+std::string worst_setting_phrase(const ReportedStudy& reported) {
+  if (!has_settings(reported)) return "";
+  const bool ages = !question_of(reported).settings.ages.at.empty();
   return fmt::format("{} {}, the worst{}. ", ages ? "At" : "Under",
-                     reported.conditions[reported.worst_condition].name, ages ? "" : " condition");
+                     reported.settings[reported.worst_setting].name, ages ? "" : " condition");
 }
 
 std::vector<ReportedPart> parts_of(const ReportedStudy& reported) {
-  if (!has_conditions(reported)) return {{"", reported}};
+  if (!has_settings(reported)) return {{"", reported}};
   std::vector<ReportedPart> parts;
-  for (const ReportedCondition& one : reported.conditions) parts.push_back({one.name, *one.study});
+  for (const ReportedSetting& one : reported.settings) parts.push_back({one.name, *one.study});
   return parts;
 }
 

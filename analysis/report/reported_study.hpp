@@ -21,11 +21,11 @@ namespace zerocount::report {
 
 struct ReportedStudy;
 
-/// The trials under one condition, as a study of its own.
-struct ReportedCondition {
+/// The trials in one setting, as a study of its own.
+struct ReportedSetting {
   std::string name;
   std::shared_ptr<const reading::AllTrialsFile> file;  ///< Results file to which `study` refers.
-  /// Study of the trials under the condition, with the chosen point of the whole study.
+  /// Study of the trials in the setting, with the chosen point of the whole study.
   std::shared_ptr<const ReportedStudy> study;
 };
 
@@ -34,28 +34,28 @@ struct ReportedStudy {
   const reading::AllTrialsFile& file;
   const study::Study& study;
   summary::StudySummary summary;
-  summary::ChosenPoint chosen{};                ///< Design point that the page describes.
-  std::vector<std::string> names{};             ///< [point] Short label.
-  std::vector<ReportedCondition> conditions{};  ///< empty without conditions
-  std::size_t worst_condition{0};               ///< Index of the worst condition at the chosen point.
+  summary::ChosenPoint chosen{};            ///< Design point that the page describes.
+  std::vector<std::string> names{};         ///< [point] Short label.
+  std::vector<ReportedSetting> settings{};  ///< empty without settings
+  std::size_t worst_setting{0};             ///< Index of the worst setting at the chosen point.
 };
 
-/// Whether figures distinguish the conditions of the study.
-inline bool has_conditions(const ReportedStudy& reported) {
-  return !reported.conditions.empty();
+/// Whether figures distinguish the settings of the study.
+inline bool has_settings(const ReportedStudy& reported) {
+  return !reported.settings.empty();
 }
-/// The trials under the condition that is the worst at the chosen point; the study itself without conditions.
-const ReportedStudy& worst_of_conditions(const ReportedStudy& reported);
-/// Introduction to results of worst_of_conditions(): "Under loaded, the worst condition. "; empty without
-/// conditions.
-std::string worst_condition_text(const ReportedStudy& reported);
+/// The trials in the setting that is the worst at the chosen point; the study itself without settings.
+const ReportedStudy& worst_of_settings(const ReportedStudy& reported);
+/// Introduction to results of worst_of_settings(): "Under loaded, the worst condition. "; empty without
+/// settings.
+std::string worst_setting_phrase(const ReportedStudy& reported);
 
-/// One line of a figure that compares points: all trials, or the trials under one condition.
+/// One line of a figure that compares points: all trials, or the trials in one setting.
 struct ReportedPart {
-  std::string condition;  ///< empty without conditions
+  std::string setting;  ///< empty without settings
   const ReportedStudy& study;
 };
-/// A part for each condition; without conditions the study itself.
+/// A part for each setting; without settings the study itself.
 std::vector<ReportedPart> parts_of(const ReportedStudy& reported);
 
 /// The short label of a point.
@@ -85,7 +85,7 @@ inline constexpr std::string_view dependence_sentence =
 /// Largest distance of a settled move from its target as text: "1 count", "10 nm".
 std::string precision_text(const ReportedStudy& reported, const study::Goal& goal);
 
-/// Reads the whole file once, and with conditions once more for each of them.
+/// Reads the whole file once, and with settings once more for each of them.
 /// @param file a complete study.
 /// @param point design point that the page describes; nothing: the best
 /// @throws Failure (bad_input) if there is no such point

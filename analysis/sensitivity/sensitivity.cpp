@@ -19,8 +19,8 @@
 #include "core/failure/failure.hpp"
 #include "core/trial/move_measures.hpp"
 #include "experiments/designs/designs.hpp"
-#include "experiments/study/condition_study.hpp"
 #include "experiments/study/group_inputs.hpp"
+#include "experiments/study/setting_study.hpp"
 #include "experiments/study/study_trial.hpp"
 #include "results/layout/header.hpp"
 
@@ -126,7 +126,7 @@ std::int64_t trials_read(const study::Study& study, const SensitivityQuestion& q
   return std::min(study.trials, std::max(question.max_trials, study.machines));
 }
 
-PointInputs point_inputs(const reading::AllTrialsFile& file, std::int64_t point, bool under_condition,
+PointInputs point_inputs(const reading::AllTrialsFile& file, std::int64_t point, bool in_setting,
                          std::int64_t trials) {
   const study::Study& study = file.study();
   PointInputs inputs{.design = study.design,
@@ -141,7 +141,7 @@ PointInputs point_inputs(const reading::AllTrialsFile& file, std::int64_t point,
   };
   const layout::RowRange rows{point * file.header().trials, trials};
   for (std::size_t column = 0; column < file.input_columns().size(); ++column) {
-    if (under_condition && !study::differs_under_condition(study, column)) continue;
+    if (in_setting && !study::differs_in_setting(study, column)) continue;
     const std::string& name = file.input_columns()[column].name;
     if (!is_of_world(name)) inputs.inputs.push_back({name, file.input(column, rows)});
   }
@@ -223,13 +223,13 @@ struct PointQuestion {
   std::function<void()> done;  ///< Called after each output of each point.
 };
 
-/// @param file of the trials under the condition
-PointSensitivity sensitivity_at(const reading::AllTrialsFile& file,
-                                const measures::PointUnderCondition& place, const PointQuestion& asked) {
+/// @param file of the trials in the setting
+PointSensitivity sensitivity_at(const reading::AllTrialsFile& file, const measures::PointInSetting& place,
+                                const PointQuestion& asked) {
   const study::Study& study = file.study();
   const std::int64_t point = place.point;
   const std::int64_t trials = trials_read(study, asked.question);
-  const PointInputs inputs = point_inputs(file, point, place.condition.has_value(), trials);
+  const PointInputs inputs = point_inputs(file, point, place.setting.has_value(), trials);
   const PointInputs worlds = inputs_of_worlds(study, point);
   const double confidence = asked.question.confidence;
   PointSensitivity at_point{place, {}};
@@ -310,13 +310,12 @@ StudySensitivity study_sensitivity(const reading::AllTrialsFile& file, const Sen
                       .done = {}};
   const std::int64_t points =
       question.points.empty() ? study::point_count(study) : std::ssize(question.points);
-  const std::int64_t all = study::condition_count(study) * points * std::ssize(asked.outputs);
+  const std::int64_t all = study.settings.total() * points * std::ssize(asked.outputs);
   asked.done = [&, done = std::int64_t{0}]() mutable {
     if (question.progress) question.progress(++done, all);
   };
   sensitivity.points = measures::at_points<PointSensitivity>(
-      file, question.points,
-      [&](const reading::AllTrialsFile& one, const measures::PointUnderCondition& place) {
+      file, question.points, [&](const reading::AllTrialsFile& one, const measures::PointInSetting& place) {
         return sensitivity_at(one, place, asked);
       });
   return sensitivity;

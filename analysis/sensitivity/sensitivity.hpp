@@ -11,7 +11,7 @@
 
 #include "analysis/document/answer.hpp"
 #include "analysis/goal/question.hpp"
-#include "analysis/measures/point_under_condition.hpp"
+#include "analysis/measures/point_in_setting.hpp"
 #include "analysis/sensitivity/sobol_indices.hpp"
 #include "analysis/statistics/proportion.hpp"
 #include "analysis/statistics/unknown.hpp"
@@ -78,9 +78,9 @@ struct OutputSensitivity {
   bool estimated{false};  ///< True if `factors` is not empty.
 };
 
-/// Sensitivity of all requested outputs at one design point. If the study has conditions, under one
-/// condition, so that the indices describe the trials within it.
-struct PointSensitivity : measures::PointUnderCondition {
+/// Sensitivity of all requested outputs at one design point. If the study has settings, in one
+/// setting, so that the indices describe the trials within it.
+struct PointSensitivity : measures::PointInSetting {
   std::vector<OutputSensitivity> outputs;
 };
 

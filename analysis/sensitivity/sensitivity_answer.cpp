@@ -121,7 +121,7 @@ Description<PointSensitivity> point_description() {
         return fmt::format("Point {}: {}", p.point, text::printable(p.label));
       })
       .include(measures::name_of_point(),
-               [](const PointSensitivity& p) -> const measures::PointUnderCondition& { return p; })
+               [](const PointSensitivity& p) -> const measures::PointInSetting& { return p; })
       .sections({.key = "outputs", .meaning = "outputs of the trials"}, output_description(),
                 &PointSensitivity::outputs);
 }

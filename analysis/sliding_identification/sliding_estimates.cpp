@@ -10,6 +10,7 @@
 #include "analysis/sliding_identification/sliding_identification.hpp"
 #include "analysis/statistics/distributions.hpp"
 #include "core/numerics/interval.hpp"
+#include "experiments/parameters/handles.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 
 namespace zerocount::sliding_identification {
@@ -23,7 +24,7 @@ enum class Scale { linear, positive, logarithmic };
 /// A reported parameter: a function of the fitted point.
 struct Quantity {
   std::string name;
-  const char* key;         ///< Manifest key of the parameter.
+  std::string_view key;    ///< Manifest key of the parameter.
   const char* unit;        ///< Unit on a rotary axis.
   std::size_t coordinate;  ///< Coordinate that must be free in the fit.
   double value;            ///< Value of the parameter; its logarithm if the scale is logarithmic.
@@ -40,7 +41,8 @@ struct Quantity {
 /// Allowed range of a quantity. The range of the Coulomb level is that of a breakaway torque, because the
 /// level is a breakaway torque times a ratio.
 numerics::Interval range_of(const Quantity& quantity) {
-  const std::string key = quantity.name == "coulomb_level" ? "friction.breakaway" : quantity.key;
+  const std::string_view key =
+      quantity.name == "coulomb_level" ? parameter::friction::breakaway.path : quantity.key;
   const auto row = parameters::find_parameter(key);
   return row ? parameters::parameter_table()[*row].range : numerics::all_numbers();
 }
@@ -80,19 +82,19 @@ std::vector<Quantity> quantities_of(const SlidingFit& fit) {
   const SlidingPoint of_excess = SlidingPoint::Unit(stribeck_excess);
   const SlidingPoint of_ratio = (excess * of_coulomb - coulomb * of_excess) / (level * level);
   std::vector<Quantity> quantities{
-      {"inertia", "plant.inertia", "kg m^2", log_inertia, point[log_inertia], SlidingPoint::Unit(log_inertia),
-       Scale::logarithmic, "the velocity hardly changes; accelerate more"},
-      {"sliding_damping", "plant.sliding_damping", "N m s/rad", viscous_damping, point[viscous_damping],
-       SlidingPoint::Unit(viscous_damping), Scale::positive,
+      {"inertia", parameter::plant::inertia, "kg m^2", log_inertia, point[log_inertia],
+       SlidingPoint::Unit(log_inertia), Scale::logarithmic, "the velocity hardly changes; accelerate more"},
+      {"sliding_damping", parameter::plant::sliding_damping, "N m s/rad", viscous_damping,
+       point[viscous_damping], SlidingPoint::Unit(viscous_damping), Scale::positive,
        "it shows too little at these velocities: with 95 % confidence it is at most {0:.3g} {1}; move at "
        "velocities that differ more"},
       {"coulomb_level", "", "N m", coulomb_level, coulomb, of_coulomb, Scale::positive,
        "the velocities differ too little to distinguish it from the viscous damping"},
-      {"breakaway_level", "friction.breakaway", "N m", stribeck_excess, level, of_coulomb + of_excess,
-       Scale::positive, "the slow motion is too short"},
-      {"coulomb_ratio", "friction.coulomb_ratio", "1", stribeck_excess, coulomb / level, of_ratio,
+      {"breakaway_level", parameter::friction::breakaway, "N m", stribeck_excess, level,
+       of_coulomb + of_excess, Scale::positive, "the slow motion is too short"},
+      {"coulomb_ratio", parameter::friction::coulomb_ratio, "1", stribeck_excess, coulomb / level, of_ratio,
        Scale::linear, ""},
-      {"stribeck_velocity", "friction.stribeck_velocity", "rad/s", log_stribeck_velocity,
+      {"stribeck_velocity", parameter::friction::stribeck_velocity, "rad/s", log_stribeck_velocity,
        point[log_stribeck_velocity], SlidingPoint::Unit(log_stribeck_velocity), Scale::logarithmic,
        "the slow motion is too short"},
       {"offset", "", "N m", offset_torque, point[offset_torque], SlidingPoint::Unit(offset_torque),

@@ -34,13 +34,6 @@ struct Point {
   }
 };
 
-/// Consecutive conditions, such as all conditions at one age.
-struct Conditions {
-  std::size_t first, count;
-
-  bool contains(std::size_t condition) const { return condition >= first && condition < first + count; }
-};
-
 /// The proportion of trials that succeed; with worlds, the lowest value and bounds over the worlds.
 goal::BoundedProportion success_of(const std::vector<measures::MoveCounts>& worlds, double confidence) {
   const double each = statistics::confidence_of_each(confidence, worlds.size());
@@ -77,31 +70,34 @@ void judge(CellOfPoint& cell, const goal::Question& question, const goal::ClaimV
   cell.status = verdict.status;
 }
 
-/// The cell of all trials under these conditions. Proportions, verdict and settling time are those of the
-/// worst claim.
-CellOfPoint cell_under(const Point& point, const Conditions& conditions) {
+/// The cell of all trials in these settings. Proportions, verdict and settling time are those of the worst
+/// claim.
+CellOfPoint cell_in(const Point& point, const std::vector<std::int64_t>& settings) {
   CellOfPoint cell;
-  std::size_t worst_condition = conditions.first;
+  std::int64_t worst_setting = settings.front();
   const auto& [succeeded, meeting] = *point.statistics.trials_of_groups;
-  for (std::size_t c = conditions.first; c < conditions.first + conditions.count; ++c) {
-    const measures::MoveCounts successes = succeeded.sum({.condition = c});
+  for (const std::int64_t setting : settings) {
+    const auto s = static_cast<std::size_t>(setting);
+    const measures::MoveCounts successes = succeeded.sum({.setting = s});
     cell.trials += successes.moves;
     cell.success += successes.met;
     if (point.verdict) {
-      cell.goal_met += meeting.sum({.condition = c}).met;
+      cell.goal_met += meeting.sum({.setting = s}).met;
       continue;
     }
-    const goal::BoundedProportion rate = success_of(succeeded.worlds_under(c), point.summary.confidence);
-    if (c > conditions.first && !is_worse(rate, cell.judged)) continue;
+    const goal::BoundedProportion rate = success_of(succeeded.worlds_in(s), point.summary.confidence);
+    if (setting != settings.front() && !is_worse(rate, cell.judged)) continue;
     cell.rate = cell.judged = rate;
-    worst_condition = c;
+    worst_setting = setting;
   }
-  if (conditions.count > 1) cell.worst_condition = point.summary.conditions[worst_condition];
+  const auto label = [&](std::int64_t one) { return study::label_of(point.summary.question.settings, one); };
+  if (settings.size() > 1) cell.worst_setting = label(worst_setting);
   if (!point.verdict) return cell;
-  const goal::ClaimVerdict& worst = goal::worst_where(
-      *point.verdict, [&](const goal::ClaimVerdict& one) { return conditions.contains(one.condition); });
+  const goal::ClaimVerdict& worst = goal::worst_where(*point.verdict, [&](const goal::ClaimVerdict& one) {
+    return std::ranges::find(settings, static_cast<std::int64_t>(one.setting)) != settings.end();
+  });
   judge(cell, point.summary.question, worst);
-  if (conditions.count > 1) cell.worst_condition = point.summary.conditions[worst.condition];
+  if (settings.size() > 1) cell.worst_setting = label(static_cast<std::int64_t>(worst.setting));
   cell.settling_time_p95 = known(goal::times_of_claim(point.times, worst).statistics->p95.value);
   return cell;
 }
@@ -116,11 +112,11 @@ std::vector<CellOfPoint> claims_of_point(const StudySummary& summary, std::int64
   for (const goal::GoalTimes& times : point.times) {
     CellOfPoint& claim = claims.emplace_back();
     judge(claim, question, *std::ranges::find_if(point.verdict->claims, [&](const goal::ClaimVerdict& one) {
-            return one.goal == times.part && one.condition == times.condition;
+            return one.goal == times.part && one.setting == times.setting;
           }));
-    if (!question.conditions.empty()) claim.condition = question.conditions[times.condition];
+    if (!question.settings.empty()) claim.setting = study::label_of(question.settings, times.setting);
     const measures::MoveCounts counts =
-        point.statistics.goals[question.parts[times.part].number].sum({.condition = times.condition});
+        point.statistics.goals[question.parts[times.part].number].sum({.setting = times.setting});
     claim.moves = counts.moves;
     claim.met = counts.met;
     claim.settling_time_p95 = known(times.statistics->p95.value);
@@ -129,26 +125,29 @@ std::vector<CellOfPoint> claims_of_point(const StudySummary& summary, std::int64
   return claims;
 }
 
-std::vector<CellOfPoint> conditions_of_point(const StudySummary& summary, std::int64_t number,
-                                             std::size_t points) {
+std::vector<CellOfPoint> settings_of_point(const StudySummary& summary, std::int64_t number,
+                                           std::size_t points) {
   const Point point(summary, number, points);
   std::vector<CellOfPoint> cells;
-  for (std::size_t c = 0; point.statistics.trials_of_groups && c < summary.conditions.size(); ++c) {
-    cells.push_back(cell_under(point, {c, 1}));
-    cells.back().condition = summary.conditions[c];
+  const study::Settings& settings = summary.question.settings;
+  if (settings.empty() || !point.statistics.trials_of_groups) return cells;
+  for (std::int64_t setting = 0; setting < settings.total(); ++setting) {
+    cells.push_back(cell_in(point, {setting}));
+    cells.back().setting = study::label_of(settings, setting);
   }
   return cells;
 }
 
 std::vector<CellOfPoint> ages_of_point(const StudySummary& summary, std::int64_t number, std::size_t points) {
   const goal::Question& question = summary.question;
-  const std::vector<double>& at = question.ages.at;
+  const std::vector<double>& at = question.settings.ages.at;
   const Point point(summary, number, points);
   std::vector<CellOfPoint> cells;
   if (at.empty() || !point.statistics.trials_of_groups) return cells;
-  const std::size_t of_age = summary.conditions.size() / at.size();
+  const study::SettingCounts counts_of_settings = question.settings.counts();
   for (std::size_t age = 0; age < at.size(); ++age) {
-    cells.push_back(cell_under(point, {age * of_age, of_age}));
+    cells.push_back(
+        cell_in(point, study::settings_at_age(counts_of_settings, static_cast<std::int64_t>(age))));
     cells.back().age = at[age];
   }
   if (!point.verdict) return cells;
@@ -181,19 +180,18 @@ document::Description<CellOfPoint> cell_description(const goal::Question& questi
                           .optional = true};
   };
   document::Description<CellOfPoint> cell;
-  document::Item condition{"condition", "condition", "condition under which every machine runs"};
-  condition.optional = claims;
+  document::Item setting{"condition", "condition", "condition under which every machine runs"};
+  setting.optional = claims;
   if (claims)
     cell.value({.key = "goal", .heading = "goal", .meaning = "name of the goal", .optional = true},
                &CellOfPoint::goal)
-        .value(condition, &CellOfPoint::condition);
-  if (by == CellsBy::condition)
-    cell.value(condition, [](const CellOfPoint& c) { return c.condition.value(); });
+        .value(setting, &CellOfPoint::setting);
+  if (by == CellsBy::setting) cell.value(setting, [](const CellOfPoint& c) { return c.setting.value(); });
   if (by == CellsBy::age)
     cell.value({.key = "age",
                 .heading = "age",
                 .meaning = "age of the machines, in the unit of the manifest",
-                .unit = question.ages.at.empty() ? "" : question.ages.unit,
+                .unit = question.settings.ages.at.empty() ? "" : question.settings.ages.unit,
                 .notation = document::Notation::exact},
                &CellOfPoint::age);
   if (claims) {
@@ -215,14 +213,14 @@ document::Description<CellOfPoint> cell_description(const goal::Question& questi
                 .heading = "worst condition",
                 .meaning = "the worst of several conditions, which rate and settling time are under",
                 .optional = true},
-               &CellOfPoint::worst_condition);
-  if (by == CellsBy::age || (by == CellsBy::condition && has_several(question)))
+               &CellOfPoint::worst_setting);
+  if (by == CellsBy::age || (by == CellsBy::setting && has_several(question)))
     cell.value({.key = "goal",
                 .heading = "worst goal",
                 .meaning = "name of the goal that rate and settling time are of, the worst of several",
                 .optional = true},
                &CellOfPoint::goal);
-  const bool of_moves = with_goal && by != CellsBy::condition;
+  const bool of_moves = with_goal && by != CellsBy::setting;
   cell.value(
       {.key = "rate",
        .heading = of_moves ? "moves in goal [bounds]" : "rate [bounds]",
@@ -288,7 +286,7 @@ std::optional<double> missed_from(const std::vector<CellOfPoint>& ages) {
 
 std::string ages_sentence(const goal::Question& question, const std::vector<CellOfPoint>& ages) {
   if (ages.empty() || !question.claim()) return {};
-  const auto text = [&](double age) { return study::age_text(question.ages, age); };
+  const auto text = [&](double age) { return study::age_text(question.settings.ages, age); };
   const std::optional<double> met = met_until(ages);
   const std::optional<double> missed = missed_from(ages);
   if (met == ages.back().age) return fmt::format("the goal is met at every age, up to {}", text(*met));
@@ -300,12 +298,12 @@ std::string ages_sentence(const goal::Question& question, const std::vector<Cell
 
 std::string averaged_over(const StudySummary& summary) {
   const bool worlds = summary.question.worlds > 0;
-  const bool conditions = !summary.conditions.empty();
-  if (!worlds && !conditions) return "";
+  const study::Settings& settings = summary.question.settings;
+  if (!worlds && settings.empty()) return "";
   std::vector<std::string_view> over;
   if (worlds) over.emplace_back("worlds");
-  if (conditions && !summary.question.ages.at.empty()) over.emplace_back("ages");
-  if (summary.conditions.size() > summary.question.ages.at.size()) over.emplace_back("conditions");
+  if (!settings.ages.at.empty()) over.emplace_back("ages");
+  if (study::counts_conditions(settings)) over.emplace_back("conditions");
   return fmt::format("on average over the {}: ", fmt::join(over, " and "));
 }
 

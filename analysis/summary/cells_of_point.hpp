@@ -11,51 +11,51 @@
 #include "analysis/summary/summary.hpp"
 #include "analysis/worlds/world_statistics.hpp"
 
-/// The verdicts and proportions of a design point for each goal, under each condition and at each age.
+/// The verdicts and proportions of a design point for each goal, in each setting and at each age.
 namespace zerocount::summary {
 
-/// A subset of the trials of a point (for one claim, condition or age) with its verdict. Bounds are
+/// A subset of the trials of a point (for one claim, setting or age) with its verdict. Bounds are
 /// one-sided, each with the confidence of the goal; without a goal, of the summary. With worlds the
 /// proportions are those of the worst world.
 struct CellOfPoint {
-  std::optional<std::string> goal{};       ///< Name of the only or the worst goal; empty without names.
-  std::optional<std::string> condition{};  ///< Condition of the trials; empty if there is none or several.
-  /// The worst condition of a cell with several. Rate, verdict and settling time hold under this condition.
-  /// Empty if the cell has a single condition.
-  std::optional<std::string> worst_condition{};
+  std::optional<std::string> goal{};     ///< Name of the only or the worst goal; empty without names.
+  std::optional<std::string> setting{};  ///< Setting of the trials; empty if there is none or several.
+  /// The worst setting of a cell with several. Rate, verdict and settling time hold in this setting.
+  /// Empty if the cell has a single setting.
+  std::optional<std::string> worst_setting{};
   double age{0.0};  ///< Age, in the unit of Question::ages; 0 without ages.
   std::int64_t trials{0};
   std::int64_t success{0};        ///< trials all of whose moves ended at zero error
   std::int64_t goal_met{0};       ///< trials all of whose moves meet the goals
   std::int64_t moves{0}, met{0};  ///< Moves that the goal judges, and those that meet it; for claims only.
-  /// Proportion of moves that meet the worst goal under the worst condition. Without a goal: proportion of
-  /// trials that succeed under the worst condition.
+  /// Proportion of moves that meet the worst goal in the worst setting. Without a goal: proportion of
+  /// trials that succeed in the worst setting.
   goal::BoundedProportion rate{};
   goal::BoundedProportion judged{};  ///< Proportion of machines, moves or trials; see judged_head().
   /// Proportion of machines that meet the goal; empty if the goal is not about machines, except for ages.
   std::optional<goal::BoundedProportion> machines{};
   /// Proportion of machines that meet the goal at every age up to this one; for ages only.
   std::optional<goal::BoundedProportion> living{};
-  /// 95 % quantile of the settling time for the worst goal and condition, s; empty: not reached within the
+  /// 95 % quantile of the settling time for the worst goal and setting, s; empty: not reached within the
   /// hold.
   std::optional<double> settling_time_p95{};
   double within{0.0};  ///< Longest time that the goal allows a move, s from its start; for claims only.
-  goal::Status status{goal::Status::undecided};  ///< Verdict on the worst goal and condition.
+  goal::Status status{goal::Status::undecided};  ///< Verdict on the worst goal and setting.
 };
 
 /// The property by which the cells of a table differ.
-enum class CellsBy { claim, condition, age };
+enum class CellsBy { claim, setting, age };
 
-/// The claims on a point, one cell for each goal and condition; empty without a goal. The bounds are those of
+/// The claims on a point, one cell for each goal and setting; empty without a goal. The bounds are those of
 /// verdict_on(). @param points number of points from which the point was chosen
 std::vector<CellOfPoint> claims_of_point(const StudySummary& summary, std::int64_t point,
                                          std::size_t points = 1);
 
-/// [condition] the cells of a point; with ages one for each condition at each age. Empty without conditions,
+/// [setting] the cells of a point; with ages one for each setting at each age. Empty without settings,
 /// and for a point without judged trials. The upper bounds divide the error probability by the number of
-/// conditions (Bonferroni), so a single missed condition shows that the goal is missed.
-std::vector<CellOfPoint> conditions_of_point(const StudySummary& summary, std::int64_t point,
-                                             std::size_t points = 1);
+/// settings (Bonferroni), so a single missed setting shows that the goal is missed.
+std::vector<CellOfPoint> settings_of_point(const StudySummary& summary, std::int64_t point,
+                                           std::size_t points = 1);
 
 /// [age] the cells of a point; empty without ages, and for a point without judged trials.
 std::vector<CellOfPoint> ages_of_point(const StudySummary& summary, std::int64_t point,
@@ -77,7 +77,7 @@ std::optional<double> missed_from(const std::vector<CellOfPoint>& ages);
 std::string ages_sentence(const goal::Question& question, const std::vector<CellOfPoint>& ages);
 
 /// "on average over the worlds and conditions: ", a prefix for numbers over all trials; empty if the study
-/// has neither worlds nor conditions.
+/// has neither worlds nor settings.
 std::string averaged_over(const StudySummary& summary);
 
 /// The worlds at a point; empty if the study has no worlds, or a world has no trials yet.

@@ -88,7 +88,7 @@ bool has_worse_world(const goal::Question& question, const measures::PointSummar
                      const measures::PointSummary& other) {
   const auto alone = [&](const measures::PointSummary& point) {
     const measures::CellCounts& counts = point.goals[question.parts.front().number];
-    return goal::judge_goal(*question.claim(), counts.under(verdict_on(question, point).condition), 1);
+    return goal::judge_goal(*question.claim(), counts.in_setting(verdict_on(question, point).setting), 1);
   };
   const goal::Verdict of_best = alone(best);
   const goal::Verdict of_other = alone(other);
@@ -319,7 +319,7 @@ JudgedPoint judge_point(const StudySummary& summary, const ChosenPoint& chosen) 
 std::string judgement_headline(const StudySummary& summary, const JudgedPoint& judged) {
   const goal::Question& question = summary.question;
   const std::string name = name_of_chosen(summary, judged.chosen);
-  const std::string under = under_text(question, judged.verdict.condition);
+  const std::string under = under_text(question, judged.verdict.setting);
   const study::Goal& goal = worst_goal(summary, judged.verdict);
   const std::string worst =
       (has_several(question) ? fmt::format(" '{}'", goal.name) : "") + goal::of_mass(goal);
@@ -362,7 +362,7 @@ std::optional<SaturatedMoves> saturated_moves(const std::filesystem::path& path,
                                               const JudgedClaim& claim) {
   if (layout::has_sums(study.retention)) return {};
   const reading::AllTrialsFile all(path);
-  const reading::AllTrialsFile file = all.under_condition(static_cast<std::int64_t>(claim.condition));
+  const reading::AllTrialsFile file = all.in_setting(static_cast<std::int64_t>(claim.setting));
   const measures::CountedGoal goal = measures::asked_of_moves(study)[claim.goal];
   const std::int64_t trials = file.header().trials;
   SaturatedMoves counts;

@@ -109,11 +109,11 @@ struct SaturatedMoves {
   double of_met() const { return static_cast<double>(met_saturated) / static_cast<double>(met); }
 };
 
-/// A goal of a study at a design point under a condition.
+/// A goal of a study at a design point in a setting.
 struct JudgedClaim {
   std::int64_t point;
   std::size_t goal;
-  std::size_t condition;
+  std::size_t setting;
 };
 
 /// Counts the moves that miss and that meet the goal of the claim, each with the number of moves in which the

@@ -66,43 +66,43 @@ void BehaviourCounter::RowValues::add(const trial::MoveOutcome& move, const Tria
 BehaviourCounter::BehaviourCounter(const study::Study& study)
     : study_(study),
       goals_(measures::asked_of_moves(study)),
-      conditions_(static_cast<std::size_t>(study::condition_count(study))),
-      rows_((goals_.size() + 1) * conditions_) {}
+      settings_(static_cast<std::size_t>(study.settings.total())),
+      rows_((goals_.size() + 1) * settings_) {}
 
-BehaviourCounter::RowValues& BehaviourCounter::row(std::size_t goal, std::int64_t condition) {
-  return rows_[goal * conditions_ + static_cast<std::size_t>(condition)];
+BehaviourCounter::RowValues& BehaviourCounter::row(std::size_t goal, std::int64_t setting) {
+  return rows_[goal * settings_ + static_cast<std::size_t>(setting)];
 }
 
-void BehaviourCounter::add(const TrialScale& scale, std::int64_t condition,
+void BehaviourCounter::add(const TrialScale& scale, std::int64_t setting,
                            std::span<const trial::MoveOutcome> moves) {
   for (const trial::MoveOutcome& move : moves) {
     bool is_asked = false;
     for (std::size_t goal = 0; goal < goals_.size(); ++goal) {
       if (!measures::asks(goals_[goal], move)) continue;
       is_asked = true;
-      row(goal, condition).add(move, scale, goals_[goal].of_other_mass);
+      row(goal, setting).add(move, scale, goals_[goal].of_other_mass);
     }
-    if (!is_asked) row(goals_.size(), condition).add(move, scale, false);
+    if (!is_asked) row(goals_.size(), setting).add(move, scale, false);
   }
 }
 
 std::vector<MoveBehaviour> BehaviourCounter::behaviour() const {
   std::vector<MoveBehaviour> all;
   for (std::size_t goal = 0; goal <= goals_.size(); ++goal) {
-    for (std::size_t condition = 0; condition < conditions_; ++condition) {
-      const RowValues& values = rows_[goal * conditions_ + condition];
-      if (values.moves > 0) all.push_back(behaviour_of(values, goal, condition));
+    for (std::size_t setting = 0; setting < settings_; ++setting) {
+      const RowValues& values = rows_[goal * settings_ + setting];
+      if (values.moves > 0) all.push_back(behaviour_of(values, goal, setting));
     }
   }
   return all;
 }
 
 MoveBehaviour BehaviourCounter::behaviour_of(const RowValues& values, std::size_t goal,
-                                             std::size_t condition) const {
+                                             std::size_t setting) const {
   MoveBehaviour one;
   one.number = goal;
   one.goal = goal < goals_.size() ? name_of_goal(study_, goal) : std::optional("no goal");
-  if (!study_.conditions.empty()) one.condition = study_.conditions[condition];
+  if (!study_.settings.empty()) one.setting = study::label_of(study_.settings, setting);
   one.moves = values.moves;
   one.overshoot = upper_values(values.overshoots);
   one.overshoot_length = upper_values(values.lengths);
@@ -127,18 +127,18 @@ std::vector<MoveBehaviour> behaviour_in(const reading::AllTrialsFile& file, cons
   const auto moves = static_cast<std::size_t>(file.moves());
   const std::int64_t trials = file.header().trials;
   const layout::RowRange rows{point * trials, trials};
-  measures::visit_blocks(
-      file, rows, [&](layout::RowRange block, std::span<const trial::MoveOutcome> outcomes) {
-        const std::int64_t first = block.first - rows.first;
-        std::vector<TrialScale> scales(static_cast<std::size_t>(block.count));
-        parallel::for_each_index(scales.size(), [&](std::size_t i) {
-          const std::int64_t trial = first + static_cast<std::int64_t>(i);
-          scales[i] = scale_of(study::commanded_trial(study, point, trial).parameters);
-        });
-        for (std::size_t i = 0; i < scales.size(); ++i)
-          counter.add(scales[i], indices.condition_of(first + static_cast<std::int64_t>(i)),
-                      outcomes.subspan(i * moves, moves));
-      });
+  measures::visit_blocks(file, rows,
+                         [&](layout::RowRange block, std::span<const trial::MoveOutcome> outcomes) {
+                           const std::int64_t first = block.first - rows.first;
+                           std::vector<TrialScale> scales(static_cast<std::size_t>(block.count));
+                           parallel::for_each_index(scales.size(), [&](std::size_t i) {
+                             const std::int64_t trial = first + static_cast<std::int64_t>(i);
+                             scales[i] = scale_of(study::commanded_trial(study, point, trial).parameters);
+                           });
+                           for (std::size_t i = 0; i < scales.size(); ++i)
+                             counter.add(scales[i], indices.setting_of(first + static_cast<std::int64_t>(i)),
+                                         outcomes.subspan(i * moves, moves));
+                         });
   return counter.behaviour();
 }
 

@@ -25,11 +25,11 @@ struct RestTorque {
   double of_range{0.0};  ///< Rms of the changes as a proportion of the converter's largest torque.
 };
 
-/// Behaviour, under one condition, of the moves that a goal judges: quantities that an engineer looks at
+/// Behaviour, in one setting, of the moves that a goal judges: quantities that an engineer looks at
 /// beside the goal.
 struct MoveBehaviour {
-  std::optional<std::string> goal{};       ///< Name of the goal; "no goal" for moves that no goal judges.
-  std::optional<std::string> condition{};  ///< Name of the condition; empty without conditions.
+  std::optional<std::string> goal{};     ///< Name of the goal; "no goal" for moves that no goal judges.
+  std::optional<std::string> setting{};  ///< Name of the setting; empty without settings.
   /// Index of the goal in the study; the number of goals for moves that no goal judges.
   std::size_t number{0};
   std::int64_t moves{0};
@@ -56,14 +56,14 @@ struct TrialScale {
 };
 TrialScale scale_of(const trial::TrialParameters& p);
 
-/// Collects the moves of trials in rows, one for each goal and condition. Moves that no goal judges have rows
+/// Collects the moves of trials in rows, one for each goal and setting. Moves that no goal judges have rows
 /// of their own.
 class BehaviourCounter {
  public:
   explicit BehaviourCounter(const study::Study& study);
 
-  void add(const TrialScale& scale, std::int64_t condition, std::span<const trial::MoveOutcome> moves);
-  /// The rows ordered by goal, then by condition; rows without moves are left out.
+  void add(const TrialScale& scale, std::int64_t setting, std::span<const trial::MoveOutcome> moves);
+  /// The rows ordered by goal, then by setting; rows without moves are left out.
   std::vector<MoveBehaviour> behaviour() const;
 
  private:
@@ -80,13 +80,13 @@ class BehaviourCounter {
     void add(const trial::MoveOutcome& move, const TrialScale& scale, bool of_other_mass);
   };
 
-  RowValues& row(std::size_t goal, std::int64_t condition);
-  MoveBehaviour behaviour_of(const RowValues& values, std::size_t goal, std::size_t condition) const;
+  RowValues& row(std::size_t goal, std::int64_t setting);
+  MoveBehaviour behaviour_of(const RowValues& values, std::size_t goal, std::size_t setting) const;
 
   const study::Study& study_;
   std::vector<measures::CountedGoal> goals_;
-  std::size_t conditions_;
-  std::vector<RowValues> rows_;  ///< [goal][condition]; the last goal stands for moves that no goal judges
+  std::size_t settings_;
+  std::vector<RowValues> rows_;  ///< [goal][setting]; the last goal stands for moves that no goal judges
 };
 
 /// The behaviour of the moves of a point in a results file. @param study study of the file

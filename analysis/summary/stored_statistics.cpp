@@ -30,9 +30,9 @@ void add_columns(std::vector<layout::PointColumn>& columns, std::vector<layout::
   }
 }
 
-/// Adds the trials of a point to the rows of its groups: worlds, conditions or ages. An open-loop study has
+/// Adds the trials of a point to the rows of its groups: worlds, settings or ages. An open-loop study has
 /// no judged trials.
-/// @param groups member that returns the counts by world, or by condition
+/// @param groups member that returns the counts by world, or by setting
 /// @param row_of returns the row to which a group is added
 void add_groups(layout::GroupCounts& stored, const measures::PointSummary& point, std::int64_t rows,
                 std::vector<measures::MoveCounts> (measures::CellCounts::*groups)() const,
@@ -71,15 +71,15 @@ void add_lives(layout::GroupCounts& ages, layout::GroupCounts& machines, const m
         {"machines_high", "1", "upper bound of the proportion of machines, one-sided", {}}};
     machines.statistics = {
         {"life",
-         study.ages.unit,
+         study.settings.ages.unit,
          "last age up to and including which the machine meets the goal under every condition, NaN if it does not at the first",
          {}}};
   }
   const bool judged = point.judged > 0;
   const goal::Question question = goal::question_of(study);
   const goal::BoundedProportion unknown{statistics::unknown, statistics::unknown, statistics::unknown};
-  for (const goal::BoundedProportion& at_age :
-       judged ? goal::machines_at_ages(question, point.goals) : std::vector(study.ages.at.size(), unknown)) {
+  for (const goal::BoundedProportion& at_age : judged ? goal::machines_at_ages(question, point.goals)
+                                                      : std::vector(study.settings.ages.at.size(), unknown)) {
     ages.statistics[0].values.push_back(at_age.value);
     ages.statistics[1].values.push_back(at_age.low);
     ages.statistics[2].values.push_back(at_age.high);
@@ -89,7 +89,7 @@ void add_lives(layout::GroupCounts& ages, layout::GroupCounts& machines, const m
     machines.statistics[0].values.push_back(life);
 }
 
-/// Adds the counts of a point by machine, world, condition and age.
+/// Adds the counts of a point by machine, world, setting and age.
 void add_counts(layout::StoredStatistics& stored, const measures::PointSummary& point,
                 const study::Study& study) {
   using measures::CellCounts;
@@ -97,14 +97,14 @@ void add_counts(layout::StoredStatistics& stored, const measures::PointSummary& 
       static_cast<std::vector<measures::MoveCounts> (CellCounts::*)() const>(&CellCounts::by_world);
   if (study.machines > 0) add_machines(stored.groups["machine"], point, study);
   if (study.worlds > 0) add_groups(stored.groups["world"], point, study.worlds, by_world, std::identity());
-  const std::size_t names = study.condition_names.size();
-  if (names > 0)
-    add_groups(stored.groups["condition"], point, std::ssize(study.condition_names),
-               &CellCounts::by_condition, [names](std::size_t setting) { return setting % names; });
-  if (study.ages.at.empty()) return;
-  const auto of_age = static_cast<std::size_t>(study::conditions_of_age(study));
-  add_groups(stored.groups["age"], point, std::ssize(study.ages.at), &CellCounts::by_condition,
-             [of_age](std::size_t setting) { return setting / of_age; });
+  const study::SettingCounts counts = study.settings.counts();
+  if (!study.settings.conditions.empty())
+    add_groups(
+        stored.groups["condition"], point, counts.conditions, &CellCounts::by_setting,
+        [counts](std::int64_t setting) { return static_cast<std::size_t>(counts.at(setting).condition); });
+  if (study.settings.ages.at.empty()) return;
+  add_groups(stored.groups["age"], point, counts.ages, &CellCounts::by_setting,
+             [counts](std::int64_t setting) { return static_cast<std::size_t>(counts.at(setting).age); });
   if (!study.goals.empty()) add_lives(stored.groups["age"], stored.groups["machine"], point, study);
 }
 

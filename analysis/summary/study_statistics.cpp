@@ -149,7 +149,7 @@ class JerkStream {
   bool refill() {
     block_.clear();
     next_ = 0;
-    while (block_.empty() && read_ < end_) {  // a block may have only jerks of other conditions
+    while (block_.empty() && read_ < end_) {  // a block may have only jerks of other settings
       const std::int64_t count = std::min(jerks_at_once, end_ - read_);
       block_ = file_.jerks_at(read_, count);
       read_ += count;

@@ -67,9 +67,10 @@ SummedPoint restored_point(const reading::ResultsFile& file, const study::Study&
 
 /// The results that StudyAccumulator computes for each point.
 struct Wanted {
-  bool statistics{true};    ///< Statistics; false for a part of a study, where machines may lack trials.
-  bool sums{false};         ///< Sums, in the form in which files keep them.
-  bool undecided{false};    ///< All of PointSummary::undecided; some of the trials are drawn again for it.
+  bool statistics{true};  ///< Statistics; false for a part of a study, where machines may lack trials.
+  bool sums{false};       ///< Sums, in the form in which files keep them.
+  bool undecided{
+      false};  ///< PointSummary::undecided: why trials are undecided. Draws their parameters again.
   bool predictions{false};  ///< Predictions of the criteria; the trials are drawn again for them.
   double confidence{statistics::summary_confidence};  ///< Confidence of all bounds.
   /// Bounds of means by resampling, which is slow. The random numbers follow from the seed of the study.

@@ -21,6 +21,7 @@
 #include "analysis/worlds/derived_quantities.hpp"
 #include "core/failure/failure.hpp"
 #include "experiments/keys/manifest_keys.hpp"
+#include "experiments/parameters/handles.hpp"
 #include "experiments/study/study_trial.hpp"
 #include "results/layout/header.hpp"
 #include "results/reading/results_file.hpp"
@@ -35,12 +36,13 @@ double hold_of(const study::Study& study, std::int64_t point) {
   if (study.open_loop) return statistics::unknown;
   const bool recorded =
       std::any_of(study.columns.inputs.begin(), study.columns.inputs.end(),
-                  [](const study::InputColumn& column) { return column.name == "command.hold"; });
+                  [](const study::InputColumn& column) { return column.name == parameter::command::hold; });
   const double hold = study::study_trial(study, point, 0).parameters.command.hold;
   constexpr std::int64_t looked_at = 64;  // a hold that is drawn differs long before
   const study::TrialIndices indices = study::trial_indices(study);
-  for (std::int64_t i = 1; recorded && i < std::min(looked_at * indices.conditions, study.trials); ++i) {
-    const std::int64_t index = indices.trial_of(i / indices.conditions, i % indices.conditions);
+  for (std::int64_t i = 1; recorded && i < std::min(looked_at * indices.settings.total(), study.trials);
+       ++i) {
+    const std::int64_t index = indices.trial_of(i / indices.settings.total(), i % indices.settings.total());
     if (study::study_trial(study, point, index).parameters.command.hold != hold) return statistics::unknown;
   }
   return hold;
@@ -217,7 +219,6 @@ StudySummary summary_without_points(const study::Study& study, double confidence
   summary.confidence = confidence;
   summary.features = study.features;
   summary.question = goal::question_of(study);
-  summary.conditions = study.conditions;
   summary.seed = study.seed;
   summary.design = keys::design_labels[static_cast<std::size_t>(study.design)];
   return summary;

@@ -39,7 +39,6 @@ struct StudySummary {
   std::vector<theory::PointPrediction> predictions{};  ///< [point]; empty if not computed
   study::StudyFeatures features{};                     ///< Features for which tables have columns.
   goal::Question question{};                           ///< Criteria by which the study is judged.
-  std::vector<std::string> conditions{};               ///< names; empty without conditions
   /// [point] unknown and derived quantities of worlds; empty for a point that is not complete.
   std::vector<std::vector<worlds::WorldInput>> world_inputs{};
   std::uint64_t seed{0};                                           ///< Seed of the study.

@@ -37,12 +37,12 @@ document::Description<goal::ClaimVerdict> verdict_description(const goal::Questi
          .meaning = "name of the goal (of several goals the worst), to which these values apply",
          .optional = true},
         [question](Verdict v) { return question.parts[v.goal].claim->name; });
-  if (!question.conditions.empty())
+  if (!question.settings.empty())
     description.value({.key = "condition",
                        .heading = "worst condition",
                        .meaning = "the worst condition, to which these values apply",
                        .optional = true},
-                      [question](Verdict v) { return question.conditions[v.condition]; });
+                      [question](Verdict v) { return study::label_of(question.settings, v.setting); });
   description
       .value({.key = "status",
               .heading = "goal",
@@ -133,7 +133,7 @@ void add_goal(PointDescription& point, const summary::StudySummary& summary) {
                   .shown = Visibility::in_data,
                   .free_keys = true},
                  goals_description(question, summary.features.machines), &DescribedPoint::verdict);
-  if (!several && question.conditions.empty()) return;
+  if (!several && question.settings.empty()) return;
   point.value(
       document::in_data(
           "machines_together",
@@ -148,7 +148,7 @@ void add_goal(PointDescription& point, const summary::StudySummary& summary) {
 
 bool has_several_claims(const summary::StudySummary& summary) {
   return summary.question.claim() && !summary.features.open_loop &&
-         (has_several(summary.question) || !summary.conditions.empty());
+         (has_several(summary.question) || !summary.question.settings.empty());
 }
 
 void add_cells(PointDescription& point, const summary::StudySummary& summary) {
@@ -167,15 +167,15 @@ void add_cells(PointDescription& point, const summary::StudySummary& summary) {
     point.table(in_json("claims", "each goal under each condition at the point"),
                 summary::cell_description({}, summary::CellsBy::claim),
                 [](Point p) { return summary::claims_of_point(p.summary, p.point); });
-  if (!summary.conditions.empty())  // with a goal the table of claims has them for people
+  if (!summary.question.settings.empty())  // with a goal the table of claims has them for people
     point.table({.key = "conditions",
                  .meaning = "the point under each condition",
                  .shown = question.claim() ? Visibility::in_json : Visibility::not_in_csv,
                  .own_table = "by condition",
                  .note = "bounds of one side each with " + confidence},
-                summary::cell_description(question, summary::CellsBy::condition),
-                [](Point p) { return summary::conditions_of_point(p.summary, p.point); });
-  if (!question.ages.at.empty())
+                summary::cell_description(question, summary::CellsBy::setting),
+                [](Point p) { return summary::settings_of_point(p.summary, p.point); });
+  if (!question.settings.ages.at.empty())
     point.table({.key = "ages",
                  .meaning = "the point at each age",
                  .shown = Visibility::not_in_csv,

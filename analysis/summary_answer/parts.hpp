@@ -145,10 +145,10 @@ void add_undecided(PointDescription& point, const summary::StudySummary& summary
 /// Adds whether the counts on the real machine are consistent with the simulated trials.
 void add_observed(PointDescription& point, const summary::StudySummary& summary);
 
-/// Adds the proportions of the worlds with what the bad worlds have in common, the point under each condition
-/// and at each age, and, for a study with several claims, each goal under each condition.
+/// Adds the proportions of the worlds with what the bad worlds have in common, the point in each setting
+/// and at each age, and, for a study with several claims, each goal in each setting.
 void add_cells(PointDescription& point, const summary::StudySummary& summary);
-/// Whether the study has several claims: several goals, or a goal under several conditions.
+/// Whether the study has several claims: several goals, or a goal in several settings.
 bool has_several_claims(const summary::StudySummary& summary);
 /// Adds the claims on the chosen point, for people.
 void add_claims(SummaryDescription& answer, const summary::StudySummary& summary);

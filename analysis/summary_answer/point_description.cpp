@@ -434,7 +434,7 @@ void add_measure(PointDescription& point, const std::string& table, const StudyS
 
 /// Whether the settling times of the goal are those of a measure over all moves.
 bool asks_all_moves_alike(const goal::Question& question) {
-  return !has_several(question) && question.conditions.empty() && question.counted().on.empty();
+  return !has_several(question) && question.settings.empty() && question.counted().on.empty();
 }
 
 }  // namespace

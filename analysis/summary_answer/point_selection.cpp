@@ -374,7 +374,7 @@ StudySummary summary_of_first_point(const StudySummary& summary, const reading::
 }
 
 bool is_summarised_by_point(const study::Study& study) {
-  return !study.open_loop && study.worlds == 0 && study.conditions.empty() && !study.stop &&
+  return !study.open_loop && study.worlds == 0 && study.settings.empty() && !study.stop &&
          study.sequence.empty();
 }
 

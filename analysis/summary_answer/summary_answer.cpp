@@ -154,10 +154,10 @@ struct ConfirmationResults {
                        summary.question.worlds > 0 ? ", on average over new worlds" : "");
   }
   /// Clopper–Pearson bounds of the success rate. Empty if the trials are dependent: if several share a
-  /// machine, or the study has conditions.
+  /// machine, or the study has settings.
   std::optional<statistics::ConfidenceInterval> bounds() const {
     if (confirmed.machines > 0 && !has_one_trial_per_machine()) return std::nullopt;
-    if (!summary.conditions.empty()) return std::nullopt;  // a machine has a trial under each
+    if (!summary.question.settings.empty()) return std::nullopt;  // a machine has a trial under each
     return statistics::clopper_pearson(confirmed.successes, confirmed.trials, summary.confidence);
   }
   std::optional<goal::Verdict> verdict() const {
@@ -237,8 +237,7 @@ StudySummary full_study() {
   full.features.position_error = true;
   full.features.tolerances = {{1e-8}, 1};
   full.question.worlds = 1;
-  full.conditions = full.question.conditions = {"empty"};
-  full.question.ages.at = {0.0};
+  full.question.settings = {.conditions = {"empty"}, .ages = {.at = {0.0}}};
   full.predictions.resize(1);
   full.observed_counts[""] = {};
   full.stop = study::StoppingRule{};
@@ -281,16 +280,16 @@ std::string design_line(const StudySummary& summary) {
                         summary.question.worlds,
                         summary.question.claim() ? "; those of the goal hold for the worst world" : "");
   }
-  const std::size_t ages = summary.question.ages.at.size();
-  const std::size_t conditions = summary.conditions.size() / std::max<std::size_t>(ages, 1);
-  if (conditions > 1 || (conditions == 1 && ages == 0))
-    line +=
-        fmt::format(", {} conditions: statistics of all trials are over the conditions together", conditions);
+  const study::Settings& settings = summary.question.settings;
+  const std::size_t ages = settings.ages.at.size();
+  if (study::counts_conditions(settings))
+    line += fmt::format(", {} conditions: statistics of all trials are over the conditions together",
+                        settings.conditions.size());
   if (ages > 0) line += fmt::format(", {} ages: statistics of all trials are over the ages together", ages);
   if (features.spread_trials) {
     line += fmt::format(
         "{} bounds are conservative: made for trials by chance, which vary more than those of this design",
-        features.machines || summary.question.worlds > 0 || !summary.conditions.empty() ? ";" : ":");
+        features.machines || summary.question.worlds > 0 || !summary.question.settings.empty() ? ";" : ":");
   }
   return line;
 }

@@ -99,11 +99,11 @@ std::string assurance_statement(Point p) {
 }
 
 std::string title_of_assurance(const summary::StudySummary& summary) {
-  return fmt::format("shown with {} confidence of all axes that the manifest describes{}",
-                     text::percent(summary.confidence),
-                     !summary.conditions.empty()   ? ", on average over its conditions: under some it is less"
-                     : summary.question.worlds > 0 ? ", on average over its worlds: in some worlds it is less"
-                                                   : "");
+  return fmt::format(
+      "shown with {} confidence of all axes that the manifest describes{}", text::percent(summary.confidence),
+      !summary.question.settings.empty() ? ", on average over its conditions: under some it is less"
+      : summary.question.worlds > 0      ? ", on average over its worlds: in some worlds it is less"
+                                         : "");
 }
 
 std::string note_on_assurance(const summary::StudySummary& summary) {

@@ -13,6 +13,7 @@
 #include "analysis/theory/trial_loops.hpp"
 #include "core/numerics/roots.hpp"
 #include "core/theory/margins.hpp"
+#include "experiments/parameters/handles.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/study_trial.hpp"
 #include "experiments/study/trial_draws.hpp"
@@ -288,7 +289,7 @@ std::vector<CriterionCurve> criterion_curves(const study::Study& study, std::int
   CriterionTrials trials(study, point, plane);
   std::vector<CriterionCurve> curves;
   if (trials.empty()) return curves;
-  const bool along_x = plane.y.parameter != "controller.ki";
+  const bool along_x = plane.y.parameter != parameter::controller::ki;
   for (const Criterion& criterion : criteria) {
     std::vector<CurvePoint> points = curve(trials, criterion, plane, along_x);
     std::vector<CurvePoint> other = curve(trials, criterion, plane, !along_x);

@@ -199,7 +199,7 @@ constexpr std::array<GoalTest, 14> goal_tests{
      {nullptr, encoder_misplaces_the_target, true, true}}};
 
 constexpr std::int64_t max_simulated_samples = std::int64_t{1} << 20;  // of all trials
-/// Smallest number of samples that may be simulated for a point under a condition, however many points there
+/// Smallest number of samples that may be simulated for a point in a setting, however many points there
 /// are.
 constexpr std::int64_t min_simulated_samples_of_cell = std::int64_t{1} << 14;
 
@@ -209,7 +209,7 @@ struct ExaminedTrial {
   std::optional<trial::TrialOutcome> outcome{};
 };
 
-/// The examined trials under one condition of a point.
+/// The examined trials in one setting of a point.
 struct ExaminedTrials {
   std::span<ExaminedTrial> trials;
   std::int64_t& samples_left;  ///< Number of samples that may still be simulated.
@@ -308,21 +308,21 @@ std::vector<std::string> worst_lines(const study::Study& study, bool (*is_wanted
   const study::TrialIndices indices = study::trial_indices(study);
   const std::vector<std::int64_t> points = statistics::spread_over(
       study::point_count(study),
-      std::max<std::int64_t>(max_trials_doubted / (indices.conditions * std::ssize(goals)), 1));
+      std::max<std::int64_t>(max_trials_doubted / (indices.settings.total() * std::ssize(goals)), 1));
   const std::int64_t draws =
       std::min(study::draw_count(study),
-               std::clamp<std::int64_t>(max_trials_doubted / (indices.conditions * std::ssize(points)),
+               std::clamp<std::int64_t>(max_trials_doubted / (indices.settings.total() * std::ssize(points)),
                                         max_whole_trials, max_draws_of_moves));
   const std::int64_t samples_of_cell = std::max(
-      max_simulated_samples / (std::ssize(points) * indices.conditions), min_simulated_samples_of_cell);
+      max_simulated_samples / (std::ssize(points) * indices.settings.total()), min_simulated_samples_of_cell);
   std::int64_t all_samples_left = max_simulated_samples;
   for (const std::int64_t point : points) {
-    for (std::int64_t condition = 0; condition < indices.conditions; ++condition) {
+    for (std::int64_t setting = 0; setting < indices.settings.total(); ++setting) {
       const std::int64_t samples = std::min(samples_of_cell, all_samples_left);
       std::int64_t samples_left = samples;
       std::vector<ExaminedTrial> trials;
       for (std::int64_t draw = 0; draw < draws; ++draw)
-        trials.push_back({study::study_trial(study, point, indices.trial_of(draw, condition)).parameters});
+        trials.push_back({study::study_trial(study, point, indices.trial_of(draw, setting)).parameters});
       for (std::size_t i = 0; i < goal_tests.size(); ++i) {
         const GoalTest& test = goal_tests[i];
         if ((study.goals.empty() && test.needs_goal) || !is_wanted(test)) continue;
@@ -330,7 +330,7 @@ std::vector<std::string> worst_lines(const study::Study& study, bool (*is_wanted
           const auto examine = test.of_trial != nullptr ? doubt_of_trials : doubt_of_moves;
           const std::optional<Doubt> doubt = examine(test, study, goal, {trials, samples_left});
           if (!doubt || !(doubt->ratio > worst[i].ratio)) continue;
-          worst[i] = {doubt->ratio, place_text(study, point, condition) +
+          worst[i] = {doubt->ratio, place_text(study, point, setting) +
                                         (goal.name.empty() ? "" : "goal " + goal.name + ": ") + doubt->text};
         }
       }
@@ -374,9 +374,9 @@ NoiseResponse response_to_noise(const FrozenLoop& loop, NoiseAt at, double bandw
   return {std::sqrt(mean_square), static_cast<double>(lag)};
 }
 
-std::string place_text(const study::Study& study, std::int64_t point, std::int64_t condition) {
+std::string place_text(const study::Study& study, std::int64_t point, std::int64_t setting) {
   return fmt::format("point {} ({}){}: ", point, study.points.labels[static_cast<std::size_t>(point)],
-                     study::condition_text(study, condition));
+                     study::setting_phrase(study.settings, setting));
 }
 
 std::vector<std::string> doubtful_goals(const study::Study& study) {

@@ -136,12 +136,12 @@ std::vector<std::string> doubtful_loops(const study::Study& study) {
       statistics::spread_over(study::point_count(study), max_trials_doubted);
   const study::TrialIndices indices = study::trial_indices(study);
   const std::int64_t draws =
-      std::clamp<std::int64_t>(max_trials_doubted / (std::ssize(points) * indices.conditions), 1,
+      std::clamp<std::int64_t>(max_trials_doubted / (std::ssize(points) * indices.settings.total()), 1,
                                std::min(study::draw_count(study), max_trials_of_point));
   for (const std::int64_t point : points) {
-    for (std::int64_t i = 0; i < draws * indices.conditions; ++i) {
-      const std::int64_t condition = i % indices.conditions;
-      const std::int64_t index = indices.trial_of(i / indices.conditions, condition);
+    for (std::int64_t i = 0; i < draws * indices.settings.total(); ++i) {
+      const std::int64_t setting = i % indices.settings.total();
+      const std::int64_t index = indices.trial_of(i / indices.settings.total(), setting);
       const trial::TrialParameters p = study::study_trial(study, point, index).parameters;
       const Travel travel = travel_of(p);
       for (const TrialLoop& loop : trial_loops(p)) {
@@ -151,7 +151,7 @@ std::vector<std::string> doubtful_loops(const study::Study& study) {
           const double value = tests[test].measure(examined);
           if (!(value < tests[test].least) || !(value < worst[test])) continue;
           worst[test] = value;
-          lines[test] = place_text(study, point, condition) + tests[test].text(examined, value);
+          lines[test] = place_text(study, point, setting) + tests[test].text(examined, value);
         }
       }
     }

@@ -50,7 +50,7 @@ struct MoveOfTrial {
 };
 
 /// "point 2 (kp = 3), condition warm: ", the place of a warning.
-std::string place_text(const study::Study& study, std::int64_t point, std::int64_t condition);
+std::string place_text(const study::Study& study, std::int64_t point, std::int64_t setting);
 
 /// The moves that the goal judges, without moves of length zero. If there are very many, only the first ones.
 /// Empty without targets, and if the reference does not end.
@@ -107,7 +107,7 @@ Doubt encoder_misplaces_the_target(const MoveOfTrial& move);
 
 struct FrozenLoop;
 
-/// A warning for each test that fails, at the design point and under the condition where it fails worst:
+/// A warning for each test that fails, at the design point and in the setting where it fails worst:
 ///
 ///   - a tolerance below what zero counts hold: half a count, and half of one more where targets in SI units
 ///     are rounded
@@ -120,7 +120,7 @@ struct FrozenLoop;
 ///   - those of moves (move_plausibility.cpp); those of the torque range without a goal too. One that is only
 ///     a doubt counts for moves that a simulation of the trial shows to miss the band or tolerance
 ///
-/// A test of whole trials fails at a point under a condition if it fails in each of the trials examined
+/// A test of whole trials fails at a point in a setting if it fails in each of the trials examined
 /// there, the first ones: few of very many points are examined, evenly spread. One of moves fails if it fails
 /// for more of their moves than the goal permits, by more than chance.
 std::vector<std::string> doubtful_goals(const study::Study& study);

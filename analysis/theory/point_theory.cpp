@@ -14,6 +14,7 @@
 #include "core/theory/margins.hpp"
 #include "core/theory/move_times.hpp"
 #include "core/theory/stability.hpp"
+#include "experiments/parameters/handles.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/study_trial.hpp"
 
@@ -195,15 +196,15 @@ void add(LowestStiffness& lowest, const LowEnd& end) {
   if (end.stable_below) lowest.stable_below.add(*end.stable_below);
 }
 
-/// A design point under a condition.
+/// A design point in a setting.
 struct ExaminedPoint {
   const study::Study& study;
   std::int64_t point;
-  std::int64_t condition;
+  std::int64_t setting;
 
-  /// Parameters of the trial of this point and condition with the given draw (TrialIndices).
+  /// Parameters of the trial of this point and setting with the given draw (TrialIndices).
   trial::TrialParameters trial(std::int64_t draw) const {
-    return study::study_trial(study, point, study::trial_indices(study).trial_of(draw, condition)).parameters;
+    return study::study_trial(study, point, study::trial_indices(study).trial_of(draw, setting)).parameters;
   }
 };
 
@@ -297,7 +298,7 @@ void examine_outside(const ExaminedPoint& at, const trial::TrialParameters& firs
 void examine_springs(const ExaminedPoint& at, std::vector<KnownRotor>& known, PointTheory& theory) {
   const study::Study& study = at.study;
   theory.rules.torque_unit = parameters::unit_on(study.units.axis, "N m");
-  theory.lowest.source = study::low_end(study, at.point, "friction.k1", at.condition);
+  theory.lowest.source = study::low_end(study, at.point, parameter::friction::k1, at.setting);
   trial::TrialParameters softest;
   trial::TrialParameters stiffest;
   Range k1;  // N m/rad
@@ -320,12 +321,13 @@ void examine_springs(const ExaminedPoint& at, std::vector<KnownRotor>& known, Po
 
 }  // namespace
 
-PointTheory examine(const study::Study& study, std::int64_t point, std::int64_t condition,
+PointTheory examine(const study::Study& study, std::int64_t point, std::int64_t setting,
                     std::vector<KnownRotor>& rotors) {
   PointTheory theory;
-  const ExaminedPoint at{study, point, condition};
+  const ExaminedPoint at{study, point, setting};
   const trial::TrialParameters first = at.trial(0);
-  const std::string_view gain = is_cascade(first) ? "controller.cascade.ki" : "controller.ki";
+  const std::string_view gain =
+      is_cascade(first) ? parameter::controller::cascade::ki : parameter::controller::ki;
   theory.gain.name = gain.substr(gain.find('.') + 1);
   theory.gain.unit = parameters::unit_of(
       parameters::parameter_table()[parameters::find_parameter(gain).value()], study.units);

@@ -112,9 +112,9 @@ struct KnownRotor {
   double lowest{0.0};
 };
 
-/// Examines the first trials of the point under a condition.
+/// Examines the first trials of the point in a setting.
 /// @param rotors [machine] result of the previous call; a rotor with the same profile is not searched again
-PointTheory examine(const study::Study& study, std::int64_t point, std::int64_t condition,
+PointTheory examine(const study::Study& study, std::int64_t point, std::int64_t setting,
                     std::vector<KnownRotor>& rotors);
 
 /// The theory of a design point: for data each range by itself, for people statements such as "(6) stable

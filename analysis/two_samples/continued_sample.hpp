@@ -65,7 +65,7 @@ void add(Sums& sums, const Sums& more);
 /// Sums of both files. The sums of pairs are in the first.
 using FileSums = std::array<Sums, 2>;
 
-/// The weights of blocks of both files.
+/// [file][block] Weight of the block in a resample of both files.
 using FileWeights = std::array<std::vector<double>, 2>;
 
 /// Units in the blocks of a continuation. A block holds the mean sums of one of its units. The memory does

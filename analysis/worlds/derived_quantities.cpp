@@ -11,6 +11,7 @@
 #include "core/friction/presliding/creep.hpp"
 #include "core/friction/presliding/spring.hpp"
 #include "core/numerics/elementary_functions.hpp"
+#include "experiments/parameters/handles.hpp"
 #include "experiments/parameters/study_units.hpp"
 #include "experiments/randomness/random_coordinates.hpp"
 
@@ -39,14 +40,14 @@ double presliding_range(const FrictionParameters& contact, double /*torque*/) {
 
 constexpr std::array<DerivedQuantity, 5> table{{
     {"creep_extension", "rad", "extension at which creep ends under a $torque of {} $Nm, |$torque|^n/lambda",
-     "friction.lambda", friction::has_creep, friction::hardening_limit},
+     parameter::friction::lambda, friction::has_creep, friction::hardening_limit},
     {"creep_rate", "rad/s", "speed at which creep begins under a $torque of {} $Nm, alpha*|$torque|^n/lambda",
-     "friction.alpha", friction::has_creep, creep_rate},
-    {"initial_stiffness", "N m/rad", "stiffness after a reversal, k1 + k2", "friction.k1",
+     parameter::friction::alpha, friction::has_creep, creep_rate},
+    {"initial_stiffness", "N m/rad", "stiffness after a reversal, k1 + k2", parameter::friction::k1,
      friction::has_spring, initial_stiffness},
-    {"stiffness_at_rest", "N m/rad", "slope of the virgin curve at a $torque of {} $Nm", "friction.k1",
-     friction::has_spring, stiffness_at_rest},
-    {"presliding_range", "rad", "travel of the virgin curve up to breakaway", "friction.breakaway",
+    {"stiffness_at_rest", "N m/rad", "slope of the virgin curve at a $torque of {} $Nm",
+     parameter::friction::k1, friction::has_spring, stiffness_at_rest},
+    {"presliding_range", "rad", "travel of the virgin curve up to breakaway", parameter::friction::breakaway,
      friction::has_spring, presliding_range},
 }};
 

@@ -9,6 +9,7 @@
 #include "analysis/worlds/derived_quantities.hpp"
 #include "analysis/worlds/world_rule.hpp"
 #include "experiments/designs/designs.hpp"
+#include "experiments/parameters/handles.hpp"
 
 namespace zerocount::worlds {
 namespace {
@@ -140,30 +141,30 @@ std::vector<Learned> what_to_learn(const std::vector<WorldInput>& inputs, const 
 
 std::string_view record_of(std::string_view parameter) {
   static constexpr std::array<RecordedParameter, 24> records{
-      {{"friction.k1", loading},
-       {"friction.k2", loading},
-       {"friction.beta", loading},
-       {"plant.inertia", step},
-       {"plant.presliding_damping", step},
-       {"friction.alpha", creep},
-       {"friction.lambda", creep},
-       {"friction.n", creep},
-       {"friction.measured.initial_stiffness", loading},
-       {"friction.measured.secant_stiffness", loading},
-       {"friction.measured.secant_travel", loading},
-       {"friction.measured.final_stiffness", loading},
-       {"friction.measured.breakaway", sliding},
-       {"friction.measured.breakaway_travel", sliding},
-       {"friction.measured.creep.torque", creep},
-       {"friction.measured.creep.extension", creep},
-       {"friction.measured.creep.rate", creep},
-       {"friction.measured.creep.exponent", creep},
-       {"plant.sliding_damping", sliding},
-       {"friction.breakaway", sliding},
-       {"friction.coulomb_ratio", sliding},
-       {"friction.stribeck_velocity", sliding},
-       {"friction.sigma0", other_laws},
-       {"friction.sigma1", other_laws}}};
+      {{parameter::friction::k1, loading},
+       {parameter::friction::k2, loading},
+       {parameter::friction::beta, loading},
+       {parameter::plant::inertia, step},
+       {parameter::plant::presliding_damping, step},
+       {parameter::friction::alpha, creep},
+       {parameter::friction::lambda, creep},
+       {parameter::friction::n, creep},
+       {parameter::friction::measured::initial_stiffness, loading},
+       {parameter::friction::measured::secant_stiffness, loading},
+       {parameter::friction::measured::secant_travel, loading},
+       {parameter::friction::measured::final_stiffness, loading},
+       {parameter::friction::measured::breakaway, sliding},
+       {parameter::friction::measured::breakaway_travel, sliding},
+       {parameter::friction::measured::creep::torque, creep},
+       {parameter::friction::measured::creep::extension, creep},
+       {parameter::friction::measured::creep::rate, creep},
+       {parameter::friction::measured::creep::exponent, creep},
+       {parameter::plant::sliding_damping, sliding},
+       {parameter::friction::breakaway, sliding},
+       {parameter::friction::coulomb_ratio, sliding},
+       {parameter::friction::stribeck_velocity, sliding},
+       {parameter::friction::sigma0, other_laws},
+       {parameter::friction::sigma1, other_laws}}};
   const auto derived = std::ranges::find(derived_quantities(), parameter, &DerivedQuantity::name);
   if (derived != derived_quantities().end()) parameter = derived->parameter;
   const auto found = std::ranges::find(records, parameter, &RecordedParameter::parameter);

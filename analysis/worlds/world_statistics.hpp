@@ -33,15 +33,15 @@ struct PointWorlds {
   /// Rates by the question of the study: proportions of machines, moves or trials. Without a goal: `success`.
   RatesOfWorlds asked;
   std::optional<goal::Verdict> goal;  ///< Verdict on the goal; nothing without a goal.
-  /// [world] Worst status of all goals under all conditions; empty without a goal.
+  /// [world] Worst status of all goals in all settings; empty without a goal.
   std::vector<goal::Status> statuses;
   std::vector<bool> bad;  ///< [world] Whether the world is bad, see point_worlds().
   /// Rule that separates the bad worlds from the others; nothing if none is found.
   std::optional<WorldRule> rule;
 };
 
-/// A world is bad if fewer of its moves (or machines) than a goal asks for meet it, under any condition.
-/// Without a goal it is bad if its rate of success, on average over the conditions, is shown to be below the
+/// A world is bad if fewer of its moves (or machines) than a goal asks for meet it, in any setting.
+/// Without a goal it is bad if its rate of success, on average over the settings, is shown to be below the
 /// median.
 /// @param point of a study with worlds @param inputs what differs between them there @param seed of the study
 /// @param points that the point was chosen from, as of goal::judge_goal()

@@ -8,6 +8,7 @@
 #include "core/friction/presliding/spring.hpp"
 #include "core/numerics/elementary_functions.hpp"
 #include "experiments/guides/guide_manifest.hpp"
+#include "experiments/parameters/handles.hpp"
 
 namespace zerocount::guides {
 namespace {
@@ -48,7 +49,7 @@ GuideSpring loaded_spring(const Guide& guide, const GuideLoad& load) {
   const GuideNumber& early = number_of(guide, early_part);
 
   const GuideNumber breakaway{
-      "friction.breakaway",
+      parameter::friction::breakaway,
       "N",
       coefficient.low * normal_force + constant.low,
       coefficient.high * normal_force + constant.high,
@@ -56,26 +57,23 @@ GuideSpring loaded_spring(const Guide& guide, const GuideLoad& load) {
       from(from("friction coefficient·(preload + weight) + constant resistance", coefficient), constant)};
   const double force = centre(breakaway);
   const double late_force = (1.0 - centre(early)) * force;
-  const GuideNumber k1{
-      "friction.k1",           "N/m",           late_force / travel.high,
-      late_force / travel.low, Origin::assumed, from("(1 - early part)·breakaway / travel", travel)};
+  const GuideNumber k1{parameter::friction::k1,  "N/m",
+                       late_force / travel.high, late_force / travel.low,
+                       Origin::assumed,          from("(1 - early part)·breakaway / travel", travel)};
   const double per_early_part = 2.0 * force / centre(softening);
-  const GuideNumber k2{"friction.k2",
-                       "N/m",
-                       per_early_part * early.low,
-                       per_early_part * early.high,
-                       Origin::assumed,
-                       from("2·early part·breakaway / softening length", early)};
-  const GuideNumber beta{"friction.beta",      "1/m",
-                         1.0 / softening.high, 1.0 / softening.low,
-                         softening.origin,     from("1 / softening length", softening)};
+  const GuideNumber k2{
+      parameter::friction::k2,     "N/m",           per_early_part * early.low,
+      per_early_part * early.high, Origin::assumed, from("2·early part·breakaway / softening length", early)};
+  const GuideNumber beta{parameter::friction::beta, "1/m",
+                         1.0 / softening.high,      1.0 / softening.low,
+                         softening.origin,          from("1 / softening length", softening)};
   return {force, centre(travel), centre(k1) + centre(k2), {k1, k2, beta, breakaway}};
 }
 
 GuideSpring measured_spring(const MeasuredSpring& measured, parameters::AxisKind axis) {
   const double highest = highest_final_stiffness(measured);
   const GuideNumber final{
-      "friction.measured.final_stiffness",
+      parameter::friction::measured::final_stiffness,
       "N m/rad",
       0.1 * highest,
       0.9 * highest,
@@ -91,13 +89,15 @@ GuideSpring measured_spring(const MeasuredSpring& measured, parameters::AxisKind
                         std::string_view option) {
     return GuideNumber{quantity, unit, number, number, Origin::measured, std::string(option)};
   };
-  return {measured.breakaway,
-          measured.travel,
-          centre(final) + k2,
-          {given("friction.measured.secant_stiffness", "N m/rad", measured.secant_stiffness, "--secant"),
-           given("friction.measured.secant_travel", "rad", measured.secant_travel, "--secant"),
-           given("friction.measured.breakaway", "N m", measured.breakaway, "--breakaway"),
-           given("friction.measured.breakaway_travel", "rad", measured.travel, "--travel"), final}};
+  return {
+      measured.breakaway,
+      measured.travel,
+      centre(final) + k2,
+      {given(parameter::friction::measured::secant_stiffness, "N m/rad", measured.secant_stiffness,
+             "--secant"),
+       given(parameter::friction::measured::secant_travel, "rad", measured.secant_travel, "--secant"),
+       given(parameter::friction::measured::breakaway, "N m", measured.breakaway, "--breakaway"),
+       given(parameter::friction::measured::breakaway_travel, "rad", measured.travel, "--travel"), final}};
 }
 
 /// The computed parameters of a guide with this load and this spring.
@@ -106,14 +106,17 @@ std::vector<GuideNumber> computed_parameters(const Guide& guide, const GuideLoad
   const GuideNumber& creep = number_of(guide, creep_part);
   const GuideNumber& damping = number_of(guide, damping_ratio);
   const double creep_modulus =
-      numerics::pow(spring.force, centre(number_of(guide, "friction.n"))) / spring.travel;
+      numerics::pow(spring.force, centre(number_of(guide, parameter::friction::n))) / spring.travel;
   const GuideNumber lambda{
-      "friction.lambda",         "N^n/m",         creep_modulus / creep.high,
-      creep_modulus / creep.low, Origin::assumed, from("breakaway^n / (creep part·travel)", creep)};
+      parameter::friction::lambda, "N^n/m",         creep_modulus / creep.high,
+      creep_modulus / creep.low,   Origin::assumed, from("breakaway^n / (creep part·travel)", creep)};
   const double critical = 2.0 * std::sqrt(spring.initial_stiffness * load.mass);
-  const GuideNumber presliding_damping{
-      "plant.presliding_damping", "N s/m",         damping.low * critical,
-      damping.high * critical,    Origin::assumed, from("2·damping ratio·sqrt((k1 + k2)·mass)", damping)};
+  const GuideNumber presliding_damping{parameter::plant::presliding_damping,
+                                       "N s/m",
+                                       damping.low * critical,
+                                       damping.high * critical,
+                                       Origin::assumed,
+                                       from("2·damping ratio·sqrt((k1 + k2)·mass)", damping)};
   std::vector<GuideNumber> all{presliding_damping};
   all.insert(all.end(), spring.parameters.begin(), spring.parameters.end());
   all.insert(all.end() - 1, lambda);

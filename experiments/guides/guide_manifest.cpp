@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "experiments/parameters/handles.hpp"
+
 namespace zerocount::guides {
 namespace {
 
@@ -24,10 +26,12 @@ struct Lowest {
 Lowest lowest_of(const std::vector<GuideNumber>& parameters) {
   Lowest lowest;
   for (const GuideNumber& number : parameters) {
-    if (number.quantity == "friction.k1" || number.quantity == "friction.measured.final_stiffness")
+    if (number.quantity == parameter::friction::k1 ||
+        number.quantity == parameter::friction::measured::final_stiffness)
       lowest.k1 = number.low;
-    if (number.quantity == "plant.presliding_damping") lowest.damping = number.low;
-    if (number.quantity == "friction.breakaway" || number.quantity == "friction.measured.breakaway")
+    if (number.quantity == parameter::plant::presliding_damping) lowest.damping = number.low;
+    if (number.quantity == parameter::friction::breakaway ||
+        number.quantity == parameter::friction::measured::breakaway)
       lowest.highest_breakaway = number.high;
   }
   return lowest;

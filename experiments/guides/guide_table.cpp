@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/failure/failure.hpp"
+#include "experiments/parameters/handles.hpp"
 
 namespace zerocount::guides {
 namespace {
@@ -28,10 +29,10 @@ constexpr const char* grease = "no publication found; below the friction itself 
 /// Numbers for which no publication was found; the same for all guides with contact.
 Numbers assumed_of_contacts() {
   return {
-      {"friction.alpha", "1/s", 0.1, 2, assumed, "creep lasts seconds, as in Fig. 8 of the paper"},
-      {"friction.n", "1", 2, 2, assumed, "as of the paper's machine, where it is assumed too"},
+      {parameter::friction::alpha, "1/s", 0.1, 2, assumed, "creep lasts seconds, as in Fig. 8 of the paper"},
+      {parameter::friction::n, "1", 2, 2, assumed, "as of the paper's machine, where it is assumed too"},
       {creep_part, "1", 0.01, 0.1, assumed, "creep is small beside the travel before sliding"},
-      {"friction.stribeck_velocity", "m/s", 5e-4, 5e-3, assumed,
+      {parameter::friction::stribeck_velocity, "m/s", 5e-4, 5e-3, assumed,
        "about 1e-3 m/s, which Canudas de Wit et al., IEEE Trans. Automatic Control 40 (1995) 419, simulate"},
       {damping_ratio, "1", 0.05, 0.15, assumed, "0.14 on the paper's machine: c / (2 sqrt((k1 + k2) J))"}};
 }
@@ -58,23 +59,24 @@ Guide ball_rail() {
             "some times the 100 nm in which the balls are a linear spring (Futami et al., Nanotechnology 1 (1990) 31)"},
            {early_part, "1", 0.1, 0.3, assumed,
             "no publication found; a slide of 5 kg then has a natural frequency of some 200 Hz"},
-           {"friction.coulomb_ratio", "1", 0.9, 1, assumed, marginal},
-           {"plant.sliding_damping", "N s/m", 20, 100, assumed, grease}})};
+           {parameter::friction::coulomb_ratio, "1", 0.9, 1, assumed, marginal},
+           {parameter::plant::sliding_damping, "N s/m", 20, 100, assumed, grease}})};
 }
 
 Guide roller_rail() {
-  return {.name = "roller-rail",
-          .description = "profiled rails with recirculating rollers, four carriages",
-          .model = "presliding",
-          .mass = 20,
-          .preload = 2000,
-          .numbers = contact_numbers({{friction_coefficient, "1", 0.001, 0.002, published, thomson},
-                                      {constant_resistance, "N", 8, 20, published, seals},
-                                      {presliding_travel, "m", 3e-5, 1e-4, assumed, line_contact},
-                                      {softening_length, "m", 1.5e-7, 6e-7, assumed, line_contact},
-                                      {early_part, "1", 0.1, 0.3, assumed, "as of balls"},
-                                      {"friction.coulomb_ratio", "1", 0.9, 1, assumed, marginal},
-                                      {"plant.sliding_damping", "N s/m", 20, 100, assumed, grease}})};
+  return {
+      .name = "roller-rail",
+      .description = "profiled rails with recirculating rollers, four carriages",
+      .model = "presliding",
+      .mass = 20,
+      .preload = 2000,
+      .numbers = contact_numbers({{friction_coefficient, "1", 0.001, 0.002, published, thomson},
+                                  {constant_resistance, "N", 8, 20, published, seals},
+                                  {presliding_travel, "m", 3e-5, 1e-4, assumed, line_contact},
+                                  {softening_length, "m", 1.5e-7, 6e-7, assumed, line_contact},
+                                  {early_part, "1", 0.1, 0.3, assumed, "as of balls"},
+                                  {parameter::friction::coulomb_ratio, "1", 0.9, 1, assumed, marginal},
+                                  {parameter::plant::sliding_damping, "N s/m", 20, 100, assumed, grease}})};
 }
 
 Guide crossed_roller() {
@@ -90,8 +92,8 @@ Guide crossed_roller() {
                                   {presliding_travel, "m", 3e-5, 1e-4, assumed, line_contact},
                                   {softening_length, "m", 1.5e-7, 6e-7, assumed, line_contact},
                                   {early_part, "1", 0.1, 0.3, assumed, "as of balls"},
-                                  {"friction.coulomb_ratio", "1", 0.9, 1, assumed, marginal},
-                                  {"plant.sliding_damping", "N s/m", 5, 30, assumed, grease}})};
+                                  {parameter::friction::coulomb_ratio, "1", 0.9, 1, assumed, marginal},
+                                  {parameter::plant::sliding_damping, "N s/m", 5, 30, assumed, grease}})};
 }
 
 Guide plain() {
@@ -109,9 +111,9 @@ Guide plain() {
             "around the 15 µm of Fs/sigma0 in the simulations of Canudas de Wit et al., IEEE Trans. Automatic Control 40 (1995) 419"},
            {softening_length, "m", 1e-6, 3e-6, assumed, "deflection of asperities; no publication found"},
            {early_part, "1", 0.2, 0.5, assumed, "no publication found"},
-           {"friction.coulomb_ratio", "1", 0.83, 1, published,
+           {parameter::friction::coulomb_ratio, "1", 0.83, 1, published,
             "static friction within 20 % of dynamic: Slocum, Precision Machine Design (1992), as cited at hon1.ru/?p=501"},
-           {"plant.sliding_damping", "N s/m", 50, 500, assumed, grease}})};
+           {parameter::plant::sliding_damping, "N s/m", 50, 500, assumed, grease}})};
 }
 
 Guide air_bearing() {
@@ -121,7 +123,7 @@ Guide air_bearing() {
       .model = "none",
       .mass = 5,
       .numbers = {
-          {"plant.presliding_damping", "N s/m", 0.01, 0.15, assumed,
+          {parameter::plant::presliding_damping, "N s/m", 0.01, 0.15, assumed,
            "shear of the film, viscosity·area/gap: 1.8e-5 Pa s, 0.01 to 0.04 m^2 and 5 to 15 µm are assumed"}}};
 }
 
@@ -132,21 +134,21 @@ Guide rotary_ball() {
           .model = "presliding",
           .axis = parameters::AxisKind::rotary,
           .mass = 5.54e-4,
-          .numbers = {{"friction.k1", "N m/rad", 90, 130, published,
+          .numbers = {{parameter::friction::k1, "N m/rad", 90, 130, published,
                        "110, a lower bound: paper, section 4; the spread is assumed"},
-                      {"friction.k2", "N m/rad", 600, 900, published,
+                      {parameter::friction::k2, "N m/rad", 600, 900, published,
                        "k1 + k2 = 860: paper, section 4; the spread is assumed"},
-                      {"friction.beta", "1/rad", 7e4, 1.4e5, assumed,
+                      {parameter::friction::beta, "1/rad", 7e4, 1.4e5, assumed,
                        "from the outcomes in section 4 of the paper: docs/the-paper.md"},
-                      {"friction.alpha", "1/s", 0.1, 2, assumed, assumed_here},
-                      {"friction.lambda", "(N m)^n/rad", 5, 20, assumed, assumed_here},
-                      {"friction.n", "1", 2, 2, assumed, assumed_here},
-                      {"friction.breakaway", "N m", 0.2, 0.45, assumed, assumed_here},
-                      {"friction.coulomb_ratio", "1", 0.7, 0.9, assumed, assumed_here},
-                      {"friction.stribeck_velocity", "rad/s", 5e-3, 2e-2, assumed, assumed_here},
-                      {"plant.presliding_damping", "N m s/rad", 0.15, 0.25, published,
+                      {parameter::friction::alpha, "1/s", 0.1, 2, assumed, assumed_here},
+                      {parameter::friction::lambda, "(N m)^n/rad", 5, 20, assumed, assumed_here},
+                      {parameter::friction::n, "1", 2, 2, assumed, assumed_here},
+                      {parameter::friction::breakaway, "N m", 0.2, 0.45, assumed, assumed_here},
+                      {parameter::friction::coulomb_ratio, "1", 0.7, 0.9, assumed, assumed_here},
+                      {parameter::friction::stribeck_velocity, "rad/s", 5e-3, 2e-2, assumed, assumed_here},
+                      {parameter::plant::presliding_damping, "N m s/rad", 0.15, 0.25, published,
                        "0.2: paper, section 4; the spread is assumed"},
-                      {"plant.sliding_damping", "N m s/rad", 5e-4, 2e-3, assumed, assumed_here}}};
+                      {parameter::plant::sliding_damping, "N m s/rad", 5e-4, 2e-3, assumed, assumed_here}}};
 }
 
 }  // namespace

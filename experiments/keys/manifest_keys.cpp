@@ -61,7 +61,7 @@ constexpr numerics::Interval margin{.low = 0.0, .high = 1e6, .low_included = tru
 template <class Part>
 Part& part_of(Reading& reading) {
   if constexpr (std::is_same_v<Part, study::Study>) return reading.study;
-  if constexpr (std::is_same_v<Part, study::Ages>) return reading.study.ages;
+  if constexpr (std::is_same_v<Part, study::Ages>) return reading.study.settings.ages;
   if constexpr (std::is_same_v<Part, study::Goal>) return reading.study.goals.back();
   if constexpr (std::is_same_v<Part, study::StoppingRule>) return reading.study.stop.value();
   if constexpr (std::is_same_v<Part, study::Tuning>) return reading.study.tuning.value();

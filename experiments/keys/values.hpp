@@ -70,12 +70,14 @@ std::string allowed_values(const parameters::Parameter& parameter, const paramet
 std::string cure_of_normal(const distributions::Distribution& distribution,
                            const parameters::Parameter& parameter);
 
-/// A profile in the manifest, to be realised when the seed is known.
+/// A friction parameter that varies along the axis, as the manifest describes it. Its values are drawn when
+/// the seed is known.
 struct ProfileRequest {
   std::size_t slot{0};  ///< slot of the parameter in the plan
   distributions::ProfileForm form;
-  study::DrawLevel level{study::DrawLevel::study};  ///< study or machine
-  yaml::Place place;                                ///< place of the profile in the manifest, for messages
+  /// One profile for all trials (study), or one for each machine.
+  study::DrawLevel level{study::DrawLevel::study};
+  yaml::Place place;  ///< place of the profile in the manifest, for messages
   std::string path;
 };
 

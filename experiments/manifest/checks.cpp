@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "experiments/manifest/manifest.hpp"
+#include "experiments/parameters/handles.hpp"
 #include "experiments/rules/value_rules.hpp"
 #include "experiments/study/study.hpp"
 #include "experiments/study/study_table.hpp"
@@ -23,11 +24,11 @@ bool uses_coarse_encoder(const study::StudyPlan& plan) {
     return encoder.high == static_cast<double>(loop::EncoderChoice::coarse);
   };
   const auto is_positive = [](const study::ParameterRange& error) { return error.high > 0.0; };
-  return study::holds_somewhere(plan, "controller.encoder", is_coarse) ||
-         study::holds_somewhere(plan, "controller.coarse.encoder", is_coarse) ||
-         study::holds_somewhere(plan, "encoder.coarse_errors.interpolation", is_positive) ||
-         study::holds_somewhere(plan, "encoder.coarse_errors.noise", is_positive) ||
-         study::holds_somewhere(plan, "encoder.coarse_errors.missed", is_positive);
+  return study::holds_somewhere(plan, parameter::controller::encoder, is_coarse) ||
+         study::holds_somewhere(plan, parameter::controller::coarse::encoder, is_coarse) ||
+         study::holds_somewhere(plan, parameter::encoder::coarse_errors::interpolation, is_positive) ||
+         study::holds_somewhere(plan, parameter::encoder::coarse_errors::noise, is_positive) ||
+         study::holds_somewhere(plan, parameter::encoder::coarse_errors::missed, is_positive);
 }
 
 std::string why_required(const parameters::Parameter& parameter) {
@@ -45,7 +46,7 @@ bool is_required(const study::StudyPlan& plan, const std::vector<rules::EffectRu
   }
   // Required values of the command and of elements of lists are checked where these are read.
   if (!parameter.only_on || parameter.element) return false;
-  return parameter.name != "encoder.coarse_resolution" || uses_coarse_encoder(plan);
+  return parameter.name != parameter::encoder::coarse_resolution || uses_coarse_encoder(plan);
 }
 
 // Reports missing required parameters: those without a default, and those whose default has other units than
@@ -122,7 +123,7 @@ void check_values(Checking& c) {
       const std::span<const study::ParameterRange> all(ranges);
       if (!study::are_readable(all)) return true;  // reported already
       for (const rules::ValueFault& fault :
-           rule.find_faults(all.first(named.size()), all.subspan(named.size()))) {
+           rule.find_faults({rule.between, all.first(named.size())}, all.subspan(named.size()))) {
         const std::vector<std::size_t> slots = slots_of(fault, listed, involved);
         if (reported.size() < max_reported && reported.insert({slots.front(), fault.what}).second) {
           const FaultPlace at = place_of_fault(c.places, c.plan(), slots, point);
@@ -217,7 +218,7 @@ void check_range_at_ages(const Checking& c, std::size_t slot) {
     c.reading.problems.add(
         place_of_fault(c.places, plan, {&slot, 1}, point).place, parameter.name,
         fmt::format("its values at {}, {:.6g} to {:.6g}, leave the allowed range {}",
-                    study::age_text(c.reading.study.ages, study::age_at(plan, point)), low, high,
+                    study::age_text(c.reading.study.settings.ages, study::age_at(plan, point)), low, high,
                     numerics::notation(range)),
         fmt::format("a rate of aging with which all values are {}", numerics::range_text(range)));
     return false;

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "experiments/manifest/manifest.hpp"
+#include "experiments/parameters/handles.hpp"
 
 namespace zerocount::manifest {
 namespace {
@@ -75,7 +76,7 @@ constexpr Exclusion exclusions[]{
      "it has no effect: the record of command.reference has its own unit", "command.targets, or no units"},
     {"command.profile", "command.reference", "command.reference defines the path of the reference",
      "one of them"},
-    {"command.torque.levels", "command.torque.file",
+    {parameter::command::torque::levels, "command.torque.file",
      "it has no effect: command.torque.file defines the torque",
      "command.torque.file, or levels with their rate"},
     {"travel", "!axis: linear", "a rotary axis has no travel: the period of its profiles is a revolution",

@@ -103,11 +103,11 @@ void read_axes(Manifest& m) {
 void read_conditions(Manifest& m) {
   const auto field = yaml::find_field(m.root, "conditions");
   if (field) m.conditions = sections::read_conditions(*field, m.axes, m.reading);
-  const sections::SweptAxis settings = sections::conditions_at_ages(m.conditions, m.reading);
+  const sections::SweptAxis settings = sections::settings_axis(m.conditions, m.reading);
   if (!settings.labels.empty()) {
     m.plan().axes.push_back(settings.axis);
-    m.plan().condition_axis = m.plan().axes.size() - 1;
-    m.plan().conditions = std::ssize(settings.labels);
+    m.plan().settings_axis = m.plan().axes.size() - 1;
+    m.plan().settings = m.study().settings.counts();
     m.places.axes.push_back(settings.places);
   }
   for (study::PlanAxis& axis : m.plan().axes) sections::inherit_aging(axis, m.plan());
@@ -119,7 +119,7 @@ void check_trial_count(Manifest& m) {
   std::int64_t points = 1;
   for (const study::PlanAxis& axis : m.plan().axes)
     points *= static_cast<std::int64_t>(study::option_count(axis));
-  points /= study::condition_count(m.study());
+  points /= m.plan().settings.total();
   const auto field = yaml::find_field(m.root, "trials");
   if (field && m.study().trials > keys::max_study_trials / points) {
     m.problems().add(*field, fmt::format("{} trials at {} points are too many", m.study().trials, points),
@@ -157,17 +157,18 @@ std::string groups_text(const study::Study& study) {
   const auto counted = [](std::int64_t count, std::string_view noun) {
     return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
   };
-  const std::int64_t conditions = std::ssize(study.condition_names);
+  const std::int64_t conditions = std::ssize(study.settings.conditions);
   if (study.machines == 0) return counted(conditions, "condition");
   std::string text = fmt::format("{} machines", study.machines);
   if (conditions > 0) text += " under each of " + counted(conditions, "condition");
-  if (!study.ages.at.empty()) text += " at each of " + counted(std::ssize(study.ages.at), "age");
+  if (!study.settings.ages.at.empty())
+    text += " at each of " + counted(std::ssize(study.settings.ages.at), "age");
   return text;
 }
 
 void require_equal_groups(Manifest& m, const yaml::Field& field, std::int64_t trials) {
   const study::TrialIndices indices = study::trial_indices(m.study());
-  const std::int64_t round = indices.machines * indices.conditions;
+  const std::int64_t round = indices.machines * indices.settings.total();
   if (trials % round == 0) return;
   m.problems().add(
       field, fmt::format("{} trials cannot be divided equally among {}", trials, groups_text(m.study())),
@@ -191,9 +192,9 @@ void check_worlds(Manifest& m) {
   if (m.study().worlds == 0) return;
   const yaml::Field field = yaml::find_field(m.root, "worlds").value();
   const std::int64_t units = m.study().machines > 0 ? m.study().machines : study::draw_count(m.study());
-  const std::string_view name = m.study().machines > 0         ? "machines"
-                                : m.study().conditions.empty() ? "trials"
-                                                               : "trials under each condition";
+  const std::string_view name = m.study().machines > 0       ? "machines"
+                                : m.study().settings.empty() ? "trials"
+                                                             : "trials under each condition";
   if (m.study().machines > 0 && units % m.study().worlds != 0) {
     m.problems().add(
         field, fmt::format("{} machines cannot be divided equally among {} worlds", units, m.study().worlds),

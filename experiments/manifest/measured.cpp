@@ -121,9 +121,9 @@ class MeasuredDraws {
   }
 
   /// The contradiction in the measured values of a draw; empty if there is none.
-  /// @param draw index of the draw under the condition of this point of the plan
+  /// @param draw index of the draw in the setting of this point of the plan
   std::optional<study::MeasuredFault> fault_of(std::size_t point, std::int64_t draw) const {
-    const std::int64_t trial = study::trial_indices(study_).trial_of(draw, study::condition_at(plan_, point));
+    const std::int64_t trial = study::trial_indices(study_).trial_of(draw, study::setting_at(plan_, point));
     const std::vector<double> numbers =
         study::drawn_numbers(study_, study::design_point(plan_, point), trial, measured_.slots);
     return study::fault_of_machine(plan_, point, measured_, [&](std::uint32_t slot) {
@@ -189,7 +189,7 @@ bool check_draws(const MeasuredDraws& draws, std::size_t point, const study::Stu
   const std::string at = study::point_count(study) == 1
                              ? ""
                              : fmt::format(" at point {} ({})", design, study.points.labels[design]);
-  const std::string under = study::condition_text(study, study::condition_at(*study.plan, point));
+  const std::string under = study::setting_phrase(study.settings, study::setting_at(*study.plan, point));
   const std::vector<std::size_t> slots(first->slots.begin(), first->slots.end());
   const FaultPlace place = place_of_fault(places, *study.plan, slots, point);
   reading.problems.add(place.place, study.plan->table.rows[place.slot].name,

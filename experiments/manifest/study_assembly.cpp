@@ -8,10 +8,11 @@
 
 #include "experiments/designs/designs.hpp"
 #include "experiments/manifest/manifest.hpp"
+#include "experiments/parameters/handles.hpp"
 #include "experiments/randomness/random_variables.hpp"
-#include "experiments/study/condition_study.hpp"
 #include "experiments/study/effects.hpp"
 #include "experiments/study/point_limits.hpp"
+#include "experiments/study/setting_study.hpp"
 #include "experiments/study/study.hpp"
 #include "experiments/study/study_table.hpp"
 
@@ -26,7 +27,7 @@ std::string profile_mean_name(std::string_view parameter) {
 // [slot] whether an axis assigns the slot, or one that it follows.
 struct AssignedSlots {
   std::vector<bool> swept;       // by an axis of the sweep
-  std::vector<bool> overridden;  // by the axis of the conditions, or changed by ages
+  std::vector<bool> overridden;  // by the axis of the settings, or changed by ages
 
   bool differs(std::size_t slot) const { return swept[slot] || overridden[slot]; }
 };
@@ -34,7 +35,7 @@ struct AssignedSlots {
 AssignedSlots assigned_slots(const study::StudyPlan& plan) {
   AssignedSlots slots{std::vector<bool>(plan.base.size(), false), std::vector<bool>(plan.base.size(), false)};
   for (std::size_t axis = 0; axis < plan.axes.size(); ++axis) {
-    const bool of_conditions = plan.has_conditions() && axis == plan.condition_axis;
+    const bool of_conditions = plan.settings_axis && axis == plan.settings_axis;
     for (const study::Assignment& assignment : plan.axes[axis].assignments)
       (of_conditions ? slots.overridden : slots.swept)[assignment.slot] = true;
   }
@@ -115,7 +116,7 @@ random::TrialRandomness trial_randomness(std::uint64_t seed) {
 
 std::size_t gms_element_count(const study::StudyTable& table) {
   const auto stiffness =
-      study::find_list(table, parameters::find_parameter("friction.gms.stiffness").value());
+      study::find_list(table, parameters::find_parameter(parameter::friction::gms::stiffness).value());
   return stiffness ? stiffness->count : 0;
 }
 
@@ -174,19 +175,19 @@ std::optional<study::DrawLevel> drawn_mean(const study::StudyPlan& plan, std::si
   return level;
 }
 
-// Lists what all trials of a group share at all points; under each condition that overrides it.
+// Lists what all trials of a group share at all points; in each setting that overrides it.
 void add_shared(const study::InputColumn& column, study::InputSource source, bool overridden,
-                const std::vector<std::string>& conditions, std::vector<study::InputColumn>& columns,
+                const std::vector<std::string>& settings, std::vector<study::InputColumn>& columns,
                 std::vector<study::InputSource>& sources) {
   if (!overridden) {
     columns.push_back(column);
     sources.push_back(source);
     return;
   }
-  for (std::size_t i = 0; i < conditions.size(); ++i) {
+  for (std::size_t i = 0; i < settings.size(); ++i) {
     columns.push_back(column);
-    columns.back().name += study::under_suffix(conditions[i]);
-    source.condition = static_cast<std::int64_t>(i);
+    columns.back().name += study::under_suffix(settings[i]);
+    source.setting = static_cast<std::int64_t>(i);
     sources.push_back(source);
   }
 }
@@ -198,7 +199,7 @@ void add_column(const study::InputColumn& column, const study::InputSource& sour
   if (assigned.swept[source.slot]) return;
   for (const study::GroupingTraits& of : study::groupings)
     if (of.level == column.level)
-      add_shared(column, source, assigned.overridden[source.slot], study.conditions,
+      add_shared(column, source, assigned.overridden[source.slot], study::labels_of(study.settings),
                  study.columns.shared[of.grouping], plan.shared_inputs[of.grouping]);
 }
 
@@ -242,10 +243,9 @@ void list_profiles(const std::vector<keys::ProfileRequest>& requests, const Assi
     for (const auto& [index, point] : used) {
       std::string suffix;
       if (used.size() > 1)
-        suffix = study::under_suffix(
-            assigned.overridden[slot]
-                ? study.conditions[static_cast<std::size_t>(study::condition_at(plan, point))]
-                : fmt::format("{}", study::design_point(plan, point)));
+        suffix = study::under_suffix(assigned.overridden[slot]
+                                         ? study::label_of(study.settings, study::setting_at(plan, point))
+                                         : fmt::format("{}", study::design_point(plan, point)));
       const std::shared_ptr<const study::Rotors> rotors = plan.profiles[index];
       study::RealisedProfile profile{std::string(parameter.name) + suffix,
                                      parameters::unit_of(parameter, plan.units), rotors->rotor(0)};

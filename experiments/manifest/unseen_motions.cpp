@@ -6,6 +6,7 @@
 
 #include "core/loop/encoder.hpp"
 #include "experiments/manifest/manifest.hpp"
+#include "experiments/parameters/handles.hpp"
 #include "experiments/rules/value_rules.hpp"
 #include "experiments/study/point_limits.hpp"
 #include "experiments/study/study_trial.hpp"
@@ -28,10 +29,10 @@ class Motions {
       : study_(study),
         plan_(plan),
         unit_(parameters::unit_on(plan.units.axis, "rad")),
-        encoder_(slot_of(rules::fine_encoder_name(plan))),
-        overrun_(slot_of("command.sequence.overrun")),
-        shape_(slot_of("command.profile.shape")),
-        amplitude_(slot_of("command.profile.amplitude")) {}
+        encoder_(slot_of(rules::fine_encoder(plan))),
+        overrun_(slot_of(parameter::command::sequence::overrun)),
+        shape_(slot_of(parameter::command::profile::shape)),
+        amplitude_(slot_of(parameter::command::profile::amplitude)) {}
 
   /// The slots on which the motions depend.
   std::vector<std::size_t> slots() const {
@@ -44,9 +45,9 @@ class Motions {
   /// The motions of the trial with this draw. All trials of a point of the plan have the same list of
   /// motions.
   std::vector<Motion> of(std::size_t point, std::int64_t draw) const {
-    const study::StudyTrial trial = study::commanded_trial(
-        study_, study::design_point(plan_, point),
-        study::trial_indices(study_).trial_of(draw, study::condition_at(plan_, point)));
+    const study::StudyTrial trial =
+        study::commanded_trial(study_, study::design_point(plan_, point),
+                               study::trial_indices(study_).trial_of(draw, study::setting_at(plan_, point)));
     const double count = loop::fine_resolution(trial.parameters.encoder);
     std::vector<Motion> motions;
     for (std::size_t move = 0; move < trial.target_positions.size(); ++move)
@@ -155,11 +156,11 @@ std::int64_t trials_to_try(std::int64_t points) {
 std::string point_text(const study::Study& study, std::size_t point, std::int64_t different) {
   if (different == 1) return "";
   const std::int64_t of_study = study::design_point(*study.plan, point);
-  const std::int64_t all = study::point_count(study) * study::condition_count(study);
+  const std::int64_t all = study::point_count(study) * study.settings.total();
   const std::int64_t others = all / different - 1;
   return fmt::format(" at point {} ({}){}{}", of_study,
                      study.points.labels[static_cast<std::size_t>(of_study)],
-                     study::condition_text(study, study::condition_at(*study.plan, point)),
+                     study::setting_phrase(study.settings, study::setting_at(*study.plan, point)),
                      others > 0 ? fmt::format(" and {} others", others) : "");
 }
 

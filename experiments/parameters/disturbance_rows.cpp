@@ -1,6 +1,7 @@
 #include <array>
 
 #include "experiments/parameters/element_lists.hpp"
+#include "experiments/parameters/handles.hpp"
 #include "experiments/parameters/parameter_rows.hpp"
 
 namespace zerocount::parameters {
@@ -32,7 +33,7 @@ std::vector<trial::RippleParameters>& errors(trial::TrialParameters& p) {
 
 // The row of a number of each element of a list.
 template <auto list, auto field>
-Parameter number_of(std::string_view name, std::size_t dimension, std::size_t dimensions,
+Parameter number_of(parameter::Handle name, std::size_t dimension, std::size_t dimensions,
                     std::string_view unit, std::string_view meaning, const numerics::Interval& range) {
   Parameter row = real_row(name, dimension, unit, meaning, "required", range);
   row.element = {dimensions, [](trial::TrialParameters& parameters, std::size_t element, std::size_t,
@@ -49,7 +50,7 @@ Parameter zero_by_default(Parameter row) {
 // Rows of a list of ripples. @param names of amplitude, periods, pitch and phase. @param ideal of the
 // amplitude
 template <auto list>
-void add_ripple_rows(std::vector<Parameter>& rows, const std::array<std::string_view, 4>& names,
+void add_ripple_rows(std::vector<Parameter>& rows, const std::array<parameter::Handle, 4>& names,
                      std::size_t first, std::string_view unit, std::string_view meaning, const Ideal& ideal) {
   using R = trial::RippleParameters;
   constexpr std::size_t of = dimensions_of_ripple;
@@ -68,7 +69,7 @@ void add_ripple_rows(std::vector<Parameter>& rows, const std::array<std::string_
 
 // Rows of a list of vibrations. @param names of amplitude, frequency and phase.
 template <auto list>
-void add_vibration_rows(std::vector<Parameter>& rows, const std::array<std::string_view, 3>& names,
+void add_vibration_rows(std::vector<Parameter>& rows, const std::array<parameter::Handle, 3>& names,
                         std::size_t first, std::string_view meaning) {
   using V = trial::VibrationParameters;
   constexpr std::size_t of = dimensions_of_vibration;
@@ -110,8 +111,8 @@ constexpr std::size_t kinematic_error = load_ripple + max_ripples * dimensions_o
 std::vector<Parameter> kinematic_error_rows() {
   std::vector<Parameter> rows;
   add_ripple_rows<errors>(rows,
-                          {"plant.load.error.#.amplitude", "plant.load.error.#.periods",
-                           "plant.load.error.#.pitch", "plant.load.error.#.phase"},
+                          {parameter::plant::load::error::amplitude, parameter::plant::load::error::periods,
+                           parameter::plant::load::error::pitch, parameter::plant::load::error::phase},
                           kinematic_error, "rad",
                           "amplitude of a kinematic error of the coupling, along the $track",
                           {"no kinematic error", 0.0});
@@ -121,32 +122,35 @@ std::vector<Parameter> kinematic_error_rows() {
 std::vector<Parameter> disturbance_rows() {
   constexpr std::size_t ripple = beyond_moves(192);
   std::vector<Parameter> rows{
-      idealised_by(no_constant_disturbance,
-                   real_row("disturbance.torque", beyond_moves(30), "N m", "constant $torque on the $rotor",
-                            assumed, numerics::all_numbers(), [](auto& p) { return &p.disturbance.torque; })),
+      idealised_by(
+          no_constant_disturbance,
+          real_row(parameter::disturbance::torque, beyond_moves(30), "N m", "constant $torque on the $rotor",
+                   assumed, numerics::all_numbers(), [](auto& p) { return &p.disturbance.torque; })),
   };
-  add_ripple_rows<ripples>(rows,
-                           {"disturbance.ripple.#.amplitude", "disturbance.ripple.#.periods",
-                            "disturbance.ripple.#.pitch", "disturbance.ripple.#.phase"},
-                           ripple, "N m", "amplitude of a $torque that varies along the $track", {no_ripple});
-  add_vibration_rows<vibrations>(rows,
-                                 {"disturbance.vibration.#.amplitude", "disturbance.vibration.#.frequency",
-                                  "disturbance.vibration.#.phase"},
-                                 ripple + max_ripples * dimensions_of_ripple,
-                                 "amplitude of a $torque that varies in time");
-  rows.push_back(idealised_by(
-      no_constant_load_disturbance,
-      real_row("disturbance.load.torque", beyond_moves(288), "N m", "constant $torque on the second mass",
-               assumed, numerics::all_numbers(), [](auto& p) { return &p.load_side.disturbance.torque; })));
+  add_ripple_rows<ripples>(
+      rows,
+      {parameter::disturbance::ripple::amplitude, parameter::disturbance::ripple::periods,
+       parameter::disturbance::ripple::pitch, parameter::disturbance::ripple::phase},
+      ripple, "N m", "amplitude of a $torque that varies along the $track", {no_ripple});
+  add_vibration_rows<vibrations>(
+      rows,
+      {parameter::disturbance::vibration::amplitude, parameter::disturbance::vibration::frequency,
+       parameter::disturbance::vibration::phase},
+      ripple + max_ripples * dimensions_of_ripple, "amplitude of a $torque that varies in time");
+  rows.push_back(
+      idealised_by(no_constant_load_disturbance,
+                   real_row(parameter::disturbance::load::torque, beyond_moves(288), "N m",
+                            "constant $torque on the second mass", assumed, numerics::all_numbers(),
+                            [](auto& p) { return &p.load_side.disturbance.torque; })));
   add_ripple_rows<load_ripples>(
       rows,
-      {"disturbance.load.ripple.#.amplitude", "disturbance.load.ripple.#.periods",
-       "disturbance.load.ripple.#.pitch", "disturbance.load.ripple.#.phase"},
+      {parameter::disturbance::load::ripple::amplitude, parameter::disturbance::load::ripple::periods,
+       parameter::disturbance::load::ripple::pitch, parameter::disturbance::load::ripple::phase},
       load_ripple, "N m", "amplitude of a $torque on the second mass that varies along its way", {no_ripple});
   add_vibration_rows<load_vibrations>(
       rows,
-      {"disturbance.load.vibration.#.amplitude", "disturbance.load.vibration.#.frequency",
-       "disturbance.load.vibration.#.phase"},
+      {parameter::disturbance::load::vibration::amplitude, parameter::disturbance::load::vibration::frequency,
+       parameter::disturbance::load::vibration::phase},
       kinematic_error + max_ripples * dimensions_of_ripple,
       "amplitude of a $torque on the second mass that varies in time");
   return rows;

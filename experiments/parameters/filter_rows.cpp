@@ -2,6 +2,7 @@
 #include <array>
 
 #include "experiments/parameters/element_lists.hpp"
+#include "experiments/parameters/handles.hpp"
 #include "experiments/parameters/parameter_rows.hpp"
 
 namespace zerocount::parameters {
@@ -42,7 +43,7 @@ void add_filter(trial::TrialParameters& parameters, std::size_t form) {
 
 // The row of a number of each filter.
 template <class Phase, double loop::Filter::*field>
-Parameter number_of_filter(std::string_view name, std::size_t dimension, std::string_view unit,
+Parameter number_of_filter(parameter::Handle name, std::size_t dimension, std::string_view unit,
                            std::string_view meaning, const numerics::Interval& range) {
   Parameter row = real_row(name, dimension, unit, meaning, "required", range);
   row.element = {dimensions_of_filter,
@@ -54,7 +55,7 @@ Parameter number_of_filter(std::string_view name, std::size_t dimension, std::st
 
 // The row of a list of coefficients of each filter.
 template <class Phase, auto field>
-Parameter coefficients_of_filter(std::string_view name, std::size_t dimension, std::string_view meaning) {
+Parameter coefficients_of_filter(parameter::Handle name, std::size_t dimension, std::string_view meaning) {
   Parameter row = real_row(name, dimension, "1", meaning, "required", numerics::all_numbers());
   constexpr std::size_t count = std::tuple_size_v<std::remove_reference_t<decltype(loop::Filter{}.*field)>>;
   row.list = {count, count, "coefficient", "coefficients", {}};
@@ -67,7 +68,7 @@ Parameter coefficients_of_filter(std::string_view name, std::size_t dimension, s
 
 // The names are literals, because rows refer to them.
 template <class Phase>
-std::vector<Parameter> rows_of(const std::array<std::string_view, 6>& names, std::size_t dimension) {
+std::vector<Parameter> rows_of(const std::array<parameter::Handle, 6>& names, std::size_t dimension) {
   using F = loop::Filter;
   const numerics::Interval positive = numerics::above(0);
   return {
@@ -91,15 +92,17 @@ std::vector<Parameter> rows_of(const std::array<std::string_view, 6>& names, std
 }  // namespace
 
 std::vector<Parameter> filter_rows() {
-  std::vector<Parameter> rows = rows_of<Fine>(
-      {"controller.filters.#.frequency", "controller.filters.#.damping", "controller.filters.#.depth",
-       "controller.filters.#.ratio", "controller.filters.#.b", "controller.filters.#.a"},
-      beyond_moves(112));
-  for (Parameter& row :
-       rows_of<Coarse>({"controller.coarse.filters.#.frequency", "controller.coarse.filters.#.damping",
-                        "controller.coarse.filters.#.depth", "controller.coarse.filters.#.ratio",
-                        "controller.coarse.filters.#.b", "controller.coarse.filters.#.a"},
-                       beyond_moves(112 + max_filters * dimensions_of_filter)))
+  std::vector<Parameter> rows =
+      rows_of<Fine>({parameter::controller::filters::frequency, parameter::controller::filters::damping,
+                     parameter::controller::filters::depth, parameter::controller::filters::ratio,
+                     parameter::controller::filters::b, parameter::controller::filters::a},
+                    beyond_moves(112));
+  for (Parameter& row : rows_of<Coarse>(
+           {parameter::controller::coarse::filters::frequency,
+            parameter::controller::coarse::filters::damping, parameter::controller::coarse::filters::depth,
+            parameter::controller::coarse::filters::ratio, parameter::controller::coarse::filters::b,
+            parameter::controller::coarse::filters::a},
+           beyond_moves(112 + max_filters * dimensions_of_filter)))
     rows.push_back(std::move(row));
   return rows;
 }

@@ -5,6 +5,7 @@
 
 #include "core/friction/presliding/spring.hpp"
 #include "core/numerics/elementary_functions.hpp"
+#include "experiments/parameters/handles.hpp"
 
 namespace zerocount::parameters {
 namespace {
@@ -13,20 +14,20 @@ using From = MeasuredNumbers;
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
-constexpr std::string_view initial_stiffness = "friction.measured.initial_stiffness";
-constexpr std::string_view secant_stiffness = "friction.measured.secant_stiffness";
-constexpr std::string_view secant_travel = "friction.measured.secant_travel";
-constexpr std::string_view final_stiffness = "friction.measured.final_stiffness";
-constexpr std::string_view breakaway = "friction.measured.breakaway";
-constexpr std::string_view breakaway_travel = "friction.measured.breakaway_travel";
+constexpr std::string_view initial_stiffness = parameter::friction::measured::initial_stiffness;
+constexpr std::string_view secant_stiffness = parameter::friction::measured::secant_stiffness;
+constexpr std::string_view secant_travel = parameter::friction::measured::secant_travel;
+constexpr std::string_view final_stiffness = parameter::friction::measured::final_stiffness;
+constexpr std::string_view breakaway = parameter::friction::measured::breakaway;
+constexpr std::string_view breakaway_travel = parameter::friction::measured::breakaway_travel;
 
 /// The parameters of the friction spring. k2 and beta are computed from all values of the group.
 std::vector<DerivedParameter> spring_from(const std::vector<std::string_view>& names, double (*k2)(From),
                                           double (*beta)(From)) {
-  return {{"friction.k1", {final_stiffness}},
-          {"friction.k2", names, k2},
-          {"friction.beta", names, beta},
-          {"friction.breakaway", {breakaway}}};
+  return {{parameter::friction::k1, {final_stiffness}},
+          {parameter::friction::k2, names, k2},
+          {parameter::friction::beta, names, beta},
+          {parameter::friction::breakaway, {breakaway}}};
 }
 
 MeasuredParameters spring_by_initial_stiffness() {
@@ -75,18 +76,18 @@ MeasuredParameters spring_by_secant() {
 }
 
 MeasuredParameters measured_creep() {
-  constexpr std::string_view torque = "friction.measured.creep.torque";
-  constexpr std::string_view extension = "friction.measured.creep.extension";
-  constexpr std::string_view rate = "friction.measured.creep.rate";
-  constexpr std::string_view exponent = "friction.measured.creep.exponent";
+  constexpr std::string_view torque = parameter::friction::measured::creep::torque;
+  constexpr std::string_view extension = parameter::friction::measured::creep::extension;
+  constexpr std::string_view rate = parameter::friction::measured::creep::rate;
+  constexpr std::string_view exponent = parameter::friction::measured::creep::exponent;
   return {.section = "friction.measured.creep",
           .names = {torque, extension, rate, exponent},
           .own = 4,
-          .derived = {{"friction.alpha", {rate}},
-                      {"friction.lambda",
+          .derived = {{parameter::friction::alpha, {rate}},
+                      {parameter::friction::lambda,
                        {torque, extension, exponent},
                        [](From from) { return numerics::pow_of_draws(from[0], from[2]) / from[1]; }},
-                      {"friction.n", {exponent}}}};
+                      {parameter::friction::n, {exponent}}}};
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/parameters/handles.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 
 namespace zerocount::parameters {
@@ -100,7 +101,7 @@ Parameter or_none(Parameter row, Field) {
 
 /// A row of real numbers.
 template <class Field = NoField>
-Parameter real_row(std::string_view name, std::size_t sobol_dimension, std::string_view unit,
+Parameter real_row(parameter::Handle name, std::size_t sobol_dimension, std::string_view unit,
                    std::string_view meaning, std::string_view source, const numerics::Interval& range,
                    Field field = {}) {
   return stored_at({name, unit, meaning, source, ParameterKind::real, range, {}, sobol_dimension}, field);
@@ -108,7 +109,7 @@ Parameter real_row(std::string_view name, std::size_t sobol_dimension, std::stri
 
 /// A row of whole numbers.
 template <class Field = NoField>
-Parameter whole_row(std::string_view name, std::size_t sobol_dimension, std::string_view unit,
+Parameter whole_row(parameter::Handle name, std::size_t sobol_dimension, std::string_view unit,
                     std::string_view meaning, std::string_view source, const numerics::Interval& range,
                     Field field = {}) {
   return stored_at({name, unit, meaning, source, ParameterKind::whole_number, range, {}, sobol_dimension},
@@ -117,7 +118,7 @@ Parameter whole_row(std::string_view name, std::size_t sobol_dimension, std::str
 
 /// A row with labels, in the order of the enumeration's values.
 template <class Field>
-Parameter word_row(std::string_view name, std::size_t sobol_dimension, std::string_view meaning,
+Parameter word_row(parameter::Handle name, std::size_t sobol_dimension, std::string_view meaning,
                    std::string_view source, std::vector<std::string_view> labels, Field field) {
   const numerics::Interval range = numerics::closed(0, static_cast<double>(labels.size() - 1));
   return stored_at(
@@ -127,7 +128,7 @@ Parameter word_row(std::string_view name, std::size_t sobol_dimension, std::stri
 
 /// A row of `true` or `false`.
 template <class Field>
-Parameter bool_row(std::string_view name, std::size_t sobol_dimension, std::string_view meaning,
+Parameter bool_row(parameter::Handle name, std::size_t sobol_dimension, std::string_view meaning,
                    std::string_view source, Field field) {
   return stored_at({name,
                     "1",

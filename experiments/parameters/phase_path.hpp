@@ -22,22 +22,29 @@ struct Literal {
   }
 };
 
+/// The concatenation of two texts, with a zero at its end.
 template <Literal first, Literal last>
-constexpr auto joined_text = [] {
+constexpr auto join_texts() {
   std::array<char, sizeof(first.text) + sizeof(last.text) - 1> text{};
   std::size_t end = 0;
   for (std::size_t i = 0; first.text[i] != '\0'; ++i) text[end++] = first.text[i];
   for (std::size_t i = 0; last.text[i] != '\0'; ++i) text[end++] = last.text[i];
   return text;
-}();
+}
+
+/// Storage of a concatenation. A static member has one address in the whole program.
+template <Literal first, Literal last>
+struct JoinedText {
+  static constexpr auto text = join_texts<first, last>();
+};
 
 /// Concatenation of two texts: joined<"encoder", ".fine"> is "encoder.fine".
 template <Literal first, Literal last>
-constexpr std::string_view joined{joined_text<first, last>.data()};
+inline constexpr std::string_view joined{JoinedText<first, last>::text.data()};
 
 /// The dotted path of a parameter of a phase: phase_path<Phase::coarse, "kp"> is "controller.coarse.kp".
 template <Phase phase, Literal name>
-constexpr std::string_view phase_path =
+inline constexpr std::string_view phase_path =
     phase == Phase::fine ? joined<"controller.", name> : joined<"controller.coarse.", name>;
 
 }  // namespace zerocount::parameters

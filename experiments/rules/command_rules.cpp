@@ -8,6 +8,7 @@
 
 #include "core/loop/dac.hpp"
 #include "core/loop/reference.hpp"
+#include "experiments/parameters/handles.hpp"
 #include "experiments/parameters/parameter_rows.hpp"
 #include "experiments/rules/value_rules.hpp"
 #include "experiments/study/study_table.hpp"
@@ -25,16 +26,19 @@ std::string too_many_samples() {
 }
 
 // An unbounded distribution is reported once, at its own parameter.
-ValueRule highest_value(std::string_view parameter, const std::string& expected) {
-  return between({parameter}, [expected](const auto& limits) -> Faults {
+ValueRule highest_value(parameter::Handle parameter, const std::string& expected) {
+  return between({parameter}, [parameter, expected](const Ranges& of) -> Faults {
+    const study::ParameterRange& limits = of[parameter];
     if (std::isfinite(limits.high)) return {};
     return {{"its values are unbounded, so a trial could have any number of samples", expected}};
   });
 }
 
 ValueRule samples_of_targets(double moves) {
-  return between({"command.hold", "controller.sample_rate"},
-                 [moves](const auto& hold, const auto& rate) -> Faults {
+  return between({parameter::command::hold, parameter::controller::sample_rate},
+                 [moves](const Ranges& of) -> Faults {
+                   const study::ParameterRange& hold = of[parameter::command::hold];
+                   const study::ParameterRange& rate = of[parameter::controller::sample_rate];
                    if (!std::isfinite(hold.high) || !std::isfinite(rate.high)) return {};  // reported already
                    if (hold.high * rate.high * moves <= max_samples) return {};
                    return {{fmt::format("{} moves of {} s at {} Hz can be more than {} samples", moves,
@@ -74,7 +78,7 @@ double total_travel(Limits list) {
 
 // @param what why a value of the list needs limits @param expected the distribution that it needs
 ValueRule limits_of_the_list(const std::string& what, const std::string& expected) {
-  return {{}, true, [what, expected](Limits, Limits list) -> Faults {
+  return {{}, true, [what, expected](const Ranges&, Limits list) -> Faults {
             Faults faults;
             for (std::size_t i = 0; i < list.size(); ++i) {
               if (std::isfinite(list[i].low) && std::isfinite(list[i].high)) continue;
@@ -102,8 +106,10 @@ ValueRule limits_of_positions() {
 }
 
 ValueRule lowest_rate_of_torque() {
-  return {{"command.torque.rate"}, true, [](Limits l, Limits levels) -> Faults {
-            if (std::isfinite(time_of_ramps(levels, l[0])) || !std::isfinite(total_travel(levels))) return {};
+  return {{parameter::command::torque::rate}, true, [](const Ranges& of, Limits levels) -> Faults {
+            if (std::isfinite(time_of_ramps(levels, of[parameter::command::torque::rate])) ||
+                !std::isfinite(total_travel(levels)))
+              return {};
             return {{"the rate can be so small that a ramp takes for ever",
                      "a rate with a lowest value above 0"}};
           }};
@@ -111,30 +117,36 @@ ValueRule lowest_rate_of_torque() {
 
 ValueRule samples_of_torque_levels() {
   return {
-      {"command.hold", "controller.sample_rate", "command.torque.rate"},
+      {parameter::command::hold, parameter::controller::sample_rate, parameter::command::torque::rate},
       true,
-      [](Limits l, Limits levels) -> Faults {
-        const double ramps = time_of_ramps(levels, l[2]);
-        if (!std::isfinite(l[0].high) || !std::isfinite(l[1].high) || !std::isfinite(ramps)) return {};
-        const double time = static_cast<double>(levels.size()) * l[0].high + ramps;
-        if (time * l[1].high <= max_samples) return {};
+      [](const Ranges& of, Limits levels) -> Faults {
+        const double hold = of[parameter::command::hold].high;
+        const double rate = of[parameter::controller::sample_rate].high;
+        const double ramps = time_of_ramps(levels, of[parameter::command::torque::rate]);
+        if (!std::isfinite(hold) || !std::isfinite(rate) || !std::isfinite(ramps)) return {};
+        const double time = static_cast<double>(levels.size()) * hold + ramps;
+        if (time * rate <= max_samples) return {};
         return {
             {fmt::format(
                  "{} levels held for {} s, and ramps of {} s in all, can be more than {} samples at {} Hz",
-                 levels.size(), l[0].high, ramps, max_samples, l[1].high),
+                 levels.size(), hold, ramps, max_samples, rate),
              too_many_samples()}};
       }};
 }
 
 // Warns about torques beyond the range of the converter or the amplifier, which are clipped.
 ValueRule range_of_the_converter(const std::string& unit) {
-  return {{"command.torque.through", "dac.bits", "dac.resolution", "dac.range", "amplifier.limit"},
+  return {{parameter::command::torque::through, parameter::dac::bits, parameter::dac::resolution,
+           parameter::dac::range, parameter::amplifier::limit},
           true,
-          [unit](Limits l, Limits levels) -> Faults {
-            const bool by_dac = l[0].low == static_cast<double>(trial::TorquePath::dac);
-            loop::DacParameters dac{.bits = static_cast<int>(l[1].low), .resolution = l[2].low};
-            dac.limit = l[4].low;
-            if (l[3].low > 0.0) dac.resolution = std::ldexp(l[3].low, 1 - dac.bits);
+          [unit](const Ranges& of, Limits levels) -> Faults {
+            const bool by_dac =
+                of[parameter::command::torque::through].low == static_cast<double>(trial::TorquePath::dac);
+            loop::DacParameters dac{.bits = static_cast<int>(of[parameter::dac::bits].low),
+                                    .resolution = of[parameter::dac::resolution].low};
+            dac.limit = of[parameter::amplifier::limit].low;
+            const double range = of[parameter::dac::range].low;
+            if (range > 0.0) dac.resolution = std::ldexp(range, 1 - dac.bits);
             const double lowest = by_dac ? loop::lowest_torque(dac) : -dac.limit;
             const double highest = by_dac ? loop::highest_torque(dac) : dac.limit;
             Faults faults;
@@ -154,7 +166,8 @@ ValueRule range_of_the_converter(const std::string& unit) {
 }
 
 ValueRule length_of_the_record(double length, std::string_view key) {
-  return between({"command.hold"}, [length, key](const auto& hold) -> Faults {
+  return between({parameter::command::hold}, [length, key](const Ranges& of) -> Faults {
+    const study::ParameterRange& hold = of[parameter::command::hold];
     constexpr double rounding = 1e-9;
     if (!std::isfinite(hold.high) || hold.high <= length * (1.0 + rounding)) return {};
     return {
@@ -166,8 +179,10 @@ ValueRule length_of_the_record(double length, std::string_view key) {
 // A hold that the study gives may cut the record of a reference. @param held without one, s
 ValueRule end_of_the_reference(double last, double held, std::string_view key) {
   return warning(between(
-      {"command.hold", "controller.sample_rate"},
-      [last, held, key](const auto& hold, const auto& rate) -> Faults {
+      {parameter::command::hold, parameter::controller::sample_rate},
+      [last, held, key](const Ranges& of) -> Faults {
+        const study::ParameterRange& hold = of[parameter::command::hold];
+        const study::ParameterRange& rate = of[parameter::controller::sample_rate];
         const bool reaches_last_row = hold.low * rate.low >= last * rate.low + 0.5;
         if (hold.low == held || reaches_last_row || !(rate.low > 0.0)) return {};
         return {{fmt::format("a hold of {:.9g} s cuts the record of {}, whose last row is at {:.9g} s",
@@ -182,8 +197,8 @@ ValueRule of_the_record(ValueRule rule, std::span<const double> record) {
   const std::vector<study::ParameterRange> levels{{.low = lowest, .high = highest}};
   rule.whole_list = false;
   rule.of_record = true;
-  rule.find_faults = [levels, of_levels = rule.find_faults](Limits l, Limits) {
-    Faults faults = of_levels(l, levels);
+  rule.find_faults = [levels, of_levels = rule.find_faults](const Ranges& of, Limits) {
+    Faults faults = of_levels(of, levels);
     for (ValueFault& fault : faults) fault.listed.clear();
     return faults;
   };
@@ -191,7 +206,8 @@ ValueRule of_the_record(ValueRule rule, std::span<const double> record) {
 }
 
 ValueRule shape_of_the_reference(bool has_record) {
-  return between({"command.profile.shape"}, [has_record](const auto& shape) -> Faults {
+  return between({parameter::command::profile::shape}, [has_record](const Ranges& of) -> Faults {
+    const study::ParameterRange& shape = of[parameter::command::profile::shape];
     const bool is_record = shape.low == static_cast<double>(loop::ReferenceShape::record);
     if (is_record == has_record) return {};
     if (has_record) return {{"command.reference defines the path of the reference", "no shape"}};
@@ -200,7 +216,7 @@ ValueRule shape_of_the_reference(bool has_record) {
 }
 
 ValueRule order_of_targets(const std::string& unit) {
-  return {{}, true, [unit](Limits, Limits targets) -> Faults {
+  return {{}, true, [unit](const Ranges&, Limits targets) -> Faults {
             Faults faults;
             for (std::size_t i = 1; i < targets.size(); ++i) {
               if (targets[i].low > targets[i - 1].high) continue;
@@ -214,9 +230,9 @@ ValueRule order_of_targets(const std::string& unit) {
 }
 
 ValueRule reach_of_the_overrun() {
-  return {{"command.sequence.overrun"}, true, [](Limits l, Limits targets) -> Faults {
-            const double farthest =
-                l[0].high + std::max(std::abs(targets.front().low), std::abs(targets.back().high));
+  return {{parameter::command::sequence::overrun}, true, [](const Ranges& of, Limits targets) -> Faults {
+            const double farthest = of[parameter::command::sequence::overrun].high +
+                                    std::max(std::abs(targets.front().low), std::abs(targets.back().high));
             if (farthest <= parameters::max_count) return {};
             return {{fmt::format("the sequence can reach {} counts", farthest),
                      fmt::format("at most {} counts from the start", parameters::max_count)}};
@@ -260,13 +276,14 @@ double shortest_count(parameters::AxisKind axis, const study::ParameterRange& en
 
 // Targets in rad are counts of an encoder that may be too fine for them.
 ValueRule reach_of_positions(const study::StudyPlan& plan, bool sequence) {
-  ValueRule rule{{fine_encoder_name(plan)}, true, {}};
-  if (sequence) rule.between.emplace_back("command.sequence.overrun");
-  rule.find_faults = [axis = plan.units.axis](Limits l, Limits targets) -> Faults {
+  const parameter::Handle encoder = fine_encoder(plan);
+  ValueRule rule{{encoder}, true, {}};
+  if (sequence) rule.between.push_back(parameter::command::sequence::overrun);
+  rule.find_faults = [axis = plan.units.axis, encoder, sequence](const Ranges& of, Limits targets) -> Faults {
     double farthest = 0.0;
     for (const study::ParameterRange& target : targets) farthest = std::max(farthest, largest(target));
-    if (l.size() > 1) farthest += l[1].high;
-    const double counts = farthest / shortest_count(axis, l[0]);
+    if (sequence) farthest += of[parameter::command::sequence::overrun].high;
+    const double counts = farthest / shortest_count(axis, of[encoder]);
     if (!std::isfinite(counts) || counts <= parameters::max_count) return {};
     return {{fmt::format("the command can reach {:.6g} counts of this encoder", counts),
              fmt::format("at most {} counts from the start", parameters::max_count)}};
@@ -277,43 +294,50 @@ ValueRule reach_of_positions(const study::StudyPlan& plan, bool sequence) {
 ValueRule time_of_travel(const study::StudyPlan& plan) {
   const parameters::StudyUnits& units = plan.units;
   const std::optional<study::SequenceCycle>& sequence = plan.sequence;
-  enum : std::size_t { hold, window, shape, velocity, acceleration, jerk, frequency, fine, overrun };
-  ValueRule rule{{"command.hold", "verdict.window", "command.profile.shape", "command.profile.velocity_limit",
-                  "command.profile.acceleration_limit", "command.profile.jerk_limit",
-                  "command.profile.frequency", fine_encoder_name(plan)},
-                 true,
-                 {}};
-  if (sequence) rule.between.emplace_back("command.sequence.overrun");
-  rule.find_faults = [units, sequence](Limits l, Limits targets) -> Faults {
+  const parameter::Handle encoder = fine_encoder(plan);
+  ValueRule rule{
+      {parameter::command::hold, parameter::verdict::window, parameter::command::profile::shape,
+       parameter::command::profile::velocity_limit, parameter::command::profile::acceleration_limit,
+       parameter::command::profile::jerk_limit, parameter::command::profile::frequency, encoder},
+      true,
+      {}};
+  if (sequence) rule.between.push_back(parameter::command::sequence::overrun);
+  rule.find_faults = [units, sequence, encoder](const Ranges& of, Limits targets) -> Faults {
+    using profile = parameter::command::profile;
+    const double hold = of[parameter::command::hold].low;
+    const double window = of[parameter::verdict::window].high;
     loop::ReferenceProfile slowest;
-    slowest.shape = static_cast<loop::ReferenceShape>(static_cast<int>(l[shape].low));
+    slowest.shape = static_cast<loop::ReferenceShape>(static_cast<int>(of[profile::shape].low));
     if (slowest.shape == loop::ReferenceShape::step || slowest.shape == loop::ReferenceShape::record)
       return {};
     if (slowest.shape == loop::ReferenceShape::sine) {
-      if (2.0 <= l[frequency].low * l[hold].low) return {};
-      return {{fmt::format("a hold of {} s is less than two periods of a sine reference of {} Hz",
-                           l[hold].low, l[frequency].low),
+      const double frequency = of[profile::frequency].low;
+      if (2.0 <= frequency * hold) return {};
+      return {{fmt::format("a hold of {} s is less than two periods of a sine reference of {} Hz", hold,
+                           frequency),
                "at least 2/frequency: the first period is not measured"}};
     }
-    slowest.velocity_limit = l[velocity].low;
-    slowest.acceleration_limit = l[acceleration].low;
-    slowest.jerk_limit = l[jerk].low;
-    const double count = longest_count(units.axis, l[fine]);
-    const double step = sequence ? max_step_of_sequence(targets, l[overrun], *sequence) : max_step(targets);
+    slowest.velocity_limit = of[profile::velocity_limit].low;
+    slowest.acceleration_limit = of[profile::acceleration_limit].low;
+    slowest.jerk_limit = of[profile::jerk_limit].low;
+    const double count = longest_count(units.axis, of[encoder]);
+    const double step =
+        sequence ? max_step_of_sequence(targets, of[parameter::command::sequence::overrun], *sequence)
+                 : max_step(targets);
     // Each end of a travel in rad is rounded to a count.
     const bool si = units.targets == parameters::TargetUnits::si;
     const double counts = si ? std::floor(step / count) + 1.0 : step;
     if (si && !(counts <= 2.0 * parameters::max_count)) return {};  // see reach_of_positions()
     const loop::Reference travel(slowest, 0, static_cast<std::int64_t>(counts), count);
-    const double needed = travel.duration() + l[window].high;
-    if (needed <= l[hold].low) return {};
+    const double needed = travel.duration() + window;
+    if (needed <= hold) return {};
     if (!std::isfinite(needed)) {
       return {{"a limit of the profile can be so small that the travel takes for ever",
                "limits of the profile with a lowest value above 0"}};
     }
     return {{fmt::format(
                  "a travel of {} {} can take {:.6g} s, which leaves no window of {} s in the hold of {} s",
-                 step, unit_of_targets(units), travel.duration(), l[window].high, l[hold].low),
+                 step, unit_of_targets(units), travel.duration(), window, hold),
              fmt::format("command.hold at least {:.6g} s, or higher limits of the profile", needed)}};
   };
   return rule;
@@ -322,7 +346,7 @@ ValueRule time_of_travel(const study::StudyPlan& plan) {
 }  // namespace
 
 double hold_of_the_reference(const study::StudyPlan& plan) {
-  const std::size_t rate = study::find_slots("controller.sample_rate", plan.table).value().first;
+  const std::size_t rate = study::find_slots(parameter::controller::sample_rate, plan.table).value().first;
   const double lowest = study::range_of(plan, plan.base[rate]).low;  // not a number where it is unreadable
   return loop::record_duration(plan.common.command.profile.record->time, lowest > 0.0 ? 1.0 / lowest : 0.0);
 }
@@ -333,8 +357,9 @@ std::string_view record_key(const study::StudyPlan& plan) {
 
 std::vector<ValueRule> command_rules(const study::StudyPlan& plan) {
   std::vector<ValueRule> rules{
-      highest_value("command.hold", "a distribution of the hold with a highest value"),
-      highest_value("controller.sample_rate", "a distribution of the sample rate with a highest value")};
+      highest_value(parameter::command::hold, "a distribution of the hold with a highest value"),
+      highest_value(parameter::controller::sample_rate,
+                    "a distribution of the sample rate with a highest value")};
   const auto add = [&rules](const std::vector<ValueRule>& more) {
     rules.insert(rules.end(), more.begin(), more.end());
   };

@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "core/friction/law.hpp"
+#include "experiments/parameters/handles.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/parameters/phase_path.hpp"
 #include "experiments/rules/value_rules.hpp"
@@ -16,7 +17,6 @@ namespace zerocount::rules {
 namespace {
 
 using Keys = std::vector<std::string_view>;
-using Limits = std::span<const study::ParameterRange>;
 using parameters::Phase;
 using parameters::phase_path;
 using study::ParameterRange;
@@ -38,34 +38,35 @@ bool can_be_positive(const ParameterRange& range) {
 
 /// One parameter that decides whether keys have an effect.
 struct Switch {
-  std::string_view parameter;
+  parameter::Handle parameter;
   std::function<bool(const ParameterRange&)> is_on;
   std::string on;  ///< text for messages: how a manifest turns the switch on
 };
 
-Switch above_zero(std::string_view parameter) {
-  return {parameter, can_be_positive, fmt::format("{} above 0", parameter)};
+Switch above_zero(parameter::Handle parameter) {
+  return {parameter, can_be_positive, fmt::format("{} above 0", parameter.path)};
 }
 
 /// A switch that is on if the manifest gives the parameter. The default of the parameter must be negative.
-Switch given(std::string_view parameter) {
+Switch given(parameter::Handle parameter) {
   return {parameter, [](const ParameterRange& range) { return range.high >= 0.0; },
-          fmt::format("{} too", parameter)};
+          fmt::format("{} too", parameter.path)};
 }
 
 /// A switch for a parameter with labels: it is on if the parameter has one of these labels.
 template <class Word>
-Switch one_of(std::string_view parameter, std::initializer_list<Word> words) {
+Switch one_of(parameter::Handle parameter, std::initializer_list<Word> words) {
   const auto& labels = parameters::parameter_table()[parameters::find_parameter(parameter).value()].labels;
   Keys named;
   for (const Word word : words) named.push_back(labels[static_cast<std::size_t>(word)]);
   const std::string_view last = named.back();
   named.pop_back();
-  return {parameter,
-          [all = std::vector<Word>(words)](const ParameterRange& range) {
-            return std::ranges::any_of(all, [&](Word word) { return is_word(range, word); });
-          },
-          fmt::format("{}: {}{}{}", parameter, fmt::join(named, ", "), named.empty() ? "" : " or ", last)};
+  return {
+      parameter,
+      [all = std::vector<Word>(words)](const ParameterRange& range) {
+        return std::ranges::any_of(all, [&](Word word) { return is_word(range, word); });
+      },
+      fmt::format("{}: {}{}{}", parameter.path, fmt::join(named, ", "), named.empty() ? "" : " or ", last)};
 }
 
 std::string no_effect(std::string_view reason) {
@@ -77,7 +78,7 @@ std::string no_effect(std::string_view reason) {
 EffectRule only_with(const Switch& by, Keys keys, std::string_view off) {
   return {.keys = std::move(keys),
           .depends_on = {by.parameter},
-          .has_effect = [is_on = by.is_on](Limits l) { return is_on(l[0]); },
+          .has_effect = [by](const Ranges& of) { return by.is_on(of[by.parameter]); },
           .what = no_effect(off),
           .expected = fmt::format("{}{}", by.on, or_left_out)};
 }
@@ -85,7 +86,7 @@ EffectRule only_with(const Switch& by, Keys keys, std::string_view off) {
 /// The rule for keys that have no effect in this kind of study.
 EffectRule idle(Keys keys, std::string what, std::string_view instead) {
   return {.keys = std::move(keys),
-          .has_effect = [](Limits) { return false; },
+          .has_effect = [](const Ranges&) { return false; },
           .what = std::move(what),
           .expected = fmt::format("{}{}", instead, or_left_out)};
 }
@@ -114,19 +115,19 @@ std::vector<EffectRule> rules_of_the_kind(const study::StudyPlan& plan) {
   if (plan.open_loop) {
     constexpr const char* open = "the loop is open with command.torque";
     constexpr const char* closed = "command.targets, reference or sequence";
-    rules.push_back(
-        except({"controller.sample_rate", "controller.delay", "controller.jitter", "controller.parameters"},
-               idle({"controller", "command.profile", "verdict"}, no_effect(open), closed)));
-    rules.push_back(unless_zero(idle({"initial.integral"}, no_effect(open), closed)));
-    rules.push_back(only_with(one_of("command.torque.through", {trial::TorquePath::dac}), {"dac"},
+    rules.push_back(except({parameter::controller::sample_rate, parameter::controller::delay,
+                            parameter::controller::jitter, "controller.parameters"},
+                           idle({"controller", "command.profile", "verdict"}, no_effect(open), closed)));
+    rules.push_back(unless_zero(idle({parameter::initial::integral}, no_effect(open), closed)));
+    rules.push_back(only_with(one_of(parameter::command::torque::through, {trial::TorquePath::dac}), {"dac"},
                               "command.torque.through is never dac"));
   } else {
     rules.push_back(idle({"command.torque"}, "it has no effect without command.torque.levels",
                          "command.torque with its levels"));
   }
   if (plan.common.command.torque.record)
-    rules.push_back(idle({"command.torque.rate"}, no_effect("command.torque.file defines the torque"),
-                         "levels with their rate"));
+    rules.push_back(idle({parameter::command::torque::rate},
+                         no_effect("command.torque.file defines the torque"), "levels with their rate"));
   if (!plan.sequence)
     rules.push_back(idle({"command.sequence"}, "it has no effect without command.sequence",
                          "command.sequence with its targets"));
@@ -134,33 +135,37 @@ std::vector<EffectRule> rules_of_the_kind(const study::StudyPlan& plan) {
 }
 
 EffectRule rule_of_the_plugin() {
-  return idle({"controller.kp", "controller.ki", "controller.kd", "controller.anti_windup",
-               "controller.structure", "controller.cascade", "controller.deadband",
-               "controller.integrator_zone", "controller.integrator_leak", "controller.derivative_cutoff",
-               "controller.derivative_window", "controller.error_deadband", "controller.standstill"},
-              no_effect("the controller is a plugin"), "controller.parameters");
+  return idle(
+      {parameter::controller::kp, parameter::controller::ki, parameter::controller::kd,
+       parameter::controller::anti_windup, parameter::controller::structure, "controller.cascade",
+       "controller.deadband", parameter::controller::integrator_zone, parameter::controller::integrator_leak,
+       parameter::controller::derivative_cutoff, parameter::controller::derivative_window,
+       "controller.error_deadband", "controller.standstill"},
+      no_effect("the controller is a plugin"), "controller.parameters");
 }
 
 std::vector<EffectRule> rules_of_the_reference() {
   using Shape = loop::ReferenceShape;
-  constexpr std::string_view shape = "command.profile.shape";
-  return {
-      only_with(one_of(shape, {Shape::trapezoidal, Shape::s_curve}),
-                {"command.profile.velocity_limit", "command.profile.acceleration_limit"},
-                "the reference goes from target to target in steps, or is a sine"),
-      only_with(one_of(shape, {Shape::sine}), {"command.profile.amplitude", "command.profile.frequency"},
-                "the reference is never a sine"),
-      only_with(one_of("verdict.motion", {true}), {"verdict.rest_band"}, "the true motion is not measured"),
-      only_with(one_of(shape, {Shape::s_curve}), {"command.profile.jerk_limit"},
-                "the reference is never an s_curve")};
+  constexpr parameter::Handle shape = parameter::command::profile::shape;
+  return {only_with(
+              one_of(shape, {Shape::trapezoidal, Shape::s_curve}),
+              {parameter::command::profile::velocity_limit, parameter::command::profile::acceleration_limit},
+              "the reference goes from target to target in steps, or is a sine"),
+          only_with(one_of(shape, {Shape::sine}),
+                    {parameter::command::profile::amplitude, parameter::command::profile::frequency},
+                    "the reference is never a sine"),
+          only_with(one_of(parameter::verdict::motion, {true}), {parameter::verdict::rest_band},
+                    "the true motion is not measured"),
+          only_with(one_of(shape, {Shape::s_curve}), {parameter::command::profile::jerk_limit},
+                    "the reference is never an s_curve")};
 }
 
 /// The rule for keys that act only if the reference moves.
 EffectRule with_a_moving_reference(Keys keys) {
   using Shape = loop::ReferenceShape;
-  return unless_zero(only_with(
-      one_of("command.profile.shape", {Shape::trapezoidal, Shape::s_curve, Shape::sine, Shape::record}),
-      std::move(keys), "the reference is a step at every point"));
+  return unless_zero(only_with(one_of(parameter::command::profile::shape,
+                                      {Shape::trapezoidal, Shape::s_curve, Shape::sine, Shape::record}),
+                               std::move(keys), "the reference is a step at every point"));
 }
 
 // The other parameters of an effect act only with it.
@@ -168,70 +173,80 @@ std::vector<EffectRule> rules_of_shapes() {
   std::vector<EffectRule> rules;
   for (const study::Effect& effect : study::effects())
     if (!effect.shape.empty())
-      rules.push_back(
-          only_with(above_zero(effect.parameter), {effect.shape}, "that error is 0 at every point"));
+      rules.push_back(only_with(above_zero(parameter::Handle(effect.parameter)), {effect.shape},
+                                "that error is 0 at every point"));
   return rules;
 }
 
 // With an encoder on each mass there is no coarse one.
 std::vector<EffectRule> rules_of_two_encoders() {
-  const Keys second{"encoder.load.counts_per_revolution", "encoder.load.resolution"};
-  return {{.keys = {"encoder.load.fine_errors", "initial.load_encoder_phase"},
-           .depends_on = second,
-           .has_effect = [](Limits l) { return can_be_positive(l[0]) || can_be_positive(l[1]); },
-           .what = no_effect("no point has an encoder on the second mass"),
-           .expected = fmt::format("encoder.load{}", or_left_out)},
-          {.keys = {"encoder.coarse", "encoder.coarse_resolution", "encoder.coarse_errors"},
-           .depends_on = second,
-           .has_effect = [](Limits l) { return !(l[0].low > 0.0 || l[1].low > 0.0); },
-           .what = no_effect("beside encoder.fine, which reads the motor, encoder.load reads the load"),
-           .expected = "either a coarse encoder or encoder.load"}};
+  const std::vector<parameter::Handle> second{parameter::encoder::load::counts_per_revolution,
+                                              parameter::encoder::load::resolution};
+  return {
+      {.keys = {"encoder.load.fine_errors", parameter::initial::load_encoder_phase},
+       .depends_on = second,
+       .has_effect = [](const Ranges& of) { return std::ranges::any_of(of.all(), can_be_positive); },
+       .what = no_effect("no point has an encoder on the second mass"),
+       .expected = fmt::format("encoder.load{}", or_left_out)},
+      {.keys = {parameter::encoder::coarse, parameter::encoder::coarse_resolution, "encoder.coarse_errors"},
+       .depends_on = second,
+       .has_effect =
+           [](const Ranges& of) {
+             return std::ranges::none_of(of.all(),
+                                         [](const ParameterRange& range) { return range.low > 0.0; });
+           },
+       .what = no_effect("beside encoder.fine, which reads the motor, encoder.load reads the load"),
+       .expected = "either a coarse encoder or encoder.load"}};
 }
 
 std::vector<EffectRule> rules_of_the_loop() {
-  constexpr std::string_view beyond = "controller.coarse.coarse_beyond";
-  const Switch coarse{beyond, study::can_have_coarse_phase, fmt::format("{} below 1e12", beyond)};
+  constexpr parameter::Handle beyond = parameter::controller::coarse::coarse_beyond;
+  const Switch coarse{beyond, study::can_have_coarse_phase, fmt::format("{} below 1e12", beyond.path)};
   return {except({beyond}, only_with(coarse, {"controller.coarse"}, "no point has a coarse phase")),
-          only_with(above_zero("controller.dither.amplitude"), {"controller.dither.frequency"},
-                    "no point has a dither")};
+          only_with(above_zero(parameter::controller::dither::amplitude),
+                    {parameter::controller::dither::frequency}, "no point has a dither")};
 }
 
 // Rules of the blocks of one phase. If a gain may be 0 on purpose, as in a sweep, only warnings.
 template <Phase phase>
 std::vector<EffectRule> rules_of_the_blocks() {
   using Structure = loop::ControlStructure;
-  constexpr std::string_view structure = phase_path<phase, "structure">;
-  const auto is_cascade = [](const ParameterRange& l) { return is_word(l, Structure::cascade); };
+  using Control = parameter::Control<phase>;
+  constexpr parameter::Handle structure = Control::structure;
+  const auto is_cascade = [](const Ranges& of) {
+    return is_word(of[Control::structure], Structure::cascade);
+  };
   return {
-      only_with(given(phase_path<phase, "error_deadband.band">), {phase_path<phase, "error_deadband.form">},
+      only_with(given(Control::error_deadband::band), {Control::error_deadband::form},
                 "no point has a dead zone of the error"),
-      only_with(given(phase_path<phase, "hold.enter">),
-                {phase_path<phase, "hold.leave">, phase_path<phase, "hold.dwell">},
+      only_with(given(Control::hold::enter), {Control::hold::leave, Control::hold::dwell},
                 "the torque is never held"),
-      only_with(given(phase_path<phase, "standstill.band">),
-                {phase_path<phase, "standstill.dwell">, phase_path<phase, "standstill.kp">,
-                 phase_path<phase, "standstill.ki">, phase_path<phase, "standstill.kd">},
+      only_with(given(Control::standstill::band),
+                {Control::standstill::dwell, Control::standstill::kp, Control::standstill::ki,
+                 Control::standstill::kd},
                 "no point has gains at standstill"),
       only_with(one_of(structure, {Structure::pid}),
-                {phase_path<phase, "standstill">, phase_path<phase, "kp">, phase_path<phase, "ki">,
-                 phase_path<phase, "kd">},
+                {phase_path<phase, "standstill">, Control::kp, Control::ki, Control::kd},
                 "the control is a cascade at every point"),
       only_with(one_of(structure, {Structure::cascade}), {phase_path<phase, "cascade">},
                 "the control is never a cascade"),
-      only_with(given(phase_path<phase, "deadband.enter">), {phase_path<phase, "deadband.leave">},
-                "no point has a deadband"),
-      only_with(above_zero(phase_path<phase, "observer.bandwidth">), {phase_path<phase, "observer.inertia">},
+      only_with(given(Control::deadband::enter), {Control::deadband::leave}, "no point has a deadband"),
+      only_with(above_zero(Control::observer::bandwidth), {Control::observer::inertia},
                 "no point has a disturbance observer"),
       with_a_moving_reference({phase_path<phase, "feedforward">}),
-      {.keys = {phase_path<phase, "deadband">, phase_path<phase, "integrator_zone">},
-       .depends_on = {structure, phase_path<phase, "ki">, phase_path<phase, "cascade.ki">},
-       .has_effect = [is_cascade](Limits l) { return can_be_positive(is_cascade(l[0]) ? l[2] : l[1]); },
+      {.keys = {phase_path<phase, "deadband">, Control::integrator_zone},
+       .depends_on = {structure, Control::ki, Control::cascade::ki},
+       .has_effect =
+           [is_cascade](const Ranges& of) {
+             return can_be_positive(is_cascade(of) ? of[Control::cascade::ki] : of[Control::ki]);
+           },
        .what = no_effect("no point has integral control"),
        .off_at_zero = true,
        .warn_only = true},
-      {.keys = {phase_path<phase, "derivative_cutoff">},
-       .depends_on = {structure, phase_path<phase, "kd">},
-       .has_effect = [is_cascade](Limits l) { return is_cascade(l[0]) || can_be_positive(l[1]); },
+      {.keys = {Control::derivative_cutoff},
+       .depends_on = {structure, Control::kd},
+       .has_effect =
+           [is_cascade](const Ranges& of) { return is_cascade(of) || can_be_positive(of[Control::kd]); },
        .what = no_effect("the control never uses the difference of counts"),
        .off_at_zero = true,
        .warn_only = true},
@@ -239,35 +254,38 @@ std::vector<EffectRule> rules_of_the_blocks() {
 }
 
 std::vector<EffectRule> rules_of_the_drive() {
-  return {with_a_moving_reference({"controller.cascade.feedforward"}),
-          {.keys = {"controller.derivative_window"},
-           .depends_on = {"controller.structure", "controller.kd", "controller.standstill.kd"},
+  return {with_a_moving_reference({parameter::controller::cascade::feedforward}),
+          {.keys = {parameter::controller::derivative_window},
+           .depends_on = {parameter::controller::structure, parameter::controller::kd,
+                          parameter::controller::standstill::kd},
            .has_effect =
-               [](Limits l) {
-                 return is_word(l[0], loop::ControlStructure::cascade) || can_be_positive(l[1]) ||
-                        can_be_positive(l[2]);
+               [](const Ranges& of) {
+                 return is_word(of[parameter::controller::structure], loop::ControlStructure::cascade) ||
+                        can_be_positive(of[parameter::controller::kd]) ||
+                        can_be_positive(of[parameter::controller::standstill::kd]);
                },
            .what = no_effect("the control never uses the difference of counts"),
            .warn_only = true}};
 }
 
 EffectRule rule_of_the_resolution() {
-  return {.keys = {"dac.resolution"},
-          .depends_on = {"dac.range"},
-          .has_effect = [](Limits l) { return !can_be_positive(l[0]); },
+  return {.keys = {parameter::dac::resolution},
+          .depends_on = {parameter::dac::range},
+          .has_effect = [](const Ranges& of) { return !can_be_positive(of[parameter::dac::range]); },
           .what = no_effect("dac.range gives the resolution at every point"),
           .expected = "either dac.resolution or dac.range"};
 }
 
 std::vector<EffectRule> rules_of_the_load() {
   return {
-      except({"plant.load.inertia"}, only_with(above_zero("plant.load.inertia"),
-                                               {"plant.load", "disturbance.load", "encoder.load",
-                                                "controller.cascade.position", "controller.cascade.velocity"},
-                                               "no point has a second mass")),
-      {.keys = {"initial.gap"},
-       .depends_on = {"plant.load.inertia", "plant.load.gap"},
-       .has_effect = [](Limits l) { return can_be_positive(l[0]) && can_be_positive(l[1]); },
+      except({parameter::plant::load::inertia},
+             only_with(above_zero(parameter::plant::load::inertia),
+                       {"plant.load", "disturbance.load", "encoder.load",
+                        parameter::controller::cascade::position, parameter::controller::cascade::velocity},
+                       "no point has a second mass")),
+      {.keys = {parameter::initial::gap},
+       .depends_on = {parameter::plant::load::inertia, parameter::plant::load::gap},
+       .has_effect = [](const Ranges& of) { return std::ranges::all_of(of.all(), can_be_positive); },
        .what = no_effect("no point has a second mass behind a gap"),
        .expected = fmt::format("plant.load.gap above 0{}", or_left_out)}};
 }
@@ -276,30 +294,34 @@ std::vector<EffectRule> rules_of_the_load() {
 std::vector<EffectRule> rules_of_the_load_friction() {
   using Model = friction::LoadFrictionModel;
   const auto rule = [](std::initializer_list<Model> models, Keys keys) {
-    Switch model = one_of("plant.load.friction.model", models);
+    Switch model = one_of(parameter::plant::load::friction::model, models);
     model.on = "another plant.load.friction.model";
     return only_with(model, std::move(keys), "plant.load.friction.model has no such parameter at any point");
   };
-  return {rule({Model::coulomb, Model::dahl, Model::lugre},
-               {"plant.load.friction.breakaway", "plant.load.friction.coulomb_ratio"}),
-          rule({Model::coulomb, Model::lugre}, {"plant.load.friction.stribeck_velocity"}),
-          rule({Model::dahl, Model::lugre}, {"plant.load.friction.sigma0"}),
-          rule({Model::lugre}, {"plant.load.friction.sigma1"})};
+  return {
+      rule({Model::coulomb, Model::dahl, Model::lugre},
+           {parameter::plant::load::friction::breakaway, parameter::plant::load::friction::coulomb_ratio}),
+      rule({Model::coulomb, Model::lugre}, {parameter::plant::load::friction::stribeck_velocity}),
+      rule({Model::dahl, Model::lugre}, {parameter::plant::load::friction::sigma0}),
+      rule({Model::lugre}, {parameter::plant::load::friction::sigma1})};
 }
 
 std::vector<EffectRule> rules_of_the_contact() {
-  const Keys history{"initial.history.reversals", "initial.history.torque"};
-  const auto rule = [&](std::string_view key, std::string_view other, std::string_view on) {
-    return unless_zero({.keys = {key},
-                        .depends_on = history,
-                        .has_effect = [](Limits l) { return std::ranges::all_of(l, can_be_positive); },
-                        .what = no_effect(fmt::format("{} is 0 at every point", other)),
-                        .expected = fmt::format("{} {}{}", other, on, or_left_out)});
+  constexpr parameter::Handle reversals = parameter::initial::history::reversals;
+  constexpr parameter::Handle torque = parameter::initial::history::torque;
+  const auto rule = [&](parameter::Handle key, parameter::Handle other, std::string_view on) {
+    return unless_zero(
+        {.keys = {key},
+         .depends_on = {reversals, torque},
+         .has_effect = [](const Ranges& of) { return std::ranges::all_of(of.all(), can_be_positive); },
+         .what = no_effect(fmt::format("{} is 0 at every point", other.path)),
+         .expected = fmt::format("{} {}{}", other.path, on, or_left_out)});
   };
-  return {unless_zero(only_with(one_of("initial.mode", {trial::InitialMode::stick}),
-                                {"initial.hardening", "initial.preload", "initial.history"},
-                                "the hook slides at the start, at every point")),
-          rule(history[1], history[0], "at least 1"), rule(history[0], history[1], "above 0")};
+  return {
+      unless_zero(only_with(one_of(parameter::initial::mode, {trial::InitialMode::stick}),
+                            {parameter::initial::hardening, parameter::initial::preload, "initial.history"},
+                            "the hook slides at the start, at every point")),
+      rule(torque, reversals, "at least 1"), rule(reversals, torque, "above 0")};
 }
 
 // The models whose law has the property, for messages.
@@ -315,8 +337,11 @@ std::string models_with(const std::function<bool(const friction::LawTraits&)>& p
 EffectRule with_models(const std::function<bool(const friction::LawTraits&)>& property,
                        std::vector<std::string_view> keys) {
   return {.keys = std::move(keys),
-          .depends_on = {"friction.model"},
-          .has_effect = [property](Limits l) { return property(friction::traits_of(friction_model(l[0]))); },
+          .depends_on = {parameter::friction::model},
+          .has_effect =
+              [property](const Ranges& of) {
+                return property(friction::traits_of(friction_model(of[parameter::friction::model])));
+              },
           .what = fmt::format("it has no effect: friction.model is never one that uses it ({})",
                               models_with(property)),
           .off_at_zero = true,
@@ -334,15 +359,18 @@ std::vector<EffectRule> rules_of_the_model() {
   measured.expected = "friction.model: presliding or spring, or the constants of the model";
   measured.warn_only = false;
   std::vector<EffectRule> rules{
-      with_models([](const LawTraits& law) { return law.has_sliding_damping; }, {"plant.sliding_damping"}),
+      with_models([](const LawTraits& law) { return law.has_sliding_damping; },
+                  {parameter::plant::sliding_damping}),
       with_models([](const LawTraits& law) { return law.has_presliding_damping; },
-                  {"plant.presliding_damping"}),
+                  {parameter::plant::presliding_damping}),
       with_models([](const LawTraits& law) { return law.remembers_loading; },
-                  {"initial.preload", "initial.history"}),
-      with_models(has(&P::alpha), {"initial.hardening", "friction.measured.creep"}),
+                  {parameter::initial::preload, "initial.history"}),
+      with_models(has(&P::alpha), {parameter::initial::hardening, "friction.measured.creep"}),
       measured,
-      with_models(has(&P::gms_attraction), {"friction.gms.stiffness", "friction.gms.weight"}),
-      with_models([](const LawTraits& law) { return law.has_presliding_motion; }, {"initial.mode"})};
+      with_models(has(&P::gms_attraction),
+                  {parameter::friction::gms::stiffness, parameter::friction::gms::weight}),
+      with_models([](const LawTraits& law) { return law.has_presliding_motion; },
+                  {parameter::initial::mode})};
   for (const parameters::Parameter& parameter : parameters::parameter_table())
     if (parameter.profiled != nullptr)
       rules.push_back(with_models(has(parameter.profiled), {parameter.name}));
@@ -352,23 +380,30 @@ std::vector<EffectRule> rules_of_the_model() {
 // Only warnings: another value may switch off a term of friction.
 std::vector<EffectRule> rules_of_vanished_terms() {
   return {
-      {.keys = {"friction.lambda", "friction.n", "friction.measured.creep.torque",
-                "friction.measured.creep.extension", "friction.measured.creep.exponent", "initial.hardening"},
-       .depends_on = {"friction.model", "friction.alpha"},
+      {.keys = {parameter::friction::lambda, parameter::friction::n,
+                parameter::friction::measured::creep::torque, parameter::friction::measured::creep::extension,
+                parameter::friction::measured::creep::exponent, parameter::initial::hardening},
+       .depends_on = {parameter::friction::model, parameter::friction::alpha},
        .has_effect =
-           [](Limits l) { return friction::has_creep(friction_model(l[0])) && can_be_positive(l[1]); },
+           [](const Ranges& of) {
+             return friction::has_creep(friction_model(of[parameter::friction::model])) &&
+                    can_be_positive(of[parameter::friction::alpha]);
+           },
        .what = no_effect("the rate of creep is 0 wherever friction.model is presliding"),
        .off_at_zero = true,
        .warn_only = true},
-      {.keys = {"friction.beta"},
-       .depends_on = {"friction.model", "friction.k2"},
+      {.keys = {parameter::friction::beta},
+       .depends_on = {parameter::friction::model, parameter::friction::k2},
        .has_effect =
-           [](Limits l) { return friction::has_spring(friction_model(l[0])) && can_be_positive(l[1]); },
+           [](const Ranges& of) {
+             return friction::has_spring(friction_model(of[parameter::friction::model])) &&
+                    can_be_positive(of[parameter::friction::k2]);
+           },
        .what = no_effect("friction.k2 is 0 wherever friction.model has a spring"),
        .warn_only = true},
-      {.keys = {"friction.stribeck_velocity"},
-       .depends_on = {"friction.coulomb_ratio"},
-       .has_effect = [](Limits l) { return l[0].low < 1.0; },
+      {.keys = {parameter::friction::stribeck_velocity},
+       .depends_on = {parameter::friction::coulomb_ratio},
+       .has_effect = [](const Ranges& of) { return of[parameter::friction::coulomb_ratio].low < 1.0; },
        .what = no_effect("friction.coulomb_ratio is 1 at every point"),
        .warn_only = true},
   };
@@ -382,10 +417,12 @@ bool has_element(const study::StudyPlan& plan, std::initializer_list<std::string
 }
 
 EffectRule rule_of_holding(const study::StudyPlan& plan) {
-  return {.keys = {"initial.holding"},
-          .depends_on = {"disturbance.torque", "disturbance.load.torque"},
-          .has_effect = [tilts = has_element(plan, {"disturbance.load.ripple."})](
-                            Limits l) { return tilts || std::ranges::any_of(l, study::can_be_nonzero); },
+  return {.keys = {parameter::initial::holding},
+          .depends_on = {parameter::disturbance::torque, parameter::disturbance::load::torque},
+          .has_effect =
+              [tilts = has_element(plan, {"disturbance.load.ripple."})](const Ranges& of) {
+                return tilts || std::ranges::any_of(of.all(), study::can_be_nonzero);
+              },
           .what = no_effect("nothing constant acts on the axis at any point"),
           .warn_only = true};
 }
@@ -396,14 +433,15 @@ EffectRule rule_of_the_position(const study::StudyPlan& plan) {
       !plan.profiles.empty() ||
       has_element(plan, {"disturbance.ripple.", "disturbance.load.ripple.", "plant.load.error."});
   EffectRule rule{
-      .keys = {"initial.position"},
-      .has_effect = [varies](Limits l) { return varies || std::ranges::any_of(l, can_be_positive); },
+      .keys = {parameter::initial::position},
+      .has_effect =
+          [varies](const Ranges& of) { return varies || std::ranges::any_of(of.all(), can_be_positive); },
       .what = no_effect("nothing varies along the $track, neither a friction profile, a ripple nor an "
                         "eccentricity or interpolation error of an encoder"),
       .off_at_zero = true,
       .warn_only = true};
   for (const study::Effect& effect : study::effects())
-    if (effect.along_track) rule.depends_on.push_back(effect.parameter);
+    if (effect.along_track) rule.depends_on.emplace_back(effect.parameter);
   return rule;
 }
 
@@ -416,7 +454,8 @@ std::vector<EffectRule> effect_rules(const study::StudyPlan& plan) {
   };
   add(rules_of_the_reference());
   add({rule_of_the_position(plan), rule_of_holding(plan),
-       warning(only_with(above_zero("verdict.stop"), {"verdict.limit"}, "verdict.stop is never true"))});
+       warning(only_with(above_zero(parameter::verdict::stop), {parameter::verdict::limit},
+                         "verdict.stop is never true"))});
   add(rules_of_the_load());
   add({rule_of_the_resolution()});
   if (plan.plugin != nullptr) add({rule_of_the_plugin()});
@@ -441,8 +480,8 @@ bool covers(const EffectRule& rule, std::string_view name) {
 }
 
 bool can_have_effect(const study::StudyPlan& plan, const EffectRule& rule) {
-  return study::holds_somewhere(plan, rule.depends_on, [&](std::span<const study::ParameterRange> ranges) {
-    return !study::are_readable(ranges) || rule.has_effect(ranges);
+  return study::holds_somewhere(plan, rule.depends_on, [&](const Ranges& of) {
+    return !study::are_readable(of.all()) || rule.has_effect(of);
   });
 }
 

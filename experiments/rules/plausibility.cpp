@@ -1,32 +1,27 @@
 #include <numbers>
 #include <utility>
 
+#include "experiments/parameters/handles.hpp"
 #include "experiments/rules/value_rules.hpp"
 #include "experiments/study/point_limits.hpp"
 
 namespace zerocount::rules {
 
-ValueRule plausibility_rule(
-    std::vector<std::string_view> between,
-    std::function<std::vector<ValueFault>(std::span<const study::ParameterRange>)> find_faults) {
-  ValueRule rule{std::move(between), false, {}};
-  rule.find_faults = [find = std::move(find_faults)](std::span<const study::ParameterRange> parameters,
-                                                     std::span<const study::ParameterRange>) {
-    return find(parameters);
-  };
-  rule.warn_only = true;
+ValueRule plausible(std::vector<parameter::Handle> parameters,
+                    std::function<std::vector<ValueFault>(const Ranges& of)> find_faults) {
+  ValueRule rule = warning(between(std::move(parameters), std::move(find_faults)));
   rule.once = true;
   return rule;
 }
 
-std::string_view fine_encoder_name(const study::StudyPlan& plan) {
+parameter::Handle fine_encoder(const study::StudyPlan& plan) {
   const bool linear = plan.units.axis == parameters::AxisKind::linear;
-  const bool of_load =
-      study::holds_somewhere(plan, study::two_encoders, [](std::span<const study::ParameterRange> ranges) {
-        return study::has_two_encoders(ranges) && study::closes_at_load(ranges);
-      });
-  if (of_load) return linear ? "encoder.load.resolution" : "encoder.load.counts_per_revolution";
-  return linear ? "encoder.resolution" : "encoder.fine";
+  const bool of_load = study::holds_somewhere(plan, study::two_encoders, [](const Ranges& of) {
+    return study::has_two_encoders(of) && study::closes_at_load(of);
+  });
+  if (of_load)
+    return linear ? parameter::encoder::load::resolution : parameter::encoder::load::counts_per_revolution;
+  return linear ? parameter::encoder::resolution : parameter::encoder::fine;
 }
 
 double typical_count(const study::StudyPlan& plan, double encoder) {

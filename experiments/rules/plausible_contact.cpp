@@ -4,6 +4,7 @@
 
 #include "core/friction/law.hpp"
 #include "core/friction/presliding/spring.hpp"
+#include "experiments/parameters/handles.hpp"
 #include "experiments/rules/value_rules.hpp"
 
 namespace zerocount::rules {
@@ -42,10 +43,14 @@ bool is_measured(const study::StudyPlan& plan) {
 
 ValueRule initial_stiffness(const study::StudyPlan& plan) {
   return plausible(
-      {"friction.k2", "friction.k1", "friction.beta", "friction.breakaway", "friction.model"},
-      [unit = parameters::unit_on(plan.units.axis, "N m/rad")](const auto& k2, const auto& k1,
-                                                               const auto& beta, const auto& breakaway,
-                                                               const auto& model) -> Faults {
+      {parameter::friction::k2, parameter::friction::k1, parameter::friction::beta,
+       parameter::friction::breakaway, parameter::friction::model},
+      [unit = parameters::unit_on(plan.units.axis, "N m/rad")](const Ranges& of) -> Faults {
+        const study::ParameterRange& k2 = of[parameter::friction::k2];
+        const study::ParameterRange& k1 = of[parameter::friction::k1];
+        const study::ParameterRange& beta = of[parameter::friction::beta];
+        const study::ParameterRange& breakaway = of[parameter::friction::breakaway];
+        const study::ParameterRange& model = of[parameter::friction::model];
         const double initial = k1.typical + k2.typical;
         const double mean = breakaway.typical / range_of(k1, k2, beta, breakaway);
         if (!has_spring(model) || initial <= max_initial_ratio * mean) return {};
@@ -58,9 +63,14 @@ ValueRule initial_stiffness(const study::StudyPlan& plan) {
 
 ValueRule softening_of_measured() {
   return plausible(
-      {"friction.beta", "friction.breakaway", "friction.k1", "friction.k2", "friction.model"},
-      [](const auto& beta, const auto& breakaway, const auto& k1, const auto& k2,
-         const auto& model) -> Faults {
+      {parameter::friction::beta, parameter::friction::breakaway, parameter::friction::k1,
+       parameter::friction::k2, parameter::friction::model},
+      [](const Ranges& of) -> Faults {
+        const study::ParameterRange& beta = of[parameter::friction::beta];
+        const study::ParameterRange& breakaway = of[parameter::friction::breakaway];
+        const study::ParameterRange& k1 = of[parameter::friction::k1];
+        const study::ParameterRange& k2 = of[parameter::friction::k2];
+        const study::ParameterRange& model = of[parameter::friction::model];
         const double softening = beta.typical * range_of(k1, k2, beta, breakaway);
         if (!has_spring(model) || softening >= min_softening) return {};
         return {
@@ -73,9 +83,14 @@ ValueRule softening_of_measured() {
 
 ValueRule softening(const std::string& unit, const std::string& micro_unit) {
   return plausible(
-      {"friction.beta", "friction.breakaway", "friction.k1", "friction.k2", "friction.model"},
-      [unit, micro_unit](const auto& beta, const auto& breakaway, const auto& k1, const auto& k2,
-                         const auto& model) -> Faults {
+      {parameter::friction::beta, parameter::friction::breakaway, parameter::friction::k1,
+       parameter::friction::k2, parameter::friction::model},
+      [unit, micro_unit](const Ranges& of) -> Faults {
+        const study::ParameterRange& beta = of[parameter::friction::beta];
+        const study::ParameterRange& breakaway = of[parameter::friction::breakaway];
+        const study::ParameterRange& k1 = of[parameter::friction::k1];
+        const study::ParameterRange& k2 = of[parameter::friction::k2];
+        const study::ParameterRange& model = of[parameter::friction::model];
         const double softening = beta.typical * range_of(k1, k2, beta, breakaway);
         if (!has_spring(model) || k2.typical == 0.0 || softening >= min_softening) return {};
         return {{fmt::format("the spring slides before it softens from k1 + k2 to k1: beta times the "
@@ -87,13 +102,18 @@ ValueRule softening(const std::string& unit, const std::string& micro_unit) {
 }
 
 ValueRule counts_before_sliding(const study::StudyPlan& plan) {
+  const parameter::Handle of_encoder = fine_encoder(plan);
   return plausible(
-      {"friction.breakaway", "friction.k1", "friction.k2", "friction.beta", fine_encoder_name(plan),
-       "friction.model"},
-      [&plan, torque = parameters::unit_on(plan.units.axis, "N m"),
-       length = parameters::unit_on(plan.units.axis, "rad")](
-          const auto& breakaway, const auto& k1, const auto& k2, const auto& beta, const auto& encoder,
-          const auto& model) -> Faults {
+      {parameter::friction::breakaway, parameter::friction::k1, parameter::friction::k2,
+       parameter::friction::beta, of_encoder, parameter::friction::model},
+      [&plan, of_encoder, torque = parameters::unit_on(plan.units.axis, "N m"),
+       length = parameters::unit_on(plan.units.axis, "rad")](const Ranges& of) -> Faults {
+        const study::ParameterRange& breakaway = of[parameter::friction::breakaway];
+        const study::ParameterRange& k1 = of[parameter::friction::k1];
+        const study::ParameterRange& k2 = of[parameter::friction::k2];
+        const study::ParameterRange& beta = of[parameter::friction::beta];
+        const study::ParameterRange& encoder = of[of_encoder];
+        const study::ParameterRange& model = of[parameter::friction::model];
         const double range = range_of(k1, k2, beta, breakaway);
         const double count = typical_count(plan, encoder.typical);
         if (!has_spring(model) || range / count >= min_counts) return {};

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/friction/law.hpp"
+#include "experiments/parameters/handles.hpp"
 #include "experiments/rules/value_rules.hpp"
 
 namespace zerocount::rules {
@@ -37,7 +38,9 @@ Stiffness stiffness_at_rest(friction::FrictionModel model, double k1, double k2,
 
 std::vector<ValueRule> plausible_delay(const study::StudyPlan&) {
   return {plausible(
-      {"controller.delay", "controller.sample_rate"}, [](const auto& of_delay, const auto& rate) -> Faults {
+      {parameter::controller::delay, parameter::controller::sample_rate}, [](const Ranges& of) -> Faults {
+        const study::ParameterRange& of_delay = of[parameter::controller::delay];
+        const study::ParameterRange& rate = of[parameter::controller::sample_rate];
         const double delay = of_delay.typical;
         if (delay > max_delay)
           return {{fmt::format("a delay of {:.6g} samples is {:.3g} s at {:.6g} Hz", delay,
@@ -56,10 +59,15 @@ std::vector<ValueRule> plausible_dynamics(const study::StudyPlan& plan) {
   const std::string kg = parameters::unit_on(plan.units.axis, "kg m^2");
   const std::string stiff = parameters::unit_on(plan.units.axis, "N m/rad");
   return {plausible(
-      {"plant.inertia", "friction.k1", "friction.k2", "friction.sigma0", "controller.sample_rate",
-       "friction.model"},
-      [kg, stiff](const auto& inertia, const auto& k1, const auto& k2, const auto& sigma0, const auto& rate,
-                  const auto& of_model) -> Faults {
+      {parameter::plant::inertia, parameter::friction::k1, parameter::friction::k2,
+       parameter::friction::sigma0, parameter::controller::sample_rate, parameter::friction::model},
+      [kg, stiff](const Ranges& of) -> Faults {
+        const study::ParameterRange& inertia = of[parameter::plant::inertia];
+        const study::ParameterRange& k1 = of[parameter::friction::k1];
+        const study::ParameterRange& k2 = of[parameter::friction::k2];
+        const study::ParameterRange& sigma0 = of[parameter::friction::sigma0];
+        const study::ParameterRange& rate = of[parameter::controller::sample_rate];
+        const study::ParameterRange& of_model = of[parameter::friction::model];
         const auto model = static_cast<friction::FrictionModel>(static_cast<int>(of_model.low));
         const Stiffness k = stiffness_at_rest(model, k1.typical, k2.typical, sigma0.typical);
         if (k.value == 0.0) return {};

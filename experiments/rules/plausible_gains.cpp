@@ -1,10 +1,13 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
 
 #include "core/loop/dac.hpp"
 #include "core/theory/gains.hpp"
+#include "experiments/parameters/handles.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/parameters/phase_path.hpp"
 #include "experiments/rules/value_rules.hpp"
@@ -12,13 +15,12 @@
 namespace zerocount::rules {
 namespace {
 
-using Limits = std::span<const study::ParameterRange>;
 using Faults = std::vector<ValueFault>;
 
 /// A gain of one phase of the control.
 struct Gain {
-  std::string_view name;
-  std::string_view structure;                 ///< parameter with the control structure of the gain's phase
+  parameter::Handle handle;
+  parameter::Handle structure;                ///< parameter with the control structure of the gain's phase
   double theory::AnalogueGains::*continuous;  ///< the gain in SI units
   double loop::PidGains::*sampled;            ///< the gain per count
   std::string_view action;                    ///< effect of the gain on one count, for messages
@@ -32,33 +34,49 @@ using loop::PidGains;
 using theory::AnalogueGains;
 
 constexpr std::array<Gain, 6> gains{
-    {{"controller.kp", "controller.structure", &AnalogueGains::kp, &PidGains::kp, by_error},
-     {"controller.ki", "controller.structure", &AnalogueGains::ki, &PidGains::ki, by_sum},
-     {"controller.kd", "controller.structure", &AnalogueGains::kd, &PidGains::kd, by_change},
-     {"controller.coarse.kp", "controller.coarse.structure", &AnalogueGains::kp, &PidGains::kp, by_error},
-     {"controller.coarse.ki", "controller.coarse.structure", &AnalogueGains::ki, &PidGains::ki, by_sum},
-     {"controller.coarse.kd", "controller.coarse.structure", &AnalogueGains::kd, &PidGains::kd, by_change}}};
-
-// The limits of the parameters of a rule, in their order.
-enum : std::size_t { value, structure, bits, resolution, range, sample_rate, encoder, coarse_beyond };
+    {{parameter::controller::kp, parameter::controller::structure, &AnalogueGains::kp, &PidGains::kp,
+      by_error},
+     {parameter::controller::ki, parameter::controller::structure, &AnalogueGains::ki, &PidGains::ki, by_sum},
+     {parameter::controller::kd, parameter::controller::structure, &AnalogueGains::kd, &PidGains::kd,
+      by_change},
+     {parameter::controller::coarse::kp, parameter::controller::coarse::structure, &AnalogueGains::kp,
+      &PidGains::kp, by_error},
+     {parameter::controller::coarse::ki, parameter::controller::coarse::structure, &AnalogueGains::ki,
+      &PidGains::ki, by_sum},
+     {parameter::controller::coarse::kd, parameter::controller::coarse::structure, &AnalogueGains::kd,
+      &PidGains::kd, by_change}}};
 
 /// The gain in torque per count.
-double per_count(const study::StudyPlan& plan, const Gain& gain, Limits l) {
-  if (plan.units.gains == parameters::GainUnits::count) return l[value].typical;
+double per_count(const study::StudyPlan& plan, const Gain& gain, const Ranges& of) {
+  const double value = of[gain.handle].typical;
+  if (plan.units.gains == parameters::GainUnits::count) return value;
   loop::ControllerParameters controller;
-  controller.sample_rate = l[sample_rate].typical;
+  controller.sample_rate = of[parameter::controller::sample_rate].typical;
   loop::EncoderParameters encoders;
   encoders.fine = 1.0;
-  encoders.fine_length = typical_count(plan, l[encoder].typical);
+  encoders.fine_length = typical_count(plan, of[fine_encoder(plan)].typical);
   AnalogueGains continuous;
-  continuous.*gain.continuous = l[value].typical;
+  continuous.*gain.continuous = value;
   return theory::sampled_gains(continuous, controller, encoders).*gain.sampled;
 }
 
+/// Parameters that all rules about gains depend on, beside the gains.
+std::vector<parameter::Handle> parameters_of_the_loop(const study::StudyPlan& plan) {
+  return {parameter::dac::bits,  parameter::dac::resolution,
+          parameter::dac::range, parameter::controller::sample_rate,
+          fine_encoder(plan),    parameter::controller::coarse::coarse_beyond};
+}
+
 /// Largest torque of the converter.
-double max_torque(Limits l) {
-  loop::DacParameters dac{.bits = static_cast<int>(l[bits].typical), .resolution = l[resolution].typical};
-  return l[range].typical > 0.0 ? l[range].typical : -loop::lowest_torque(dac);
+double max_torque(const Ranges& of) {
+  loop::DacParameters dac{.bits = static_cast<int>(of[parameter::dac::bits].typical),
+                          .resolution = of[parameter::dac::resolution].typical};
+  const double range = of[parameter::dac::range].typical;
+  return range > 0.0 ? range : -loop::lowest_torque(dac);
+}
+
+bool can_have_coarse_phase(const Ranges& of) {
+  return study::can_have_coarse_phase(of[parameter::controller::coarse::coarse_beyond]);
 }
 
 /// The action of a gain, and the torque that the gain commands by it, N m.
@@ -69,73 +87,65 @@ struct TorqueOf {
 
 ValueRule within_the_converter(const study::StudyPlan& plan, const Gain& gain) {
   const parameters::Parameter& row =
-      parameters::parameter_table()[parameters::find_parameter(gain.name).value()];
-  const bool coarse = gain.name.starts_with("controller.coarse.");
-  return plausibility_rule(
-      {gain.name, gain.structure, "dac.bits", "dac.resolution", "dac.range", "controller.sample_rate",
-       fine_encoder_name(plan), "controller.coarse.coarse_beyond"},
-      [&plan, &gain, &row, coarse](Limits l) -> Faults {
-        if (l[structure].low != static_cast<double>(loop::ControlStructure::pid)) return {};
-        if (coarse && !study::can_have_coarse_phase(l[coarse_beyond])) return {};
-        const double torque = per_count(plan, gain, l);
-        const double largest = max_torque(l);
-        if (!(torque > largest)) return {};
-        const bool si = plan.units.gains == parameters::GainUnits::si;
-        parameters::StudyUnits other = plan.units;
-        other.gains = si ? parameters::GainUnits::count : parameters::GainUnits::si;
-        const std::string unit = parameters::unit_on(plan.units.axis, "N m");
-        return {{fmt::format("{} {:.3g} {}, beyond the ±{:.3g} {} of the DAC", gain.action, torque, unit,
-                             largest, unit),
-                 fmt::format("a gain in {}; for one in {} say controller.units: {}",
-                             parameters::unit_of(row, plan.units), parameters::unit_of(row, other),
-                             si ? "count" : "si")}};
-      });
+      parameters::parameter_table()[parameters::find_parameter(gain.handle).value()];
+  const bool coarse = gain.structure == parameter::controller::coarse::structure;
+  std::vector<parameter::Handle> parameters{gain.handle, gain.structure};
+  std::ranges::copy(parameters_of_the_loop(plan), std::back_inserter(parameters));
+  return plausible(parameters, [&plan, &gain, &row, coarse](const Ranges& of) -> Faults {
+    if (of[gain.structure].low != static_cast<double>(loop::ControlStructure::pid)) return {};
+    if (coarse && !can_have_coarse_phase(of)) return {};
+    const double torque = per_count(plan, gain, of);
+    const double largest = max_torque(of);
+    if (!(torque > largest)) return {};
+    const bool si = plan.units.gains == parameters::GainUnits::si;
+    parameters::StudyUnits other = plan.units;
+    other.gains = si ? parameters::GainUnits::count : parameters::GainUnits::si;
+    const std::string unit = parameters::unit_on(plan.units.axis, "N m");
+    return {{fmt::format("{} {:.3g} {}, beyond the ±{:.3g} {} of the DAC", gain.action, torque, unit, largest,
+                         unit),
+             fmt::format("a gain in {}; for one in {} say controller.units: {}",
+                         parameters::unit_of(row, plan.units), parameters::unit_of(row, other),
+                         si ? "count" : "si")}};
+  });
 }
 
 /// The rules for the gains of one phase of the control, if it is a cascade.
 template <parameters::Phase phase>
 std::vector<ValueRule> cascade_within_the_converter(const study::StudyPlan& plan) {
-  enum : std::size_t { kp = 0, feedforward = 0, kv = 8, ki = 9 };  // after those of a gain
-  const auto rule = [&plan](std::string_view first, std::vector<std::string_view> more,
-                            const std::function<std::vector<TorqueOf>(Limits, double count)>& torques) {
-    std::vector<std::string_view> between{first,
-                                          parameters::phase_path<phase, "structure">,
-                                          "dac.bits",
-                                          "dac.resolution",
-                                          "dac.range",
-                                          "controller.sample_rate",
-                                          fine_encoder_name(plan),
-                                          "controller.coarse.coarse_beyond"};
-    between.insert(between.end(), more.begin(), more.end());
-    return plausibility_rule(between, [&plan, torques](Limits l) -> Faults {
-      if (phase == parameters::Phase::coarse && !study::can_have_coarse_phase(l[coarse_beyond])) return {};
-      const double largest = max_torque(l);
+  using Control = parameter::Control<phase>;
+  using Torques = std::function<std::vector<TorqueOf>(const Ranges& of, double count)>;
+  const auto rule = [&plan](const std::vector<parameter::Handle>& of_phase, const Torques& torques) {
+    std::vector<parameter::Handle> parameters{of_phase.front(), Control::structure};
+    std::ranges::copy(parameters_of_the_loop(plan), std::back_inserter(parameters));
+    parameters.insert(parameters.end(), of_phase.begin() + 1, of_phase.end());
+    return plausible(parameters, [&plan, torques](const Ranges& of) -> Faults {
+      if (phase == parameters::Phase::coarse && !can_have_coarse_phase(of)) return {};
+      const double largest = max_torque(of);
       const std::string unit = parameters::unit_on(plan.units.axis, "N m");
-      for (const TorqueOf& of : torques(l, typical_count(plan, l[encoder].typical))) {
-        if (!(of.torque > largest)) continue;
-        return {{fmt::format("{} {:.3g} {}, beyond the ±{:.3g} {} of the DAC", of.action, of.torque, unit,
+      for (const TorqueOf& one : torques(of, typical_count(plan, of[fine_encoder(plan)].typical))) {
+        if (!(one.torque > largest)) continue;
+        return {{fmt::format("{} {:.3g} {}, beyond the ±{:.3g} {} of the DAC", one.action, one.torque, unit,
                              largest, unit),
                  "a gain of this axis; is a power of ten wrong, or a unit?"}};
       }
       return {};
     });
   };
-  const auto is_cascade = [](Limits l) {
-    return l[structure].low == static_cast<double>(loop::ControlStructure::cascade);
-  };
-  return {rule(parameters::phase_path<phase, "cascade.kp">,
-               {parameters::phase_path<phase, "cascade.kv">, parameters::phase_path<phase, "cascade.ki">},
-               [is_cascade](Limits l, double count) -> std::vector<TorqueOf> {
-                 if (!is_cascade(l)) return {};
-                 const double T = 1.0 / l[sample_rate].typical;
-                 return {{by_error, l[kp].typical * l[kv].typical * count},
-                         {by_change, l[kp].typical * count / T},
-                         {by_sum, l[ki].typical * 0.5 * T * l[kv].typical * count}};
+  using cascade = typename Control::cascade;
+  return {rule({cascade::kp, cascade::kv, cascade::ki},
+               [](const Ranges& of, double count) -> std::vector<TorqueOf> {
+                 if (of[Control::structure].low != static_cast<double>(loop::ControlStructure::cascade))
+                   return {};
+                 const double kp = of[cascade::kp].typical;
+                 const double kv = of[cascade::kv].typical;
+                 const double T = 1.0 / of[parameter::controller::sample_rate].typical;
+                 return {{by_error, kp * kv * count},
+                         {by_change, kp * count / T},
+                         {by_sum, of[cascade::ki].typical * 0.5 * T * kv * count}};
                }),
-          rule(parameters::phase_path<phase, "feedforward.friction">, {},
-               [](Limits l, double) -> std::vector<TorqueOf> {
-                 return {{"the feed-forward of friction commands", l[feedforward].typical}};
-               })};
+          rule({Control::feedforward::friction}, [](const Ranges& of, double) -> std::vector<TorqueOf> {
+            return {{"the feed-forward of friction commands", of[Control::feedforward::friction].typical}};
+          })};
 }
 
 }  // namespace

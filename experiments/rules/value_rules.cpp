@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/friction/law.hpp"
+#include "experiments/parameters/handles.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/parameters/phase_path.hpp"
 
@@ -15,28 +16,30 @@ namespace {
 
 using parameters::Phase;
 using parameters::phase_path;
-using Limits = std::span<const study::ParameterRange>;
 using Faults = std::vector<ValueFault>;
 
-Faults shorter_than_a_sample(const study::ParameterRange& duration,
-                             const study::ParameterRange& sample_rate) {
-  if (std::round(duration.low * sample_rate.low) >= 1.0) return {};
-  return {{fmt::format("{} s can be less than one sample at {} Hz", duration.low, sample_rate.low),
-           "at least one sample"}};
+ValueRule at_least_a_sample(parameter::Handle duration) {
+  return between({duration, parameter::controller::sample_rate}, [duration](const Ranges& of) -> Faults {
+    const double time = of[duration].low;
+    const double rate = of[parameter::controller::sample_rate].low;
+    if (std::round(time * rate) >= 1.0) return {};
+    return {{fmt::format("{} s can be less than one sample at {} Hz", time, rate), "at least one sample"}};
+  });
 }
 
-Faults longer_than_the_hold(const study::ParameterRange& duration, const study::ParameterRange& hold) {
-  if (duration.high <= hold.low) return {};
-  return {{fmt::format("{} s can be longer than the hold of {} s", duration.high, hold.low),
-           "at most command.hold"}};
+ValueRule at_most_the_hold(parameter::Handle duration) {
+  return between({duration, parameter::command::hold}, [duration](const Ranges& of) -> Faults {
+    const double time = of[duration].high;
+    const double hold = of[parameter::command::hold].low;
+    if (time <= hold) return {};
+    return {{fmt::format("{} s can be longer than the hold of {} s", time, hold), "at most command.hold"}};
+  });
 }
 
 std::vector<ValueRule> rules_of_durations(bool open_loop) {
-  if (open_loop) return {between({"command.hold", "controller.sample_rate"}, shorter_than_a_sample)};
-  return {between({"verdict.dwell", "controller.sample_rate"}, shorter_than_a_sample),
-          between({"verdict.dwell", "command.hold"}, longer_than_the_hold),
-          between({"verdict.window", "controller.sample_rate"}, shorter_than_a_sample),
-          between({"verdict.window", "command.hold"}, longer_than_the_hold)};
+  if (open_loop) return {at_least_a_sample(parameter::command::hold)};
+  return {at_least_a_sample(parameter::verdict::dwell), at_most_the_hold(parameter::verdict::dwell),
+          at_least_a_sample(parameter::verdict::window), at_most_the_hold(parameter::verdict::window)};
 }
 
 double max_abs(const study::ParameterRange& range) {
@@ -45,23 +48,30 @@ double max_abs(const study::ParameterRange& range) {
 
 std::vector<ValueRule> rules_of_the_start(const std::string& torque_unit) {
   return {
-      between({"initial.preload", "friction.breakaway"},
-              [torque_unit](const auto& preload, const auto& breakaway) -> Faults {
+      between({parameter::initial::preload, parameter::friction::breakaway},
+              [torque_unit](const Ranges& of) -> Faults {
+                const study::ParameterRange& preload = of[parameter::initial::preload];
+                const study::ParameterRange& breakaway = of[parameter::friction::breakaway];
                 const double torque = max_abs(preload);
                 if (torque < breakaway.low || torque == 0.0) return {};
                 return {{fmt::format("a preload of {} {} can reach the breakaway of {} {}", torque,
                                      torque_unit, breakaway.low, torque_unit),
                          "|initial.preload| below friction.breakaway"}};
               }),
-      between({"initial.history.torque", "friction.breakaway"},
-              [torque_unit](const auto& history, const auto& breakaway) -> Faults {
+      between({parameter::initial::history::torque, parameter::friction::breakaway},
+              [torque_unit](const Ranges& of) -> Faults {
+                const study::ParameterRange& history = of[parameter::initial::history::torque];
+                const study::ParameterRange& breakaway = of[parameter::friction::breakaway];
                 if (history.high < breakaway.low || history.high == 0.0) return {};
                 return {{fmt::format("a history of {} {} can reach the breakaway of {} {}", history.high,
                                      torque_unit, breakaway.low, torque_unit),
                          "initial.history.torque below friction.breakaway"}};
               }),
-      between({"initial.velocity", "initial.mode", "friction.model"},
-              [](const auto& velocity, const auto& mode, const auto& law) -> Faults {
+      between({parameter::initial::velocity, parameter::initial::mode, parameter::friction::model},
+              [](const Ranges& of) -> Faults {
+                const study::ParameterRange& velocity = of[parameter::initial::velocity];
+                const study::ParameterRange& mode = of[parameter::initial::mode];
+                const study::ParameterRange& law = of[parameter::friction::model];
                 const auto model = static_cast<friction::FrictionModel>(static_cast<int>(law.low));
                 const bool slides = mode.low == static_cast<double>(trial::InitialMode::slide) &&
                                     friction::traits_of(model).breakaway != friction::Breakaway::never;
@@ -74,7 +84,8 @@ std::vector<ValueRule> rules_of_the_start(const std::string& torque_unit) {
 
 // A trial that is stopped early lacks the ends of some moves.
 ValueRule no_stop_in_a_sequence() {
-  return between({"verdict.stop"}, [](const auto& stop) -> Faults {
+  return between({parameter::verdict::stop}, [](const Ranges& of) -> Faults {
+    const study::ParameterRange& stop = of[parameter::verdict::stop];
     if (stop.high == 0.0) return {};
     return {{"the values of ISO 230-2 need the end of every move, which a stopped trial lacks",
              "false with command.sequence"}};
@@ -83,8 +94,10 @@ ValueRule no_stop_in_a_sequence() {
 
 ValueRule stop_with_two_phases() {
   return warning(
-      between({"verdict.stop", "controller.coarse.coarse_beyond"},
-              [](const auto& stop, const auto& beyond) -> Faults {
+      between({parameter::verdict::stop, parameter::controller::coarse::coarse_beyond},
+              [](const Ranges& of) -> Faults {
+                const study::ParameterRange& stop = of[parameter::verdict::stop];
+                const study::ParameterRange& beyond = of[parameter::controller::coarse::coarse_beyond];
                 if (stop.high == 0.0 || !study::can_have_coarse_phase(beyond)) return {};
                 return {
                     {"the coarse phase may bring the $rotor back from beyond verdict.limit, and so change an "
@@ -96,15 +109,19 @@ ValueRule stop_with_two_phases() {
 std::vector<ValueRule> rules_of_two_phases(const std::string& derivative_unit) {
   return {
       stop_with_two_phases(),
-      between({"controller.kd", "controller.coarse.coarse_beyond"},
-              [derivative_unit](const auto& kd, const auto& beyond) -> Faults {
+      between({parameter::controller::kd, parameter::controller::coarse::coarse_beyond},
+              [derivative_unit](const Ranges& of) -> Faults {
+                const study::ParameterRange& kd = of[parameter::controller::kd];
+                const study::ParameterRange& beyond = of[parameter::controller::coarse::coarse_beyond];
                 if (!study::can_have_coarse_phase(beyond) || kd.high == 0.0) return {};
                 return {{fmt::format("{} {} can act in the fine phase of a control with two phases", kd.high,
                                      derivative_unit),
                          "0 with a coarse phase, which alone has a derivative (controller.coarse.kd)"}};
               }),
-      between({"controller.coarse.fine_within", "controller.coarse.coarse_beyond"},
-              [](const auto& within, const auto& beyond) -> Faults {
+      between({parameter::controller::coarse::fine_within, parameter::controller::coarse::coarse_beyond},
+              [](const Ranges& of) -> Faults {
+                const study::ParameterRange& within = of[parameter::controller::coarse::fine_within];
+                const study::ParameterRange& beyond = of[parameter::controller::coarse::coarse_beyond];
                 if (!study::can_have_coarse_phase(beyond) || within.high <= beyond.low) return {};
                 return {{fmt::format("the fine phase can be entered at {} counts and left beyond {}",
                                      within.high, beyond.low),
@@ -113,111 +130,141 @@ std::vector<ValueRule> rules_of_two_phases(const std::string& derivative_unit) {
   };
 }
 
-// The contact that carries the constant disturbance at the start.
-ValueRule what_holds_the_axis(const study::StudyPlan& plan) {
-  enum : std::size_t {
-    holding,
-    torque,
-    breakaway,
-    ratio,
-    model,
-    preload,
-    reversals,
-    integral,
-    velocity,
-    gap,
-    load,
-    load_torque  // and amplitudes of ripples on the load
-  };
-  std::vector<std::string_view> between{
-      "initial.holding",  "disturbance.torque", "friction.breakaway",        "friction.coulomb_ratio",
-      "friction.model",   "initial.preload",    "initial.history.reversals", "initial.integral",
-      "initial.velocity", "initial.gap",        "plant.load.inertia",        "disturbance.load.torque"};
+/// The amplitudes of the ripples on the load that the study has.
+std::vector<parameter::Handle> ripples_on_the_load(const study::StudyPlan& plan) {
+  std::vector<parameter::Handle> amplitudes;
   for (const parameters::Parameter& row : plan.table.rows) {
-    if (parameters::has_value(row) && row.name.starts_with("disturbance.load.ripple.") &&
-        row.name.ends_with(".amplitude"))
-      between.push_back(row.name);
+    const bool is_amplitude =
+        parameters::without_indices(row.name) == parameter::disturbance::load::ripple::amplitude.path;
+    if (parameters::has_value(row) && is_amplitude) amplitudes.emplace_back(row.name);
   }
-  return {
-      between, false,
-      [torque_unit = parameters::unit_on(plan.units.axis, "N m"), open_loop = plan.open_loop](
-          Limits l, Limits) -> Faults {
-        if (l[holding].high == 0.0) return {};
-        const auto law = static_cast<friction::FrictionModel>(static_cast<int>(l[model].low));
+  return amplitudes;
+}
+
+/// The largest constant torque that the contact has to hold at the start. @param ripples on the load
+double largest_held_torque(const Ranges& of, const std::vector<parameter::Handle>& ripples) {
+  double largest = max_abs(of[parameter::disturbance::torque]);
+  if (of[parameter::plant::load::inertia].high == 0.0) return largest;
+  largest += max_abs(of[parameter::disturbance::load::torque]);
+  for (const parameter::Handle& amplitude : ripples) largest += max_abs(of[amplitude]);
+  return largest;
+}
+
+/// The faults of a start at which friction, without an integral, holds a constant torque.
+Faults faults_of_friction_alone(const Ranges& of, double largest, bool open_loop, const std::string& unit) {
+  const auto law = static_cast<friction::FrictionModel>(static_cast<int>(of[parameter::friction::model].low));
+  const double level = friction::holding_limit(law, of[parameter::friction::breakaway].low,
+                                               of[parameter::friction::coulomb_ratio].low);
+  if (largest == 0.0 || largest < level) return {};
+  if (level == 0.0)
+    return {{fmt::format("a disturbance of {} {} can reach the friction that is to hold it: "
+                         "friction.breakaway is drawn without a smallest value above 0",
+                         largest, unit),
+             "a distribution of friction.breakaway with a smallest value above that, such as uniform or "
+             "truncated_normal"}};
+  return {{fmt::format("a disturbance of {} {} can reach the friction of {} {} that is to hold it", largest,
+                       unit, level, unit),
+           open_loop
+               ? "a smaller disturbance"
+               : "initial.holding left out, with an initial.integral that carries the disturbance, or a "
+                 "smaller disturbance"}};
+}
+
+/// The rule about the contact that carries the constant disturbance at the start.
+ValueRule what_holds_the_axis(const study::StudyPlan& plan) {
+  std::vector<parameter::Handle> parameters{parameter::initial::holding,
+                                            parameter::disturbance::torque,
+                                            parameter::friction::breakaway,
+                                            parameter::friction::coulomb_ratio,
+                                            parameter::friction::model,
+                                            parameter::initial::preload,
+                                            parameter::initial::history::reversals,
+                                            parameter::initial::integral,
+                                            parameter::initial::velocity,
+                                            parameter::initial::gap,
+                                            parameter::plant::load::inertia,
+                                            parameter::disturbance::load::torque};
+  const std::vector<parameter::Handle> ripples = ripples_on_the_load(plan);
+  parameters.insert(parameters.end(), ripples.begin(), ripples.end());
+  return between(
+      parameters,
+      [ripples, unit = parameters::unit_on(plan.units.axis, "N m"),
+       open_loop = plan.open_loop](const Ranges& of) -> Faults {
+        if (of[parameter::initial::holding].high == 0.0) return {};
+        const auto law =
+            static_cast<friction::FrictionModel>(static_cast<int>(of[parameter::friction::model].low));
         // With a second mass, the integral holds what the contact cannot.
-        const bool has_integral = l[load].low > 0.0 && !open_loop;
+        const bool has_integral = of[parameter::plant::load::inertia].low > 0.0 && !open_loop;
         if (!has_integral && !friction::has_friction(law))
           return {{"nothing holds an axis without friction", "another friction.model, or the key left out"}};
         Faults faults;
-        double largest = max_abs(l[torque]);
-        if (l[load].high > 0.0)
-          for (const study::ParameterRange& on_load : l.subspan(load_torque)) largest += max_abs(on_load);
-        const double level = friction::holding_limit(law, l[breakaway].low, l[ratio].low);
-        if (!has_integral && level == 0.0 && largest > 0.0)
-          faults.push_back({fmt::format("a disturbance of {} {} can reach the friction that is to hold it: "
-                                        "friction.breakaway is drawn without a smallest value above 0",
-                                        largest, torque_unit),
-                            fmt::format("a distribution of friction.breakaway with a smallest value above "
-                                        "that, such as uniform or truncated_normal")});
-        else if (!has_integral && largest >= level && largest > 0.0)
-          faults.push_back({fmt::format("a disturbance of {} {} can reach the friction of {} {} that is to "
-                                        "hold it",
-                                        largest, torque_unit, level, torque_unit),
-                            open_loop ? "a smaller disturbance"
-                                      : "initial.holding left out, with an initial.integral that carries the "
-                                        "disturbance, or a smaller disturbance"});
-        if (max_abs(l[velocity]) > 0.0)
+        if (!has_integral)
+          faults = faults_of_friction_alone(of, largest_held_torque(of, ripples), open_loop, unit);
+        if (max_abs(of[parameter::initial::velocity]) > 0.0)
           faults.push_back({"an axis that holds a disturbance stands still", "initial.velocity of 0"});
-        if (max_abs(l[gap]) > 0.0)
+        if (max_abs(of[parameter::initial::gap]) > 0.0)
           faults.push_back(
               {"the load of an axis that holds lies where what acts on it keeps it", "initial.gap of 0"});
-        if (max_abs(l[preload]) > 0.0 || l[reversals].high > 0.0 || max_abs(l[integral]) > 0.0)
+        if (max_abs(of[parameter::initial::preload]) > 0.0 ||
+            of[parameter::initial::history::reversals].high > 0.0 ||
+            max_abs(of[parameter::initial::integral]) > 0.0)
           faults.push_back({"the contact has been loaded from virgin to the disturbance and nothing else",
                             "initial.preload, initial.history and initial.integral of 0"});
         return faults;
-      }};
+      });
 }
 
-// Which encoder each loop reads.
+/// The rule between a choice of encoder and the encoders that the axis has.
+ValueRule about_encoder(parameter::Handle choice,
+                        std::function<std::vector<ValueFault>(const Ranges& of)> find_faults) {
+  std::vector<parameter::Handle> parameters{choice};
+  parameters.insert(parameters.end(), study::two_encoders.begin(), study::two_encoders.end());
+  return between(std::move(parameters), std::move(find_faults));
+}
+
+ValueRule no_coarse_encoder_beside_two(parameter::Handle choice) {
+  return about_encoder(choice, [choice](const Ranges& of) -> Faults {
+    const bool coarse = of[choice].high == static_cast<double>(loop::EncoderChoice::coarse);
+    if (!coarse || !study::has_two_encoders(of)) return {};
+    return {{"there is no coarse encoder beside encoder.load", "fine"}};
+  });
+}
+
+/// The rules about the encoder that each loop reads.
 std::vector<ValueRule> rules_of_the_loops_encoders() {
-  const auto between = [](std::string_view first) {
-    std::vector<std::string_view> names{first};
-    names.insert(names.end(), study::two_encoders.begin(), study::two_encoders.end());
-    return names;
-  };
-  const auto no_coarse_one = [&](std::string_view choice) -> ValueRule {
-    return {between(choice), false, [](Limits l, Limits) -> Faults {
-              const bool coarse = l[0].high == static_cast<double>(loop::EncoderChoice::coarse);
-              if (!coarse || !study::has_two_encoders(l.subspan(1))) return {};
-              return {{"there is no coarse encoder beside encoder.load", "fine"}};
-            }};
-  };
-  return {no_coarse_one("controller.encoder"),
-          no_coarse_one("controller.coarse.encoder"),
-          {between("controller.cascade.velocity"), false, [](Limits l, Limits) -> Faults {
-             const auto choice = static_cast<loop::LoopEncoder>(static_cast<int>(l[0].low));
-             const bool at_load = choice == loop::LoopEncoder::of_the_plant
-                                      ? l[4].high == static_cast<double>(motion::EncoderPlace::load)
-                                      : choice == loop::LoopEncoder::load;
-             const bool cascade = l[5].low == static_cast<double>(loop::ControlStructure::cascade);
-             if (!cascade || study::has_two_encoders(l.subspan(1)) ||
-                 at_load == study::closes_at_load(l.subspan(1)))
-               return {};
-             return {{"the loops of the cascade read two masses, and there is one encoder",
-                      "the same mass for both, or encoder.load"}};
-           }}};
+  static constexpr parameter::Handle of_velocity = parameter::controller::cascade::velocity;
+  return {no_coarse_encoder_beside_two(parameter::controller::encoder),
+          no_coarse_encoder_beside_two(parameter::controller::coarse::encoder),
+          about_encoder(of_velocity, [](const Ranges& of) -> Faults {
+            const auto choice = static_cast<loop::LoopEncoder>(static_cast<int>(of[of_velocity].low));
+            const bool at_load = choice == loop::LoopEncoder::of_the_plant
+                                     ? of[parameter::plant::load::encoder].high ==
+                                           static_cast<double>(motion::EncoderPlace::load)
+                                     : choice == loop::LoopEncoder::load;
+            const bool cascade = of[parameter::controller::structure].low ==
+                                 static_cast<double>(loop::ControlStructure::cascade);
+            if (!cascade || study::has_two_encoders(of) || at_load == study::closes_at_load(of)) return {};
+            return {{"the loops of the cascade read two masses, and there is one encoder",
+                     "the same mass for both, or encoder.load"}};
+          })};
 }
 
 std::vector<ValueRule> rules_of_the_clock() {
-  return {between({"controller.jitter", "controller.sample_rate"},
-                  [](const auto& jitter, const auto& rate) -> Faults {
+  return {between({parameter::controller::jitter, parameter::controller::sample_rate},
+                  [](const Ranges& of) -> Faults {
+                    const study::ParameterRange& jitter = of[parameter::controller::jitter];
+                    const study::ParameterRange& rate = of[parameter::controller::sample_rate];
                     if (jitter.high == 0.0 || jitter.high * rate.high < 1.0) return {};
                     return {{fmt::format("a sample can be {} s late, a whole sample time at {} Hz",
                                          jitter.high, rate.high),
                              "less than 1/controller.sample_rate"}};
                   }),
-          between({"controller.dither.frequency", "controller.sample_rate", "controller.dither.amplitude"},
-                  [](const auto& frequency, const auto& rate, const auto& amplitude) -> Faults {
+          between({parameter::controller::dither::frequency, parameter::controller::sample_rate,
+                   parameter::controller::dither::amplitude},
+                  [](const Ranges& of) -> Faults {
+                    const study::ParameterRange& frequency = of[parameter::controller::dither::frequency];
+                    const study::ParameterRange& rate = of[parameter::controller::sample_rate];
+                    const study::ParameterRange& amplitude = of[parameter::controller::dither::amplitude];
                     if (amplitude.high == 0.0 || frequency.high <= 0.5 * rate.low) return {};
                     return {{fmt::format("{} Hz can be more than half the sample rate, {} Hz", frequency.high,
                                          rate.low),
@@ -227,8 +274,10 @@ std::vector<ValueRule> rules_of_the_clock() {
 
 /// The rule that a state ends at an |error| of at least the |error| at which it begins.
 /// @param text message with both numbers, the end first
-ValueRule order_of(std::string_view end, std::string_view begin, const char* text, const char* expected) {
-  return between({end, begin}, [text, expected](const auto& of_end, const auto& of_begin) -> Faults {
+ValueRule order_of(parameter::Handle end, parameter::Handle begin, const char* text, const char* expected) {
+  return between({end, begin}, [=](const Ranges& of) -> Faults {
+    const study::ParameterRange& of_end = of[end];
+    const study::ParameterRange& of_begin = of[begin];
     if (of_end.high < 0.0 || of_end.low >= of_begin.high) return {};
     return {{fmt::format(fmt::runtime(text), of_end.low, of_begin.high), expected}};
   });
@@ -236,26 +285,31 @@ ValueRule order_of(std::string_view end, std::string_view begin, const char* tex
 
 template <Phase phase>
 ValueRule order_of_hold() {
-  return order_of(phase_path<phase, "hold.leave">, phase_path<phase, "hold.enter">,
+  return order_of(parameter::Control<phase>::hold::leave, parameter::Control<phase>::hold::enter,
                   "the hold can end at {} counts and begin at {}",
                   "at least the |error| with which it begins");
 }
 
 template <Phase phase>
 std::vector<ValueRule> rules_of_blocks() {
-  static constexpr std::string_view enter = phase_path<phase, "deadband.enter">;
-  static constexpr std::string_view leave = phase_path<phase, "deadband.leave">;
-  static constexpr std::string_view zone = phase_path<phase, "integrator_zone">;
+  using Control = parameter::Control<phase>;
+  static constexpr parameter::Handle enter = Control::deadband::enter;
+  static constexpr parameter::Handle leave = Control::deadband::leave;
+  static constexpr parameter::Handle zone = Control::integrator_zone;
   return {order_of(leave, enter, "the deadband can be left at {} counts and entered at {}",
                    "at least the |error| with which it is entered"),
           warning(between({zone, enter, leave},
-                          [](const auto& of_zone, const auto& of_enter, const auto&) -> Faults {
+                          [](const Ranges& of) -> Faults {
+                            const study::ParameterRange& of_zone = of[zone];
+                            const study::ParameterRange& of_enter = of[enter];
                             if (of_zone.high > of_enter.low) return {};
                             return {{"the integral never changes: its zone lies inside the deadband",
-                                     fmt::format("{} above {}", zone, enter)}};
+                                     fmt::format("{} above {}", zone.path, enter.path)}};
                           })),
-          between({phase_path<phase, "observer.bandwidth">, "controller.sample_rate"},
-                  [](const auto& bandwidth, const auto& rate) -> Faults {
+          between({Control::observer::bandwidth, parameter::controller::sample_rate},
+                  [](const Ranges& of) -> Faults {
+                    const study::ParameterRange& bandwidth = of[Control::observer::bandwidth];
+                    const study::ParameterRange& rate = of[parameter::controller::sample_rate];
                     if (bandwidth.high == 0.0 || bandwidth.high < 0.5 * rate.low) return {};
                     return {{fmt::format("{} Hz can be half the sample rate, {} Hz, or more", bandwidth.high,
                                          rate.low),
@@ -273,7 +327,7 @@ std::vector<ValueRule> value_rules(const study::StudyPlan& plan) {
   add(plugin_rules(plan));
   add(rules_of_the_start(parameters::unit_on(plan.units.axis, "N m")));
   static const parameters::Parameter& kd =
-      parameters::parameter_table()[parameters::find_parameter("controller.kd").value()];
+      parameters::parameter_table()[parameters::find_parameter(parameter::controller::kd).value()];
   add({what_holds_the_axis(plan)});
   add(rules_of_the_clock());
   if (!plan.open_loop) {
@@ -300,8 +354,8 @@ std::string first_fault(const study::StudyPlan& plan, std::size_t point) {
     const std::vector<std::size_t> named = study::slots_named(plan.table, rule.between);
     const std::vector<std::size_t> listed =
         rule.whole_list ? study::slots_of(plan.list) : std::vector<std::size_t>{};
-    const Faults faults =
-        rule.find_faults(study::ranges_at(plan, named, point), study::ranges_at(plan, listed, point));
+    const Faults faults = rule.find_faults({rule.between, study::ranges_at(plan, named, point)},
+                                           study::ranges_at(plan, listed, point));
     if (faults.empty()) continue;
     const ValueFault& fault = faults.front();
     const std::size_t slot = fault.listed.empty() ? named.front() : listed[fault.listed.front()];

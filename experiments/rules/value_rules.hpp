@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/parameters/handles.hpp"
 #include "experiments/study/point_edit.hpp"
 #include "experiments/study/point_limits.hpp"
 
@@ -21,33 +22,26 @@ struct ValueFault {
   std::vector<std::size_t> listed{};
 };
 
+using study::Ranges;
+
 /// A condition on the ranges of several parameters at a design point.
 struct ValueRule {
-  std::vector<std::string_view> between;  ///< the parameters; the first one gives the path of the message
-  bool whole_list{false};                 ///< the rule also involves all values of the list
-  /// Finds faults from the ranges of the parameters, in the order of `between`, and of the list if
-  /// whole_list.
-  std::function<std::vector<ValueFault>(std::span<const study::ParameterRange> parameters,
-                                        std::span<const study::ParameterRange> list)>
-      find_faults;
+  using FindFaults =
+      std::function<std::vector<ValueFault>(const Ranges& of, std::span<const study::ParameterRange> list)>;
+
+  std::vector<parameter::Handle> between;  ///< the parameters; the first one gives the path of the message
+  bool whole_list{false};                  ///< the rule also involves all values of the list
+  FindFaults find_faults;  ///< finds faults from the ranges of the parameters, and of the list if whole_list
   bool warn_only{false};
   bool once{false};  ///< only the first fault is reported, at a parameter of the rule that the manifest gives
   bool of_record{false};  ///< the message is about record_key(), which is not a parameter
 };
 
-/// A rule between the given parameters. `find_faults` takes the range of each parameter as a separate
-/// argument, in the order of `names`, so that the compiler checks their number.
-template <std::size_t count, class FindFaults>
-ValueRule between(const std::string_view (&names)[count], FindFaults find_faults) {
-  return {{names, names + count},
-          false,
-          [find_faults](std::span<const study::ParameterRange> parameters,
-                        std::span<const study::ParameterRange>) {
-            return [&]<std::size_t... i>(std::index_sequence<i...>) {
-              return find_faults(parameters[i]...);
-            }
-            (std::make_index_sequence<count>{});
-          }};
+/// A rule between the given parameters, without the list.
+inline ValueRule between(std::vector<parameter::Handle> parameters,
+                         std::function<std::vector<ValueFault>(const Ranges& of)> find_faults) {
+  return {std::move(parameters), false,
+          [find = std::move(find_faults)](const Ranges& of, const auto&) { return find(of); }};
 }
 
 inline ValueRule warning(ValueRule rule) {
@@ -106,25 +100,15 @@ std::vector<ValueRule> plausible_gains(const study::StudyPlan& plan);
 /// All rules about implausible values.
 std::vector<ValueRule> plausibility_rules(const study::StudyPlan& plan);
 
-/// A rule that warns once, at the first of `between` that the manifest gives.
-ValueRule plausibility_rule(
-    std::vector<std::string_view> between,
-    std::function<std::vector<ValueFault>(std::span<const study::ParameterRange> parameters)> find_faults);
-
-/// A rule that warns once, as plausibility_rule(); `find_faults` takes each range as a separate argument, as
-/// in rules::between().
-template <std::size_t count, class FindFaults>
-ValueRule plausible(const std::string_view (&names)[count], FindFaults find_faults) {
-  ValueRule rule = warning(between(names, find_faults));
-  rule.once = true;
-  return rule;
-}
+/// A rule that warns once, at the first of these parameters that the manifest gives.
+ValueRule plausible(std::vector<parameter::Handle> parameters,
+                    std::function<std::vector<ValueFault>(const Ranges& of)> find_faults);
 
 /// The parameter with the resolution of the fine encoder.
-std::string_view fine_encoder_name(const study::StudyPlan& plan);
+parameter::Handle fine_encoder(const study::StudyPlan& plan);
 
 /// Resolution Δx of the fine encoder, rad or m.
-/// @param encoder typical value of the parameter fine_encoder_name()
+/// @param encoder typical value of the parameter fine_encoder()
 double typical_count(const study::StudyPlan& plan, double encoder);
 
 /// Keys that have an effect only under a condition. A given key is reported if the condition holds at no
@@ -132,10 +116,10 @@ double typical_count(const study::StudyPlan& plan, double encoder);
 struct EffectRule {
   std::vector<std::string_view>
       keys{};  ///< dotted paths of parameters, or of sections (all their parameters)
-  std::vector<std::string_view> except{};      ///< parameters among `keys` to which the rule does not apply
-  std::vector<std::string_view> depends_on{};  ///< parameters that decide whether the keys have an effect
-  /// Whether the keys have an effect, from the ranges of the parameters `depends_on`, in their order.
-  std::function<bool(std::span<const study::ParameterRange>)> has_effect{};
+  std::vector<std::string_view> except{};       ///< parameters among `keys` to which the rule does not apply
+  std::vector<parameter::Handle> depends_on{};  ///< parameters that decide whether the keys have an effect
+  /// Whether the keys have an effect, from the ranges of the parameters `depends_on`.
+  std::function<bool(const Ranges&)> has_effect{};
   std::string what{};       ///< first phrase of the message
   std::string expected{};   ///< second phrase of the message; empty for a warning
   bool off_at_zero{false};  ///< a key that is 0 at all points is not reported

@@ -9,7 +9,7 @@
 
 #include "experiments/keys/manifest_keys.hpp"
 #include "experiments/sections/sections.hpp"
-#include "experiments/study/condition_study.hpp"
+#include "experiments/study/setting_study.hpp"
 #include "experiments/study/study.hpp"
 #include "experiments/study/study_table.hpp"
 
@@ -17,42 +17,43 @@ namespace zerocount::sections {
 
 namespace {
 
-constexpr std::size_t max_settings = 10'000;
+constexpr std::int64_t max_settings = 10'000;
+
+/// Adds the assignments of one option to the last option of the other axis, which is not finished yet.
+void copy_option(const SweptAxis& from, std::size_t option, SweptAxis& to) {
+  for (std::size_t i = from.axis.first[option]; i < from.axis.first[option + 1]; ++i) {
+    to.axis.assignments.push_back(from.axis.assignments[i]);
+    to.places.push_back(from.places[i]);
+  }
+}
+
 }  // namespace
 
 void read_ages(const yaml::Field& root, keys::Reading& reading) {
   const auto field = yaml::find_field(root, "ages");
   if (!field) return;
   shapes::read(*field, keys::shape_of("ages"), reading.problems, &reading);
-  reading.plan.ages = reading.study.ages.at;
+  reading.plan.ages = reading.study.settings.ages.at;
 }
 
-SweptAxis conditions_at_ages(const SweptAxis& conditions, keys::Reading& reading) {
-  const study::Ages& ages = reading.study.ages;
-  SweptAxis settings{.name = "condition", .place = conditions.place};
-  const std::size_t of_age = std::max<std::size_t>(conditions.labels.size(), 1);
-  if (of_age > max_settings / std::max<std::size_t>(ages.at.size(), 1)) {
+SweptAxis settings_axis(const SweptAxis& conditions, keys::Reading& reading) {
+  study::Settings& settings = reading.study.settings;
+  SweptAxis axis{.name = "condition", .place = conditions.place};
+  const study::SettingCounts counts = settings.counts();
+  if (counts.conditions > max_settings / counts.ages) {
     reading.problems.add(conditions.place, "conditions",
-                         fmt::format("{} conditions at {} ages are too many", of_age, ages.at.size()),
+                         fmt::format("{} conditions at {} ages are too many", counts.conditions, counts.ages),
                          fmt::format("at most {} of both together", max_settings));
-    return settings;
+    settings.conditions.clear();
+    settings.ages.at.clear();
   }
-  if (ages.at.empty()) {
-    settings = conditions;
-  } else {
-    for (const double age : ages.at) {
-      if (conditions.labels.empty()) finish_option(settings, study::age_text(ages, age));
-      for (std::size_t c = 0; c < conditions.labels.size(); ++c) {
-        for (std::size_t i = conditions.axis.first[c]; i < conditions.axis.first[c + 1]; ++i) {
-          settings.axis.assignments.push_back(conditions.axis.assignments[i]);
-          settings.places.push_back(conditions.places[i]);
-        }
-        finish_option(settings, study::label_under(conditions.labels[c], study::age_text(ages, age)));
-      }
-    }
+  if (settings.empty()) return axis;
+  for (std::int64_t index = 0; index < counts.total(); ++index) {
+    if (!conditions.labels.empty())
+      copy_option(conditions, static_cast<std::size_t>(settings.at(index).condition), axis);
+    finish_option(axis, study::label_of(settings, index));
   }
-  reading.study.conditions = settings.labels;
-  return settings;
+  return axis;
 }
 
 namespace {
@@ -154,7 +155,7 @@ SweptAxis read_conditions(const yaml::Field& field, const std::vector<SweptAxis>
     }
   }
   check_not_swept(axis, swept, reading);
-  reading.study.condition_names = axis.labels;
+  reading.study.settings.conditions = axis.labels;
   return axis;
 }
 

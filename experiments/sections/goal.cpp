@@ -12,6 +12,7 @@
 #include "core/text/text.hpp"
 #include "core/trial/move_measures.hpp"
 #include "experiments/keys/manifest_keys.hpp"
+#include "experiments/parameters/handles.hpp"
 #include "experiments/rules/value_rules.hpp"
 #include "experiments/sections/sections.hpp"
 #include "experiments/study/point_limits.hpp"
@@ -53,7 +54,7 @@ void check_order(const yaml::Field& map, const study::StoppingRule& rule, yaml::
 void check_within(const yaml::Field& field, double within, const study::StudyPlan& plan,
                   yaml::Problems& problems) {
   study::ParameterRange shortest{.low = within};
-  study::holds_somewhere(plan, "command.hold", [&shortest](const study::ParameterRange& hold) {
+  study::holds_somewhere(plan, parameter::command::hold, [&shortest](const study::ParameterRange& hold) {
     if (hold.low < shortest.low) shortest = hold;
     return false;
   });
@@ -95,7 +96,7 @@ void measure_tolerance(const yaml::Field& field, double tolerance, keys::Reading
 }
 
 bool measures_motion(const study::StudyPlan& plan) {
-  return !study::holds_somewhere(plan, "verdict.motion",
+  return !study::holds_somewhere(plan, parameter::verdict::motion,
                                  [](const study::ParameterRange& motion) { return motion.can_be_zero; });
 }
 
@@ -190,7 +191,8 @@ void check_goal(const yaml::Field& field, study::Goal& goal, keys::Reading& read
   const auto is_sine = [](const study::ParameterRange& shape) {
     return shape.low == static_cast<double>(loop::ReferenceShape::sine);
   };
-  if (goal.within.after_profile && study::holds_somewhere(reading.plan, "command.profile.shape", is_sine))
+  if (goal.within.after_profile &&
+      study::holds_somewhere(reading.plan, parameter::command::profile::shape, is_sine))
     reading.problems.add(field, "after_profile: a sine has no end", "within");
   std::ranges::sort(goal.on);
   measure_for(field, goal, reading);

@@ -8,6 +8,7 @@
 #include "experiments/distributions/distribution_forms.hpp"
 #include "experiments/keys/manifest_keys.hpp"
 #include "experiments/keys/values.hpp"
+#include "experiments/parameters/handles.hpp"
 #include "experiments/parameters/unknown_key.hpp"
 #include "experiments/rules/value_rules.hpp"
 #include "experiments/sections/named_tables.hpp"
@@ -72,7 +73,7 @@ void complete_moves(SectionReading& s) {
   const trial::CommandParameters& command = s.plan().common.command;
   if (!command.torque.record && !command.profile.record) return;
   s.plan().base[list.first] = study::Value{};
-  const std::size_t hold = study::find_slots("command.hold", s.plan().table).value().first;
+  const std::size_t hold = study::find_slots(parameter::command::hold, s.plan().table).value().first;
   if (s.places.written[hold]) return;
   s.plan().base[hold].number = command.torque.record ? trial::record_duration(*command.torque.record)
                                                      : rules::hold_of_the_reference(s.plan());
@@ -89,7 +90,8 @@ void read_record(SectionReading& s, const yaml::Field& field) {
     return;
   }
   command.profile.record = read_reference_record(field, s.problems());
-  const std::size_t shape = study::find_slots("command.profile.shape", s.plan().table).value().first;
+  const std::size_t shape =
+      study::find_slots(parameter::command::profile::shape, s.plan().table).value().first;
   s.plan().base[shape] = {.number = static_cast<double>(loop::ReferenceShape::record)};
 }
 
@@ -309,9 +311,9 @@ void choose_form(SectionReading& s, const yaml::Field& command) {
   s.form = given.front()->key;
   s.plan().open_loop = s.form == "torque";
   if (s.form == "sequence") s.plan().sequence.emplace();
-  const std::string_view list = s.form == "torque"     ? "command.torque.levels"
-                                : s.form == "sequence" ? "command.sequence.targets"
-                                                       : "command.targets";
+  const std::string_view list = s.form == "torque"     ? parameter::command::torque::levels
+                                : s.form == "sequence" ? parameter::command::sequence::targets
+                                                       : parameter::command::targets;
   s.plan().list.row = parameters::find_parameter(list).value();
 }
 
@@ -349,7 +351,7 @@ void check_sequence_length(SectionReading& s, const yaml::Field& command) {
 void read_sections(const yaml::Field& root, keys::Reading& reading, keys::PlanPlaces& places) {
   SectionReading s{root, reading, places};
   const auto command = yaml::find_field(root, keys::required_section);
-  reading.plan.list.row = parameters::find_parameter("command.targets").value();
+  reading.plan.list.row = parameters::find_parameter(parameter::command::targets).value();
   if (command) {
     choose_form(s, *command);
   } else {

@@ -65,10 +65,10 @@ void read_option(const yaml::Field& options, const yaml::YamlEntry& entry, const
 /// @param root the manifest
 void read_ages(const yaml::Field& root, keys::Reading& reading);
 
-/// The axis of all pairs of condition and age, sorted by age. Stores their labels in the study. The axis has
-/// no options if there are neither conditions nor ages.
+/// The axis whose options are the settings of the study. The axis has no options if there are neither
+/// conditions nor ages. Reports too many settings, and removes them from the study.
 /// @param conditions result of read_conditions(); without options if there are no conditions
-SweptAxis conditions_at_ages(const SweptAxis& conditions, keys::Reading& reading);
+SweptAxis settings_axis(const SweptAxis& conditions, keys::Reading& reading);
 
 /// Reads `conditions: {NAME: {PATH: value}}` as the last axis of the plan: an override is another value of
 /// its slot, drawn as often as the parameter and with the same random number. Reports an override of a

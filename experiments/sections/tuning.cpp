@@ -40,7 +40,7 @@ void take_range(const yaml::Field& field, const numerics::Interval& allowed, stu
 /// Whether the value of the slot is the same number at all design points. Overrides by conditions are checked
 /// elsewhere.
 bool is_one_number(const study::StudyPlan& plan, std::size_t slot) {
-  const auto swept = std::span(plan.axes).first(plan.axes.size() - (plan.has_conditions() ? 1 : 0));
+  const auto swept = std::span(plan.axes).first(plan.axes.size() - (plan.settings_axis ? 1 : 0));
   const auto is_swept = [slot](const study::PlanAxis& axis) {
     return std::ranges::any_of(axis.assignments,
                                [slot](const study::Assignment& one) { return one.slot == slot; });

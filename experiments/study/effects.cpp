@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "experiments/parameters/handles.hpp"
 #include "experiments/parameters/phase_path.hpp"
 
 namespace zerocount::study {
@@ -14,9 +15,9 @@ using parameters::joined;
 using random::RandomKey;
 
 bool has_history(const StudyPlan& plan) {
-  constexpr std::array<std::string_view, 2> both{"initial.history.reversals", "initial.history.torque"};
-  return holds_somewhere(plan, both, [](std::span<const ParameterRange> ranges) {
-    return std::ranges::all_of(ranges, [](const ParameterRange& l) { return l.high > 0.0; });
+  constexpr std::array both{parameter::initial::history::reversals, parameter::initial::history::torque};
+  return holds_somewhere(plan, both, [](const Ranges& of) {
+    return std::ranges::all_of(of.all(), [](const ParameterRange& range) { return range.high > 0.0; });
   });
 }
 
@@ -24,49 +25,54 @@ bool has_spectra(const StudyPlan& plan) {
   return !plan.common.disturbance.spectra.empty() || !plan.common.load_side.disturbance.spectra.empty();
 }
 
-/// The effects of the errors of one encoder, such as "encoder.fine_errors".
-template <parameters::Literal of>
+/// The effects of the errors of one encoder.
+/// @tparam Handles a parameter::EncoderErrors
+/// @tparam streams beginning of the names of their random numbers, which never change
+template <class Handles, parameters::Literal streams>
 constexpr std::array<Effect, 4> errors_of(RandomKey R::*noise, RandomKey R::*missed) {
   constexpr const char* errors = "no other encoder errors";
   constexpr auto all = &F::encoder_errors;
   constexpr RandomKey R::*none = nullptr;
   return {{
-      {joined<of, ".noise">,
+      {Handles::noise,
        "no encoder noise",
        all,
        noise,
-       joined<of, ".noise/samples">,
+       joined<streams, ".noise/samples">,
        {},
-       joined<of, ".noise_bandwidth">},
-      {joined<of, ".eccentricity">, errors, all, none, {}, {}, joined<of, ".eccentricity_angle">, true},
-      {joined<of, ".interpolation">, errors, all, none, {}, {}, joined<of, ".interpolation_period">, true},
-      {joined<of, ".missed">, errors, all, missed, joined<of, ".missed/samples">},
+       Handles::noise_bandwidth},
+      {Handles::eccentricity, errors, all, none, {}, {}, Handles::eccentricity_angle, true},
+      {Handles::interpolation, errors, all, none, {}, {}, Handles::interpolation_period, true},
+      {Handles::missed, errors, all, missed, joined<streams, ".missed/samples">},
   }};
 }
 
-constexpr auto of_fine = errors_of<"encoder.fine_errors">(&R::fine_noise, &R::fine_missed);
-constexpr auto of_coarse = errors_of<"encoder.coarse_errors">(&R::coarse_noise, &R::coarse_missed);
-constexpr auto of_load = errors_of<"encoder.load.fine_errors">(&R::other_noise, &R::other_missed);
+constexpr auto of_fine =
+    errors_of<parameter::encoder::fine_errors, "encoder.fine_errors">(&R::fine_noise, &R::fine_missed);
+constexpr auto of_coarse = errors_of<parameter::encoder::coarse_errors, "encoder.coarse_errors">(
+    &R::coarse_noise, &R::coarse_missed);
+constexpr auto of_load = errors_of<parameter::encoder::load::fine_errors, "encoder.load.fine_errors">(
+    &R::other_noise, &R::other_missed);
 constexpr const char* converter = "ideal converter";
 constexpr const char* disturbance = "no disturbance";
 
 constexpr std::array more{
-    Effect{"controller.delay", "no delay"},
-    Effect{"controller.jitter", "no jitter", nullptr, &R::jitter, "controller.jitter/samples"},
-    Effect{"controller.missed", {}, nullptr, &R::missed_samples, "controller.missed/samples"},
-    Effect{"amplifier.bandwidth", "ideal amplifier", &F::drive_torque},
-    Effect{"dac.offset", converter, &F::drive_torque},
-    Effect{"dac.gain_error", converter, &F::drive_torque},
-    Effect{"dac.nonlinearity", converter, &F::drive_torque},
-    Effect{"dac.noise", converter, &F::drive_torque, &R::dac_noise, "dac.noise/samples"},
-    Effect{"plant.load.inertia", "rigid", &F::load},
+    Effect{parameter::controller::delay, "no delay"},
+    Effect{parameter::controller::jitter, "no jitter", nullptr, &R::jitter, "controller.jitter/samples"},
+    Effect{parameter::controller::missed, {}, nullptr, &R::missed_samples, "controller.missed/samples"},
+    Effect{parameter::amplifier::bandwidth, "ideal amplifier", &F::drive_torque},
+    Effect{parameter::dac::offset, converter, &F::drive_torque},
+    Effect{parameter::dac::gain_error, converter, &F::drive_torque},
+    Effect{parameter::dac::nonlinearity, converter, &F::drive_torque},
+    Effect{parameter::dac::noise, converter, &F::drive_torque, &R::dac_noise, "dac.noise/samples"},
+    Effect{parameter::plant::load::inertia, "rigid", &F::load},
     Effect{"initial.history", {}, nullptr, &R::history, "initial.history/levels", has_history},
-    Effect{"disturbance.torque", disturbance},
-    Effect{"disturbance.ripple.#.amplitude", disturbance},
-    Effect{"disturbance.vibration.#.amplitude", disturbance},
-    Effect{"disturbance.load.torque", disturbance},
-    Effect{"disturbance.load.ripple.#.amplitude", disturbance},
-    Effect{"disturbance.load.vibration.#.amplitude", disturbance},
+    Effect{parameter::disturbance::torque, disturbance},
+    Effect{parameter::disturbance::ripple::amplitude, disturbance},
+    Effect{parameter::disturbance::vibration::amplitude, disturbance},
+    Effect{parameter::disturbance::load::torque, disturbance},
+    Effect{parameter::disturbance::load::ripple::amplitude, disturbance},
+    Effect{parameter::disturbance::load::vibration::amplitude, disturbance},
     Effect{"disturbance.vibration.#.spectrum", disturbance, nullptr, &R::spectrum,
            "disturbance.vibration/spectrum", has_spectra}};
 

@@ -42,7 +42,7 @@ bool can_be_nonzero(const ParameterRange& range);
 bool acts(const StudyPlan& plan, const Effect& effect);
 
 /// Lists the premises about effects of a real axis that are absent by default. An effect is `considered` if
-/// one of its parameters can differ from 0 in some trial of some point under some condition. Otherwise it is
+/// one of its parameters can differ from 0 in some trial of some point in some setting. Otherwise it is
 /// `stated_none` if the manifest gives one of these parameters, and `assumed` absent if it gives none.
 std::vector<Premise> premises_of(const StudyPlan& plan);
 

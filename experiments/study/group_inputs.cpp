@@ -20,7 +20,7 @@ std::vector<double> group_inputs(const Study& study, Grouping grouping, std::int
   const TrialDraws draws = draws_of(study, 0, group, none);  // of its first trial, which has its number
   std::vector<double> inputs;
   for (const InputSource& source : plan.shared_inputs[grouping]) {
-    const std::size_t place = plan_point(plan, 0, source.condition.value_or(0));
+    const std::size_t place = plan_point(plan, 0, source.setting.value_or(0));
     inputs.push_back(source.profile_mean ? profile_mean(draws, source.slot, place)
                                          : number_at(draws, source.slot, place));
   }

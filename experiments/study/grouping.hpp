@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/friction/profile.hpp"
+#include "experiments/study/setting.hpp"
 
 namespace zerocount::study {
 
@@ -55,24 +56,24 @@ struct ByGrouping {
   const T& operator[](Grouping grouping) const { return values.at(static_cast<std::size_t>(grouping)); }
 };
 
-/// How the trials of a point are assigned to machines, conditions, draws and worlds. Trial i runs on machine
-/// i mod R, under condition ⌊i/R⌋ mod C. It uses the random numbers of draw j = i mod R + R·⌊i/(R·C)⌋, in
-/// world j mod W. So each machine is simulated under every condition with the same draws. With ages, C counts
-/// the pairs of condition and age: index c + (C/A)·a is condition c at age a.
+/// How the trials of a point are assigned to machines, settings, draws and worlds. With R machines, S
+/// settings and W worlds, trial i runs on machine i mod R, in setting ⌊i/R⌋ mod S. It uses the random numbers
+/// of draw j = i mod R + R·⌊i/(R·S)⌋, in world j mod W. So each machine is simulated in every setting with
+/// the same draws.
 struct TrialIndices {
-  std::int64_t machines{1};    ///< R; 1 if no trials share a machine
-  std::int64_t conditions{1};  ///< C; 1 without conditions and ages
-  std::int64_t worlds{1};      ///< W; 1 without worlds
-  std::int64_t ages{1};        ///< A, a divisor of C; 1 without ages
+  std::int64_t machines{1};  ///< R; 1 if no trials share a machine
+  SettingCounts settings{};  ///< S is its total()
+  std::int64_t worlds{1};    ///< W; 1 without worlds
 
-  std::int64_t condition_of(std::int64_t trial) const { return trial / machines % conditions; }
-  /// Draw j of the trial. A point has trials/C draws.
+  /// Index of the trial's setting.
+  std::int64_t setting_of(std::int64_t trial) const { return trial / machines % settings.total(); }
+  /// Draw j of the trial. A point has trials/S draws.
   std::int64_t draw_of(std::int64_t trial) const {
-    return trial % machines + machines * (trial / (machines * conditions));
+    return trial % machines + machines * (trial / (machines * settings.total()));
   }
-  /// The trial with draw j under a condition.
-  std::int64_t trial_of(std::int64_t draw, std::int64_t condition) const {
-    return draw % machines + machines * (condition + conditions * (draw / machines));
+  /// The trial with draw j in a setting.
+  std::int64_t trial_of(std::int64_t draw, std::int64_t setting) const {
+    return draw % machines + machines * (setting + settings.total() * (draw / machines));
   }
   /// Index of the trial's group, the same at every point; 0 if the study does not have the grouping.
   std::int64_t group_of(Grouping grouping, std::int64_t trial) const {
@@ -82,11 +83,11 @@ struct TrialIndices {
       case Grouping::world:
         return draw_of(trial) % worlds;
       case Grouping::condition:
-        return condition_of(trial) % (conditions / ages);
+        return settings.at(setting_of(trial)).condition;
       case Grouping::age:
         break;
     }
-    return condition_of(trial) / (conditions / ages);
+    return settings.at(setting_of(trial)).age;
   }
   bool operator==(const TrialIndices&) const = default;
 };
@@ -121,7 +122,7 @@ struct InputColumn {
 struct InputColumns {
   std::vector<InputColumn> inputs;  ///< columns of the table of trials
   /// Columns of parameters drawn for each group, the same at all points; empty for a grouping without draws.
-  /// A parameter that conditions override has one column per condition: "friction.k2@loaded".
+  /// A parameter that differs between settings has one column per setting: "friction.k2@loaded".
   ByGrouping<std::vector<InputColumn>> shared;
 };
 

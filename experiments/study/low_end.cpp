@@ -60,8 +60,8 @@ LowEnd low_end_of_slot(const StudyPlan& plan, std::size_t point, std::size_t slo
 
 }  // namespace
 
-LowEnd low_end(const Study& study, std::int64_t point, std::string_view parameter, std::int64_t condition) {
-  return low_end_of_slot(*study.plan, plan_point(*study.plan, point, condition),
+LowEnd low_end(const Study& study, std::int64_t point, std::string_view parameter, std::int64_t setting) {
+  return low_end_of_slot(*study.plan, plan_point(*study.plan, point, setting),
                          parameters::find_parameter(parameter).value());
 }
 

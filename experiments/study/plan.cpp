@@ -17,17 +17,16 @@ std::int64_t group_count(const Study& study, Grouping grouping) {
     case Grouping::world:
       return study.worlds;
     case Grouping::condition:
-      return std::ssize(study.condition_names);
+      return std::ssize(study.settings.conditions);
     case Grouping::age:
       break;
   }
-  return std::ssize(study.ages.at);
+  return std::ssize(study.settings.ages.at);
 }
 
 TrialIndices trial_indices(const Study& study) {
   const auto at_least_one = [](std::int64_t count) { return std::max<std::int64_t>(count, 1); };
-  return {at_least_one(study.machines), condition_count(study), at_least_one(study.worlds),
-          at_least_one(group_count(study, Grouping::age))};
+  return {at_least_one(study.machines), study.settings.counts(), at_least_one(study.worlds)};
 }
 
 std::int64_t draw_count(const Study& study, DrawLevel level) {
@@ -43,12 +42,6 @@ std::int64_t draw_count(const Study& study, DrawLevel level) {
       return draw_count(study);
   }
   return 1;
-}
-
-std::string condition_text(const Study& study, std::int64_t condition) {
-  if (study.conditions.empty()) return "";
-  return (study.ages.at.empty() ? " under condition " : " at ") +
-         study.conditions[static_cast<std::size_t>(condition)];
 }
 
 bool changes_with_age(const StudyPlan& plan, std::size_t slot) {

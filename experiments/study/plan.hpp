@@ -80,9 +80,9 @@ inline std::size_t option_count(const PlanAxis& axis) {
 struct InputSource {
   std::uint32_t slot{0};
   bool profile_mean{false};
-  /// Index in Study::conditions of the condition whose value the column has. Set for columns of machines and
-  /// worlds whose value conditions override or ages change; otherwise empty.
-  std::optional<std::int64_t> condition{};
+  /// Index of the setting whose value the column has. Set for columns of machines and worlds whose value
+  /// differs between settings; otherwise empty.
+  std::optional<std::int64_t> setting{};
 };
 
 /// The quantities drawn anew in each trial. Factor f < slots.size() is the value of slot slots[f]. With
@@ -96,9 +96,9 @@ inline std::size_t factor_count(const TrialFactors& factors) {
   return factors.slots.size() + (factors.within_trial ? 1 : 0);
 }
 
-/// The compiled form of a manifest: the value or distribution of every parameter at every design point under
-/// every condition, and the random numbers that each of them draws. A *slot* stands for one number of a
-/// trial: a row of `table`. A *point of the plan* is a design point under a condition at an age (plan_point).
+/// The compiled form of a manifest: the value or distribution of every parameter at every design point in
+/// every setting, and the random numbers that each of them draws. A *slot* stands for one number of a
+/// trial: a row of `table`. A *point of the plan* is a design point in a setting (plan_point).
 /// A trial is made from it in four steps:
 ///
 ///     value(slot) = assignment of the last axis that has the slot at this point, otherwise base[slot]
@@ -119,12 +119,12 @@ struct StudyPlan {
   std::vector<Value> base;                                 ///< [slot] value, used unless an axis assigns one
   std::vector<bool> given;     ///< [slot] whether the manifest, an axis or a table of samples has its value
   std::vector<PlanAxis> axes;  ///< the last axis changes fastest, and takes precedence over the others
-  /// Number of entries of Study::conditions: every condition at every age. 0: the study has neither
-  /// conditions nor ages.
-  std::int64_t conditions{0};
-  std::size_t condition_axis{0};  ///< index in `axes` of the axis with the overrides of the conditions
-  std::vector<double> ages;       ///< ages, rising; empty: nothing changes with age
-  std::vector<Aging> agings;      ///< laws of aging; Value::aging is an index in this list
+  SettingCounts settings{};    ///< numbers of conditions and ages
+  /// Index in `axes` of the axis whose options are the settings, with the overrides of their conditions;
+  /// empty without conditions and ages.
+  std::optional<std::size_t> settings_axis{};
+  std::vector<double> ages;   ///< ages, rising; empty: nothing changes with age
+  std::vector<Aging> agings;  ///< laws of aging; Value::aging is an index in this list
   std::vector<distributions::Distribution> distributions;
   std::vector<std::shared_ptr<const Rotors>> profiles;
   std::vector<DerivedValue> derived;
@@ -141,28 +141,25 @@ struct StudyPlan {
   std::vector<std::uint32_t> factor_of;  ///< [slot] index of its factor; for the design `saltelli`
   trial::TrialParameters common;         ///< parameters of a trial, without the input slots
   std::vector<double> numbers;           ///< [slot] numbers of `base`; undefined for input slots
-
-  bool has_conditions() const { return conditions > 0; }
 };
 
-/// The point of the plan for a design point and a condition (an index in Study::conditions).
-inline std::size_t plan_point(const StudyPlan& plan, std::int64_t point, std::int64_t condition = 0) {
-  return static_cast<std::size_t>(point * std::max<std::int64_t>(plan.conditions, 1) + condition);
+/// The point of the plan for a design point and a setting.
+inline std::size_t plan_point(const StudyPlan& plan, std::int64_t point, std::int64_t setting = 0) {
+  return static_cast<std::size_t>(point * plan.settings.total() + setting);
 }
 /// The design point of a point of the plan.
 inline std::int64_t design_point(const StudyPlan& plan, std::size_t point) {
-  return static_cast<std::int64_t>(point) / std::max<std::int64_t>(plan.conditions, 1);
+  return static_cast<std::int64_t>(point) / plan.settings.total();
 }
-/// The condition of a point of the plan, an index in Study::conditions; 0 without conditions.
-inline std::int64_t condition_at(const StudyPlan& plan, std::size_t point) {
-  return static_cast<std::int64_t>(point) % std::max<std::int64_t>(plan.conditions, 1);
+/// The index of the setting of a point of the plan.
+inline std::int64_t setting_at(const StudyPlan& plan, std::size_t point) {
+  return static_cast<std::int64_t>(point) % plan.settings.total();
 }
 
 /// The age at the point of the plan; 0 without ages.
 inline double age_at(const StudyPlan& plan, std::size_t point) {
   if (plan.ages.empty()) return 0.0;
-  const std::int64_t of_age = std::max<std::int64_t>(plan.conditions, 1) / std::ssize(plan.ages);
-  return plan.ages[static_cast<std::size_t>(condition_at(plan, point) / of_age)];
+  return plan.ages[static_cast<std::size_t>(plan.settings.at(setting_at(plan, point)).age)];
 }
 
 /// Whether the value of the slot, or a value from which it is computed, changes with age at some point of the

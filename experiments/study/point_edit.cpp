@@ -47,13 +47,13 @@ PointEdit::PointEdit(const Study& study, std::int64_t point)
 
 std::vector<std::size_t> PointEdit::points() const {
   std::vector<std::size_t> points;
-  for (std::int64_t condition = 0; condition < condition_count(study_); ++condition)
-    points.push_back(point_ + static_cast<std::size_t>(condition));
+  for (std::int64_t setting = 0; setting < study_.settings.total(); ++setting)
+    points.push_back(point_ + static_cast<std::size_t>(setting));
   return points;
 }
 
-ParameterRange PointEdit::limits(std::string_view parameter, std::int64_t condition) const {
-  const std::size_t point = point_ + static_cast<std::size_t>(condition);
+ParameterRange PointEdit::limits(std::string_view parameter, std::int64_t setting) const {
+  const std::size_t point = point_ + static_cast<std::size_t>(setting);
   return range_of_slot(plan_, slot_named(plan_, parameter), point);
 }
 

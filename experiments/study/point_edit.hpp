@@ -33,18 +33,18 @@ struct Scaling {
 
 /// Makes a study with other values at one of its design points, in the units of its manifest. All other
 /// values and all random numbers stay: a scaled value is drawn with the same random number. In a study with
-/// conditions, set() sets the value under every condition. scale(), widen() and add() are for a study of one
-/// condition (under_condition()).
+/// settings, set() sets the value in every setting. scale(), widen() and add() are for a study of one
+/// setting (in_setting()).
 class PointEdit {
  public:
   PointEdit(const Study& study, std::int64_t point);
 
-  /// The points of the plan for the design point, one per condition.
+  /// The points of the plan for the design point, one per setting.
   std::vector<std::size_t> points() const;
   const StudyPlan& plan() const { return plan_; }
   StudyPlan& plan() { return plan_; }
   /// @param parameter dotted path
-  ParameterRange limits(std::string_view parameter, std::int64_t condition = 0) const;
+  ParameterRange limits(std::string_view parameter, std::int64_t setting = 0) const;
 
   void set(std::size_t slot, double number);
   void set(std::string_view parameter, double number);
@@ -74,7 +74,7 @@ class PointEdit {
 
   Study study_;
   StudyPlan plan_;     // its last axis has one option, the new values
-  std::size_t point_;  // of the plan, under the first condition
+  std::size_t point_;  // of the plan, in the first setting
 };
 
 }  // namespace zerocount::study

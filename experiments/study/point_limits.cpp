@@ -5,10 +5,14 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <stdexcept>
 #include <variant>
+
+#include <fmt/format.h>
 
 #include "core/loop/controller/controller.hpp"
 #include "experiments/distributions/random_field.hpp"
+#include "experiments/parameters/handles.hpp"
 
 namespace zerocount::study {
 namespace {
@@ -165,48 +169,66 @@ ParameterRange range_of_slot(const StudyPlan& plan, std::size_t slot, std::size_
   return {low, high, range.can_be_zero || factors.can_be_zero, range.typical * factors.typical};
 }
 
-bool has_two_encoders(std::span<const ParameterRange> ranges) {
-  return ranges[0].high > 0.0 || ranges[1].high > 0.0;
+const ParameterRange& Ranges::operator[](const parameter::Handle& handle) const {
+  const auto found = std::ranges::find(handles_, handle);
+  if (found == handles_.end())
+    throw std::logic_error(fmt::format("the range of {} is not here", handle.path));
+  return ranges_[static_cast<std::size_t>(found - handles_.begin())];
 }
 
-bool closes_at_load(std::span<const ParameterRange> ranges) {
-  const bool of_plant = ranges[3].high == static_cast<double>(motion::EncoderPlace::load);
-  const auto choice = static_cast<loop::LoopEncoder>(static_cast<int>(ranges[2].high));
-  if (ranges[4].high == static_cast<double>(loop::ControlStructure::pid) ||
-      choice == loop::LoopEncoder::of_the_plant)
-    return of_plant;
+bool has_two_encoders(const Ranges& of) {
+  return of[parameter::encoder::load::counts_per_revolution].high > 0.0 ||
+         of[parameter::encoder::load::resolution].high > 0.0;
+}
+
+bool closes_at_load(const Ranges& of) {
+  const bool of_plant =
+      of[parameter::plant::load::encoder].high == static_cast<double>(motion::EncoderPlace::load);
+  const auto choice =
+      static_cast<loop::LoopEncoder>(static_cast<int>(of[parameter::controller::cascade::position].high));
+  const bool is_pid =
+      of[parameter::controller::structure].high == static_cast<double>(loop::ControlStructure::pid);
+  if (is_pid || choice == loop::LoopEncoder::of_the_plant) return of_plant;
   return choice == loop::LoopEncoder::load;
 }
 
 bool closes_somewhere(const StudyPlan& plan, motion::EncoderPlace mass) {
   const auto has_load = [](const ParameterRange& inertia) { return inertia.high > 0.0; };
-  return holds_somewhere(plan, "plant.load.inertia", has_load) &&
-         holds_somewhere(plan, two_encoders, [&](std::span<const ParameterRange> ranges) {
-           return closes_at_load(ranges) == (mass == motion::EncoderPlace::load);
+  return holds_somewhere(plan, parameter::plant::load::inertia, has_load) &&
+         holds_somewhere(plan, two_encoders, [&](const Ranges& of) {
+           return closes_at_load(of) == (mass == motion::EncoderPlace::load);
          });
 }
 
 bool can_have_coarse_phase(const ParameterRange& coarse_beyond) {
   trial::TrialParameters trial;
-  parameters::parameter_table()[parameters::find_parameter("controller.coarse.coarse_beyond").value()].set(
-      trial, coarse_beyond.low);
+  parameters::parameter_table()[parameters::find_parameter(parameter::controller::coarse::coarse_beyond)
+                                    .value()]
+      .set(trial, coarse_beyond.low);
   return loop::has_coarse_phase(trial.controller);
 }
 
 bool has_coarse_encoder(const StudyPlan& plan) {
   for (std::size_t slot = 0; slot < plan.table.rows.size(); ++slot)
-    if (plan.given[slot] && plan.table.rows[slot].name.starts_with("encoder.coarse")) return true;
+    if (plan.given[slot] && plan.table.rows[slot].name.starts_with(parameter::encoder::coarse)) return true;
   const auto is_coarse = [](const ParameterRange& encoder) {
     return encoder.low == static_cast<double>(loop::EncoderChoice::coarse);
   };
-  return holds_somewhere(plan, "controller.encoder", is_coarse) ||
-         (holds_somewhere(plan, "controller.coarse.coarse_beyond", can_have_coarse_phase) &&
-          holds_somewhere(plan, "controller.coarse.encoder", is_coarse));
+  return holds_somewhere(plan, parameter::controller::encoder, is_coarse) ||
+         (holds_somewhere(plan, parameter::controller::coarse::coarse_beyond, can_have_coarse_phase) &&
+          holds_somewhere(plan, parameter::controller::coarse::encoder, is_coarse));
 }
 
-std::vector<std::size_t> slots_named(const StudyTable& table, std::span<const std::string_view> names) {
+std::vector<std::size_t> slots_named(const StudyTable& table, std::span<const std::string_view> paths) {
   std::vector<std::size_t> slots;
-  for (const std::string_view name : names) slots.push_back(find_slots(name, table).value().first);
+  for (const std::string_view path : paths) slots.push_back(find_slots(path, table).value().first);
+  return slots;
+}
+
+std::vector<std::size_t> slots_named(const StudyTable& table, std::span<const parameter::Handle> handles) {
+  std::vector<std::size_t> slots;
+  for (const parameter::Handle& handle : handles)
+    slots.push_back(find_slots(handle.path, table).value().first);
   return slots;
 }
 
@@ -235,7 +257,7 @@ void visit_points(const StudyPlan& plan, std::span<const std::size_t> slots,
       std::ranges::any_of(slots, [&](std::size_t slot) { return changes_with_age(plan, slot); });
   for (std::size_t a = plan.axes.size(); a-- > 0;) {
     const std::size_t options = option_count(plan.axes[a]);
-    const bool of_ages = aging && a == plan.condition_axis;
+    const bool of_ages = aging && a == plan.settings_axis;
     if (of_ages || assigns_any(plan.axes[a], wanted)) turning.push_back({options, stride, 0});
     stride *= options;
   }
@@ -273,21 +295,21 @@ bool are_readable(std::span<const ParameterRange> ranges) {
                       [](const ParameterRange& l) { return std::isnan(l.low); });
 }
 
-bool holds_somewhere(const StudyPlan& plan, std::span<const std::string_view> names,
-                     const std::function<bool(std::span<const ParameterRange>)>& holds) {
-  const std::vector<std::size_t> slots = slots_named(plan.table, names);
+bool holds_somewhere(const StudyPlan& plan, std::span<const parameter::Handle> handles,
+                     const std::function<bool(const Ranges&)>& holds) {
+  const std::vector<std::size_t> slots = slots_named(plan.table, handles);
   bool found = false;
   visit_points(plan, slots, [&](std::size_t point) {
-    found = holds(ranges_at(plan, slots, point));
+    found = holds({handles, ranges_at(plan, slots, point)});
     return !found;
   });
   return found;
 }
 
-bool holds_somewhere(const StudyPlan& plan, std::string_view name,
+bool holds_somewhere(const StudyPlan& plan, std::string_view path,
                      const std::function<bool(const ParameterRange&)>& holds) {
-  return holds_somewhere(plan, {&name, 1},
-                         [&](std::span<const ParameterRange> ranges) { return holds(ranges.front()); });
+  const parameter::Handle handle(path);
+  return holds_somewhere(plan, {&handle, 1}, [&](const Ranges& of) { return holds(of[handle]); });
 }
 
 }  // namespace zerocount::study

@@ -8,12 +8,13 @@
 #include <utility>
 #include <vector>
 
+#include "experiments/parameters/handles.hpp"
 #include "experiments/study/plan.hpp"
 #include "experiments/study/study.hpp"
 
 namespace zerocount::study {
 
-/// The lowest value of a parameter that a design must cover at a design point under a condition.
+/// The lowest value of a parameter that a design must cover at a design point in a setting.
 struct LowEnd {
   enum class Kind : std::uint8_t {
     number,   ///< the number itself: the parameter is not drawn
@@ -25,10 +26,9 @@ struct LowEnd {
   double value{0.0};  ///< low end, in the parameter's unit
 };
 
-/// The low end of a parameter at a design point under a condition.
+/// The low end of a parameter at a design point in a setting.
 /// @param parameter dotted path of a positive physical value, such as friction.k1
-LowEnd low_end(const Study& study, std::int64_t point, std::string_view parameter,
-               std::int64_t condition = 0);
+LowEnd low_end(const Study& study, std::int64_t point, std::string_view parameter, std::int64_t setting = 0);
 
 /// Range of a value over all trials of a design point: the support of its distribution, the range of its
 /// profile, the range of a value computed from drawn sources, or the number itself. NaN if the value could
@@ -58,26 +58,43 @@ ParameterRange range_of_slot(const StudyPlan& plan, std::size_t slot, std::size_
 /// Whether the control has a coarse phase in some trial, from the range of controller.coarse.coarse_beyond.
 bool can_have_coarse_phase(const ParameterRange& coarse_beyond);
 
+/// The ranges of several parameters at a point of the plan, found by handle: of[parameter::friction::k1].
+class Ranges {
+ public:
+  /// @param handles,ranges in the same order; both must outlive the object
+  Ranges(std::span<const parameter::Handle> handles, std::span<const ParameterRange> ranges)
+      : handles_(handles), ranges_(ranges) {}
+
+  /// @throws std::logic_error if the parameter is not among them
+  const ParameterRange& operator[](const parameter::Handle& handle) const;
+  std::span<const ParameterRange> all() const { return ranges_; }
+
+ private:
+  std::span<const parameter::Handle> handles_;
+  std::span<const ParameterRange> ranges_;
+};
+
 /// The parameters that decide whether a point has an encoder on each mass, and which encoder closes the
 /// (position) loop.
-inline constexpr std::array<std::string_view, 5> two_encoders{
-    "encoder.load.counts_per_revolution", "encoder.load.resolution", "controller.cascade.position",
-    "plant.load.encoder", "controller.structure"};
+inline constexpr std::array<parameter::Handle, 5> two_encoders{
+    parameter::encoder::load::counts_per_revolution, parameter::encoder::load::resolution,
+    parameter::controller::cascade::position, parameter::plant::load::encoder,
+    parameter::controller::structure};
 
-/// Whether each mass has an encoder.
-/// @param ranges ranges of the parameters `two_encoders`, in their order
-bool has_two_encoders(std::span<const ParameterRange> ranges);
-/// Whether the load's encoder closes the (position) loop.
-/// @param ranges ranges of the parameters `two_encoders`, in their order
-bool closes_at_load(std::span<const ParameterRange> ranges);
+/// Whether each mass has an encoder. @param of ranges of the parameters `two_encoders`
+bool has_two_encoders(const Ranges& of);
+/// Whether the load's encoder closes the (position) loop. @param of ranges of the parameters `two_encoders`
+bool closes_at_load(const Ranges& of);
 /// Whether some trial has two masses, and at some point the encoder of `mass` closes the loop.
 bool closes_somewhere(const StudyPlan& plan, motion::EncoderPlace mass);
 
 /// Whether the axis has a coarse encoder beside the fine one: the manifest names it, or the control reads it.
 bool has_coarse_encoder(const StudyPlan& plan);
 
+/// The slots of these parameters; for a list, the first slot.
+std::vector<std::size_t> slots_named(const StudyTable& table, std::span<const parameter::Handle> handles);
 /// The slots of the parameters with these dotted paths; for a list, the first slot.
-std::vector<std::size_t> slots_named(const StudyTable& table, std::span<const std::string_view> names);
+std::vector<std::size_t> slots_named(const StudyTable& table, std::span<const std::string_view> paths);
 
 /// The slots of a group of rows.
 std::vector<std::size_t> slots_of(const RowGroup& group);
@@ -97,12 +114,12 @@ std::vector<ParameterRange> ranges_at(const StudyPlan& plan, std::span<const std
 /// Whether all values could be read: no range is NaN.
 bool are_readable(std::span<const ParameterRange> ranges);
 
-/// Whether the predicate `holds` is true at some design point. Its argument is the ranges of the parameters
-/// `names`, in their order.
-bool holds_somewhere(const StudyPlan& plan, std::span<const std::string_view> names,
-                     const std::function<bool(std::span<const ParameterRange>)>& holds);
-/// Whether the predicate `holds` is true for the range of one parameter at some design point.
-bool holds_somewhere(const StudyPlan& plan, std::string_view name,
+/// Whether the predicate `holds` is true at some design point. Its argument is the ranges of these
+/// parameters.
+bool holds_somewhere(const StudyPlan& plan, std::span<const parameter::Handle> handles,
+                     const std::function<bool(const Ranges&)>& holds);
+/// Whether the predicate `holds` is true for the range of the parameter with this path at some design point.
+bool holds_somewhere(const StudyPlan& plan, std::string_view path,
                      const std::function<bool(const ParameterRange&)>& holds);
 
 }  // namespace zerocount::study

@@ -13,12 +13,12 @@
 
 #include "core/plugin/controller_plugin.hpp"
 #include "experiments/parameters/study_units.hpp"
-#include "experiments/study/aging.hpp"
 #include "experiments/study/features.hpp"
 #include "experiments/study/goal.hpp"
 #include "experiments/study/grouping.hpp"
 #include "experiments/study/sampling.hpp"
 #include "experiments/study/sequence.hpp"
+#include "experiments/study/setting.hpp"
 
 namespace zerocount::study {
 
@@ -54,11 +54,7 @@ struct Study {
   std::int64_t trials{0};    ///< number of trials per design point; the maximum with `stop`
   std::int64_t machines{0};  ///< number of machines; 0: no trials share a machine
   std::int64_t worlds{0};    ///< number of worlds, which divides `machines`; 0: nothing is drawn for each
-  /// Labels of the conditions under which every machine is simulated in turn; empty: a single condition. With
-  /// ages there is one label for each pair of condition and age, "loaded, 100000 cycles", sorted by age.
-  std::vector<std::string> conditions{};
-  std::vector<std::string> condition_names{};  ///< conditions of the manifest, without ages; empty: none
-  Ages ages{};
+  Settings settings{};       ///< conditions and ages; every machine is simulated in each setting
   Design design{Design::monte_carlo};
   bool independent_points{false};
   std::vector<Correlation>
@@ -109,18 +105,6 @@ inline std::int64_t trial_count(const Study& study) {
   return point_count(study) * study.trials;
 }
 
-inline std::int64_t condition_count(const Study& study) {
-  return std::max<std::int64_t>(std::ssize(study.conditions), 1);
-}
-/// Number of conditions at each age; 1 without conditions.
-inline std::int64_t conditions_of_age(const Study& study) {
-  return std::max<std::int64_t>(std::ssize(study.condition_names), 1);
-}
-
-/// Text that names a condition, " under condition loaded", or with ages " at loaded, 100000 cycles"; empty
-/// without conditions and ages.
-std::string condition_text(const Study& study, std::int64_t condition);
-
 /// Number of groups; 0 if the study does not have the grouping.
 std::int64_t group_count(const Study& study, Grouping grouping);
 
@@ -131,12 +115,12 @@ inline std::int64_t group_of(const Study& study, Grouping grouping, std::int64_t
   return trial_indices(study).group_of(grouping, trial_index);
 }
 
-/// Number of draws per point: its number of trials under one condition.
+/// Number of draws per point: its number of trials in one setting.
 inline std::int64_t draw_count(const Study& study) {
-  return study.trials / condition_count(study);
+  return study.trials / study.settings.total();
 }
 
-/// Number of draws at this level by the trials of a point under one condition. For contacts, only the first
+/// Number of draws at this level by the trials of a point in one setting. For contacts, only the first
 /// contact of each trial is counted.
 std::int64_t draw_count(const Study& study, DrawLevel level);
 

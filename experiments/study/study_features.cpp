@@ -1,4 +1,5 @@
 #include "core/friction/law.hpp"
+#include "experiments/parameters/handles.hpp"
 #include "experiments/study/effects.hpp"
 #include "experiments/study/plan.hpp"
 #include "experiments/study/point_limits.hpp"
@@ -42,8 +43,8 @@ bool has_delayed_torque(const StudyPlan& plan) {
   const auto is_exact = [](const ParameterRange& through) {
     return through.high == static_cast<double>(trial::TorquePath::exact);
   };
-  return plan.open_loop && (holds_somewhere(plan, "command.torque.through", is_exact) ||
-                            holds_somewhere(plan, "controller.delay", can_be_positive));
+  return plan.open_loop && (holds_somewhere(plan, parameter::command::torque::through, is_exact) ||
+                            holds_somewhere(plan, parameter::controller::delay, can_be_positive));
 }
 
 bool is_spread(Design design) {
@@ -65,9 +66,9 @@ StudyFeatures find_features(const StudyPlan& plan, const Study& study) {
   StudyFeatures features;
   features.axis = plan.units.axis;
   features.open_loop = plan.open_loop;
-  features.travel = closed_loop && holds_somewhere(plan, "command.profile.shape", is_travel);
-  features.phases =
-      closed_loop && holds_somewhere(plan, "controller.coarse.coarse_beyond", can_have_coarse_phase);
+  features.travel = closed_loop && holds_somewhere(plan, parameter::command::profile::shape, is_travel);
+  features.phases = closed_loop && holds_somewhere(plan, parameter::controller::coarse::coarse_beyond,
+                                                   can_have_coarse_phase);
   features.drive_torque = has_delayed_torque(plan);
   for (const Effect& effect : effects())
     if (effect.feature != nullptr && !(features.*effect.feature))
@@ -75,23 +76,24 @@ StudyFeatures find_features(const StudyPlan& plan, const Study& study) {
   features.motor_closes = closed_loop && closes_somewhere(plan, motion::EncoderPlace::motor);
   features.load_closes = closed_loop && closes_somewhere(plan, motion::EncoderPlace::load);
   const auto closes_at = [&](bool load) {
-    return features.load && holds_somewhere(plan, two_encoders, [&](std::span<const ParameterRange> ranges) {
-             return has_two_encoders(ranges) && closes_at_load(ranges) == load;
+    return features.load && holds_somewhere(plan, two_encoders, [&](const Ranges& of) {
+             return has_two_encoders(of) && closes_at_load(of) == load;
            });
   };
   features.load_count = closes_at(false);
   features.motor_count = closes_at(true);
   features.own_controller = plan.plugin != nullptr;
-  const bool follows = closed_loop && holds_somewhere(plan, "command.profile.shape", moves_for_ever);
+  const bool follows =
+      closed_loop && holds_somewhere(plan, parameter::command::profile::shape, moves_for_ever);
   features.final_error = features.own_controller || features.travel || follows || features.phases ||
-                         holds_somewhere(plan, "controller.ki", has_zero) ||
-                         holds_somewhere(plan, "controller.deadband.enter", can_be_positive) ||
-                         holds_somewhere(plan, "friction.model", causes_hunting);
-  features.stopping = closed_loop && holds_somewhere(plan, "verdict.stop", can_be_positive);
-  features.motion = closed_loop && holds_somewhere(plan, "verdict.motion", can_be_positive);
+                         holds_somewhere(plan, parameter::controller::ki, has_zero) ||
+                         holds_somewhere(plan, parameter::controller::deadband::enter, can_be_positive) ||
+                         holds_somewhere(plan, parameter::friction::model, causes_hunting);
+  features.stopping = closed_loop && holds_somewhere(plan, parameter::verdict::stop, can_be_positive);
+  features.motion = closed_loop && holds_somewhere(plan, parameter::verdict::motion, can_be_positive);
   features.following = features.motion && (features.travel || follows);
-  features.steps = features.motion && holds_somewhere(plan, "command.profile.shape", has_an_end);
-  features.reversals = features.motion && holds_somewhere(plan, "command.profile.shape", is_sine);
+  features.steps = features.motion && holds_somewhere(plan, parameter::command::profile::shape, has_an_end);
+  features.reversals = features.motion && holds_somewhere(plan, parameter::command::profile::shape, is_sine);
   features.dependent_trials = study.design == Design::saltelli;
   features.bands = plan.common.verdict.bands;
   features.tolerances = plan.common.verdict.tolerances;

@@ -10,6 +10,7 @@
 #include "core/failure/failure.hpp"
 #include "core/loop/reference.hpp"
 #include "experiments/designs/designs.hpp"
+#include "experiments/parameters/handles.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/measured_machines.hpp"
 #include "experiments/study/trial_draws.hpp"
@@ -26,13 +27,13 @@ std::uint64_t numbers_within_trial(const Study& study, std::uint64_t index, cons
 
 // The range of the converter, where it is given, takes precedence over the resolution.
 void set_resolution(const std::vector<double>& numbers, loop::DacParameters& dac) {
-  static const std::size_t range = parameters::find_parameter("dac.range").value();
+  static const std::size_t range = parameters::find_parameter(parameter::dac::range).value();
   if (numbers[range] > 0.0) dac.resolution = std::ldexp(numbers[range], 1 - dac.bits);
 }
 
 // A recorded reference without a hold of its own lasts until its last row and one sample of the controller.
 void set_hold_of_record(const StudyPlan& plan, trial::TrialParameters& trial) {
-  static const std::size_t hold = parameters::find_parameter("command.hold").value();
+  static const std::size_t hold = parameters::find_parameter(parameter::command::hold).value();
   if (trial.command.profile.record && !plan.given[hold])
     trial.command.hold =
         loop::record_duration(trial.command.profile.record->time, 1.0 / trial.controller.sample_rate);

@@ -5,6 +5,7 @@
 
 #include "core/loop/encoder.hpp"
 #include "core/theory/gains.hpp"
+#include "experiments/parameters/handles.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/study/plan.hpp"
 #include "experiments/study/trial_draws.hpp"
@@ -56,7 +57,8 @@ void choose_encoders(trial::TrialParameters& trial) {
 
 // Target of a move in the manifest's unit.
 double listed_target(const Study& study, const std::vector<double>& numbers, std::size_t move) {
-  static const std::size_t overrun = parameters::find_parameter("command.sequence.overrun").value();
+  static const std::size_t overrun =
+      parameters::find_parameter(parameter::command::sequence::overrun).value();
   const std::span<const double> targets = std::span(numbers).subspan(study.plan->list.first);
   if (!study.plan->sequence) return targets[move];
   return sequence_position(study.sequence[move], targets, numbers[overrun]);

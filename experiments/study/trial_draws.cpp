@@ -82,7 +82,7 @@ double at_age(const TrialDraws& draws, std::uint32_t slot, std::size_t point, do
   throw Failure(
       ExitCode::bad_input,
       fmt::format("{}: {:.6g} at age 0 is {:.6g} at {}; expected {}", parameter.name, number, number * factor,
-                  age_text(draws.study.ages, age_at(plan, point)), numerics::range_text(range)));
+                  age_text(draws.study.settings.ages, age_at(plan, point)), numerics::range_text(range)));
 }
 
 std::int64_t rotor_of(const TrialDraws& draws, const Value& profile) {
@@ -126,7 +126,7 @@ TrialDraws draws_of(const Study& study, std::int64_t point, std::int64_t draw, c
 TrialPlace place_of(const Study& study, std::int64_t point, std::int64_t index) {
   check_exists(study, point, index);
   const TrialIndices indices = trial_indices(study);
-  return {plan_point(*study.plan, point, indices.condition_of(index)), indices.draw_of(index)};
+  return {plan_point(*study.plan, point, indices.setting_of(index)), indices.draw_of(index)};
 }
 
 double uniform_of(const TrialDraws& draws, std::uint32_t slot, DrawLevel level) {

@@ -19,7 +19,7 @@ using QuantileFunctions = std::vector<std::optional<distributions::QuantileFunct
 /// The coordinates of a trial's random numbers.
 struct TrialDraws {
   const Study& study;
-  std::uint64_t index;    ///< index of the trial among the trials of its condition (TrialIndices::draw_of)
+  std::uint64_t index;    ///< index of the trial among the trials of its setting (TrialIndices::draw_of)
   std::uint64_t place;    ///< index of the trial's point in the design
   std::uint64_t machine;  ///< index of its machine in the design, as `place`; 0 without machines
   std::uint64_t world;    ///< index of its world; 0 without worlds

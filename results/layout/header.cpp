@@ -188,23 +188,23 @@ RowRange all_rows(const study::Study& study) {
 }
 
 FileHeader make_header(const study::Study& study, FileKind kind, RowRange rows, Provenance provenance) {
-  return {kind,
-          study.retention,
-          study.name,
-          std::move(provenance),
-          study.engine,
-          study.seed,
-          study.trials,
-          study::point_count(study),
-          rows,
-          kind == FileKind::study && rows == all_rows(study),
-          false,
-          study.manifest.text,
-          study.manifest.overrides,
-          study.manifest.sha256,
-          study.study_sha256,
-          study.plugin ? std::optional(study.plugin->description) : std::nullopt,
-          study.samples ? std::optional(study.samples->text) : std::nullopt};
+  return {.kind = kind,
+          .retention = study.retention,
+          .name = study.name,
+          .provenance = std::move(provenance),
+          .engine = study.engine,
+          .seed = study.seed,
+          .trials = study.trials,
+          .points = study::point_count(study),
+          .rows = rows,
+          .complete = kind == FileKind::study && rows == all_rows(study),
+          .finished = false,
+          .manifest = study.manifest.text,
+          .overrides = study.manifest.overrides,
+          .manifest_sha256 = study.manifest.sha256,
+          .study_sha256 = study.study_sha256,
+          .plugin = study.plugin ? std::optional(study.plugin->description) : std::nullopt,
+          .samples = study.samples ? std::optional(study.samples->text) : std::nullopt};
 }
 
 void write_header(hdf5::File& file, const FileHeader& header) {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/failure/failure.hpp"
-#include "experiments/study/condition_study.hpp"
+#include "experiments/study/setting_study.hpp"
 
 namespace zerocount::reading {
 
@@ -13,23 +13,23 @@ AllTrialsFile::AllTrialsFile(const std::filesystem::path& path, Require require,
   layout::require_every_trial(path, header());
 }
 
-AllTrialsFile::AllTrialsFile(const AllTrialsFile& whole, std::int64_t condition) : ResultsFile(whole) {
+AllTrialsFile::AllTrialsFile(const AllTrialsFile& whole, std::int64_t setting) : ResultsFile(whole) {
   const study::Study& study = whole.study();
-  if (study.conditions.empty()) return;
-  condition_ = {study::trial_indices(study), condition, study.trials};
-  show_study(study::under_condition(study, condition));
+  if (study.settings.empty()) return;
+  setting_ = {study::trial_indices(study), setting, study.trials};
+  show_study(study::in_setting(study, setting));
 }
 
-AllTrialsFile AllTrialsFile::under_condition(std::int64_t condition) const {
-  return {*this, condition};
+AllTrialsFile AllTrialsFile::in_setting(std::int64_t setting) const {
+  return {*this, setting};
 }
 
 std::int64_t AllTrialsFile::row_in_file(std::int64_t row) const {
-  if (!condition_) return row;
+  if (!setting_) return row;
   const std::int64_t draws = header().trials;
   const std::int64_t point = row / draws;
-  if (row % draws == 0 && row > 0 && row == rows().end()) return point * condition_->trials;  // the end
-  return point * condition_->trials + condition_->indices.trial_of(row % draws, condition_->number);
+  if (row % draws == 0 && row > 0 && row == rows().end()) return point * setting_->trials;  // the end
+  return point * setting_->trials + setting_->indices.trial_of(row % draws, setting_->number);
 }
 
 /// Requires that the file holds the rows.
@@ -43,7 +43,7 @@ void AllTrialsFile::require_rows(layout::RowRange range) const {
 
 layout::RowRange AllTrialsFile::local(layout::RowRange range) const {
   require_rows(range);
-  if (!condition_ || range.count == 0) return trials()->positions_of({row_in_file(range.first), range.count});
+  if (!setting_ || range.count == 0) return trials()->positions_of({row_in_file(range.first), range.count});
   const std::int64_t first = row_in_file(range.first);
   return trials()->positions_of({first, row_in_file(range.end() - 1) + 1 - first});
 }
@@ -51,7 +51,7 @@ layout::RowRange AllTrialsFile::local(layout::RowRange range) const {
 template <class Value>
 std::vector<Value> AllTrialsFile::chosen(layout::RowRange range, std::vector<Value> read,
                                          std::int64_t width) const {
-  if (!condition_ || range.count == 0) return read;
+  if (!setting_ || range.count == 0) return read;
   const std::int64_t first = row_in_file(range.first);
   std::vector<Value> values;
   values.reserve(static_cast<std::size_t>(range.count * width));
@@ -90,10 +90,10 @@ std::vector<double> AllTrialsFile::measure(std::string_view name, layout::RowRan
 
 std::vector<layout::JerkRecord> AllTrialsFile::jerks_at(std::int64_t first, std::int64_t count) const {
   std::vector<layout::JerkRecord> found = trials()->jerks_at(first, count);
-  if (!condition_) return found;
-  const OneCondition& one = *condition_;
+  if (!setting_) return found;
+  const OneSetting& one = *setting_;
   std::erase_if(found, [&](const layout::JerkRecord& jerk) {
-    return one.indices.condition_of(jerk.trial % one.trials) != one.number;
+    return one.indices.setting_of(jerk.trial % one.trials) != one.number;
   });
   for (layout::JerkRecord& jerk : found) {
     const std::int64_t point = jerk.trial / one.trials;

@@ -24,11 +24,11 @@ class AllTrialsFile : public ResultsFile {
   explicit AllTrialsFile(const std::filesystem::path& path, Require require = Require::complete,
                          const layout::MeasureTable* table = nullptr, const study::Study* study = nullptr);
 
-  /// The trials under one condition, as the file of a study of its own (study::under_condition): all that is
+  /// The trials in one setting, as the file of a study of its own (study::in_setting): all that is
   /// read of trials, and header().trials and rows(), are of that study, whose row is point·trials + draw.
-  /// What the file has of its design points, machines and traces stays that of all conditions. A file without
-  /// conditions is shown as it is.
-  AllTrialsFile under_condition(std::int64_t condition) const;
+  /// What the file has of its design points, machines and traces stays that of all settings. A file without
+  /// settings is shown as it is.
+  AllTrialsFile in_setting(std::int64_t setting) const;
 
   parameters::AxisKind axis() const { return features().axis; }
   std::int64_t moves() const { return trials()->moves(); }
@@ -53,8 +53,8 @@ class AllTrialsFile : public ResultsFile {
 
   void require_valid_values() const { trials()->require_valid_values(); }
 
-  std::int64_t jerk_count() const { return trials()->jerk_count(); }  ///< Number of jerks of all conditions
-  /// The jerks at these positions of the table. Under a condition, only the jerks of its trials among them
+  std::int64_t jerk_count() const { return trials()->jerk_count(); }  ///< Number of jerks of all settings
+  /// The jerks at these positions of the table. In a setting, only the jerks of its trials among them
   /// are returned.
   std::vector<layout::JerkRecord> jerks_at(std::int64_t first, std::int64_t count) const;
   std::vector<layout::JerkRecord> jerks(layout::RowRange rows) const;
@@ -68,15 +68,15 @@ class AllTrialsFile : public ResultsFile {
   }
 
  private:
-  /// The condition whose trials are read.
-  struct OneCondition {
+  /// The setting whose trials are read.
+  struct OneSetting {
     study::TrialIndices indices;
     std::int64_t number{0};
-    std::int64_t trials{0};  ///< Trials of a design point, of all conditions together
+    std::int64_t trials{0};  ///< Trials of a design point, of all settings together
   };
 
-  AllTrialsFile(const AllTrialsFile& whole, std::int64_t condition);
-  /// Index of the row in the whole file. @param row index among the trials of the condition that is read
+  AllTrialsFile(const AllTrialsFile& whole, std::int64_t setting);
+  /// Index of the row in the whole file. @param row index among the trials of the setting that is read
   std::int64_t row_in_file(std::int64_t row) const;
   void require_rows(layout::RowRange rows) const;
   /// The positions in the tables from the first to the last of `rows`.
@@ -86,17 +86,16 @@ class AllTrialsFile : public ResultsFile {
   template <class Value>
   std::vector<Value> chosen(layout::RowRange rows, std::vector<Value> read, std::int64_t width) const;
 
-  std::optional<OneCondition> condition_{};
+  std::optional<OneSetting> setting_{};
 };
 
-/// Calls take(file, name) for the trials under each condition in turn; without conditions for the file
+/// Calls take(file, name) for the trials in each setting in turn; without settings for the file
 /// itself, with an empty name.
 template <class Take>
-void for_each_condition(const AllTrialsFile& file, const Take& take) {
-  const std::vector<std::string>& conditions = file.study().conditions;
-  if (conditions.empty()) take(file, std::string());
-  for (std::size_t i = 0; i < conditions.size(); ++i)
-    take(file.under_condition(static_cast<std::int64_t>(i)), conditions[i]);
+void for_each_setting(const AllTrialsFile& file, const Take& take) {
+  const study::Settings settings = file.study().settings;
+  if (settings.empty()) return take(file, std::string());
+  for (std::int64_t i = 0; i < settings.total(); ++i) take(file.in_setting(i), study::label_of(settings, i));
 }
 
 }  // namespace zerocount::reading

@@ -38,13 +38,13 @@ struct StoredProfile {
   std::string theta_unit{"rad"};
 };
 
-/// The groups of a grouping in a results file (layout::groupings): its machines, worlds, conditions or ages.
+/// The groups of a grouping in a results file (layout::groupings): its machines, worlds, settings or ages.
 /// Counts and statistics are [point][group], flattened, and empty in a part.
 struct StoredGroups {
   std::int64_t count{0};
   std::vector<study::InputColumn> columns;  ///< Inputs that are drawn for each group
   std::vector<std::vector<double>> inputs;  ///< Values of the inputs, [column][group]
-  std::vector<std::string> names;           ///< Names of conditions, [group]; otherwise empty
+  std::vector<std::string> names;           ///< Names of settings, [group]; otherwise empty
   std::vector<double> values;               ///< Ages, [group]; otherwise empty
   std::string unit;                         ///< Unit of `values`
   std::vector<std::int64_t> success;        ///< Trials that succeeded
@@ -79,7 +79,7 @@ class ResultsFile {
   layout::RowRange rows() const { return header().rows; }
 
   /// Labels of the design points. A shard has no labels, axes, statistics or tables of statistics. A file
-  /// that is shown as the study of one condition (AllTrialsFile::under_condition) has no statistics either.
+  /// that is shown as the study of one setting (AllTrialsFile::in_setting) has no statistics either.
   std::vector<std::string> point_labels() const;
   std::vector<study::SweepAxis> axes() const;
   std::vector<layout::PointColumn> statistics() const;

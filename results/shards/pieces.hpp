@@ -10,8 +10,8 @@ namespace zerocount::shards {
 /// Part `number` of `count` of a study whose parts are run by an array job.
 struct Part {
   std::filesystem::path path;  ///< Path OUTPUT.parts/part-007-of-128.h5, whether the file exists or not
-  std::int64_t number{1};      ///< Number of the part, from 1
-  std::int64_t count{1};
+  std::int64_t number{1};      ///< Number of this part of the study, 1 to `count`
+  std::int64_t count{1};       ///< Number of parts into which the study is divided
 };
 
 /// The folder of the parts of `output`: OUTPUT.parts.

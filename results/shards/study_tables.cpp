@@ -59,7 +59,7 @@ void write_rotors(hdf5::File& file, const study::RealisedProfile& realised, cons
 
 /// The unit of the scale of the groups.
 std::string unit_of(const study::Study& study, const layout::Grouping& grouping) {
-  return grouping.has_values ? study.ages.unit : "1";
+  return grouping.has_values ? study.settings.ages.unit : "1";
 }
 
 }  // namespace
@@ -86,13 +86,13 @@ void write_groups(hdf5::File& file, const study::Study& study, const layout::Gro
   layout::TableIo io = layout::TableIo::create(
       file, layout::group_table(grouping, inputs, unit_of(study, grouping)), groups, 1);
   if (grouping.has_values) {
-    io.row_scale().write(0, groups, study.ages.at.data());
+    io.row_scale().write(0, groups, study.settings.ages.at.data());
   } else {
     io.number_rows(0);
   }
   for (std::size_t column = 0; column < values.size(); ++column)
     io.column(column).write(0, groups, values[column].data());
-  if (grouping.has_labels) io.column(values.size()).write_texts(study.condition_names);
+  if (grouping.has_labels) io.column(values.size()).write_texts(study.settings.conditions);
 }
 
 void write_group_counts(hdf5::File& file, const study::Study& study, const layout::Grouping& grouping,

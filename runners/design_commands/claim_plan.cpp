@@ -14,7 +14,7 @@
 #include "analysis/statistics/sample_size.hpp"
 #include "analysis/summary/summary.hpp"
 #include "analysis/text/text.hpp"
-#include "experiments/study/condition_study.hpp"
+#include "experiments/study/setting_study.hpp"
 #include "results/reading/all_trials_file.hpp"
 #include "runners/command_line/command_line.hpp"
 #include "runners/commands/command.hpp"
@@ -44,33 +44,33 @@ struct PlanRequest {
   double rate() const { return true_success.value_or(worst_case_rate); }
 };
 
-/// A design point of a pilot; if the pilot has conditions, under one of them.
+/// A design point of a pilot; if the pilot has settings, in one of them.
 struct PilotPoint {
   std::string label;
   double rate{0.0};        ///< Success rate.
   double machine_sd{0.0};  ///< Standard deviation of the success probability between machines.
 };
 
-/// Design point and condition at which the machines of the pilot differ most. Nothing if no machine has
+/// Design point and setting at which the machines of the pilot differ most. Nothing if no machine has
 /// several trials.
 std::optional<PilotPoint> worst_point(const std::string& path) {
   std::optional<PilotPoint> worst;
-  const auto take = [&](const summary::StudySummary& summary, std::string_view condition) {
+  const auto take = [&](const summary::StudySummary& summary, std::string_view setting) {
     for (std::size_t i = 0; i < summary.points.size(); ++i) {
       const measures::PointSummary& point = summary.points[i];
       const double sd = point.machines.success_sd;
       if (!std::isnan(sd) && (!worst || sd > worst->machine_sd))
-        worst = {study::label_under(summary.labels[i], condition), point.success_rate().value, sd};
+        worst = {study::label_under(summary.labels[i], setting), point.success_rate().value, sd};
     }
   };
   const study::Study study = commands::described_study(path);
-  if (study.conditions.empty()) {
+  if (study.settings.empty()) {
     take(summary::summarise_file(path), "");
     return worst;
   }
   const reading::AllTrialsFile file(path);
-  for (std::size_t i = 0; i < study.conditions.size(); ++i)
-    take(summary::summarise(file.under_condition(static_cast<std::int64_t>(i))), study.conditions[i]);
+  for (std::int64_t i = 0; i < study.settings.total(); ++i)
+    take(summary::summarise(file.in_setting(i)), study::label_of(study.settings, i));
   return worst;
 }
 

@@ -25,7 +25,7 @@ namespace zerocount::design_commands {
 struct ExaminedPoint {
   study::Study study;     ///< Study restricted to `--condition` and `--age`.
   std::int64_t point{0};  ///< Design point.
-  study::Study whole;     ///< Study with all conditions and ages.
+  study::Study whole;     ///< Study with all settings and ages.
 
   /// Converts the number of a trial of `study` to its number in `whole`.
   std::int64_t trial_in_whole(std::int64_t trial) const;
@@ -74,7 +74,7 @@ inline document::Item optional(document::Item item) {
   return item;
 }
 
-/// Columns for the goal and the condition of a claim. Columns without a heading are in data only.
+/// Columns for the goal and the setting of a claim. Columns without a heading are in data only.
 document::Description<tuning::ClaimNames> named_claim_columns(std::string goal_heading = "",
                                                               std::string condition_heading = "",
                                                               std::string goal_key = "goal");

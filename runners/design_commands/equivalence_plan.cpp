@@ -18,7 +18,7 @@
 #include "analysis/text/text.hpp"
 #include "core/text/text.hpp"
 #include "core/trial/move_measures.hpp"
-#include "experiments/study/condition_study.hpp"
+#include "experiments/study/setting_study.hpp"
 #include "runners/command_line/command_line.hpp"
 #include "runners/commands/command.hpp"
 #include "runners/design_commands/design_commands.hpp"
@@ -112,7 +112,7 @@ void require_goals_of_margins(const comparison::GateRules& rules, const study::S
 }
 
 /// Runs the first `trials` trials of a design point.
-/// @param study study under one condition
+/// @param study study in one setting
 comparison::PointTrials run_point(const study::Study& study, std::int64_t point, std::int64_t trials) {
   const auto draw = [&](std::int64_t index) { return study::study_trial(study, point, index).parameters; };
   std::vector<trial::MoveOutcome> outcomes;
@@ -131,8 +131,8 @@ comparison::PointTrials run_point(const study::Study& study, std::int64_t point,
 
 /// A measure at a design point of the pilot, and the trials that it needs.
 struct PlannedMeasure {
-  std::string point;      ///< Label of the design point and the condition.
-  std::string condition;  ///< Name of the condition; empty without conditions.
+  std::string point;    ///< Label of the design point and the setting.
+  std::string setting;  ///< Name of the setting; empty without settings.
   comparison::Judgement found;
   /// Trials per design point that each of the two studies needs for this measure alone. Nothing if the
   /// maximum number of trials does not decide the margin.
@@ -146,18 +146,18 @@ struct PlannedMeasure {
 struct EquivalencePlan {
   comparison::GateRules rules;
   double power{comparison::decision_probability};
-  std::int64_t pilot{0};       ///< Pilot trials of each design point under each condition.
-  std::int64_t conditions{1};  ///< Number of conditions under which each design point is run.
+  std::int64_t pilot{0};     ///< Pilot trials of each design point in each setting.
+  std::int64_t settings{1};  ///< Number of settings in which each design point is run.
   comparison::Forecast forecast;
   std::int64_t machines{1};  ///< Machines of each design point; 1: no trials share a machine.
   std::vector<PlannedMeasure> measures;
   std::vector<PlannedMeasure> unplanned;  ///< Measures for which too few pilot trials have a value.
 };
 
-/// Adds the measures of a point under a condition to the plan. The pilot's sample represents both studies.
+/// Adds the measures of a point in a setting to the plan. The pilot's sample represents both studies.
 void add_point(EquivalencePlan& plan, comparison::ForecastSamples& samples, const std::string& design_point,
-               const std::string& condition, const comparison::PointTrials& trials) {
-  const std::string label = study::label_under(design_point, condition);
+               const std::string& setting, const comparison::PointTrials& trials) {
+  const std::string label = study::label_under(design_point, setting);
   const comparison::BothTrials both{trials, trials, false};
   const auto found = comparison::compare_measures(plan.rules, label, both);
   const auto of_measures = comparison::measure_samples(plan.rules, found, both);
@@ -165,24 +165,24 @@ void add_point(EquivalencePlan& plan, comparison::ForecastSamples& samples, cons
   for (std::size_t k = 0; k < found.size(); ++k) {
     const comparison::Judgement& one = found[k];
     const bool is_planned = comparison::has_finite_bounds(one);
-    (is_planned ? plan.measures : plan.unplanned).push_back({label, condition, one});
+    (is_planned ? plan.measures : plan.unplanned).push_back({label, setting, one});
     if (is_planned) samples.add(one, of_measures[k]);
   }
 }
 
-/// Number of trials of a design point under all conditions together. It is rounded up so that each machine
-/// has equally many trials under each condition.
-/// @param each trials of the point under each condition
+/// Number of trials of a design point in all settings together. It is rounded up so that each machine
+/// has equally many trials in each setting.
+/// @param each trials of the point in each setting
 std::int64_t trials_of_point(const EquivalencePlan& plan, double each) {
   const double on_machine = std::ceil(each / static_cast<double>(plan.machines));
-  return plan.conditions * plan.machines * static_cast<std::int64_t>(on_machine);
+  return plan.settings * plan.machines * static_cast<std::int64_t>(on_machine);
 }
 
 /// Text of trials_of_point() for people. If any number of trials can be run, the text is rounded up.
 std::string trials_text(const EquivalencePlan& plan, double each) {
   const std::int64_t trials = trials_of_point(plan, each);
-  return plan.conditions * plan.machines > 1 ? std::to_string(trials)
-                                             : comparison::trials_text(static_cast<double>(trials));
+  return plan.settings * plan.machines > 1 ? std::to_string(trials)
+                                           : comparison::trials_text(static_cast<double>(trials));
 }
 
 void take_forecast(const EquivalencePlan& plan, PlannedMeasure& measure,
@@ -202,22 +202,22 @@ EquivalencePlan plan_of(const command_line::Arguments& arguments) {
   plan.power = command_line::probability_option(arguments, "power").value_or(plan.power);
   const study::Study study = planned_study(arguments);
   require_goals_of_margins(plan.rules, study, arguments.operands()[0]);
-  plan.conditions = study::condition_count(study);
+  plan.settings = study.settings.total();
   plan.machines = std::max<std::int64_t>(study.machines, 1);
-  std::vector<study::Study> under;  // [condition]
-  for (std::int64_t i = 0; i < plan.conditions; ++i) under.push_back(study::under_condition(study, i));
+  std::vector<study::Study> under;  // [setting]
+  for (std::int64_t i = 0; i < plan.settings; ++i) under.push_back(study::in_setting(study, i));
   const std::int64_t trials = under.front().trials;
   plan.pilot = study.machines > 0 ? trials : std::min(trials, pilot_trials);
   const std::int64_t units = study.machines > 0 ? study.machines : plan.pilot;
   comparison::ForecastSamples samples({units, units}, true);
-  status::Progress progress(study::point_count(study) * plan.conditions * plan.pilot, 0,
+  status::Progress progress(study::point_count(study) * plan.settings * plan.pilot, 0,
                             trials::samples_per_trial(study), false);
   std::int64_t done = 0;
   for (std::int64_t i = 0; i < study::point_count(study); ++i) {
-    for (std::size_t condition = 0; condition < under.size(); ++condition) {
+    for (std::size_t setting = 0; setting < under.size(); ++setting) {
       add_point(plan, samples, study.points.labels[static_cast<std::size_t>(i)],
-                study.conditions.empty() ? "" : study.conditions[condition],
-                run_point(under[condition], i, plan.pilot));
+                study.settings.empty() ? "" : study::label_of(study.settings, setting),
+                run_point(under[setting], i, plan.pilot));
       progress.update(done += plan.pilot);
     }
   }
@@ -245,7 +245,7 @@ document::Description<PlannedMeasure> place_columns() {
       .value(everywhere("point", "point", "label of the design point, with the condition"),
              &PlannedMeasure::point)
       .value(in_data("condition", "its trials are under it; absent without conditions"),
-             [](Measure one) { return one.condition.empty() ? std::nullopt : std::optional(one.condition); })
+             [](Measure one) { return one.setting.empty() ? std::nullopt : std::optional(one.setting); })
       .value(everywhere("measure", "measure", "name of the measure"),
              [](Measure one) { return one.found.measure; });
 }
@@ -275,7 +275,7 @@ std::string equivalence_headline(const EquivalencePlan& plan) {
       "these "
       "measures are equivalent",
       trials_text(plan, plan.forecast.trials.value_or(plan.forecast.max_trials)),
-      plan.conditions > 1 ? ", under all conditions together," : "", plan.forecast.trials ? "" : " do not",
+      plan.settings > 1 ? ", under all conditions together," : "", plan.forecast.trials ? "" : " do not",
       text::percent(plan.power));
 }
 
@@ -284,7 +284,7 @@ std::string aim_sentence(const EquivalencePlan& plan) {
       "equivalent: two equal studies with different random numbers differ by less than the margins (bounds: "
       "{} "
       "each), by a pilot of {} trials per design point",
-      text::percent(plan.rules.confidence), plan.conditions * plan.pilot);
+      text::percent(plan.rules.confidence), plan.settings * plan.pilot);
 }
 
 document::AnswerDescription<EquivalencePlan> equivalence_answer() {
@@ -299,7 +299,7 @@ document::AnswerDescription<EquivalencePlan> equivalence_answer() {
              [](const EquivalencePlan& plan) { return plan.rules.confidence; })
       .value(in_data("power", "probability with which equivalence is shown", "1"), &EquivalencePlan::power)
       .value(in_data("pilot_trials", "trials of the pilot per design point"),
-             [](const EquivalencePlan& plan) { return plan.conditions * plan.pilot; })
+             [](const EquivalencePlan& plan) { return plan.settings * plan.pilot; })
       .value(in_data("trials", "trials of each study per design point; unknown if max_trials do not suffice"),
              [](const EquivalencePlan& plan) {
                const std::optional<double>& trials = plan.forecast.trials;

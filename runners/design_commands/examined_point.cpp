@@ -33,10 +33,9 @@ ExaminedPoint point_to_examine(const command_line::Arguments& arguments) {
 
 std::int64_t ExaminedPoint::trial_in_whole(std::int64_t trial) const {
   const study::TrialIndices indices = study::trial_indices(study);
-  const auto setting = static_cast<std::size_t>(indices.condition_of(trial));
-  if (whole.conditions.empty()) return trial;
-  const auto same = std::ranges::find(whole.conditions, study.conditions[setting]);
-  return study::trial_indices(whole).trial_of(indices.draw_of(trial), same - whole.conditions.begin());
+  if (whole.settings.empty()) return trial;
+  const std::string label = study::label_of(study.settings, indices.setting_of(trial));
+  return study::trial_indices(whole).trial_of(indices.draw_of(trial), study::setting_labelled(whole, label));
 }
 
 document::Description<tuning::ClaimNames> named_claim_columns(std::string goal_heading,
@@ -46,7 +45,7 @@ document::Description<tuning::ClaimNames> named_claim_columns(std::string goal_h
       .value(optional({std::move(goal_key), std::move(goal_heading), "its goal, of several"}),
              &tuning::ClaimNames::goal)
       .value(optional({"condition", std::move(condition_heading), "its condition, with conditions"}),
-             &tuning::ClaimNames::condition);
+             &tuning::ClaimNames::setting);
 }
 
 command_line::OptionSpec condition_option() {

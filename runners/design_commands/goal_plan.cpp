@@ -87,14 +87,14 @@ std::string smallest_headline(const GoalPlans& plans) {
                      plans.study.goals.size() > 1 ? "them" : "it");
 }
 
-/// Sentence about the worlds, conditions and design points to which the numbers refer.
+/// Sentence about the worlds, settings and design points to which the numbers refer.
 std::string extent_sentence(const GoalPlans& plans) {
   std::string lines;
   if (plans.study.worlds > 0)
     lines += fmt::format("in all {} worlds together, each with as many as the others\n", plans.study.worlds);
-  if (!plans.study.conditions.empty())
+  if (!plans.study.settings.empty())
     lines += fmt::format("under the conditions {} together, each with as many trials as the others\n",
-                         fmt::join(plans.study.conditions, ", "));
+                         fmt::join(study::labels_of(plans.study.settings), ", "));
   if (const std::size_t points = plans.study.points.labels.size(); points > 1)
     lines += fmt::format("at the best of the {} points\n", points);
   return lines +
@@ -163,7 +163,7 @@ document::Answer plan_of_manifest(const command_line::Arguments& arguments) {
   const std::string& path = arguments.operands()[0];
   const study::Study study = commands::load_study(path, arguments);
   goal::require_claim(study, path, other_plans);
-  const goal::StudyShape shape{study.machines > 0, study.worlds, study::condition_count(study)};
+  const goal::StudyShape shape{study.machines > 0, study.worlds, study.settings.total()};
   const auto smallest = goal::smallest_studies(asked_goals(study), shape, study.points.labels.size());
   return goal_answer().of({study, with_times(smallest, study)});
 }

@@ -130,7 +130,7 @@ std::string causes_sentence(const std::vector<Limit>& limits) {
   const std::int64_t needed = tuning::machines_to_show_a_gain(tried);
   const tuning::ClaimNames& worst = limits.front().worst;
   std::vector<std::string> names;
-  for (const std::optional<std::string>& name : {worst.goal, worst.condition})
+  for (const std::optional<std::string>& name : {worst.goal, worst.setting})
     if (name) names.push_back(*name);
   return (names.empty()
               ? ""
@@ -190,7 +190,7 @@ std::string simulated_sentence(const PointLimits& found) {
   const std::int64_t all = trials::replicates_of(found.study, found.machines.point).count;
   const std::string machines = std::string(found.study.machines > 0 ? "machines" : "trials") +
                                " of the study" +
-                               (found.study.conditions.empty() ? "" : " under each condition");
+                               (found.study.settings.empty() ? "" : " under each condition");
   return (found.machines.count < all
               ? fmt::format("simulated: the first {} of {} {}, as many as the budget is enough for",
                             found.machines.count, all, machines)
@@ -207,7 +207,7 @@ std::string theory_sentence(const PointLimits& found) {
   std::vector<theory::KnownRotor> rotors;
   std::vector<std::string> objections;
   for (const theory::LoopRanges& loop :
-       theory::examine(found.study, found.machines.point, static_cast<std::int64_t>(worst.condition), rotors)
+       theory::examine(found.study, found.machines.point, static_cast<std::int64_t>(worst.setting), rotors)
            .loops) {
     const std::string stability = theory::stability_text(loop);
     if (stability != "stable") objections.push_back(fmt::format("{}: {}", loop.name, stability));

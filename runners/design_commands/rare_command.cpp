@@ -10,7 +10,7 @@
 #include "analysis/goal/question.hpp"
 #include "analysis/parallel/parallel.hpp"
 #include "core/failure/failure.hpp"
-#include "experiments/study/condition_study.hpp"
+#include "experiments/study/setting_study.hpp"
 #include "results/storage/durable_file.hpp"
 #include "results/storage/output_lock.hpp"
 #include "runners/answers/answer_format.hpp"
@@ -67,12 +67,12 @@ std::optional<std::int64_t> world_to_ask(const command_line::Arguments& argument
   return world;
 }
 
-/// A probability over all conditions would be an average: one is named.
-std::optional<std::int64_t> condition_to_ask(const command_line::Arguments& arguments,
-                                             const study::Study& study) {
+/// A probability over all settings would be an average: one is named.
+std::optional<std::int64_t> setting_to_ask(const command_line::Arguments& arguments,
+                                           const study::Study& study) {
   const std::int64_t setting = study::setting_named(study, arguments.value("condition"),
                                                     command_line::number_option(arguments, "age", 0.0));
-  return study.conditions.empty() ? std::nullopt : std::optional(setting);
+  return study.settings.empty() ? std::nullopt : std::optional(setting);
 }
 
 measures::MoveEvent event_to_ask(const command_line::Arguments& arguments, const study::Study& study) {
@@ -115,7 +115,7 @@ ExitCode rare(const command_line::Arguments& arguments) {
   const study::Study study = commands::load_study(arguments.operands()[0], arguments);
   const auto threads = static_cast<int>(arguments.whole_number("threads", 1, 4096).value_or(0));
   const rare::Population of{named_point(arguments, study), world_to_ask(arguments, study),
-                            condition_to_ask(arguments, study)};
+                            setting_to_ask(arguments, study)};
   const rare::Question question =
       question_with_draws(study, of, event_to_ask(arguments, study), arguments.operands()[0]);
   const parallel::ThreadLimit limit(trials::threads_to_use(threads));

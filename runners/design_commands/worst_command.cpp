@@ -55,7 +55,7 @@ std::string headline(const Search& search) {
                                           machine_name(search.found.of_study, search.study.machines > 0))
                             : fmt::format("{:.4g} % of {} moves {}{}", 100.0 * worst.met, worst.moves,
                                           goal::words_of(goal::question_of(search.study)).meet,
-                                          study::condition_text(search.study, worst.condition)));
+                                          study::setting_phrase(search.study.settings, worst.setting)));
 }
 
 /// Sentence that tells how to run the machine of the manifest again.
@@ -73,7 +73,7 @@ document::Description<JudgedMachine> judged_description() {
   return document::Description<JudgedMachine>()
       .value(optional(everywhere("condition", "condition",
                                  "the condition under which it runs, in a study with conditions")),
-             &JudgedMachine::condition_name)
+             &JudgedMachine::setting_name)
       .value(optional(everywhere("goal", "goal that its moves meet the least often",
                                  "the goal that its moves meet the least often, of several")),
              &JudgedMachine::goal)

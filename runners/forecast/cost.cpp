@@ -114,9 +114,9 @@ PointsOnReference points_on_reference(const study::Study& study) {
   use.examined = std::min(study::point_count(study), max_points);
   for (std::int64_t point = 0; point < use.examined; ++point) {
     bool lacking = false;
-    for (std::int64_t condition = 0; condition < indices.conditions; ++condition) {
+    for (std::int64_t setting = 0; setting < indices.settings.total(); ++setting) {
       for (const std::string& feature : batch::lacking_in_lanes(
-               study::study_trial(study, point, indices.trial_of(0, condition)).parameters)) {
+               study::study_trial(study, point, indices.trial_of(0, setting)).parameters)) {
         lacking = true;
         if (std::find(use.features.begin(), use.features.end(), feature) == use.features.end())
           use.features.push_back(feature);

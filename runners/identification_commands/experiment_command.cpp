@@ -15,7 +15,7 @@
 #include "analysis/report/page.hpp"
 #include "core/failure/failure.hpp"
 #include "core/text/text.hpp"
-#include "experiments/study/condition_study.hpp"
+#include "experiments/study/setting_study.hpp"
 #include "runners/answers/answer_format.hpp"
 #include "runners/command_line/command_line.hpp"
 #include "runners/commands/command.hpp"
@@ -86,16 +86,16 @@ ExperimentOutputs experiment_outputs(const command_line::Arguments& arguments) {
 
 study::Study experiment_study(const command_line::Arguments& arguments) {
   study::Study study = commands::load_study(arguments.operands()[0], arguments);
-  if (study.conditions.empty()) return study;
-  const std::optional<std::string> condition = arguments.value("condition");
-  if (!study.ages.at.empty())
-    return study::under_condition(
-        study, study::setting_named(study, condition, command_line::number_option(arguments, "age", 0.0)));
-  if (condition) return study::under_condition(study, study::condition_named(study, *condition));
+  if (study.settings.empty()) return study;
+  const std::optional<std::string> setting = arguments.value("condition");
+  if (!study.settings.ages.at.empty())
+    return study::in_setting(
+        study, study::setting_named(study, setting, command_line::number_option(arguments, "age", 0.0)));
+  if (setting) return study::in_setting(study, study::setting_labelled(study, *setting));
   throw Failure(ExitCode::bad_input,
                 fmt::format("{}: it has the conditions {}, and a record is made under one of them; expected "
                             "--condition with its name",
-                            arguments.operands()[0], fmt::join(study.conditions, ", ")));
+                            arguments.operands()[0], fmt::join(study::labels_of(study.settings), ", ")));
 }
 
 document::AnswerDescription<experiment_design::ExperimentDesign> experiment_answer() {

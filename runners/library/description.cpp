@@ -278,10 +278,10 @@ std::string description_of(const study::Study& study) {
   json["trials"] = study.trials;
   json["machines"] = study.machines;
   json["worlds"] = study.worlds;
-  json["conditions"] = study.conditions;
-  json["condition_names"] = study.condition_names;
-  json["ages"] = study.ages.at;
-  json["age_unit"] = study.ages.unit;
+  json["conditions"] = study::labels_of(study.settings);
+  json["condition_names"] = study.settings.conditions;
+  json["ages"] = study.settings.ages.at;
+  json["age_unit"] = study.settings.ages.unit;
   json["moves"] = study.moves;
   json["labels"] = study.points.labels;
   json["sha256"] = study.study_sha256;
@@ -301,9 +301,10 @@ std::string description_of(const study::Study& study) {
 
 randomness::RandomVariables sampled_variables(const study::Study& study, std::int64_t point) {
   require_point(study, point);
-  if (!study.conditions.empty())
-    throw Failure(ExitCode::bad_input, fmt::format("{}: a sample needs one condition; expected one of {}",
-                                                   study.name, fmt::join(study.conditions, ", ")));
+  if (!study.settings.empty())
+    throw Failure(ExitCode::bad_input,
+                  fmt::format("{}: a sample needs one condition; expected one of {}", study.name,
+                              fmt::join(study::labels_of(study.settings), ", ")));
   return randomness::random_variables(study, point);
 }
 

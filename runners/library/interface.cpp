@@ -18,7 +18,7 @@
 #include "core/failure/failure.hpp"
 #include "core/trial/trial.hpp"
 #include "experiments/distributions/distribution.hpp"
-#include "experiments/study/condition_study.hpp"
+#include "experiments/study/setting_study.hpp"
 #include "runners/library/description.hpp"
 #include "runners/library/job.hpp"
 
@@ -121,12 +121,12 @@ std::int32_t zerocount_open_study(const char* file, zerocount_study** study) {
   return guarded([&] { *study = new zerocount_study{study_of_file(file)}; });
 }
 
-std::int32_t zerocount_study_under(const zerocount_study* study, const char* condition,
+std::int32_t zerocount_study_under(const zerocount_study* study, const char* setting,
                                    zerocount_study** under) {
   namespace study_of = zerocount::study;
   return guarded([&] {
     *under = new zerocount_study{
-        study_of::under_condition(study->study, study_of::condition_named(study->study, condition))};
+        study_of::in_setting(study->study, study_of::setting_labelled(study->study, setting))};
   });
 }
 

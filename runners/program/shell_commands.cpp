@@ -118,7 +118,7 @@ std::vector<std::string> goal_names(const study::Study& study) {
 
 std::vector<std::string> age_texts(const study::Study& study) {
   std::vector<std::string> texts;
-  for (const double age : study.ages.at) texts.push_back(fmt::format("{}", age));
+  for (const double age : study.settings.ages.at) texts.push_back(fmt::format("{}", age));
   return texts;
 }
 
@@ -130,7 +130,7 @@ struct StudyList {
 
 constexpr std::array<StudyList, 4> study_lists{{
     {"points", [](const study::Study& study) { return study.points.labels; }},
-    {"conditions", [](const study::Study& study) { return study.condition_names; }},
+    {"conditions", [](const study::Study& study) { return study.settings.conditions; }},
     {"ages", age_texts},
     {"goals", goal_names},
 }};

@@ -82,7 +82,7 @@ std::string headline(const RareAnswer& answer) {
                                 : "has " + question.event.text;
   return fmt::format("the probability is {}, with {} confidence, that a move {}{}", number,
                      text::percent(answer.settings.confidence), event,
-                     study::condition_text(question.whole, question.of.condition.value_or(0)));
+                     study::setting_phrase(question.whole.settings, question.of.setting.value_or(0)));
 }
 
 std::string undecided_sentence(const RareAnswer& answer) {
@@ -311,8 +311,8 @@ void add_question(Description<RareAnswer>& items) {
               .shown = Visibility::in_data,
               .optional = true},
              [](const RareAnswer& a) -> std::optional<std::string> {
-               if (!a.question.of.condition) return {};
-               return a.question.whole.conditions[static_cast<std::size_t>(*a.question.of.condition)];
+               if (!a.question.of.setting) return {};
+               return study::label_of(a.question.whole.settings, *a.question.of.setting);
              });
 }
 

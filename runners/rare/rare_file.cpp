@@ -138,7 +138,7 @@ void write_rare_file(const RareAnswer& answer) {
                                   {"seconds", answer.seconds},
                                   {"answer", document::json(items.items(), items.members_of(answer))},
                                   {"state", Json(answer.state)}};
-  if (question.of.condition) estimate["condition"] = *question.of.condition;
+  if (question.of.setting) estimate["condition"] = *question.of.setting;
   layout::write_single_text(file, "estimate", estimate.dump(),
                             "question, answer and state of the estimate, as JSON");
   write_drawn(file, question, answer.state);
@@ -156,7 +156,7 @@ RareRecord read_rare_file(const std::filesystem::path& path) {
     const Json estimate = Json::parse(*text);
     estimate.at("point").get_to(record.of.point);
     if (!estimate.at("world").is_null()) record.of.world = estimate.at("world").get<std::int64_t>();
-    if (estimate.contains("condition")) record.of.condition = estimate.at("condition").get<std::int64_t>();
+    if (estimate.contains("condition")) record.of.setting = estimate.at("condition").get<std::int64_t>();
     estimate.at("event").get_to(record.event);
     estimate.at("seconds").get_to(record.seconds);
     estimate.at("state").get_to(record.state);
@@ -185,7 +185,7 @@ Question recorded_question(const RareRecord& record, const std::filesystem::path
   };
   require("point", record.of.point, study::point_count(study));
   require("world", record.of.world, study.worlds);
-  require("condition", record.of.condition, study.conditions.empty() ? 0 : study::condition_count(study));
+  require("condition", record.of.setting, study.settings.empty() ? 0 : study.settings.total());
   measures::MoveEvent event =
       record.event.empty() ? measures::missed_question(study) : measures::parse_event(study, record.event);
   return question_of(std::move(study), record.of, std::move(event));

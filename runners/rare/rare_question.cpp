@@ -4,14 +4,14 @@
 
 #include "analysis/parallel/parallel.hpp"
 #include "analysis/statistics/unknown.hpp"
-#include "experiments/study/condition_study.hpp"
+#include "experiments/study/setting_study.hpp"
 #include "runners/rare/rare_run.hpp"
 #include "runners/trials/trial_set.hpp"
 
 namespace zerocount::rare {
 
 Question question_of(study::Study study, const Population& of, measures::MoveEvent event) {
-  study::Study alone = under_condition(study, of.condition.value_or(0));
+  study::Study alone = in_setting(study, of.setting.value_or(0));
   Question question{std::move(study), std::move(alone), of, std::move(event), {}, {}};
   question.coordinates = randomness::random_coordinates(question.study, of.point);
   question.space = trial_space(question.coordinates.size(),

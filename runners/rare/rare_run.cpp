@@ -30,7 +30,7 @@ std::string difference(const fs::path& file, const RareRecord& record, const Que
                                                     file, record.header, question.whole)));
   if (record.of.point != question.of.point) return "its design point differs";
   if (record.of.world != question.of.world) return "its world differs";
-  if (record.of.condition != question.of.condition) return "its condition differs";
+  if (record.of.setting != question.of.setting) return "its condition differs";
   if (record.event != question.event.text) return "its event differs";
   if (!layout::same_build(record.header.provenance, layout::current_provenance()))
     return "it was made by another build of the program";

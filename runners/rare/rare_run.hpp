@@ -23,11 +23,11 @@
 namespace zerocount::rare {
 
 /// Trials to which a probability refers. A probability over all worlds would average over unknowns, and one
-/// over all conditions would average over conditions that every machine must bear.
+/// over all settings would average over settings that every machine must bear.
 struct Population {
-  std::int64_t point{0};                    ///< Design point.
-  std::optional<std::int64_t> world{};      ///< World, if the study has worlds.
-  std::optional<std::int64_t> condition{};  ///< Condition, if the study has conditions.
+  std::int64_t point{0};                  ///< Design point.
+  std::optional<std::int64_t> world{};    ///< World, if the study has worlds.
+  std::optional<std::int64_t> setting{};  ///< Setting, if the study has settings.
 
   bool operator==(const Population&) const = default;
 };
@@ -35,7 +35,7 @@ struct Population {
 /// The event whose probability is sought, and the trials that decide it. Each trial has a machine of its own.
 struct Question {
   study::Study whole;  ///< Study of the manifest.
-  study::Study study;  ///< Study under the condition of the population.
+  study::Study study;  ///< Study in the setting of the population.
   Population of;       ///< Trials to which the probability refers.
   measures::MoveEvent event;
   std::vector<randomness::RandomCoordinate> coordinates;

@@ -89,7 +89,7 @@ void require_different_logs(const std::vector<monitor::MoveLog>& logs) {
 ExitCode accept(const command_line::Arguments& arguments) {
   const std::vector<std::string>& operands = arguments.operands();
   require_different_files(arguments);
-  const reading::AllTrialsFile file = with_condition(arguments, reading::AllTrialsFile(operands[0]));
+  const reading::AllTrialsFile file = with_setting(arguments, reading::AllTrialsFile(operands[0]));
   goal::require_claim(file.study(), operands[0]);
   const std::vector<std::string> labels = file.point_labels();
   const std::int64_t point = point_of(arguments, labels);

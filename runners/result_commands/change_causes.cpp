@@ -11,6 +11,7 @@
 #include "analysis/text/text.hpp"
 #include "core/failure/failure.hpp"
 #include "core/loop/encoder.hpp"
+#include "experiments/parameters/handles.hpp"
 #include "experiments/parameters/parameter_table.hpp"
 #include "experiments/rules/value_rules.hpp"
 #include "experiments/study/plan.hpp"
@@ -74,7 +75,7 @@ std::vector<Cause> amounts_of(const Trial& trial) {
   const Scales scales = scales_of(trial);
   const std::vector<double> torques = multiples(scales.torque, {-0.7, -0.3, -0.1, 0.0, 0.1, 0.3, 0.7});
   std::vector<Cause> causes{
-      {"encoder.fine_errors.noise",
+      {std::string(parameter::encoder::fine_errors::noise),
        "",
        ChangeKind::amount,
        {0.0, 0.05, 0.1, 0.2, 0.4, 0.8},
@@ -84,30 +85,30 @@ std::vector<Cause> amounts_of(const Trial& trial) {
              loop::has_other(p.encoder) && p.plant.load.encoder == motion::EncoderPlace::load;
          (exchanged ? p.encoder.other.errors : p.encoder.fine_errors).noise += amount;
        }},
-      {"controller.delay",
+      {std::string(parameter::controller::delay),
        "",
        ChangeKind::amount,
        {0.0, 0.5, 1.0, 2.0, 3.0},
        [](Trial& p, double amount) { p.controller.delay += amount; }},
-      {"controller.deadband.enter", "", ChangeKind::amount, whole_counts,
+      {std::string(parameter::controller::deadband::enter), "", ChangeKind::amount, whole_counts,
        [](Trial& p, double amount) { widen(p.controller.blocks.deadband.enter, amount); }},
-      {"controller.error_deadband.band", "", ChangeKind::amount, whole_counts,
+      {std::string(parameter::controller::error_deadband::band), "", ChangeKind::amount, whole_counts,
        [](Trial& p, double amount) { widen(p.controller.blocks.error_deadband.band, amount); }},
       // Factors of the torque less one: the gain error stays above -1.
-      {"dac.gain_error",
+      {std::string(parameter::dac::gain_error),
        "",
        ChangeKind::amount,
        {-0.5, -0.3, -0.13, 0.0, 0.15, 0.43, 1.0},
        [](Trial& p, double amount) { p.dac.gain_error += amount * (1.0 + p.dac.gain_error); }},
-      {"dac.offset", "", ChangeKind::amount, torques,
+      {std::string(parameter::dac::offset), "", ChangeKind::amount, torques,
        [](Trial& p, double amount) { p.dac.offset += amount; }},
-      {"disturbance.torque", "", ChangeKind::amount, torques,
+      {std::string(parameter::disturbance::torque), "", ChangeKind::amount, torques,
        [](Trial& p, double amount) { p.disturbance.torque += amount; }}};
   if (!scales.has_load) return causes;
-  causes.push_back({"plant.load.gap", "", ChangeKind::amount,
+  causes.push_back({std::string(parameter::plant::load::gap), "", ChangeKind::amount,
                     multiples(scales.count, {0.0, 1.0, 5.0, 20.0, 80.0, 300.0}),
                     [](Trial& p, double amount) { p.plant.load.gap += amount; }});
-  causes.push_back({"disturbance.load.torque", "", ChangeKind::amount, torques,
+  causes.push_back({std::string(parameter::disturbance::load::torque), "", ChangeKind::amount, torques,
                     [](Trial& p, double amount) { p.load_side.disturbance.torque += amount; }});
   return causes;
 }
@@ -137,8 +138,8 @@ std::vector<Cause> causes_of(const study::Study& study, std::int64_t point) {
     const study::ParameterRange range = study::range_of_slot(plan, slot, place);
     if (!std::isfinite(range.low) || !std::isfinite(range.high)) continue;
     const auto amount = std::ranges::find(amounts, row.name, &Cause::name);
-    const bool is_added =
-        amount != amounts.end() && (is_absent(row, range) || row.name == std::string_view("dac.gain_error"));
+    const bool is_added = amount != amounts.end() &&
+                          (is_absent(row, range) || row.name == std::string_view(parameter::dac::gain_error));
     if (is_added) {
       causes.push_back(*amount);
       causes.back().unit = parameters::unit_of(row, plan.units);

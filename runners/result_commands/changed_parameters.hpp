@@ -27,7 +27,7 @@ namespace zerocount::result_commands {
 /// The number of trials therefore depends on the study alone, and not on the computer. If the effort ends
 /// before, the answer is that of the previous stage, and ChangeExplanation::untried lists the parameters that
 /// were not tried.
-/// @param file results under one condition at one age
+/// @param file results in one setting at one age
 /// @param moves moves of the file's baseline
 /// @param unchanged names from unchanged_names()
 /// @throws trial::Interrupted if a stop is requested from outside

@@ -36,9 +36,9 @@ struct Judgement {
   const summary::StudySummary& summary;
   summary::JudgedPoint judged;
   std::optional<worlds::PointWorlds> worlds;
-  std::vector<summary::CellOfPoint> claims;  ///< All pairs of goal and condition.
+  std::vector<summary::CellOfPoint> claims;  ///< All pairs of goal and setting.
   std::vector<summary::CellOfPoint> ages;    ///< [age] Claims at each age; empty without ages.
-  /// Saturated moves of the worst goal and condition; nothing if met.
+  /// Saturated moves of the worst goal and setting; nothing if met.
   std::optional<summary::SaturatedMoves> saturated;
 
   const std::string& label() const { return summary.labels[static_cast<std::size_t>(judged.chosen.point)]; }
@@ -47,9 +47,10 @@ struct Judgement {
     const std::string& of_goal = worst_goal().claim->name;
     return of_goal.empty() ? std::nullopt : std::optional(of_goal);
   }
-  std::optional<std::string> condition() const {
-    const std::vector<std::string>& names = summary.question.conditions;
-    return names.empty() ? std::nullopt : std::optional(names[judged.verdict.condition]);
+  std::optional<std::string> setting() const {
+    const study::Settings& settings = summary.question.settings;
+    if (settings.empty()) return std::nullopt;
+    return study::label_of(settings, static_cast<std::int64_t>(judged.verdict.setting));
   }
   /// Proportion of the moves that miss the goal in which the converter clipped.
   std::optional<double> missed_saturated() const {
@@ -93,7 +94,7 @@ document::AnswerDescription<Judgement> judge_answer(const goal::Question& questi
       .value({.key = "worst_condition",
               .meaning = "the condition that they are under, the worst of several",
               .optional = true},
-             &Judgement::condition)
+             &Judgement::setting)
       .value({.key = "status", .meaning = "verdict on the goal", .words = goal::status_words()},
              [](const Judgement& j) { return goal::text_of(j.judged.verdict.status); })
       .value(document::in_data("rate", "proportion of moves that meet the goal, with one-sided bounds", "1"),
@@ -167,7 +168,7 @@ std::optional<summary::SaturatedMoves> saturated_in(const command_line::Argument
                                                     const summary::JudgedPoint& judged) {
   if (judged.verdict.status == goal::Status::met) return {};
   return summary::saturated_moves(arguments.operands()[0], study,
-                                  {judged.chosen.point, judged.verdict.goal, judged.verdict.condition});
+                                  {judged.chosen.point, judged.verdict.goal, judged.verdict.setting});
 }
 
 ExitCode judge(const command_line::Arguments& arguments) {

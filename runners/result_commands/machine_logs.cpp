@@ -8,7 +8,7 @@
 
 #include "analysis/text/text.hpp"
 #include "core/failure/failure.hpp"
-#include "experiments/study/condition_study.hpp"
+#include "experiments/study/setting_study.hpp"
 #include "experiments/yaml/text_file.hpp"
 #include "runners/command_line/command_line.hpp"
 
@@ -100,11 +100,11 @@ void GrowingLog::remember(std::string_view text) {
   if (last_.size() > bytes_compared) last_.erase(0, last_.size() - bytes_compared);
 }
 
-reading::AllTrialsFile with_condition(const command_line::Arguments& arguments, reading::AllTrialsFile file) {
-  const std::int64_t condition = study::setting_named(file.study(), arguments.value("condition"),
-                                                      command_line::number_option(arguments, "age", 0.0));
-  if (file.study().conditions.empty()) return file;
-  return file.under_condition(condition);
+reading::AllTrialsFile with_setting(const command_line::Arguments& arguments, reading::AllTrialsFile file) {
+  const std::int64_t setting = study::setting_named(file.study(), arguments.value("condition"),
+                                                    command_line::number_option(arguments, "age", 0.0));
+  if (file.study().settings.empty()) return file;
+  return file.in_setting(setting);
 }
 
 std::int64_t point_of(const command_line::Arguments& arguments, const std::vector<std::string>& labels) {

@@ -53,9 +53,9 @@ class GrowingLog {
   std::string last_{};   ///< Last bytes of the part that was read, up to read_.
 };
 
-/// Trials under the condition of --condition at the age of --age. A study with several conditions or ages
+/// Trials of the condition --condition at the age --age. A study with several settings or ages
 /// needs these options.
-reading::AllTrialsFile with_condition(const command_line::Arguments& arguments, reading::AllTrialsFile file);
+reading::AllTrialsFile with_setting(const command_line::Arguments& arguments, reading::AllTrialsFile file);
 
 /// Design point of the option --point. A study with several points needs this option.
 std::int64_t point_of(const command_line::Arguments& arguments, const std::vector<std::string>& labels);

@@ -87,7 +87,7 @@ LoadedBaseline load_baseline(const command_line::Arguments& arguments) {
         fmt::format("option '--group': {} is a simulated study, whose moves have no such groups; "
                     "expected a log of moves as BASELINE",
                     path.string()));
-  reading::AllTrialsFile file = with_condition(arguments, reading::AllTrialsFile(path));
+  reading::AllTrialsFile file = with_setting(arguments, reading::AllTrialsFile(path));
   std::vector<std::string> unchanged = unchanged_names(file.study(), arguments.values("unchanged"));
   if (file.study().open_loop)
     throw Failure(

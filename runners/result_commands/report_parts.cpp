@@ -68,20 +68,20 @@ std::optional<std::int64_t> worst_world(const ReportedPoint& asked) {
 }
 
 /// Part `rare` of the report: the probability that a move fails, as estimated for rare failures. One answer
-/// for each condition; a single answer without conditions. With worlds: only in the worst world.
+/// for each setting; a single answer without settings. With worlds: only in the worst world.
 Answers rare_part(const ReportedPoint& asked, const trials::Effort& effort) {
   const study::Study& study = asked.study();
   const std::optional<std::int64_t> world = worst_world(asked);
   const std::string in_world = world ? fmt::format("In world {}, the worst", *world) : "";
-  if (study.conditions.empty())
+  if (study.settings.empty())
     return {{in_world, design_commands::rare_of(study, {asked.chosen.point, world, {}}, effort)}};
   Answers answers;
-  const auto conditions = std::ssize(study.conditions);
-  for (std::int64_t i = 0; i < conditions; ++i) {
+  const auto settings = study.settings.total();
+  for (std::int64_t i = 0; i < settings; ++i) {
     answers.push_back(
         {fmt::format("{}{}Under condition {}", in_world, world ? ". " : "",
-                     study.conditions[static_cast<std::size_t>(i)]),
-         design_commands::rare_of(study, {asked.chosen.point, world, i}, effort.part(conditions - i))});
+                     study::label_of(study.settings, i)),
+         design_commands::rare_of(study, {asked.chosen.point, world, i}, effort.part(settings - i))});
   }
   return answers;
 }
@@ -104,9 +104,7 @@ constexpr std::array<Part, 4> all_parts{{
     {"learn", "Which unknown should be measured next?", false, learn_part,
      [](const ReportedPoint&) { return std::int64_t{0}; }},
     {"rare", "How often does a move fail that plain trials do not show?", true, rare_part,
-     [](const ReportedPoint& a) {
-       return design_commands::usual_rare_trials * study::condition_count(a.study());
-     }},
+     [](const ReportedPoint& a) { return design_commands::usual_rare_trials * a.study().settings.total(); }},
 }};
 
 const Part& part_named(std::string_view name) {

@@ -54,12 +54,12 @@ constexpr const char* check_help =
 
 constexpr std::int64_t points_shown = 20;
 
-/// Theory of a design point under a condition.
-struct ConditionTheory {
+/// Theory of a design point in a setting.
+struct SettingTheory {
   std::int64_t point{0};
   std::string label;
-  std::optional<std::string> name;       ///< Short label; nothing in a study with one point.
-  std::optional<std::string> condition;  ///< Name of the condition; nothing without conditions.
+  std::optional<std::string> name;     ///< Short label; nothing in a study with one point.
+  std::optional<std::string> setting;  ///< Name of the setting; nothing without settings.
   theory::PointTheory theory;
   std::optional<theory::HuntingPrediction> hunting;  ///< Predicted hunting of trial 0.
   /// Targets of trial 0 as text, each in SI units and in counts, at most five. Nothing if the manifest gives
@@ -70,7 +70,7 @@ struct ConditionTheory {
 /// A loop of a design point, for the table of loops.
 struct PointLoop {
   std::optional<std::string> point;  ///< Name of the design point.
-  std::optional<std::string> condition;
+  std::optional<std::string> setting;
   const theory::LoopRanges* loop;
 };
 
@@ -78,17 +78,17 @@ struct Plan {
   const study::Study& study;
   forecast::StudyCost cost;
   forecast::StudySize size;
-  std::vector<ConditionTheory> points;  ///< Readings of the first design points.
+  std::vector<SettingTheory> points;  ///< Readings of the first design points.
 
   std::int64_t all_points() const { return study::point_count(study); }
-  std::int64_t points_shown() const { return std::ssize(points) / study::condition_count(study); }
+  std::int64_t points_shown() const { return std::ssize(points) / study.settings.total(); }
   std::int64_t points_left_out() const { return all_points() - points_shown(); }
   double disk_bytes() const { return size.file_bytes + size.shard_bytes; }
   std::vector<PointLoop> loops() const {
     std::vector<PointLoop> all;
-    for (const ConditionTheory& point : points) {
+    for (const SettingTheory& point : points) {
       for (const theory::LoopRanges& loop : point.theory.loops)
-        all.push_back({point.name, point.condition, &loop});
+        all.push_back({point.name, point.setting, &loop});
     }
     return all;
   }
@@ -133,13 +133,13 @@ std::optional<std::string> worlds_text(const Plan& plan) {
 }
 
 std::optional<std::string> conditions_text(const Plan& plan) {
-  const std::vector<std::string>& names = plan.study.condition_names;
+  const std::vector<std::string>& names = plan.study.settings.conditions;
   return groups_text(std::ssize(names),
                      of_each(plan.study.trials, std::ssize(names), "trial") + " under each", names);
 }
 
 std::optional<std::string> ages_text(const Plan& plan) {
-  const study::Ages& ages = plan.study.ages;
+  const study::Ages& ages = plan.study.settings.ages;
   std::vector<std::string> texts;
   for (const double age : ages.at) texts.push_back(study::age_text(ages, age));
   return groups_text(std::ssize(texts), of_each(plan.study.trials, std::ssize(texts), "trial") + " at each",
@@ -175,7 +175,7 @@ std::string theory_text(const Plan& plan) {
                                                plan.points_shown(), plan.all_points());
   // Outside the paper's theory nothing but the loops is examined.
   const bool loops_alone = std::ranges::none_of(
-      plan.points, [](const ConditionTheory& point) { return point.theory.outside.empty(); });
+      plan.points, [](const SettingTheory& point) { return point.theory.outside.empty(); });
   const std::string close =
       loops_alone || trials <= theory::max_trials_examined_closely
           ? ""
@@ -186,7 +186,7 @@ std::string theory_text(const Plan& plan) {
   return fmt::format(
       "The theory covers the first {} trials of {}{}, each with the friction it starts on{}",
       std::min(trials, loops_alone ? theory::max_trials_examined_closely : theory::max_trials_examined),
-      points, plan.study.conditions.empty() ? "" : " under each condition", close);
+      points, plan.study.settings.empty() ? "" : " under each condition", close);
 }
 
 /// Trials that the rule takes against a number fixed beforehand, at three success rates.
@@ -238,22 +238,22 @@ std::vector<std::string_view> assumptions(const Plan& plan, study::PremiseState 
   return found;
 }
 
-document::Description<ConditionTheory> point_description() {
+document::Description<SettingTheory> point_description() {
   using document::in_data;
-  return document::Description<ConditionTheory>()
-      .value(in_data("point", "number of the design point"), &ConditionTheory::point)
-      .value(in_data("label", "label of the design point"), &ConditionTheory::label)
+  return document::Description<SettingTheory>()
+      .value(in_data("point", "number of the design point"), &SettingTheory::point)
+      .value(in_data("label", "label of the design point"), &SettingTheory::label)
       .value({.key = "name", .heading = "point", .shown = document::Visibility::to_people},
-             &ConditionTheory::name)
+             &SettingTheory::name)
       .value({.key = "condition",
               .heading = "condition",
               .meaning = "condition under which every machine runs",
               .optional = true},
-             &ConditionTheory::condition)
-      .include(theory::point_theory_description(), &ConditionTheory::theory)
-      .include(theory::hunting_description(), &ConditionTheory::hunting)
+             &SettingTheory::setting)
+      .include(theory::point_theory_description(), &SettingTheory::theory)
+      .include(theory::hunting_description(), &SettingTheory::hunting)
       .value({"targets", "targets of trial 0", "targets of trial 0 in SI units, and their counts"},
-             &ConditionTheory::targets);
+             &SettingTheory::targets);
 }
 
 document::Description<Plan> plan_description() {
@@ -274,7 +274,7 @@ document::Description<Plan> plan_description() {
       .shown_as(worlds_text)
       .value({"conditions", "under the conditions",
               "names of the conditions under which every machine runs; empty: none"},
-             [](const Plan& p) { return p.study.conditions; })
+             [](const Plan& p) { return study::labels_of(p.study.settings); })
       .shown_as(conditions_text)
       .value({.heading = "at the ages", .shown = document::Visibility::to_people}, ages_text)
       .sentence(stop_text)
@@ -336,7 +336,7 @@ document::Description<Plan> plan_description() {
       .table({.key = "loops", .heading = "Loops", .shown = document::Visibility::to_people},
              document::Description<PointLoop>()
                  .value({.key = "point", .heading = "point"}, &PointLoop::point)
-                 .value({.key = "condition", .heading = "condition"}, &PointLoop::condition)
+                 .value({.key = "condition", .heading = "condition"}, &PointLoop::setting)
                  .include(theory::loop_description(), &PointLoop::loop),
              &Plan::loops);
 }
@@ -364,38 +364,37 @@ std::optional<std::string> targets_text(const study::Study& study, const study::
 }
 
 /// Warns of the first point whose moves may end before they arrive, and says how many there are.
-void warn_of_short_moves(std::span<const ConditionTheory> points) {
-  const auto is_short = [](const ConditionTheory& point) { return point.theory.approach.exceeds_hold(); };
+void warn_of_short_moves(std::span<const SettingTheory> points) {
+  const auto is_short = [](const SettingTheory& point) { return point.theory.approach.exceeds_hold(); };
   const auto first = std::ranges::find_if(points, is_short);
   if (first == points.end()) return;
   const auto others = std::ranges::count_if(points, is_short) - 1;
   status::tell(
       "warning: point {} ({}){}: the loop's slowest time constant{}: moves may end before they arrive{}\n",
-      first->point, first->label, first->condition ? ", " + *first->condition : "",
+      first->point, first->label, first->setting ? ", " + *first->setting : "",
       theory::slowness_text(first->theory.approach),
       others > 0 ? fmt::format("; the same holds for {} more of the {} examined", others, points.size())
                  : "");
 }
 
-std::vector<ConditionTheory> examined_points(const study::Study& study, std::int64_t count) {
+std::vector<SettingTheory> examined_points(const study::Study& study, std::int64_t count) {
   const std::vector<std::string> names = summary::short_labels(study.points.labels, study.points.axes);
-  const std::int64_t conditions = study::condition_count(study);
-  std::vector<ConditionTheory> points(static_cast<std::size_t>(count * conditions));
+  const std::int64_t settings = study.settings.total();
+  std::vector<SettingTheory> points(static_cast<std::size_t>(count * settings));
   const auto examine = [&](std::size_t i, std::vector<theory::KnownRotor>& rotors) {
-    const std::int64_t point = static_cast<std::int64_t>(i) / conditions;
-    const std::int64_t condition = static_cast<std::int64_t>(i) % conditions;
+    const std::int64_t point = static_cast<std::int64_t>(i) / settings;
+    const std::int64_t setting = static_cast<std::int64_t>(i) % settings;
     const auto index = static_cast<std::size_t>(point);
     const study::StudyTrial trial =
-        study::study_trial(study, point, study::trial_indices(study).trial_of(0, condition));
-    points[i] = {point,
-                 study.points.labels[index],
-                 names.size() == 1 ? std::nullopt : std::optional(names[index]),
-                 study.conditions.empty()
-                     ? std::nullopt
-                     : std::optional(study.conditions[static_cast<std::size_t>(condition)]),
-                 theory::examine(study, point, condition, rotors),
-                 theory::predict_hunting(trial.parameters),
-                 targets_text(study, trial)};
+        study::study_trial(study, point, study::trial_indices(study).trial_of(0, setting));
+    points[i] = {
+        point,
+        study.points.labels[index],
+        names.size() == 1 ? std::nullopt : std::optional(names[index]),
+        study.settings.empty() ? std::nullopt : std::optional(study::label_of(study.settings, setting)),
+        theory::examine(study, point, setting, rotors),
+        theory::predict_hunting(trial.parameters),
+        targets_text(study, trial)};
   };
   std::vector<theory::KnownRotor> of_first;
   if (!points.empty()) examine(0, of_first);

@@ -15,7 +15,8 @@
 #include "core/loop/encoder.hpp"
 #include "core/trial/machine.hpp"
 #include "core/trial/trial.hpp"
-#include "experiments/study/condition_study.hpp"
+#include "experiments/parameters/handles.hpp"
+#include "experiments/study/setting_study.hpp"
 #include "experiments/study/study_trial.hpp"
 #include "runners/command_line/command_line.hpp"
 #include "runners/commands/command.hpp"
@@ -54,15 +55,15 @@ constexpr const char* controller_help =
 /// Whether the written code depends on the value.
 bool is_in_code(const study::InputColumn& column) {
   constexpr std::array<std::string_view, 10> sections{"controller.",
-                                                      "dac.bits",
-                                                      "dac.resolution",
-                                                      "dac.range",
-                                                      "encoder.fine",
-                                                      "encoder.resolution",
-                                                      "encoder.load.counts_per_revolution",
-                                                      "encoder.load.resolution",
-                                                      "plant.load.encoder",
-                                                      "initial.integral"};
+                                                      parameter::dac::bits,
+                                                      parameter::dac::resolution,
+                                                      parameter::dac::range,
+                                                      parameter::encoder::fine,
+                                                      parameter::encoder::resolution,
+                                                      parameter::encoder::load::counts_per_revolution,
+                                                      parameter::encoder::load::resolution,
+                                                      parameter::plant::load::encoder,
+                                                      parameter::initial::integral};
   return std::ranges::any_of(sections, [&](std::string_view section) {
     return section.ends_with('.') ? column.name.starts_with(section) : column.name == section;
   });
@@ -79,13 +80,13 @@ void require_values(const command_line::Arguments& arguments, const study::Study
   }
 }
 
-/// Refuses values that differ between the conditions and ages: each has a controller of its own.
+/// Refuses values that differ between the settings and ages: each has a controller of its own.
 void require_one_controller(const command_line::Arguments& arguments, const study::Study& study,
                             std::int64_t point) {
-  std::vector<std::vector<double>> inputs;  // [condition]
-  for (std::int64_t condition = 0; condition < study::condition_count(study); ++condition)
+  std::vector<std::vector<double>> inputs;  // [setting]
+  for (std::int64_t setting = 0; setting < study.settings.total(); ++setting)
     inputs.push_back(
-        study::study_trial(study, point, study::trial_indices(study).trial_of(0, condition)).inputs);
+        study::study_trial(study, point, study::trial_indices(study).trial_of(0, setting)).inputs);
   std::vector<std::string> differing;
   for (std::size_t column = 0; column < study.columns.inputs.size(); ++column) {
     if (!is_in_code(study.columns.inputs[column])) continue;
@@ -95,18 +96,19 @@ void require_one_controller(const command_line::Arguments& arguments, const stud
             return before[column] == inputs[i][column];
           }))
         values.push_back(fmt::format("{}{}", text::short_number(inputs[i][column]),
-                                     study::condition_text(study, static_cast<std::int64_t>(i))));
+                                     study::setting_phrase(study.settings, static_cast<std::int64_t>(i))));
     }
     if (values.size() > 1)
       differing.push_back(
           fmt::format("{} is {}", study.columns.inputs[column].name, fmt::join(values, ", ")));
   }
   if (differing.empty()) return;
-  arguments.refuse(fmt::format(
-      "the controllers of the conditions differ: {}; expected the one to write{}{}",
-      fmt::join(differing, "; "), study.condition_names.size() > 1 ? " with --condition" : "",
-      study.ages.at.size() > 1 ? fmt::format("{} --age", study.condition_names.size() > 1 ? " and" : " with")
-                               : ""));
+  arguments.refuse(
+      fmt::format("the controllers of the conditions differ: {}; expected the one to write{}{}",
+                  fmt::join(differing, "; "), study.settings.conditions.size() > 1 ? " with --condition" : "",
+                  study.settings.ages.at.size() > 1
+                      ? fmt::format("{} --age", study.settings.conditions.size() > 1 ? " and" : " with")
+                      : ""));
 }
 
 /// The stem of the file, after which the written program is named.
@@ -145,16 +147,16 @@ std::string margin_text(const theory::Range& margin, std::string_view unit, std:
   return margin.empty() ? std::string(none) : fmt::format("{:.3g} {}", margin.low, unit);
 }
 
-/// Lines on each loop of the design point under each condition: its stability, and its smallest gain and
+/// Lines on each loop of the design point in each setting: its stability, and its smallest gain and
 /// phase margins over the examined machines. A heading comes first; empty if there is no loop.
 std::vector<std::string> margin_lines(const study::Study& study, std::int64_t point) {
   std::vector<std::string> lines;
   std::vector<theory::KnownRotor> rotors;
-  for (std::int64_t condition = 0; condition < study::condition_count(study); ++condition) {
-    for (const theory::LoopRanges& loop : theory::examine(study, point, condition, rotors).loops) {
+  for (std::int64_t setting = 0; setting < study.settings.total(); ++setting) {
+    for (const theory::LoopRanges& loop : theory::examine(study, point, setting, rotors).loops) {
       lines.push_back(fmt::format(
-          "  {}{}: {}; gain margin {}, phase margin {}", loop.name, study::condition_text(study, condition),
-          theory::stability_text(loop),
+          "  {}{}: {}; gain margin {}, phase margin {}", loop.name,
+          study::setting_phrase(study.settings, setting), theory::stability_text(loop),
           margin_text(loop.gain, "dB", loop.no_gain_stabilises ? theory::no_gain_text : "infinite"),
           margin_text(loop.phase, "deg", "infinite")));
     }
@@ -208,7 +210,7 @@ ExitCode write_controller(const command_line::Arguments& arguments) {
       study.points.labels.size() > 1
           ? fmt::format("{}, {}", study.name, study.points.labels[static_cast<std::size_t>(point)])
           : study.name;
-  if (study.conditions.size() == 1) name = study::label_under(name, study.conditions.front());
+  if (study.settings.total() == 1) name = study::label_under(name, study::label_of(study.settings, 0));
   controller_code::ControllerToWrite chain{p.controller,
                                            loop::fine_resolution(p.encoder),
                                            loop::velocity_resolution(p.encoder, p.controller),

@@ -29,9 +29,9 @@ study::Study fresh_study(const reading::ResultsFile& file, std::int64_t trials,
                               "a study with targets",
                               file.path().string()));
   }
-  const std::int64_t conditions = study::condition_count(recorded);  // that each machine or draw bears
+  const std::int64_t settings = recorded.settings.total();  // that each machine or draw bears
   const std::int64_t each =
-      !recorded.goals.empty() && recorded.machines > 0 ? recorded.trials / recorded.machines : conditions;
+      !recorded.goals.empty() && recorded.machines > 0 ? recorded.trials / recorded.machines : settings;
   const std::int64_t least = std::max<std::int64_t>(recorded.worlds, 2);
   const std::int64_t per_world = std::max<std::int64_t>(recorded.worlds, 1);
   const std::int64_t machines = std::max(least, trials / each / per_world * per_world);

@@ -42,7 +42,7 @@ void assemble(std::span<const shards::ShardInfo> shards, const study::Study& stu
 /// Runs about `trials` new trials of a design point of a results file on all cores, without writing a file.
 /// Everything is drawn anew, including the draws made once per study, from a seed that follows from the
 /// study's seed. The design is monte_carlo, whatever the design of the file. Every machine is tried under
-/// every condition of the study.
+/// every setting of the study.
 ///
 /// In a study with machines, every trial has a machine of its own, so that Clopper–Pearson bounds hold.
 /// Exception: if the study has a goal, each new machine has as many trials as a machine of the file. The

@@ -163,14 +163,14 @@ double memory_of_statistics(const study::Study& study) {
              static_cast<double>(std::min(study::point_count(study), layout::chunk_elements));
 }
 
-/// The first trials of up to 64 points, spread over the conditions.
+/// The first trials of up to 64 points, spread over the settings.
 std::vector<trial::TrialParameters> first_trials(const study::Study& study) {
-  const std::int64_t conditions = study::condition_count(study);
-  const std::int64_t count = std::min<std::int64_t>(study::point_count(study) * conditions, 64);
+  const std::int64_t settings = study.settings.total();
+  const std::int64_t count = std::min<std::int64_t>(study::point_count(study) * settings, 64);
   std::vector<trial::TrialParameters> trials;
   for (std::int64_t i = 0; i < count; ++i) {
     const std::int64_t point = i * study::point_count(study) / count;
-    const std::int64_t index = study::trial_indices(study).trial_of(0, i % conditions);
+    const std::int64_t index = study::trial_indices(study).trial_of(0, i % settings);
     trials.push_back(study::study_trial(study, point, index).parameters);
   }
   return trials;

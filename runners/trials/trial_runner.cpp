@@ -76,15 +76,16 @@ study::Engine engine_that_runs(const study::Study& study) {
   constexpr std::int64_t max_examined = 4096;  // trials; each takes some 10 µs to draw
   constexpr std::int64_t max_of_cell = 64;
   const study::TrialIndices indices = study::trial_indices(study);
-  const std::int64_t cells = study::point_count(study) * indices.conditions;
+  const std::int64_t cells = study::point_count(study) * indices.settings.total();
   const std::int64_t draws = study::draw_count(study);
   const std::int64_t of_cell =
       std::min(draws, std::clamp<std::int64_t>(max_examined / cells, 1, max_of_cell));
   for (std::int64_t cell = 0; cell < cells; ++cell) {
     for (std::int64_t i = 0; i < of_cell; ++i) {
       // All points share the draws, so that each cell examines other draws than the one before.
-      const std::int64_t trial = indices.trial_of((cell * of_cell + i) % draws, cell % indices.conditions);
-      if (batch::runs_in_lanes(study::study_trial(study, cell / indices.conditions, trial).parameters))
+      const std::int64_t trial =
+          indices.trial_of((cell * of_cell + i) % draws, cell % indices.settings.total());
+      if (batch::runs_in_lanes(study::study_trial(study, cell / indices.settings.total(), trial).parameters))
         return study::Engine::batch;
     }
   }

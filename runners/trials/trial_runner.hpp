@@ -21,7 +21,7 @@ bool is_retained(const study::Study& study, std::int64_t index);
 
 /// Engine that runs the trials of the study, as the results file names it. It is the engine that the study
 /// asks for. Exception: the reference engine, if the lanes of the batch engine cannot run any examined trial.
-/// Up to 64 trials of each design point under each condition are examined, some 4096 in all. If lanes can run
+/// Up to 64 trials of each design point in each setting are examined, some 4096 in all. If lanes can run
 /// some of these, the batch engine is used, which passes the other trials to the reference engine.
 study::Engine engine_that_runs(const study::Study& study);
 

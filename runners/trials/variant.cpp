@@ -10,6 +10,7 @@
 #include "experiments/designs/designs.hpp"
 #include "experiments/manifest/load_study.hpp"
 #include "experiments/manifest_text/manifest_text.hpp"
+#include "experiments/parameters/handles.hpp"
 #include "experiments/rules/value_rules.hpp"
 #include "experiments/study/point_edit.hpp"
 
@@ -44,19 +45,19 @@ study::Study variant_of(const study::Study& study, const std::vector<std::string
 study::Study restricted_to(const study::Study& study, const std::optional<std::string>& condition,
                            const std::optional<double>& age) {
   std::vector<std::string> overrides;
-  std::int64_t settings = study::condition_count(study);
+  study::SettingCounts kept = study.settings.counts();
   if (condition) {
-    require_one_of(study, study.condition_names, *condition, "condition", "--condition");
+    require_one_of(study, study.settings.conditions, *condition, "condition", "--condition");
     overrides.push_back(manifest_text::only_condition(study, *condition));
-    settings /= study::conditions_of_age(study);
+    kept.conditions = 1;
   }
   if (age) {
-    require_one_of(study, study.ages.at, *age, "age", "--age");
+    require_one_of(study, study.settings.ages.at, *age, "age", "--age");
     overrides.push_back(fmt::format("ages.at=[{}]", *age));
-    settings /= std::ssize(study.ages.at);
+    kept.ages = 1;
   }
   if (overrides.empty()) return study;
-  overrides.push_back(fmt::format("trials={}", study::draw_count(study) * settings));
+  overrides.push_back(fmt::format("trials={}", study::draw_count(study) * kept.total()));
   if (!study.retained_trials.empty()) overrides.emplace_back("retain={trials: []}");
   study::Study restricted = variant_of(study, overrides);
   restricted.engine = study.engine;
@@ -74,8 +75,8 @@ study::PointEdit edited(const study::Study& study, std::span<const std::string> 
 
 std::string refusal_of_edit(const study::Study& study, const study::PointEdit& edit) {
   std::string refusal = rules::refusal_of(edit);
-  for (std::int64_t condition = 0; condition < study::condition_count(study); ++condition) {
-    const study::ParameterRange hold = edit.limits("command.hold", condition);
+  for (std::int64_t setting = 0; setting < study.settings.total(); ++setting) {
+    const study::ParameterRange hold = edit.limits(parameter::command::hold, setting);
     for (const study::Goal& goal : study.goals) {
       for (const auto& fault : rules::longer_than_the_move(goal.within.time, hold))
         if (refusal.empty()) refusal = fmt::format("goal: {}; expected {}", fault.what, fault.expected);
@@ -99,14 +100,15 @@ std::optional<study::Study> with_values(const study::Study& study, std::span<con
 }
 
 Replicates replicates_of(const study::Study& study, std::int64_t point) {
-  if (study.machines == 0) return {study::draw_count(study), study::condition_count(study), point};
+  if (study.machines == 0) return {study::draw_count(study), study.settings.total(), point};
   return {study.machines, study.trials / study.machines, point};
 }
 
 std::int64_t trial_of_replicate(const study::Study& study, const Replicates& replicates,
                                 std::int64_t replicate, std::int64_t i) {
   const study::TrialIndices indices = study::trial_indices(study);
-  return indices.trial_of(replicate + replicates.count * (i / indices.conditions), i % indices.conditions);
+  const std::int64_t settings = indices.settings.total();
+  return indices.trial_of(replicate + replicates.count * (i / settings), i % settings);
 }
 
 std::int64_t in_equal_worlds(const study::Study& study, std::int64_t count) {

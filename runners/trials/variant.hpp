@@ -21,30 +21,30 @@ std::uint64_t fresh_seed(std::uint64_t seed, std::string_view purpose);
 /// @throws Failure (bad_input) as parse_study
 study::Study variant_of(const study::Study& study, const std::vector<std::string>& overrides);
 
-/// Study restricted to one of its conditions, to one of its ages, or to both. It has the same machines and
-/// draws. Without condition and age it is the study itself.
-/// @throws Failure (bad_input) with the existing conditions and ages
-study::Study restricted_to(const study::Study& study, const std::optional<std::string>& condition,
+/// Study restricted to one of its settings, to one of its ages, or to both. It has the same machines and
+/// draws. Without setting and age it is the study itself.
+/// @throws Failure (bad_input) with the existing settings and ages
+study::Study restricted_to(const study::Study& study, const std::optional<std::string>& setting,
                            const std::optional<double>& age);
 
 /// Reason why these values are not allowed together; empty if they are allowed.
-/// @param parameters dotted paths; no condition may override them
+/// @param parameters dotted paths; no setting may override them
 /// @param values [parameter] value in the unit of the manifest
 std::string refusal_of_values(const study::Study& study, std::span<const std::string> parameters,
                               std::span<const double> values);
 
 /// Copy of a study with one design point in which some parameters have these values. The random numbers and
 /// the text of the manifest stay the same. Nothing if the values are not allowed together.
-/// @param parameters dotted paths; no condition may override them
+/// @param parameters dotted paths; no setting may override them
 /// @param values [parameter] value in the unit of the manifest
 std::optional<study::Study> with_values(const study::Study& study, std::span<const std::string> parameters,
                                         std::span<const double> values);
 
 /// Replicates of a study. A replicate is a machine with `trials_each` trials or, if no trials share a
-/// machine, a draw with a machine of its own. Each replicate has equally many trials under each condition.
+/// machine, a draw with a machine of its own. Each replicate has equally many trials in each setting.
 struct Replicates {
   std::int64_t count{0};        ///< Number of replicates.
-  std::int64_t trials_each{1};  ///< Number of trials of a replicate, under all conditions together.
+  std::int64_t trials_each{1};  ///< Number of trials of a replicate, in all settings together.
   std::int64_t point{0};        ///< Design point.
 
   std::int64_t trials() const { return count * trials_each; }
@@ -53,8 +53,8 @@ struct Replicates {
 /// Replicates of an existing study at a design point: its machines or, without machines, its draws.
 Replicates replicates_of(const study::Study& study, std::int64_t point);
 
-/// Number in the study of trial i (0 … trials_each − 1) of a replicate. With C conditions, it runs under
-/// condition i mod C.
+/// Number in the study of trial i (0 … trials_each − 1) of a replicate. With C settings, it runs under
+/// setting i mod C.
 std::int64_t trial_of_replicate(const study::Study& study, const Replicates& replicates,
                                 std::int64_t replicate, std::int64_t i);
 

@@ -32,14 +32,14 @@ void measure_motion(const study::Study& study, trial::TrialParameters& p) {
 }
 
 /// Text such as " of goal 'large' under condition loaded". It names the goal only if there are several, and
-/// the condition only if the row has one.
+/// the setting only if the row has one.
 std::string text_of_row(const MoveBehaviour& row, const study::Study& study) {
   const bool is_asked = row.number < study.goals.size();
   std::string text;
   if (!is_asked && !study.goals.empty()) text = " that no goal is about";
   if (is_asked && study.goals.size() > 1 && row.goal) text = fmt::format(" of goal '{}'", *row.goal);
-  if (!row.condition) return text;
-  return text + (study.ages.at.empty() ? " under condition " : " at ") + *row.condition;
+  if (!row.setting) return text;
+  return text + study::setting_phrase(study.settings, *row.setting);
 }
 
 /// Largest overshoot that stays within the band or tolerance of the row's goal, counts.
@@ -96,21 +96,21 @@ void judge_noise(const MoveBehaviour& row, const study::Study& study, std::vecto
 std::vector<MoveBehaviour> simulated_behaviour(const study::Study& study, const trials::Replicates& machines,
                                                std::int64_t count, const trials::Effort& effort) {
   constexpr std::int64_t block = 16;
-  const std::int64_t conditions = study::condition_count(study);
+  const std::int64_t settings = study.settings.total();
   const auto draw = [&](std::int64_t number) {
     const std::int64_t trial =
-        trials::trial_of_replicate(study, machines, number / conditions, number % conditions);
+        trials::trial_of_replicate(study, machines, number / settings, number % settings);
     trial::TrialParameters p = study::study_trial(study, machines.point, trial).parameters;
     measure_motion(study, p);
     return p;
   };
   const std::vector<trial::TrialOutcome> outcomes =
-      trials::results_of(std::min(count, machines.count) * conditions, block, draw, effort,
+      trials::results_of(std::min(count, machines.count) * settings, block, draw, effort,
                          [](const trial::TrialOutcome& outcome) { return outcome; });
   summary::BehaviourCounter counter(study);
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     const auto number = static_cast<std::int64_t>(i);
-    counter.add(summary::scale_of(draw(number)), number % conditions, outcomes[i].moves);
+    counter.add(summary::scale_of(draw(number)), number % settings, outcomes[i].moves);
   }
   return counter.behaviour();
 }

@@ -10,6 +10,7 @@
 #include "analysis/summary/study_statistics.hpp"
 #include "analysis/theory/plausibility.hpp"
 #include "core/failure/failure.hpp"
+#include "experiments/parameters/handles.hpp"
 #include "runners/tuning/race/proof.hpp"
 
 namespace zerocount::tuning {
@@ -29,8 +30,8 @@ std::int64_t max_proof_trials(const Space& space) {
 /// Whether all free parameters are gains and theory excludes a goal for all their values.
 bool is_out_of_reach(const study::Study& proven) {
   const auto is_of_controller = [](const study::FreeParameter& one) {
-    return one.name.starts_with("controller.") && one.name != "controller.delay" &&
-           one.name != "controller.sample_rate";
+    return one.name.starts_with("controller.") && one.name != parameter::controller::delay &&
+           one.name != parameter::controller::sample_rate;
   };
   return std::ranges::all_of(proven.tuning->free, is_of_controller) &&
          !theory::goals_out_of_reach(proven).empty();
@@ -116,7 +117,7 @@ Proof proof_of(study::Study study, const trials::Replicates& machines, std::span
   Proof proof{std::move(study), verdict};
   proof.claims = summary::claims_of_point(summary, 0);
   proof.criterion = estimate_of(aim_of(proof.study), results, machines.count).criterion;
-  const std::size_t claim = claim_at(proof.study, {verdict.goal, verdict.condition});
+  const std::size_t claim = claim_at(proof.study, {verdict.goal, verdict.setting});
   proof.late_limit = late_value(results, claim, proof.study.goals[verdict.goal].moves) *
                      (is_proportion_of_allowed(proof.study) ? proof.claims[claim].within : 1.0);
   proof.worst = worst_machine(proof.study, machines.point, results);

@@ -90,7 +90,7 @@ struct Examined {
 /// @throws trial::Interrupted
 void examine_margins(const StudySearch& search, bool slides, const std::stop_token& stop, Examined& examined);
 
-/// Behaviour of the moves of the first `count` machines, each with one trial under each condition. The torque
+/// Behaviour of the moves of the first `count` machines, each with one trial in each setting. The torque
 /// at rest is measured from the dwell within `verdict.rest_band` on. If the study does not measure it, the
 /// band is the largest band or tolerance of the goals.
 /// @throws trial::Interrupted, trials::Spent
@@ -107,7 +107,7 @@ struct Proof {
   int attempts{1};
   std::vector<summary::CellOfPoint> claims{};  ///< Claims with bounds that allow for all attempts.
   double criterion{0.0};                       ///< Estimate::criterion; infinity for "never".
-  /// Quantile of the criterion's values of the worst goal under its worst condition, at the probability
+  /// Quantile of the criterion's values of the worst goal in its worst setting, at the probability
   /// study::Goal::moves.
   double late_limit{0.0};
   std::optional<WorstMachine> worst{};

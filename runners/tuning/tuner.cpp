@@ -133,8 +133,7 @@ void examine(Work& work, const Candidate& finalist) {
   const study::Study& study = work.space.study;
   const std::int64_t remaining =
       affordable_trials(work.space.effort, work.space.speed) - min_proof_trials(study, 1);
-  const std::int64_t count =
-      std::min(machines_of_behaviour, remaining / part / study::condition_count(study));
+  const std::int64_t count = std::min(machines_of_behaviour, remaining / part / study.settings.total());
   work.find_part("torque at rest", [&] {
     if (count <= 0) throw trials::Spent{};
     work.answer.tuned.moves = simulated_behaviour(work.search.candidate(finalist.values),
@@ -147,7 +146,7 @@ void examine(Work& work, const Candidate& finalist) {
 void take_proof(Proof proof, TuneAnswer& answer) {
   for (summary::MoveBehaviour& row : proof.moves) {
     const auto same = std::ranges::find_if(answer.tuned.moves, [&](const summary::MoveBehaviour& one) {
-      return one.number == row.number && one.condition == row.condition;
+      return one.number == row.number && one.setting == row.setting;
     });
     if (!row.rest && same != answer.tuned.moves.end()) row.rest = same->rest;
   }

@@ -299,13 +299,13 @@ std::filesystem::path write_file_in_worlds(const std::filesystem::path& director
     };
     add("world", study.worlds);
     if (!has_goal) stored.groups["world"].goal_met.clear();
-    add("condition", std::ssize(study.condition_names));
-    add("age", std::ssize(study.ages.at));
-    if (!study.ages.at.empty()) {
-      const std::vector<double> of_ages(points * study.ages.at.size(), 0.5);
+    add("condition", std::ssize(study.settings.conditions));
+    add("age", std::ssize(study.settings.ages.at));
+    if (!study.settings.ages.at.empty()) {
+      const std::vector<double> of_ages(points * study.settings.ages.at.size(), 0.5);
       const std::vector<double> lives(points * static_cast<std::size_t>(study.machines));
       stored.groups["age"].statistics = {{"machines", "1", "proportion of machines", of_ages}};
-      stored.groups["machine"].statistics = {{"life", study.ages.unit, "last age", lives}};
+      stored.groups["machine"].statistics = {{"life", study.settings.ages.unit, "last age", lives}};
     }
     return stored;
   };

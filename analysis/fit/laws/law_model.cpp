@@ -8,6 +8,7 @@
 #include "analysis/fit/presliding/contact_fit.hpp"
 #include "analysis/fit/presliding/starting_point.hpp"
 #include "core/friction/law.hpp"
+#include "experiments/parameters/handles.hpp"
 
 namespace zerocount::fit {
 
@@ -108,7 +109,8 @@ std::vector<Point> bristle_starts(const RecordScales& scales, Records records) {
 }
 
 Quantity level_quantity(const Point& point, double largest_torque) {
-  Quantity level = coordinate_quantity("breakaway", "friction.breakaway", "N m", point, bristle_level);
+  Quantity level =
+      coordinate_quantity("breakaway", parameter::friction::breakaway, "N m", point, bristle_level);
   const double above = std::exp(point[bristle_level]);
   level.value = std::log(largest_torque * (1.0 + above));
   level.slope[bristle_level] = above / (1.0 + above);
@@ -120,8 +122,8 @@ double sliding_damping_at(const Point& point) {
 }
 
 Quantity sliding_damping_quantity(const Point& point) {
-  Quantity damping = coordinate_quantity("sliding_damping", "plant.sliding_damping", "N m s/rad", point,
-                                         bristle_sliding_damping);
+  Quantity damping = coordinate_quantity("sliding_damping", parameter::plant::sliding_damping, "N m s/rad",
+                                         point, bristle_sliding_damping);
   damping.value = std::log(sliding_damping_at(point));
   damping.slope[bristle_sliding_damping] = 1.0 / point[bristle_sliding_damping];
   damping.slope[bristle_damping] = 1.0;
@@ -153,12 +155,13 @@ FitModel bristle_model(const RecordScales& scales, Records records, friction::Fr
   };
   model.quantities_at = [=](const Point& point) {
     std::vector<Quantity> quantities{
-        coordinate_quantity("sigma0", "friction.sigma0", "N m/rad", point, bristle_stiffness),
+        coordinate_quantity("sigma0", parameter::friction::sigma0, "N m/rad", point, bristle_stiffness),
         level_quantity(point, largest_torque),
-        damped_bristle ? coordinate_quantity("sigma1", "friction.sigma1", "N m s/rad", point, bristle_damping)
-                       : coordinate_quantity("presliding_damping", "plant.presliding_damping", "N m s/rad",
-                                             point, bristle_damping),
-        coordinate_quantity("inertia", "plant.inertia", "kg m^2", point, bristle_inertia),
+        damped_bristle
+            ? coordinate_quantity("sigma1", parameter::friction::sigma1, "N m s/rad", point, bristle_damping)
+            : coordinate_quantity("presliding_damping", parameter::plant::presliding_damping, "N m s/rad",
+                                  point, bristle_damping),
+        coordinate_quantity("inertia", parameter::plant::inertia, "kg m^2", point, bristle_inertia),
         time_offset_quantity(point)};
     if (damped_bristle) quantities.insert(quantities.end() - 1, sliding_damping_quantity(point));
     return quantities;

@@ -11,6 +11,7 @@
 #include "analysis/fit/presliding/contact.hpp"
 #include "analysis/fit/presliding/starting_point.hpp"
 #include "core/numerics/dense.hpp"
+#include "experiments/parameters/handles.hpp"
 
 namespace zerocount::fit {
 
@@ -190,9 +191,10 @@ FitModel maxwell_slip_model(const RecordScales& scales, Records records) {
       quantities.push_back(
           coordinate_quantity(fmt::format("slip_travel.{}", i), "", "rad", point, element_travel + at));
     }
+    quantities.push_back(coordinate_quantity("sliding_damping", parameter::plant::sliding_damping,
+                                             "N m s/rad", point, element_damping));
     quantities.push_back(
-        coordinate_quantity("sliding_damping", "plant.sliding_damping", "N m s/rad", point, element_damping));
-    quantities.push_back(coordinate_quantity("inertia", "plant.inertia", "kg m^2", point, element_inertia));
+        coordinate_quantity("inertia", parameter::plant::inertia, "kg m^2", point, element_inertia));
     quantities.push_back(time_offset_quantity(point));
     return quantities;
   };

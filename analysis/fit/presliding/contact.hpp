@@ -10,6 +10,7 @@
 #include "analysis/fit/model.hpp"
 #include "core/friction/parameters.hpp"
 #include "core/motion/parameters.hpp"
+#include "experiments/parameters/handles.hpp"
 
 namespace zerocount::fit {
 
@@ -41,8 +42,14 @@ inline constexpr auto contact_dimension = static_cast<Eigen::Index>(coordinate_c
 /// Name of each coordinate: the manifest key of its parameter (friction.lambda for log_limit), and
 /// "time_offset", which is not a parameter of a manifest.
 inline constexpr std::array<std::string_view, coordinate_count> coordinate_keys{
-    "friction.k1",   "friction.k2",    "friction.beta",   "plant.presliding_damping",
-    "plant.inertia", "friction.alpha", "friction.lambda", "friction.n",
+    parameter::friction::k1,
+    parameter::friction::k2,
+    parameter::friction::beta,
+    parameter::plant::presliding_damping,
+    parameter::plant::inertia,
+    parameter::friction::alpha,
+    parameter::friction::lambda,
+    parameter::friction::n,
     "time_offset"};
 
 /// @param creep_torque σ0, N m. It should be near the torques at which creep was observed; otherwise limit

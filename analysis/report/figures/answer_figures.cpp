@@ -127,7 +127,7 @@ namespace {
 
 constexpr std::size_t max_factors = 12;
 
-/// Sensitivities of one output at one point, under each condition.
+/// Sensitivities of one output at one point, in each setting.
 struct OutputAtPoint {
   std::vector<const sensitivity::PointSensitivity*> points;
   std::vector<const sensitivity::OutputSensitivity*> outputs;  ///< [point] Sensitivity of the output.
@@ -150,10 +150,10 @@ std::vector<OutputAtPoint> outputs_at_points(const sensitivity::StudySensitivity
 }
 
 void add_index(FigureData& data, const sensitivity::FactorSensitivity& factor, const char* index,
-               const sensitivity::BoundedNumber& number, const std::string& condition) {
+               const sensitivity::BoundedNumber& number, const std::string& setting) {
   if (!std::isfinite(number.value)) return;
   data.rows.push_back(ordered_json::array(
-      {factor.name, index, datum(number.value), datum(number.low), datum(number.high), condition}));
+      {factor.name, index, datum(number.value), datum(number.low), datum(number.high), setting}));
 }
 
 /// A measure's name as a label in a figure: "arrival time" for "arrival_time".
@@ -162,19 +162,19 @@ std::string label_text(std::string name) {
   return name;
 }
 
-/// The label of a point without its condition.
+/// The label of a point without its setting.
 std::string label_of_point(const sensitivity::PointSensitivity& point) {
-  const std::string under = point.condition ? ", " + *point.condition : "";
+  const std::string under = point.setting ? ", " + *point.setting : "";
   return point.label.ends_with(under) ? point.label.substr(0, point.label.size() - under.size())
                                       : point.label;
 }
 
-/// The names of the conditions, in order.
-std::vector<std::string> conditions_of(const sensitivity::StudySensitivity& study) {
+/// The names of the settings, in order.
+std::vector<std::string> settings_of(const sensitivity::StudySensitivity& study) {
   std::vector<std::string> names;
   for (const sensitivity::PointSensitivity& point : study.points) {
-    if (point.condition && std::ranges::find(names, *point.condition) == names.end())
-      names.push_back(*point.condition);
+    if (point.setting && std::ranges::find(names, *point.setting) == names.end())
+      names.push_back(*point.setting);
   }
   return names;
 }
@@ -191,12 +191,12 @@ Figure figure_for(const sensitivity::StudySensitivity& study, const OutputAtPoin
                    {"value", "value", "1"},
                    {"low", fmt::format("lower {} bound", level), "1"},
                    {"high", fmt::format("upper {} bound", level), "1"},
-                   {"condition", point.condition ? "condition" : "", ""}}};
+                   {"condition", point.setting ? "condition" : "", ""}}};
   std::string caption = fmt::format(
       "Sobol' indices of {} at point {} (dots) with {} bounds (bars){}, for each random parameter, strongest "
       "first: the proportion of the variance that the parameter {}. A parameter influences the output if its "
       "lower bound{} is above {}. Bounds that include {} leave it open. ",
-      label_text(name), label_of_point(point), level, point.condition ? ", under each condition" : "",
+      label_text(name), label_of_point(point), level, point.setting ? ", under each condition" : "",
       total ? "explains alone (first order), or has a part in, alone or with others (total)"
             : "explains alone",
       total ? " of the total index" : "", text::percent(sensitivity::relevant_index),
@@ -207,12 +207,12 @@ Figure figure_for(const sensitivity::StudySensitivity& study, const OutputAtPoin
   std::vector<std::string> notes;
   for (std::size_t i = 0; i < shown.outputs.size(); ++i) {
     const sensitivity::OutputSensitivity& output = *shown.outputs[i];
-    const std::string condition = shown.points[i]->condition.value_or("");
+    const std::string setting = shown.points[i]->setting.value_or("");
     const std::size_t factors = std::min(max_factors, output.factors.size());
     for (std::size_t k = 0; k < factors; ++k) {
       const sensitivity::FactorSensitivity& factor = output.factors[k];
-      add_index(data, factor, "first order: alone", factor.first_order, condition);
-      add_index(data, factor, "total: with all others", factor.total, condition);
+      add_index(data, factor, "first order: alone", factor.first_order, setting);
+      add_index(data, factor, "total: with all others", factor.total, setting);
     }
     if (i == 0 && factors < output.factors.size())
       caption += fmt::format("Shown are {} of {}. ", factors, output.factors.size());
@@ -228,8 +228,8 @@ Figure figure_for(const sensitivity::StudySensitivity& study, const OutputAtPoin
       "sensitivity", fmt::format("sensitivity-{}{}", name, of_point),
       fmt::format("Which parameters decide {}{}?", name == "success" ? "" : "the ", label_text(name)),
       caption, {std::move(data)});
-  figure.parameters["colour"] = !total && point.condition ? "condition" : "index";
-  figure.parameters["conditions"] = conditions_of(study);
+  figure.parameters["colour"] = !total && point.setting ? "condition" : "index";
+  figure.parameters["conditions"] = settings_of(study);
   return figure;
 }
 

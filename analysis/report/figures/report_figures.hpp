@@ -43,12 +43,13 @@ class TraceThinner {
   std::vector<trial::SampleRecord> kept_;
 };
 
-/// Simulates a trial of the study again with the reference engine. The caller sets the row of the result.
+/// Simulates a trial of the study again with the reference engine. The caller sets ReplayedTrial::row.
+/// @param buckets number of groups of samples; a figure shows the extremes of each group
 ReplayedTrial replay_trial(const study::Study& study, std::int64_t point, std::int64_t index,
                            std::int64_t buckets);
 
 /// Success rate per point with bounds and the required rate. It is drawn over a swept number if there is one,
-/// otherwise as a row per point and condition. Several goals have a panel each. Nothing for an open-loop
+/// otherwise as a row per point and setting. Several goals have a panel each. Nothing for an open-loop
 /// study.
 std::optional<Figure> success_figure(const ReportedStudy& reported);
 
@@ -57,7 +58,7 @@ std::optional<Figure> success_figure(const ReportedStudy& reported);
 std::vector<Figure> stability_maps(const ReportedStudy& reported);
 
 /// Distribution functions with bounds. With goals: the times from which the error at the chosen point stays
-/// within each goal, under each condition, with the goals. Without a goal: the arrival times at several
+/// within each goal, in each setting, with the goals. Without a goal: the arrival times at several
 /// points, and the settling times in each band.
 std::vector<Figure> distribution_figures(const ReportedStudy& reported);
 
@@ -84,10 +85,10 @@ struct SampleTrial {
   std::int64_t point{0};
   std::int64_t index{0};
   std::int64_t buckets{400};  ///< Largest number of groups of samples, see TraceThinner.
-  std::string condition{};    ///< Condition; empty without conditions.
+  std::string setting{};      ///< Setting; empty without settings.
 };
 
-/// The median and the worst trial of the chosen point under each condition, in order of goal::Badness. Empty
+/// The median and the worst trial of the chosen point in each setting, in order of goal::Badness. Empty
 /// for an open-loop study.
 std::vector<SampleTrial> sample_trials(const ReportedStudy& reported);
 

@@ -6,6 +6,7 @@
 
 #include "analysis/report/figures/report_figures.hpp"
 #include "analysis/statistics/unknown.hpp"
+#include "experiments/parameters/handles.hpp"
 #include "results/layout/layout.hpp"
 
 namespace zerocount::report {
@@ -34,7 +35,7 @@ double on_rotor(double angle, double period) {
 std::optional<std::size_t> position_column(const reading::AllTrialsFile& file) {
   const std::vector<study::InputColumn>& inputs = file.input_columns();
   for (std::size_t i = 0; i < inputs.size(); ++i) {
-    if (inputs[i].name == "initial.position") return i;
+    if (inputs[i].name == parameter::initial::position) return i;
   }
   return std::nullopt;
 }

@@ -9,14 +9,14 @@
 #include "analysis/statistics/unknown.hpp"
 #include "analysis/summary/cells_of_point.hpp"
 #include "analysis/text/text.hpp"
-#include "experiments/study/condition_study.hpp"
+#include "experiments/study/setting_study.hpp"
 
 namespace zerocount::report {
 namespace {
 
 using nlohmann::ordered_json;
 
-/// Largest number of curves of a figure. With conditions there is at least one curve for each.
+/// Largest number of curves of a figure. With settings there is at least one curve for each.
 constexpr std::int64_t max_curves = 6;
 constexpr std::int64_t max_steps = 160;  ///< Largest number of steps of a curve.
 
@@ -103,7 +103,7 @@ const measures::MeasureStatistics& settling_of(const ReportedStudy& reported, st
 /// the nearest ones are replaced by the leading points.
 std::vector<std::int64_t> points_with_curves(const ReportedStudy& reported) {
   const std::int64_t most =
-      std::max<std::int64_t>(max_curves / std::max<std::int64_t>(std::ssize(reported.conditions), 1), 1);
+      std::max<std::int64_t>(max_curves / std::max<std::int64_t>(std::ssize(reported.settings), 1), 1);
   std::vector<std::int64_t> with_arrivals;
   const auto& points = reported.summary.points;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -138,9 +138,9 @@ void add_curve(FigureData& data, const std::string& label, const SettledMoves& m
 
 /// Label of a curve: "kp=400, loaded"; "loaded" if the study has one point.
 std::string label_of_curve(const ReportedStudy& reported, const ReportedPart& part, std::int64_t point) {
-  return has_conditions(reported) && reported.names.size() == 1
-             ? part.condition
-             : study::label_under(marked_label_of(reported, point), part.condition);
+  return has_settings(reported) && reported.names.size() == 1
+             ? part.setting
+             : study::label_under(marked_label_of(reported, point), part.setting);
 }
 
 /// Sentence on the confidence of the bands about the curves, and on the number of trials behind them.
@@ -229,7 +229,7 @@ std::vector<SettledSubject> settled_subjects(const ReportedStudy& reported) {
   return subjects;
 }
 
-/// Adds the curves of a subject, one for each condition; returns whether a move settles.
+/// Adds the curves of a subject, one for each setting; returns whether a move settles.
 bool add_settled(FigureData& data, const ReportedStudy& reported, const SettledSubject& subject) {
   std::vector<SettledMoves> settled;
   const std::vector<ReportedPart> parts = parts_of(reported);
@@ -243,7 +243,7 @@ bool add_settled(FigureData& data, const ReportedStudy& reported, const SettledS
   if (subject.claim) end = std::max(end, subject.claim->within.time);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const std::size_t first = data.rows.size();
-    add_curve(data, has_conditions(reported) ? parts[i].condition : subject.name, settled[i],
+    add_curve(data, has_settings(reported) ? parts[i].setting : subject.name, settled[i],
               band_of(parts[i].study, point_of(parts[i].study, chosen)), end);
     for (std::size_t row = first; row < data.rows.size(); ++row) data.rows[row].push_back(subject.name);
   }
@@ -267,15 +267,15 @@ std::string goal_text(const SettledSubject& subject) {
                      text::percent(subject.claim->moves));
 }
 
-/// A curve for each goal, or band, and condition: goals, and bands with conditions, in panels of their own.
+/// A curve for each goal, or band, and setting: goals, and bands with settings, in panels of their own.
 std::optional<Figure> settled_figure(const ReportedStudy& reported) {
   FigureData data{"steps",
-                  {{"label", has_conditions(reported) ? "condition" : "of", ""},
+                  {{"label", has_settings(reported) ? "condition" : "of", ""},
                    {"time", "settled for good from", "s"},
                    {"share", "proportion of moves", "1"},
                    {"low", "lower 95 % bound", "1"},
                    {"high", "upper 95 % bound", "1"},
-                   {"subject", has_conditions(reported) ? "goal or band" : "", ""}}};
+                   {"subject", has_settings(reported) ? "goal or band" : "", ""}}};
   std::vector<SettledSubject> subjects = settled_subjects(reported);
   std::erase_if(subjects, [&](const SettledSubject& one) { return !add_settled(data, reported, one); });
   if (subjects.empty()) return std::nullopt;
@@ -285,7 +285,7 @@ std::optional<Figure> settled_figure(const ReportedStudy& reported) {
   std::string caption = fmt::format(
       "Proportion of the moves of {} whose error stays within ±{} from a time on to the end of the move{}. ",
       label_of(reported, reported.chosen.point), subjects.size() == 1 ? subjects.front().precision : "b",
-      has_conditions(reported) ? ", under each condition" : "");
+      has_settings(reported) ? ", under each condition" : "");
   caption += bands_sentence(reported);
   if (with_claim) caption += "The dashed lines are the goal: the curve must pass above their crossing. ";
   if (with_claim && subjects.size() == 1) caption += fmt::format("It asks {}. ", goal_text(subjects.front()));
@@ -302,7 +302,7 @@ std::optional<Figure> settled_figure(const ReportedStudy& reported) {
                                   with_claim ? "what each goal asks" : "each band"),
                 caption, {std::move(data)});
   add_goals(figure, subjects);
-  if (!has_conditions(reported) && !with_claim) return figure;
+  if (!has_settings(reported) && !with_claim) return figure;
   figure.parameters["panels"] = "subject";
   for (const SettledSubject& one : subjects)
     if (one.claim) figure.parameters["titles"][one.name] = goal_text(one);

@@ -9,7 +9,8 @@
 #include "analysis/statistics/unknown.hpp"
 #include "analysis/summary/cells_of_point.hpp"
 #include "analysis/theory/curves.hpp"
-#include "experiments/study/condition_study.hpp"
+#include "experiments/parameters/handles.hpp"
+#include "experiments/study/setting_study.hpp"
 
 namespace zerocount::report {
 namespace {
@@ -19,10 +20,10 @@ using nlohmann::ordered_json;
 constexpr std::int64_t max_lines = 60;  ///< Largest number of points with a line of their own.
 constexpr std::int64_t max_series = 8;  ///< Largest number of series: the number of colours.
 
-/// The trials that have their own row or line in a figure: for one goal and one condition.
+/// The trials that have their own row or line in a figure: for one goal and one setting.
 struct ShownLine {
-  std::string goal;       ///< Name of the goal; empty unless the study has several goals.
-  std::string condition;  ///< Name of the condition; empty without conditions.
+  std::string goal;     ///< Name of the goal; empty unless the study has several goals.
+  std::string setting;  ///< Name of the setting; empty without settings.
   const ReportedStudy& study;
   goal::Question question;
 
@@ -52,7 +53,7 @@ std::vector<ShownLine> shown_lines(const ReportedStudy& reported) {
   std::vector<ShownLine> lines;
   for (const goal::JudgedPart& part : question_of(reported).parts) {
     for (const ReportedPart& one : parts_of(reported)) {
-      lines.push_back({has_several(question_of(reported)) ? part.claim->name : "", one.condition, one.study,
+      lines.push_back({has_several(question_of(reported)) ? part.claim->name : "", one.setting, one.study,
                        only(question_of(one.study), part.number)});
     }
   }
@@ -86,7 +87,7 @@ std::string label_of_line(const ReportedStudy& reported, std::int64_t point, con
                           bool with_goal) {
   const bool alone = reported.names.size() == 1;
   std::string label = alone ? "" : marked_label_of(reported, point);
-  for (const std::string& part : {with_goal ? line.goal : std::string(), line.condition})
+  for (const std::string& part : {with_goal ? line.goal : std::string(), line.setting})
     if (!part.empty()) label += (label.empty() ? "" : ", ") + part;
   return label.empty() ? label_of(reported, point) : label;
 }
@@ -106,7 +107,7 @@ FigureData rates_data(const RateWords& words) {
 
 ordered_json row_of(const std::string& label, const ShownLine& line, const goal::QuestionRate& rate) {
   return ordered_json::array({label, datum(rate.value), datum(rate.bounds.low), datum(rate.bounds.high),
-                              rate.hits, rate.events, line.asked(), line.condition, line.goal});
+                              rate.hits, rate.events, line.asked(), line.setting, line.goal});
 }
 
 /// Caption text on the required rate and the bounds.
@@ -138,7 +139,7 @@ std::vector<std::int64_t> points_with_lines(const ReportedStudy& reported, std::
   return shown;
 }
 
-/// A row for each point under each condition.
+/// A row for each point in each setting.
 Figure row_per_point(const ReportedStudy& reported) {
   const std::vector<ShownLine> lines = shown_lines(reported);
   const bool alone = reported.names.size() == 1;
@@ -147,7 +148,7 @@ Figure row_per_point(const ReportedStudy& reported) {
   const RateWords words = words_of_rate(reported);
   std::string caption =
       fmt::format("Proportion of the {}{}{}{}. ", words.meeting, alone ? "" : ", of all of each point",
-                  has_conditions(reported) ? ", under each condition" : "",
+                  has_settings(reported) ? ", under each condition" : "",
                   goal::is_of_worst_world(question) ? ", in its worst world" : "");
   if (!reported.summary.features.dependent_trials) {
     if (!alone) caption += "Points whose bounds do not overlap differ significantly. ";
@@ -164,10 +165,10 @@ Figure row_per_point(const ReportedStudy& reported) {
     for (const ShownLine& line : lines)
       data.rows.push_back(row_of(label_of_line(reported, point, line, alone), line, line.rate(point)));
   }
-  const char* const title = !question.claim()          ? "How many trials succeed?"
-                            : !alone                   ? "Which design points meet the goal?"
-                            : has_conditions(reported) ? "Is the goal met under each condition?"
-                                                       : "Is the goal met?";
+  const char* const title = !question.claim()        ? "How many trials succeed?"
+                            : !alone                 ? "Which design points meet the goal?"
+                            : has_settings(reported) ? "Is the goal met under each condition?"
+                                                     : "Is the goal met?";
   Figure figure = figure_of("success", "success", title, caption + bounds_note(reported, "dark", "bars"),
                             {std::move(data)});
   if (!alone) figure.parameters["panels"] = "goal";
@@ -195,11 +196,11 @@ std::vector<std::int64_t> groups_shown(const ReportedStudy& reported, const std:
 Figure along_axis(const ReportedStudy& reported, std::size_t axis) {
   const study::SweepAxis& swept = reported.summary.axes[axis];
   const std::vector<ShownLine> lines = shown_lines(reported);
-  const auto conditions = std::ssize(parts_of(reported));
+  const auto settings = std::ssize(parts_of(reported));
   const RateWords words = words_of_rate(reported);
   const std::vector<PointGroup> groups = groups_along(reported, {axis});
-  const std::int64_t most = std::max<std::int64_t>(max_series / conditions, 1);
-  const char* const each = has_conditions(reported) ? " under each condition" : "";
+  const std::int64_t most = std::max<std::int64_t>(max_series / settings, 1);
+  const char* const each = has_settings(reported) ? " under each condition" : "";
   std::string caption = fmt::format(
       "Proportion of the {}, of all of each point{} (line), over {}. A star marks the chosen point. ",
       words.meeting, each, axis_title(swept));
@@ -216,7 +217,7 @@ Figure along_axis(const ReportedStudy& reported, std::size_t axis) {
       for (const std::int64_t point : group.points) {
         ordered_json row = row_of(label_of_line(reported, point, line, false), line, line.rate(point));
         row.push_back(swept.numbers[static_cast<std::size_t>(point)]);
-        row.push_back(group.label.empty() ? line.condition : study::label_under(group.label, line.condition));
+        row.push_back(group.label.empty() ? line.setting : study::label_under(group.label, line.setting));
         data.rows.push_back(std::move(row));
       }
     }
@@ -309,7 +310,7 @@ FigureData cells_of(const MapOfPoints& map) {
   return cells;
 }
 
-/// Whether the observed rates meet every goal under every condition.
+/// Whether the observed rates meet every goal in every setting.
 bool seems_met(const ReportedStudy& reported, std::int64_t point) {
   return std::ranges::all_of(shown_lines(reported), [&](const ShownLine& line) {
     return line.rate(point).value >= line.asked().get<double>();
@@ -402,8 +403,8 @@ std::vector<Figure> stability_maps(const ReportedStudy& reported) {
   std::vector<std::size_t> axes = numeric_axes(reported, 2);
   const std::vector<study::SweepAxis>& all = reported.summary.axes;
   if (axes.size() < 2 || values_of(all[axes[0]]).size() < 3) return maps;
-  const auto gain =
-      std::find_if(axes.begin(), axes.end(), [&](std::size_t i) { return all[i].name == "controller.ki"; });
+  const auto gain = std::find_if(axes.begin(), axes.end(),
+                                 [&](std::size_t i) { return all[i].name == parameter::controller::ki; });
   if (gain != axes.end()) std::rotate(axes.begin(), gain, gain + 1);
   const std::vector<PointGroup> groups = groups_along(reported, {axes[0], axes[1]});
   for (const std::int64_t group : statistics::spread_over(std::ssize(groups), max_maps)) {
@@ -427,7 +428,7 @@ FigureData data_of_ages(const ReportedStudy& reported, const std::vector<summary
                         const std::vector<AgeSeries>& series) {
   FigureData data{"ages",
                   {{"series", "of", ""},
-                   {"age", "age", question_of(reported).ages.unit},
+                   {"age", "age", question_of(reported).settings.ages.unit},
                    {"rate", "proportion", "1"},
                    {"low", "lower bound", "1"},
                    {"high", "upper bound", "1"},
@@ -468,7 +469,7 @@ Figure rates_figure(const ReportedStudy& reported, const std::vector<summary::Ce
           question.claim() ? "; of machines those that meet every goal under every condition" : "",
           bounds_text(reported)),
       {data_of_ages(reported, ages, series)});
-  scale_ages(figure, question.ages.at);
+  scale_ages(figure, question.settings.ages.at);
   return figure;
 }
 
@@ -482,7 +483,7 @@ Figure lives_figure(const ReportedStudy& reported, const std::vector<summary::Ce
       {data_of_ages(
           reported, ages,
           {{"machines", [](const summary::CellOfPoint& age) { return age.living; }, std::nullopt}})});
-  scale_ages(figure, question_of(reported).ages.at);
+  scale_ages(figure, question_of(reported).settings.ages.at);
   figure.parameters["interpolate"] = "step-after";
   return figure;
 }

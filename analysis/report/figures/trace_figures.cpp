@@ -17,19 +17,19 @@ using nlohmann::ordered_json;
 /// Number of groups of samples of a trial, because several trials share the figure.
 constexpr std::int64_t buckets = 250;
 
-/// [trial] Trials of the chosen point under one condition, with their badness.
+/// [trial] Trials of the chosen point in one setting, with their badness.
 using RankedTrials = std::vector<std::pair<goal::Badness, std::int64_t>>;
 
 std::vector<RankedTrials> ranked_trials(const ReportedStudy& reported) {
   const study::TrialIndices indices = study::trial_indices(reported.study);
-  std::vector<RankedTrials> ranked(std::max<std::size_t>(reported.study.conditions.size(), 1));
+  std::vector<RankedTrials> ranked(static_cast<std::size_t>(reported.study.settings.total()));
   const layout::RowRange rows = rows_of(reported, reported.chosen.point);
-  measures::visit_trials(
-      reported.file, rows, [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
-        const std::int64_t index = row - rows.first;
-        ranked[has_conditions(reported) ? static_cast<std::size_t>(indices.condition_of(index)) : 0]
-            .emplace_back(badness_of(question_of(reported), moves), index);
-      });
+  measures::visit_trials(reported.file, rows,
+                         [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
+                           const std::int64_t index = row - rows.first;
+                           ranked[static_cast<std::size_t>(indices.setting_of(index))].emplace_back(
+                               badness_of(question_of(reported), moves), index);
+                         });
   return ranked;
 }
 
@@ -150,14 +150,14 @@ std::vector<SampleTrial> sample_trials(const ReportedStudy& reported) {
   if (reported.study.open_loop) return trials;
   std::vector<RankedTrials> ranked = ranked_trials(reported);
   for (std::size_t i = 0; i < ranked.size(); ++i) {
-    const std::string condition = has_conditions(reported) ? reported.study.conditions[i] : "";
+    const std::string setting = study::label_of(reported.study.settings, static_cast<std::int64_t>(i));
     const auto median = ranked[i].begin() + (std::ssize(ranked[i]) - 1) / 2;
     std::ranges::nth_element(ranked[i], median);
     trials.push_back({.name = "median",
                       .point = reported.chosen.point,
                       .index = median->second,
                       .buckets = buckets,
-                      .condition = condition});
+                      .setting = setting});
     // Of several trials that do equally badly the first is shown.
     const auto worst = std::ranges::max_element(ranked[i], [](const auto& a, const auto& b) {
       return std::pair(a.first, -a.second) < std::pair(b.first, -b.second);
@@ -166,7 +166,7 @@ std::vector<SampleTrial> sample_trials(const ReportedStudy& reported) {
                       .point = reported.chosen.point,
                       .index = worst->second,
                       .buckets = buckets,
-                      .condition = condition});
+                      .setting = setting});
   }
   return trials;
 }
@@ -179,7 +179,7 @@ std::string courses_of(const goal::Question& question, const std::vector<SampleT
   std::string courses;
   for (std::size_t i = 0; i < trials.size(); ++i)
     courses += fmt::format("{}{}{}: trial {}, {}", i == 0 ? " Shown are: " : "; ", trials[i].name,
-                           trials[i].condition.empty() ? "" : ", " + trials[i].condition, trials[i].index,
+                           trials[i].setting.empty() ? "" : ", " + trials[i].setting, trials[i].index,
                            course_of(question, replayed[i].result.outcome.moves));
   return courses + ".";
 }
@@ -191,7 +191,7 @@ Figure response_figure(const ReportedStudy& reported, const std::vector<SampleTr
   const goal::Question& question = question_of(reported);
   FigureData data{"samples",
                   {{"trial", "trial", ""},
-                   {"condition", has_conditions(reported) ? "condition" : "", ""},
+                   {"condition", has_settings(reported) ? "condition" : "", ""},
                    {"time", "time", "s"},
                    {"error", "error", "rad"},
                    {"counts", "error", "count"},
@@ -203,7 +203,7 @@ Figure response_figure(const ReportedStudy& reported, const std::vector<SampleTr
     for (std::size_t k = 0; k < errors.size(); ++k) {
       const trial::SampleRecord& sample = replayed[i].samples[k];
       largest = std::max(largest, std::abs(errors[k]));
-      data.rows.push_back({trials[i].name, trials[i].condition, datum(sample.t, 9), datum(errors[k]),
+      data.rows.push_back({trials[i].name, trials[i].setting, datum(sample.t, 9), datum(errors[k]),
                            datum(errors[k] / resolution), datum(sample.torque)});
     }
   }
@@ -235,7 +235,7 @@ Figure response_figure(const ReportedStudy& reported, const std::vector<SampleTr
           "linear within {} and logarithmic beyond. Samples are thinned, but all extremes "
           "are shown.{}",
           shown.of_position ? "Position error" : "Error of the readings", of_mass,
-          label_of(reported, reported.chosen.point), has_conditions(reported) ? ", under each condition" : "",
+          label_of(reported, reported.chosen.point), has_settings(reported) ? ", under each condition" : "",
           boxes, shown.parts.empty() ? "half a count" : "the narrowest goal",
           courses_of(question, trials, replayed)),
       {std::move(data), boxes_of(shown.parts, replayed.front())});

@@ -15,6 +15,7 @@
 #include "core/loop/dac.hpp"
 #include "core/loop/encoder.hpp"
 #include "core/text/text.hpp"
+#include "experiments/parameters/handles.hpp"
 #include "experiments/study/goal.hpp"
 #include "experiments/study/plan.hpp"
 #include "experiments/study/study_trial.hpp"
@@ -49,7 +50,7 @@ void add(Facts& facts, const std::string& name, bool is_on) {
 }
 
 void add_controller(Facts& facts, const PointValues& values, const trial::TrialParameters& p) {
-  facts["shape"] = values.text("command.profile.shape");
+  facts["shape"] = values.text(parameter::command::profile::shape);
   if (const plugin::ControllerPlugin* const plugin = p.controller.user.plugin.get()) {
     facts["plugin"] = plugin->description.name;
     const std::vector<plugin::PluginParameter>& own = plugin->description.parameters;
@@ -58,8 +59,9 @@ void add_controller(Facts& facts, const PointValues& values, const trial::TrialP
           fmt::format("{} {}", own[i].name, values.text("controller.parameters." + own[i].name));
     return;
   }
-  facts["structure"] = values.text("controller.structure");
-  add(facts, "coarse", study::can_have_coarse_phase(values.limits("controller.coarse.coarse_beyond")));
+  facts["structure"] = values.text(parameter::controller::structure);
+  add(facts, "coarse",
+      study::can_have_coarse_phase(values.limits(parameter::controller::coarse::coarse_beyond)));
 }
 
 void add_friction(Facts& facts, const PointValues& values, friction::FrictionModel model) {
@@ -76,7 +78,7 @@ void add_friction(Facts& facts, const PointValues& values, friction::FrictionMod
   for (const study::MeasuredSlots& group : values.study().plan->measured) {
     const std::vector<std::string_view>& names = group.group->names;
     add(facts, fmt::format("by {}", names.front()), true);
-    add(facts, "measured", std::ranges::find(names, "friction.measured.breakaway") != names.end());
+    add(facts, "measured", std::ranges::find(names, parameter::friction::measured::breakaway) != names.end());
   }
 }
 
@@ -90,9 +92,9 @@ void add_masses(Facts& facts, const PointValues& values, const trial::TrialParam
   const parameters::AxisKind axis = values.study().units.axis;
   add(facts, "two masses", true);
   add(facts, "friction of the load", p.load_side.friction.model != friction::LoadFrictionModel::none);
-  const study::ParameterRange constant = values.limits("disturbance.load.torque");
+  const study::ParameterRange constant = values.limits(parameter::disturbance::load::torque);
   if (constant.low != 0.0 || constant.high != 0.0)
-    facts["constant on the load"] = values.text("disturbance.load.torque");
+    facts["constant on the load"] = values.text(parameter::disturbance::load::torque);
   facts["closing mass"] = name(closing);
   const bool is_cascade = p.controller.blocks.structure == loop::ControlStructure::cascade;
   if (!values.study().open_loop) facts["loop that it closes"] = is_cascade ? "position loop" : "loop";
@@ -106,7 +108,7 @@ void add_masses(Facts& facts, const PointValues& values, const trial::TrialParam
 
 void add_disturbance(Facts& facts, const PointValues& values,
                      const trial::DisturbanceParameters& disturbance) {
-  const study::ParameterRange constant = values.limits("disturbance.torque");
+  const study::ParameterRange constant = values.limits(parameter::disturbance::torque);
   add(facts, "constant", constant.low != 0.0 || constant.high != 0.0);
   add(facts, "random", !disturbance.spectra.empty());
   add(facts, "disturbed",
@@ -138,7 +140,7 @@ std::vector<std::string> divided(std::string_view text, const char* separator) {
 
 /// Fills axis.html, line by line:
 ///
-///     {NAME}             the value of the parameter, over all trials and conditions, or the fact
+///     {NAME}             the value of the parameter, over all trials and settings, or the fact
 ///     {NAME>0}, {NAME?}  likewise, where the parameter can be above 0; where it is not the word "none"
 ///     {if NAME}          nothing, where this value would be shown; {unless NAME} where it would not
 ///     {if NAME=a,b}      nothing, where it is one of these words

@@ -12,6 +12,7 @@
 #include "analysis/text/text.hpp"
 #include "analysis/theory/point_theory.hpp"
 #include "analysis/theory/theory_prediction.hpp"
+#include "experiments/parameters/handles.hpp"
 #include "experiments/rules/value_sources.hpp"
 #include "experiments/study/study_trial.hpp"
 #include "results/layout/measure_table.hpp"
@@ -35,8 +36,8 @@ const study::FreeParameter* free_parameter(const study::Study& study, std::strin
 bool is_chosen(const study::Study& study, std::size_t slot) {
   const std::string_view name = study.plan->table.rows[slot].name;
   if (free_parameter(study, name) != nullptr) return true;
-  return name.starts_with("controller.") && name != "controller.delay" && name != "controller.jitter" &&
-         name != "controller.missed";
+  return name.starts_with("controller.") && name != parameter::controller::delay &&
+         name != parameter::controller::jitter && name != parameter::controller::missed;
 }
 
 /// "default", or the range in which tune seeks the value.
@@ -77,25 +78,25 @@ std::string gains_html(const study::Study& study, std::int64_t point) {
   return document::html(table);
 }
 
-/// The margins of the linear loops at a design point under each condition, as `check` prints them; empty
+/// The margins of the linear loops at a design point in each setting, as `check` prints them; empty
 /// where no loop is linear.
 std::string loops_html(const study::Study& study, std::int64_t point) {
   if (theory::has_no_linear_loop(study::study_trial(study, point, 0).parameters)) return "";
-  const bool has_conditions = !study.conditions.empty();
+  const bool has_settings = !study.settings.empty();
   document::TableBlock table{"",
                              {{"loop", "", false},
                               {"gain margin", "", false},
                               {"phase margin", "", false},
                               {"crossover", "", false}}};
-  if (has_conditions) table.columns.insert(table.columns.begin(), {"condition", "", false});
+  if (has_settings) table.columns.insert(table.columns.begin(), {"condition", "", false});
   std::vector<theory::KnownRotor> rotors;
-  for (std::int64_t condition = 0; condition < study::condition_count(study); ++condition) {
-    for (const theory::LoopRanges& loop : theory::examine(study, point, condition, rotors).loops) {
+  for (std::int64_t setting = 0; setting < study.settings.total(); ++setting) {
+    for (const theory::LoopRanges& loop : theory::examine(study, point, setting, rotors).loops) {
       const std::string verdict = theory::stability_text(loop);
       std::vector<std::string> cells{loop.name + (verdict == "stable" ? "" : ": " + verdict),
                                      margin_text(loop.gain, "\u00a0dB"), margin_text(loop.phase, "°"),
                                      margin_text(loop.phase_at, "\u00a0Hz")};
-      if (has_conditions) cells.insert(cells.begin(), study.conditions[static_cast<std::size_t>(condition)]);
+      if (has_settings) cells.insert(cells.begin(), study::label_of(study.settings, setting));
       table.add_row(std::move(cells));
     }
   }
@@ -172,11 +173,11 @@ std::string limit_text(const study::GoalLimit& limit, const study::Study& study)
   return fmt::format("{} ≤ {}", words, quantity_text(limit.largest, unit));
 }
 
-/// A row: a goal under a condition, or moves that no goal asks.
+/// A row: a goal in a setting, or moves that no goal asks.
 struct RequirementRow {
   std::optional<CellOfPoint> claim{};
   std::optional<MoveBehaviour> moves{};
-  std::string condition{};
+  std::string setting{};
 };
 
 std::string verdict_cell(const CellOfPoint& claim) {
@@ -222,7 +223,7 @@ using Cell = std::pair<std::string, std::string>;
 std::vector<Cell> cells_of(const RequirementRow& row, const ReportedStudy& reported) {
   const parameters::AxisKind axis = reported.study.units.axis;
   std::vector<Cell> cells;
-  if (!reported.study.conditions.empty()) cells.emplace_back("condition", document::markup(row.condition));
+  if (!reported.study.settings.empty()) cells.emplace_back("condition", document::markup(row.setting));
   const auto of_claim = [&](const char* head, auto cell) {
     cells.emplace_back(head, row.claim ? cell(*row.claim) : "");
   };
@@ -253,13 +254,13 @@ std::vector<RequirementRow> rows_of_goal(std::size_t number, const ReportedStudy
                                          const std::vector<CellOfPoint>& claims,
                                          const std::vector<MoveBehaviour>& behaviour) {
   std::vector<RequirementRow> rows;
-  const auto conditions = static_cast<std::size_t>(study::condition_count(reported.study));
-  for (std::size_t i = 0; i < conditions; ++i) {
+  const auto settings = static_cast<std::size_t>(reported.study.settings.total());
+  for (std::size_t i = 0; i < settings; ++i) {
     RequirementRow row;
-    if (!reported.study.conditions.empty()) row.condition = reported.study.conditions[i];
-    if (const std::size_t at = number * conditions + i; at < claims.size()) row.claim = claims[at];
+    if (!reported.study.settings.empty()) row.setting = study::label_of(reported.study.settings, i);
+    if (const std::size_t at = number * settings + i; at < claims.size()) row.claim = claims[at];
     for (const MoveBehaviour& one : behaviour) {
-      if (one.number == number && one.condition.value_or("") == row.condition) row.moves = one;
+      if (one.number == number && one.setting.value_or("") == row.setting) row.moves = one;
     }
     if (row.claim || row.moves) rows.push_back(std::move(row));
   }

@@ -25,7 +25,7 @@ std::string quantity_text(double value, std::string_view unit);
 std::string range_text(double low, double high, std::string_view unit);
 std::string list_text(std::span<const double> values, std::string_view unit);
 
-/// The values of parameters at a design point, over all trials and conditions.
+/// The values of parameters at a design point, over all trials and settings.
 class PointValues {
  public:
   PointValues(const study::Study& study, std::int64_t point) : study_(study), point_(point) {}
@@ -55,14 +55,14 @@ class PointValues {
 
  private:
   std::size_t slot_of(std::string_view name) const;
-  std::vector<double> typical_values(std::size_t slot) const;  ///< [condition] Typical value.
+  std::vector<double> typical_values(std::size_t slot) const;  ///< [setting] Typical value.
 
   const study::Study& study_;
   std::int64_t point_;
 };
 
 /// The axis of a design point as an HTML diagram, made from axis.html. Its blocks contain the parts that are
-/// on in some trial under some condition. page.css joins them by arrows, from left to right on wide screens
+/// on in some trial in some setting. page.css joins them by arrows, from left to right on wide screens
 /// and paper, from top to bottom on phones.
 std::string diagram_html(const study::Study& study, std::int64_t point);
 
@@ -70,9 +70,9 @@ std::string diagram_html(const study::Study& study, std::int64_t point);
 /// the machines, with 95 % confidence".
 std::string requirement_text(const study::Goal& goal, const study::Study& study);
 
-/// Table of each goal under each condition at the chosen point: the verdict with bounds, and overshoot, peak
+/// Table of each goal in each setting at the chosen point: the verdict with bounds, and overshoot, peak
 /// torque and saturation of the moves. Without a goal only the latter.
-/// @param claims by goal and condition
+/// @param claims by goal and setting
 std::string requirements_html(const ReportedStudy& reported, const std::vector<summary::CellOfPoint>& claims);
 
 /// Parts of the first screen that the results file does not contain. A part that is not given is made from
@@ -80,7 +80,7 @@ std::string requirements_html(const ReportedStudy& reported, const std::vector<s
 struct FirstScreenParts {
   std::string warnings{};  ///< Warnings as HTML, placed above everything else.
   std::string headline{};
-  std::vector<summary::CellOfPoint> claims{};  ///< Claims by goal, then by condition.
+  std::vector<summary::CellOfPoint> claims{};  ///< Claims by goal, then by setting.
   std::string margins{};                       ///< Margins as HTML, in place of the loops of `check`.
 };
 

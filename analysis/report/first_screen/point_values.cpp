@@ -60,9 +60,9 @@ std::size_t PointValues::slot_of(std::string_view name) const {
 study::ParameterRange PointValues::limits(std::size_t slot) const {
   study::ParameterRange all =
       study::range_of_slot(*study_.plan, slot, study::plan_point(*study_.plan, point_));
-  for (std::int64_t condition = 1; condition < study_.plan->conditions; ++condition) {
+  for (std::int64_t setting = 1; setting < study_.plan->settings.total(); ++setting) {
     const study::ParameterRange one =
-        study::range_of_slot(*study_.plan, slot, study::plan_point(*study_.plan, point_, condition));
+        study::range_of_slot(*study_.plan, slot, study::plan_point(*study_.plan, point_, setting));
     all.low = std::min(all.low, one.low);
     all.high = std::max(all.high, one.high);
   }
@@ -71,10 +71,9 @@ study::ParameterRange PointValues::limits(std::size_t slot) const {
 
 std::vector<double> PointValues::typical_values(std::size_t slot) const {
   std::vector<double> values;
-  for (std::int64_t condition = 0; condition < std::max<std::int64_t>(study_.plan->conditions, 1);
-       ++condition)
+  for (std::int64_t setting = 0; setting < study_.plan->settings.total(); ++setting)
     values.push_back(
-        study::range_of_slot(*study_.plan, slot, study::plan_point(*study_.plan, point_, condition)).typical);
+        study::range_of_slot(*study_.plan, slot, study::plan_point(*study_.plan, point_, setting)).typical);
   return values;
 }
 

@@ -45,7 +45,7 @@ struct MachineClaim {
   double proportion;  ///< q
   double wanted;
   double confidence;  ///< Confidence of each one-sided bound.
-  /// True if the requirement must be met under each of several conditions. A machine then counts with the
+  /// True if the requirement must be met in each of several settings. A machine then counts with the
   /// fewest moves met under any of them. These numbers may depend on each other, so the ratio of two tails is
   /// not known. Used only for `low`.
   bool of_least{false};

@@ -36,7 +36,7 @@ struct StickStep {
   // Step control.
   P forced_rate;  ///< Bound of the contribution of a varying torque to dxs/dt·h, divided by the softening
                   ///< length
-  Mask reverses;  ///< dxs/dt changes its sign within the step.
+  Mask reverses;  ///< The rate dxs/dt of the spring elongation xs changes its sign within the step.
   Mask ends_at_reversal;  ///< The step ends at the reversal.
   Mask too_long;
   Mask inexact;        ///< The step is too long because its truncation error exceeds `allowed_at_x`.

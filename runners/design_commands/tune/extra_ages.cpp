@@ -27,7 +27,7 @@ trials::Replicates machines_of_ages(const tuning::TunedAxis& axis) {
 }
 
 tuning::ExtraCost cost_of_ages(const tuning::TunedAxis& axis) {
-  const std::int64_t ages = std::ssize(axis.study.ages.at);
+  const std::int64_t ages = std::ssize(axis.study.settings.ages.at);
   const std::int64_t runs = tuning::points_of_lost_ages(axis.study);
   // A point has all ages.
   return {.points = (runs + ages - 1) / ages, .trials = runs * machines_of_ages(axis).trials()};
@@ -55,10 +55,13 @@ document::Description<LostRow> lost_columns() {
   return document::Description<LostRow>()
       .include(named_claim_columns("goal", "condition"),
                [](const LostRow& row) {
-                 const auto& [goals, conditions] = std::tie(row.study.goals, row.study.condition_names);
+                 const std::vector<study::Goal>& goals = row.study.goals;
+                 const study::Settings settings = study::without_ages(row.study.settings);
                  tuning::ClaimNames names;
                  if (goals.size() > 1) names.goal = goals[row.claim.claim.goal].name;
-                 if (!conditions.empty()) names.condition = conditions[row.claim.claim.condition];
+                 if (!settings.empty())
+                   names.setting =
+                       study::label_of(settings, static_cast<std::int64_t>(row.claim.claim.setting));
                  return names;
                })
       .value(
@@ -75,13 +78,13 @@ document::Description<LostRow> lost_columns() {
                  "missed_from", "shown to be missed from",
                  "age from which on the goal is shown to be missed, at its confidence; null: none"),
              [](const LostRow& row) { return row.claim.missed_from; })
-      .value(document::to_people("unit"), [](const LostRow& row) { return row.study.ages.unit; });
+      .value(document::to_people("unit"), [](const LostRow& row) { return row.study.settings.ages.unit; });
 }
 
 std::string tried_ages_sentence(const Tuning& tuning) {
   const auto* const life = tuning.answer.extra<LostAges>();
   if (life == nullptr) return "";
-  const study::Ages& ages = tuning.study.ages;
+  const study::Ages& ages = tuning.study.settings.ages;
   return fmt::format(
       "simulated: {} machines, which the search did not use, at each of {} ages up to {}; the laws of aging "
       "are extrapolated beyond {}{}",
@@ -96,7 +99,7 @@ std::vector<document::Figure> lost_ages_figures(const Tuning& tuning) {
   const study::Study& study = tuning.study;
   document::FigureData data{"ages",
                             {{"series", "of", ""},
-                             {"age", "age", study.ages.unit},
+                             {"age", "age", study.settings.ages.unit},
                              {"rate", "proportion", "1"},
                              {"low", "lower bound", "1"},
                              {"high", "upper bound", "1"},
@@ -118,7 +121,7 @@ std::vector<document::Figure> lost_ages_figures(const Tuning& tuning) {
       fmt::format("Proportions at each age that was tried, by {} machines that the search did not use, with "
                   "one-sided bounds at the goal's confidence. Dashed: what is asked. Beyond {}, the last age "
                   "of the study, the laws of aging are extrapolated.",
-                  life->machines, study::age_text(study.ages, study.ages.at.back())),
+                  life->machines, study::age_text(study.settings.ages, study.settings.ages.at.back())),
       {std::move(data)});
   std::vector<double> ages;
   for (const tuning::AgeVerdict& at : life->tried) ages.push_back(at.age);
@@ -148,7 +151,7 @@ tuning::Extra ages_extra() {
   return {.name = "ages",
           .question = "How long does it hold?",
           .refusal = [](const study::Study& study, bool) -> std::string {
-            return study.ages.at.empty() ? "the study has no ages; expected other extras" : "";
+            return study.settings.ages.at.empty() ? "the study has no ages; expected other extras" : "";
           },
           .cost = cost_of_ages,
           .run = find_lost_ages,

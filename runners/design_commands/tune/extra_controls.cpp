@@ -71,7 +71,7 @@ void judge_control(const TunedAxis& axis, const study::Study& study, const Other
       study, machines,
       tuning::results_of(trials::variant_of(study, fresh), machines, machines.count, nullptr, effort));
   alternative.criterion = judged.criterion;
-  alternative.worst = tuning::names_of(study, {judged.verdict.goal, judged.verdict.condition});
+  alternative.worst = tuning::names_of(study, {judged.verdict.goal, judged.verdict.setting});
   alternative.verdict = std::move(judged.verdict);
 }
 

@@ -21,17 +21,16 @@ tuning::ExtraCost cost_of_delay(const tuning::TunedAxis& axis) {
   return {.points = points_of_delay, .trials = points_of_delay * axis.trials_of_point()};
 }
 
-/// controller.delay of the first machine under each condition, samples.
+/// controller.delay of the first machine in each setting, samples.
 std::vector<double> delays_of(const study::Study& study) {
   const study::TrialIndices indices = study::trial_indices(study);
   std::vector<double> delays;
-  for (std::int64_t condition = 0; condition < indices.conditions; ++condition)
-    delays.push_back(
-        study::study_trial(study, 0, indices.trial_of(0, condition)).parameters.controller.delay);
+  for (std::int64_t setting = 0; setting < indices.settings.total(); ++setting)
+    delays.push_back(study::study_trial(study, 0, indices.trial_of(0, setting)).parameters.controller.delay);
   return delays;
 }
 
-/// Every machine gets as much more delay under each condition.
+/// Every machine gets as much more delay in each setting.
 void find_lost_delay(const tuning::TunedAxis& axis, MoreDelay& found) {
   const auto holds = [&](double more) {
     const tuning::Change later = [&](trial::TrialParameters& p) { p.controller.delay += more; };
@@ -59,8 +58,8 @@ std::optional<double> rate_in_wider_band(const tuning::TunedAxis& axis, std::siz
   };
   const tuning::Estimate estimate =
       tuning::estimate_on(axis.tuned, axis.search.machines(), axis.machines().count, &wider, axis.effort);
-  const std::size_t conditions = tuning::aim_of(axis.tuned).conditions;
-  return std::ranges::min(std::span(estimate.rates).subspan(goal * conditions, conditions));
+  const std::size_t settings = tuning::aim_of(axis.tuned).settings;
+  return std::ranges::min(std::span(estimate.rates).subspan(goal * settings, settings));
 }
 
 std::any find_delay(tuning::TunedAxis& axis) {
@@ -74,9 +73,9 @@ std::any find_delay(tuning::TunedAxis& axis) {
   return found;
 }
 
-/// The condition under which a goal is lost first by more delay; 0 without conditions.
-std::size_t delayed_condition(const MoreDelay& delay, const Tuning& tuning) {
-  return tuning::place_of_claim(tuning.study, delay.claim).condition;
+/// The setting in which a goal is lost first by more delay; 0 without settings.
+std::size_t delayed_setting(const MoreDelay& delay, const Tuning& tuning) {
+  return tuning::place_of_claim(tuning.study, delay.claim).setting;
 }
 
 std::string borne_delay_sentence(const Tuning& tuning) {
@@ -85,7 +84,7 @@ std::string borne_delay_sentence(const Tuning& tuning) {
   if (!delay.lost)
     return fmt::format("the goals seem met up to {:g} samples more of controller.delay", max_more_delay);
   return fmt::format("with {:.3g} samples more of controller.delay, at {:.3g}, the goal{} seems lost",
-                     *delay.lost, delay.delays[delayed_condition(delay, tuning)] + *delay.lost,
+                     *delay.lost, delay.delays[delayed_setting(delay, tuning)] + *delay.lost,
                      claim_text(tuning.study, tuning::place_of_claim(tuning.study, delay.claim)));
 }
 
@@ -103,13 +102,13 @@ void describe_delay(Items& items) {
           [](const Tuning& t) -> std::optional<double> {
             const MoreDelay& delay = found_by_extra<MoreDelay>(t);
             if (!delay.lost) return {};
-            return delay.delays[delayed_condition(delay, t)] + *delay.lost;
+            return delay.delays[delayed_setting(delay, t)] + *delay.lost;
           })
       .value(optional(document::in_data("delay_lost_condition", "that condition, with conditions")),
              [](const Tuning& t) -> std::optional<std::string> {
                const MoreDelay& delay = found_by_extra<MoreDelay>(t);
                if (!delay.lost) return {};
-               return tuning::names_of(t.study, {0, delayed_condition(delay, t)}).condition;
+               return tuning::names_of(t.study, {0, delayed_setting(delay, t)}).setting;
              });
 }
 

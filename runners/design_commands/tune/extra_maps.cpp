@@ -29,7 +29,7 @@ struct MapCell {
   double x_from{0.0}, x_to{0.0};
   double y_from{0.0}, y_to{0.0};
   double rate{0.0};       ///< Success rate of the worst goal on the first machines of the search.
-  bool seems_met{false};  ///< Whether all goals seem to be met under all conditions.
+  bool seems_met{false};  ///< Whether all goals seem to be met in all settings.
   double criterion{0.0};  ///< Value of the criterion; infinity for "never".
   bool keeps_margins{false};
 };

@@ -47,7 +47,7 @@ const std::vector<tuning::Extra>& all_extras();
 
 /// Additional controller.delay that the goals bear. If a goal is missed: its rate with a wider band.
 struct MoreDelay {
-  /// [condition] controller.delay of the tuned study, samples; empty if missed.
+  /// [setting] controller.delay of the tuned study, samples; empty if missed.
   std::vector<double> delays{};
   /// Additional delay at which a goal seems lost, samples, to 0.05. Nothing if no goal is lost up to
   /// max_more.
@@ -56,7 +56,7 @@ struct MoreDelay {
   std::optional<double> wider_band_rate{};  ///< Rate of the worst goal with a band that is one count wider.
 };
 
-/// Range of a free parameter in which all goals seem to be met under all conditions. The other parameters
+/// Range of a free parameter in which all goals seem to be met in all settings. The other parameters
 /// have their tuned values.
 struct Room {
   std::string name;

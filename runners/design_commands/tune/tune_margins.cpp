@@ -61,7 +61,7 @@ std::string loop_text(const CriticalLoop& loop, const study::Study& study) {
                                        parameters::unit_on(study.units.axis, "N m/rad"))
                          : std::string()) +
          (loop.machine ? fmt::format(" of machine {}", *loop.machine) : std::string()) +
-         study::condition_text(study, loop.condition);
+         study::setting_phrase(study.settings, loop.setting);
 }
 
 /// A margin of the tuned loops.
@@ -145,7 +145,7 @@ Description<LoopOfStudy> loop_description() {
              [](const LoopOfStudy& r) { return r.loop.machine; })
       .value(optional(in_data("condition", "the condition under which it runs, in a study with conditions")),
              [](const LoopOfStudy& r) {
-               return tuning::names_of(r.study, {0, static_cast<std::size_t>(r.loop.condition)}).condition;
+               return tuning::names_of(r.study, {0, static_cast<std::size_t>(r.loop.setting)}).setting;
              });
 }
 
@@ -162,16 +162,16 @@ Description<SmallestMargins> margins_description() {
       .value(in_data("machines", "machines that were examined"), &SmallestMargins::machines);
 }
 
-struct ConditionMargins {
-  std::string condition;
+struct SettingMargins {
+  std::string setting;
   const SmallestMargins& margins;
 };
 
-std::vector<ConditionMargins> margins_of_conditions(const Tuning& tuning) {
-  std::vector<ConditionMargins> rows;
+std::vector<SettingMargins> margins_of_settings(const Tuning& tuning) {
+  std::vector<SettingMargins> rows;
   if (!tuning.answer.tuned.margins) return rows;
-  for (std::size_t i = 0; i < tuning.answer.tuned.margins->conditions.size(); ++i)
-    rows.push_back({tuning.study.conditions[i], tuning.answer.tuned.margins->conditions[i]});
+  for (std::size_t i = 0; i < tuning.answer.tuned.margins->settings.size(); ++i)
+    rows.push_back({study::label_of(tuning.study.settings, i), tuning.answer.tuned.margins->settings[i]});
   return rows;
 }
 
@@ -235,11 +235,11 @@ void add_margins(Items& items) {
   }
   items.table(optional(everywhere("margins_by_condition", "smallest margins under each condition",
                                   "smallest margins under each condition, with conditions")),
-              Description<ConditionMargins>()
-                  .value(everywhere("condition", "condition", "its name"), &ConditionMargins::condition)
+              Description<SettingMargins>()
+                  .value(everywhere("condition", "condition", "its name"), &SettingMargins::setting)
                   .include(margins_description(),
-                           [](const ConditionMargins& row) -> const SmallestMargins& { return row.margins; }),
-              margins_of_conditions);
+                           [](const SettingMargins& row) -> const SmallestMargins& { return row.margins; }),
+              margins_of_settings);
 }
 
 void add_nearest(Items& items) {

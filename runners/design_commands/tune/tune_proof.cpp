@@ -45,9 +45,9 @@ std::string tuned_text(const Tuning& tuning) {
   return values_text(named(tuning.answer.free, tuning.answer.tuned.values));
 }
 
-/// The worst goal of a verdict, and its worst condition.
+/// The worst goal of a verdict, and its worst setting.
 tuning::ClaimPlace worst_claim(const goal::Verdict& verdict) {
-  return {verdict.goal, verdict.condition};
+  return {verdict.goal, verdict.setting};
 }
 
 /// "met: all goals are met by controller.ki = 5000, least 'small' under condition loaded".
@@ -215,7 +215,7 @@ Description<MoveBehaviour> behaviour_columns() {
       .value(optional(everywhere("goal", "goal", "name of the goal that asks the moves")),
              &MoveBehaviour::goal)
       .value(optional(everywhere("condition", "condition", "the condition under which the machines run")),
-             &MoveBehaviour::condition)
+             &MoveBehaviour::setting)
       .value(everywhere("moves", "moves", "moves of these trials"), &MoveBehaviour::moves);
   add_upper(columns, {.key = "overshoot", .meaning = "excursion beyond the target", .unit = "count"},
             &MoveBehaviour::overshoot, "overshoot p95 (counts)", "");

@@ -80,7 +80,7 @@ class LifeOfClaims {
   }
 
   void run_study_ages() {
-    const std::vector<double>& ages = study_.ages.at;
+    const std::vector<double>& ages = study_.settings.ages.at;
     for (std::size_t i = 0; i < ages.size(); ++i) {
       run(ages[i]);
       if (i + 1 < ages.size()) {
@@ -97,7 +97,7 @@ class LifeOfClaims {
   }
 
   void run_decades() {
-    const double last = study_.ages.at.back();
+    const double last = study_.settings.ages.at.back();
     double age = last > 0.0 ? last : 1.0;
     for (int i = 0; i < max_decades && !all_are_missed(); ++i) {
       const double younger = age;
@@ -148,7 +148,7 @@ class LifeOfClaims {
   LostClaim lost_claim(std::size_t claim) const {
     const auto [seems_met, is_met, may_be_met] = senses_of(claim);
     const goal::ClaimVerdict& first = tried_.front().claims[claim];
-    LostClaim life{{first.goal, first.condition}};
+    LostClaim life{{first.goal, first.setting}};
     if (const auto lost = std::ranges::find_if_not(tried_, seems_met); lost != tried_.end())
       life.lost = lost->age;
     if (const auto unsure = std::ranges::find_if_not(tried_, is_met); unsure != tried_.begin())
@@ -171,12 +171,12 @@ class LifeOfClaims {
 std::string text_of(const study::Study& study, const ClaimPlace& claim) {
   std::string text;
   if (study.goals.size() > 1) text = fmt::format(" '{}'", study.goals[claim.goal].name);
-  if (!study.condition_names.empty()) text += " under condition " + study.condition_names[claim.condition];
-  return text;
+  return text +
+         study::setting_phrase(study::without_ages(study.settings), static_cast<std::int64_t>(claim.setting));
 }
 
 std::int64_t trials_at_one_age(const study::Study& study, std::int64_t trials_each) {
-  return trials_each / std::ssize(study.ages.at);
+  return trials_each / std::ssize(study.settings.ages.at);
 }
 
 LostAges lost_ages(const study::Study& study, const trials::Replicates& machines, trials::Effort effort) {
@@ -185,8 +185,8 @@ LostAges lost_ages(const study::Study& study, const trials::Replicates& machines
 
 std::int64_t points_of_lost_ages(const study::Study& study) {
   constexpr std::int64_t of_claim = 14;
-  return 2 * std::ssize(study.ages.at) + max_decades +
-         of_claim * std::ssize(study.goals) * study::conditions_of_age(study);
+  return 2 * std::ssize(study.settings.ages.at) + max_decades +
+         of_claim * std::ssize(study.goals) * study::without_ages(study.settings).total();
 }
 
 }  // namespace zerocount::tuning

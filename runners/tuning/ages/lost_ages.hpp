@@ -18,7 +18,7 @@ namespace zerocount::tuning {
 /// Claims of a verdict on machines of one age.
 struct AgeVerdict {
   double age{0.0};
-  std::vector<goal::ClaimVerdict> claims;  ///< All pairs of goal and manifest condition, goal by goal.
+  std::vector<goal::ClaimVerdict> claims;  ///< All pairs of goal and manifest setting, goal by goal.
 };
 
 /// Number of trials of a machine at one age.
@@ -26,14 +26,14 @@ struct AgeVerdict {
 std::int64_t trials_at_one_age(const study::Study& study, std::int64_t trials_each);
 
 /// Text such as " of goal 'small' under condition cold". It names the goal only if there are several, and the
-/// condition only if there are any.
+/// setting only if there are any.
 std::string text_of(const study::Study& study, const ClaimPlace& claim);
 
 /// Ages at which a claim is lost. They assume that a machine which misses a claim goes on missing it at older
 /// ages. They are the first such ages among those that were tried, with a resolution of 10 %. The tried ages
 /// depend on the results.
 struct LostClaim {
-  ClaimPlace claim;  ///< Goal and condition at any age; the condition is an index of Study::condition_names.
+  ClaimPlace claim;  ///< Goal and setting; the setting is an index in without_ages(Study::settings).
   /// Youngest age at which fewer machines, or moves, than asked for meet the goal. Nothing if the goal is met
   /// up to the oldest tried age.
   std::optional<double> lost{};
@@ -61,7 +61,7 @@ struct LostAges {
 ///       between the last age before and the first age after it, by geometric means to 10 %
 ///
 /// @param study study with ages, at the values of its manifest
-/// @param machines machines, and their trials at one age under all conditions together
+/// @param machines machines, and their trials at one age in all settings together
 /// @throws trial::Interrupted, trials::Spent
 LostAges lost_ages(const study::Study& study, const trials::Replicates& machines, trials::Effort effort);
 

@@ -10,6 +10,7 @@
 #include "analysis/parallel/parallel.hpp"
 #include "analysis/theory/theory_prediction.hpp"
 #include "core/loop/encoder.hpp"
+#include "experiments/parameters/handles.hpp"
 #include "experiments/rules/value_rules.hpp"
 #include "experiments/study/study_trial.hpp"
 #include "runners/tuning/effects/effects.hpp"
@@ -43,7 +44,8 @@ void add_noise(trial::TrialParameters& p) {
 }
 
 std::string refusal_of_noise(study::PointEdit at) {
-  for (const char* const noise : {"encoder.fine_errors.noise", "encoder.coarse_errors.noise"})
+  for (const parameter::Handle noise :
+       {parameter::encoder::fine_errors::noise, parameter::encoder::coarse_errors::noise})
     at.set(noise, std::hypot(at.limits(noise).high, added_noise));
   return rules::refusal_of(at);
 }
@@ -51,19 +53,19 @@ std::string refusal_of_noise(study::PointEdit at) {
 // Delay.
 
 std::string refusal_of_delay(study::PointEdit at) {
-  at.set("controller.delay", at.limits("controller.delay").high + added_delay);
+  at.set(parameter::controller::delay, at.limits(parameter::controller::delay).high + added_delay);
   return rules::refusal_of(at);
 }
 
 // Mode.
 
 std::string refusal_of_load(study::PointEdit at, double frequency) {
-  const motion::PlantParameters rigid{.inertia = at.limits("plant.inertia").typical};
+  const motion::PlantParameters rigid{.inertia = at.limits(parameter::plant::inertia).typical};
   const motion::PlantParameters plant = theory::with_load_mode(rigid, frequency);
-  at.scale("plant.inertia", plant.inertia / rigid.inertia);
-  at.set("plant.load.inertia", plant.load.inertia);
-  at.set("plant.load.stiffness", plant.load.stiffness);
-  at.set("plant.load.damping", plant.load.damping);
+  at.scale(parameter::plant::inertia, plant.inertia / rigid.inertia);
+  at.set(parameter::plant::load::inertia, plant.load.inertia);
+  at.set(parameter::plant::load::stiffness, plant.load.stiffness);
+  at.set(parameter::plant::load::damping, plant.load.damping);
   return rules::refusal_of(at);
 }
 
@@ -71,11 +73,11 @@ std::string refusal_of_load(study::PointEdit at, double frequency) {
 class ModeSearch {
  public:
   explicit ModeSearch(const EffectRuns& runs)
-      : runs_(runs), first_(study::study_trial(runs.conditions().front(), runs.point(), 0).parameters) {
+      : runs_(runs), first_(study::study_trial(runs.settings().front(), runs.point(), 0).parameters) {
     double samples = 0.0;
     for (std::size_t move = 0; move < first_.command.targets.size(); ++move)
       samples += static_cast<double>(samples_of_move(first_, move));
-    samples *= static_cast<double>(runs.trials_each() * std::ssize(runs.conditions()));
+    samples *= static_cast<double>(runs.trials_each() * std::ssize(runs.settings()));
     machines_ = whole_worlds(std::max<std::int64_t>(few, std::llround(samples_of_mode / samples)));
     few_machines_ = whole_worlds((machines_ + few - 1) / few);
   }
@@ -148,7 +150,7 @@ class ModeSearch {
   }
 
   /// Whether no rate on the first `machines` machines falls by more than is allowed, for any goal and
-  /// condition. Machines that have not run count as meeting all goals.
+  /// setting. Machines that have not run count as meeting all goals.
   bool is_borne(const ChangedPoint& point, std::int64_t machines) const {
     std::vector<MachineResult> best = point.machines;
     for (std::size_t machine = best.size(); machine < static_cast<std::size_t>(machines); ++machine) {
@@ -183,8 +185,8 @@ class ModeSearch {
 };
 
 bool can_have_load(const EffectRuns& runs) {
-  return std::ranges::any_of(runs.conditions(), [&](const study::Study& study) {
-    return study::PointEdit(study, runs.point()).limits("plant.load.inertia").high > 0.0;
+  return std::ranges::any_of(runs.settings(), [&](const study::Study& study) {
+    return study::PointEdit(study, runs.point()).limits(parameter::plant::load::inertia).high > 0.0;
   });
 }
 
@@ -225,11 +227,11 @@ Effect wider_spread(const study::Study& study, std::int64_t point) {
 /// @param instead delay of a point without delay, samples
 Effect other_delay(const study::Study& study, std::int64_t point, double factor, double instead) {
   study::PointEdit at(study, point);
-  const double delay = at.limits("controller.delay").high;
+  const double delay = at.limits(parameter::controller::delay).high;
   const auto changed = [factor, instead](double samples) {
     return samples > 0.0 ? factor * samples : instead;
   };
-  at.set("controller.delay", changed(delay));
+  at.set(parameter::controller::delay, changed(delay));
   return {
       .name = delay > 0.0 ? fmt::format("{} the delay", factor < 1.0 ? "half" : "twice")
                           : fmt::format("{:g} samples of delay", instead),

@@ -8,6 +8,7 @@
 #include "core/friction/law.hpp"
 #include "core/loop/controller/controller.hpp"
 #include "core/loop/encoder.hpp"
+#include "experiments/parameters/handles.hpp"
 #include "experiments/parameters/parameter_rows.hpp"
 #include "runners/tuning/effects/idealisations.hpp"
 
@@ -59,14 +60,15 @@ void add_filters(const IdealisedPoint& point, std::vector<Effect>& all) {
 bool has_contact(const PointEdit& at) {
   const auto no_friction = static_cast<double>(friction::FrictionModel::none);
   const auto no_load_friction = static_cast<double>(friction::LoadFrictionModel::none);
-  return can_differ_from(no_friction, at.limits("friction.model")) ||
-         (at.limits("plant.load.inertia").high > 0.0 &&
-          can_differ_from(no_load_friction, at.limits("plant.load.friction.model")));
+  return can_differ_from(no_friction, at.limits(parameter::friction::model)) ||
+         (at.limits(parameter::plant::load::inertia).high > 0.0 &&
+          can_differ_from(no_load_friction, at.limits(parameter::plant::load::friction::model)));
 }
 
 bool is_proportional_too(const IdealisedPoint& point) {
-  return can_be_positive(point, "controller.kp") ||
-         (can_be_positive(point, "controller.cascade.kv") && can_be_positive(point, "controller.cascade.kp"));
+  return can_be_positive(point, parameter::controller::kp) ||
+         (can_be_positive(point, parameter::controller::cascade::kv) &&
+          can_be_positive(point, parameter::controller::cascade::kp));
 }
 
 void add_no_integral(const IdealisedPoint& point, std::vector<Effect>& all) {
@@ -158,13 +160,13 @@ void add_feedforward(const IdealisedPoint& point, std::vector<Effect>& all) {
 constexpr std::array<int, 2> faster_profiles{2, 8};
 
 void with_faster_profile(PointEdit& at, double ratio) {
-  at.scale("command.profile.velocity_limit", ratio);
-  at.scale("command.profile.acceleration_limit", ratio * ratio);
-  at.scale("command.profile.jerk_limit", ratio * ratio * ratio);
+  at.scale(parameter::command::profile::velocity_limit, ratio);
+  at.scale(parameter::command::profile::acceleration_limit, ratio * ratio);
+  at.scale(parameter::command::profile::jerk_limit, ratio * ratio * ratio);
 }
 
 void add_faster_profiles(const IdealisedPoint& point, std::vector<Effect>& all) {
-  if (!acts(point, "command.profile.velocity_limit")) return;
+  if (!acts(point, parameter::command::profile::velocity_limit)) return;
   for (const int ratio : faster_profiles)
     all.push_back({.name = fmt::format("{} {} times faster", parameters::faster_profile, ratio),
                    .note = not_tuned_again,

@@ -8,6 +8,7 @@
 #include "core/motion/disturbance.hpp"
 #include "core/trial/disturbance.hpp"
 #include "experiments/parameters/element_lists.hpp"
+#include "experiments/parameters/handles.hpp"
 #include "experiments/parameters/parameter_rows.hpp"
 #include "runners/tuning/effects/idealisations.hpp"
 
@@ -115,12 +116,12 @@ void add_disturbances(const IdealisedPoint& point, std::vector<Effect>& all) {
   };
   const auto parameters_before = std::ranges::count_if(all, is_of_disturbance);
   const std::size_t first = all.size();
-  const ParameterRange torque = point.at.limits("disturbance.torque");
-  const ParameterRange load_torque = point.at.limits("disturbance.load.torque");
+  const ParameterRange torque = point.at.limits(parameter::disturbance::torque);
+  const ParameterRange load_torque = point.at.limits(parameter::disturbance::load::torque);
   if (can_differ_from(0.0, torque))
     all.push_back({.name = std::string(parameters::no_constant_disturbance),
                    .change = without_constant_disturbance(torque)});
-  if (acts(point, "disturbance.load.torque") && can_differ_from(0.0, load_torque))
+  if (acts(point, parameter::disturbance::load::torque) && can_differ_from(0.0, load_torque))
     all.push_back({.name = std::string(parameters::no_constant_load_disturbance),
                    .change = without_constant_load_disturbance(load_torque)});
   add_ripples(point, all);

@@ -31,17 +31,17 @@ struct Effect {
 struct ChangedPoint {
   /// Names of the changed effects, joined by "and"; "none" without one.
   std::string name;
-  std::vector<std::vector<Effect>> under;  ///< [condition] Effects that are changed under the condition.
+  std::vector<std::vector<Effect>> under;  ///< [setting] Effects that are changed in the setting.
   std::string note{};                      ///< Note of the first effect that has a note.
   std::string refusal{};                   ///< Why the point cannot be simulated; empty if it can.
-  std::vector<study::Study> studies{};     ///< [condition] Edited study of the condition.
-  std::vector<Change> changes{};           ///< [condition] Change of each trial after its draw.
-  std::vector<FinerUnits> finer{};         ///< [condition] Units of the changed trials.
-  std::vector<MachineResult> machines{};   ///< Results so far, with all goals under all conditions.
+  std::vector<study::Study> studies{};     ///< [setting] Edited study of the setting.
+  std::vector<Change> changes{};           ///< [setting] Change of each trial after its draw.
+  std::vector<FinerUnits> finer{};         ///< [setting] Units of the changed trials.
+  std::vector<MachineResult> machines{};   ///< Results so far, with all goals in all settings.
 };
 
 /// Runs a point with effects switched off or added. All runs use the random numbers of the study. Each
-/// condition is run as a study of its own.
+/// setting is run as a study of its own.
 class EffectRuns {
  public:
   /// Runs the unchanged point.
@@ -53,10 +53,10 @@ class EffectRuns {
   std::int64_t point() const { return machines_.point; }
   /// Number of machines that are run. If no trials share a machine, each draw counts as one.
   std::int64_t machines() const { return machines_.count; }
-  /// Number of trials of each machine under one condition.
+  /// Number of trials of each machine in one setting.
   std::int64_t trials_each() const { return machines_.trials_each; }
-  /// [condition] The study under this condition alone.
-  const std::vector<study::Study>& conditions() const { return conditions_; }
+  /// [setting] The study in this setting alone.
+  const std::vector<study::Study>& settings() const { return settings_; }
   const trials::Effort& effort() const { return effort_; }
   /// The unchanged point, with the results of all machines.
   const ChangedPoint& base() const { return base_; }
@@ -65,9 +65,9 @@ class EffectRuns {
     return estimate_of(aim_, point.machines, machines_.count);
   }
 
-  /// One changed point for each effect name, with this effect alone changed under all conditions that have
+  /// One changed point for each effect name, with this effect alone changed in all settings that have
   /// it. No machine of the points has run. If the manifest could not describe a point, its refusal says why.
-  /// @param effects_of returns the effects of a study under one condition, at a design point
+  /// @param effects_of returns the effects of a study in one setting, at a design point
   std::vector<ChangedPoint> points(
       const std::function<std::vector<Effect>(const study::Study&, std::int64_t)>& effects_of) const;
   /// The point with the effects of both `a` and `b` changed.
@@ -84,9 +84,9 @@ class EffectRuns {
 
   const study::Study& study_;
   Aim aim_;
-  trials::Replicates machines_;  ///< Machines, with their trials under one condition.
+  trials::Replicates machines_;  ///< Machines, with their trials in one setting.
   trials::Effort effort_;
-  std::vector<study::Study> conditions_;
+  std::vector<study::Study> settings_;
   ChangedPoint base_;
 };
 
@@ -117,22 +117,22 @@ PairedGain paired_gain(const Claim& claim, std::size_t number, std::span<const M
 /// Smallest number of machines that can show a gain, if all of them gain.
 std::int64_t machines_to_show_a_gain(std::int64_t alternatives);
 
-/// Success rate with an effect switched off or added. With several goals or conditions, it is the rate of the
-/// worst goal under its worst condition.
+/// Success rate with an effect switched off or added. With several goals or settings, it is the rate of the
+/// worst goal in its worst setting.
 struct Limit {
   std::string effect;
   std::optional<double> rate{};  ///< Success rate; empty if not simulated, for the reason in `note`.
   std::string note{};            ///< Assumption of the change, or what the rate does not show.
   Estimate estimate{};           ///< Estimate behind the rate.
   double asked{1.0};             ///< Rate that the worst claim asks for.
-  bool holds{false};             ///< Whether these machines meet every goal under every condition.
+  bool holds{false};             ///< Whether these machines meet every goal in every setting.
   /// Fraction of the unchanged point's failures that the change avoids. Set only if both rates describe the
-  /// same goal and condition, on equally many machines.
+  /// same goal and setting, on equally many machines.
   std::optional<double> avoided{};
-  /// Names of the worst goal and condition, which the rate describes. Set if there are several goals or any
-  /// condition.
+  /// Names of the worst goal and setting, which the rate describes. Set if there are several goals or any
+  /// setting.
   ClaimNames worst{};
-  /// Names and rate of each claim. Set if there are several goals or any condition.
+  /// Names and rate of each claim. Set if there are several goals or any setting.
   std::optional<std::vector<std::pair<std::string, double>>> rates{};
   /// Machines that gain or lose when a cause is switched off, in the claim that is worst without changes. The
   /// gain counts as shown only if the rate rises too. Empty for effects that are not causes.
@@ -146,7 +146,7 @@ using TellStage = std::function<void(const std::string&)>;
 
 /// Whether `a` ranks below `b` by Estimate::margin. A limit that was not simulated ranks below all others.
 bool is_lower(const Limit& a, const Limit& b);
-/// Whether no move, or machine, misses any goal under any condition.
+/// Whether no move, or machine, misses any goal in any setting.
 bool misses_nothing(const Limit& limit);
 
 /// Rate and names of a changed point, from the machines that have run.
@@ -162,8 +162,8 @@ Estimate estimate_on(const study::Study& study, const trials::Replicates& machin
 /// change is not simulated if no manifest could describe the changed study. Nothing is switched off if no
 /// goal is missed. Pairs are left out if the effort ends before.
 ///
-///     for each cause: the study under each condition with the cause switched off, on the same draws;
-///       rate = rate of the worst goal under its worst condition; paired_gain() in the goal that is missed
+///     for each cause: the study in each setting with the cause switched off, on the same draws;
+///       rate = rate of the worst goal in its worst setting; paired_gain() in the goal that is missed
 ///     pairs of causes, on the first 1/8 of the machines (64 to 1024), then twice as many, … until all:
 ///       keep the better half of the pairs, and of this half the pairs that are at least as good on these
 ///       machines as each single cause
@@ -206,7 +206,7 @@ std::vector<Effect> added_effects(const study::Study& study, std::int64_t point)
 Effect load_mode(const study::Study& study, std::int64_t point, double frequency);
 
 /// Success rates with each of added_effects(). If the study has no second mass, also the rate with the lowest
-/// load mode that costs every goal at most 1 % under every condition. All runs use the random numbers of the
+/// load mode that costs every goal at most 1 % in every setting. All runs use the random numbers of the
 /// study.
 ///
 ///     borne(f, machines): each rate with a mode at f ≥ the rate without it − 1 %, on the same machines

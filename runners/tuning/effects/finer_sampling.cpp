@@ -6,6 +6,7 @@
 
 #include "core/failure/failure.hpp"
 #include "core/loop/controller/filter.hpp"
+#include "experiments/parameters/handles.hpp"
 #include "experiments/parameters/parameter_rows.hpp"
 #include "experiments/study/goal.hpp"
 #include "runners/tuning/effects/idealisations.hpp"
@@ -35,9 +36,9 @@ LoopEncoders encoders_of(const PointEdit& at) {
     encoders.fine |= range.low == static_cast<double>(loop::EncoderChoice::fine);
     encoders.coarse |= range.high == static_cast<double>(loop::EncoderChoice::coarse);
   };
-  add("controller.encoder");
-  if (study::can_have_coarse_phase(at.limits("controller.coarse.coarse_beyond")))
-    add("controller.coarse.encoder");
+  add(parameter::controller::encoder);
+  if (study::can_have_coarse_phase(at.limits(parameter::controller::coarse::coarse_beyond)))
+    add(parameter::controller::coarse::encoder);
   return encoders;
 }
 
@@ -53,16 +54,17 @@ void refine(PointEdit& at, std::string_view per_revolution, std::string_view len
 }
 
 void refine_fine_encoder(PointEdit& at) {
-  refine(at, "encoder.fine", "encoder.resolution", "encoder.fine_errors");
+  refine(at, parameter::encoder::fine, parameter::encoder::resolution, "encoder.fine_errors");
 }
 
 /// Whether the row is in counts, or counts per sample, of the encoder by which the control, the command and
 /// the verdict count. Errors of an encoder are in its own counts, and a phase is a part of a count. The band
 /// of rest keeps its length as bands do (rest_in_finer_counts()).
 bool is_in_fine_counts(const parameters::Parameter& row) {
-  const bool of_an_encoder = is_within(row.name, "encoder") || row.name == "initial.encoder_phase" ||
-                             row.name == "initial.load_encoder_phase";
-  return (row.unit == "count" && !of_an_encoder && row.name != "verdict.rest_band") ||
+  const bool of_an_encoder = is_within(row.name, "encoder") ||
+                             row.name == parameter::initial::encoder_phase ||
+                             row.name == parameter::initial::load_encoder_phase;
+  return (row.unit == "count" && !of_an_encoder && row.name != parameter::verdict::rest_band) ||
          row.unit == "count/sample";
 }
 
@@ -113,7 +115,8 @@ Effect with_finer_encoder(const IdealisedPoint& point, const study::Study& study
                 .refusal = point.fixed_rate_and_counts,
                 .edit = [encoders](PointEdit& at) {
                   if (encoders.coarse)
-                    refine(at, "encoder.coarse", "encoder.coarse_resolution", "encoder.coarse_errors");
+                    refine(at, parameter::encoder::coarse, parameter::encoder::coarse_resolution,
+                           "encoder.coarse_errors");
                   if (!encoders.fine) return;
                   refine_fine_encoder(at);
                   keep_lengths_in_fine_counts(at);
@@ -133,8 +136,8 @@ Effect with_finer_encoder_of(motion::EncoderPlace mass, motion::EncoderPlace clo
                   if (mass == motion::EncoderPlace::motor) {
                     refine_fine_encoder(at);
                   } else {
-                    refine(at, "encoder.load.counts_per_revolution", "encoder.load.resolution",
-                           "encoder.load.fine_errors");
+                    refine(at, parameter::encoder::load::counts_per_revolution,
+                           parameter::encoder::load::resolution, "encoder.load.fine_errors");
                   }
                   if (mass == closing) keep_lengths_in_fine_counts(at);
                 }};
@@ -157,10 +160,10 @@ double factor_at_new_rate(std::string_view si_unit) {
 }
 
 void with_twice_the_rate(PointEdit& at) {
-  at.scale("controller.sample_rate", rate_ratio);
+  at.scale(parameter::controller::sample_rate, rate_ratio);
   visit_values(at, [&](std::size_t slot, const parameters::Parameter& row) {
     if (row.unit == "count/sample") at.scale(slot, 1.0 / rate_ratio);
-    if (row.unit == "sample" && row.name != "controller.delay")
+    if (row.unit == "sample" && row.name != parameter::controller::delay)
       at.scale(slot, {.factor = rate_ratio, .off = row.ideal ? row.ideal->value : std::nullopt});
     if (is_sampled_gain(at, row)) at.scale(slot, factor_at_new_rate(row.si_unit));
   });
@@ -189,8 +192,9 @@ void add_finer_encoders(const IdealisedPoint& point, const study::Study& study, 
   const study::StudyPlan& plan = point.at.plan();
   const std::vector<ParameterRange> ranges =
       study::ranges_at(plan, study::slots_named(plan.table, study::two_encoders), point.at.points().front());
-  if (!study::has_two_encoders(ranges)) return all.push_back(with_finer_encoder(point, study));
-  const motion::EncoderPlace closing = study::closes_at_load(ranges) ? load : motor;
+  const study::Ranges of(study::two_encoders, ranges);
+  if (!study::has_two_encoders(of)) return all.push_back(with_finer_encoder(point, study));
+  const motion::EncoderPlace closing = study::closes_at_load(of) ? load : motor;
   for (const motion::EncoderPlace mass : {motor, load})
     all.push_back(with_finer_encoder_of(mass, closing, point, study));
 }

@@ -16,6 +16,7 @@
 #include "core/friction/profile.hpp"
 #include "core/loop/dac.hpp"
 #include "experiments/parameters/element_lists.hpp"
+#include "experiments/parameters/handles.hpp"
 #include "experiments/parameters/parameter_rows.hpp"
 #include "experiments/study/study_table.hpp"
 
@@ -37,7 +38,7 @@ bool acts(const IdealisedPoint& point, std::string_view name) {
     if (!rules::covers(rule, name)) return true;
     const std::vector<study::ParameterRange> ranges =
         study::ranges_at(plan, study::slots_named(plan.table, rule.depends_on), point.at.points().front());
-    return !study::are_readable(ranges) || rule.has_effect(ranges);
+    return !study::are_readable(ranges) || rule.has_effect({rule.depends_on, ranges});
   });
 }
 
@@ -54,14 +55,13 @@ using study::PointEdit;
 
 /// Whether a torque may act from the start on. An integral then holds it.
 bool can_have_load_torque(const PointEdit& at) {
-  bool found = can_differ_from(0.0, at.limits("disturbance.torque")) ||
-               can_differ_from(0.0, at.limits("disturbance.load.torque"));
+  bool found = can_differ_from(0.0, at.limits(parameter::disturbance::torque)) ||
+               can_differ_from(0.0, at.limits(parameter::disturbance::load::torque));
   visit_values(at, [&](std::size_t, const parameters::Parameter& row) {
     const std::string pattern = parameters::without_indices(row.name);
-    found =
-        found ||
-        ((pattern == "disturbance.ripple.#.amplitude" || pattern == "disturbance.load.ripple.#.amplitude") &&
-         parameters::has_value(row) && can_differ_from(0.0, at.limits(row.name)));
+    found = found || ((pattern == parameter::disturbance::ripple::amplitude ||
+                       pattern == parameter::disturbance::load::ripple::amplitude) &&
+                      parameters::has_value(row) && can_differ_from(0.0, at.limits(row.name)));
   });
   return found;
 }
@@ -71,19 +71,19 @@ bool can_be_a_cause(const PointEdit& at, std::string_view name) {
   // The error is measured with the fine encoder, whichever closes the loop.
   if (is_within(name, "encoder.coarse_errors")) return encoders_of(at).coarse;
   // An integral holds the load: it goes with the disturbance.
-  if (name == "initial.integral") return !can_have_load_torque(at);
+  if (name == parameter::initial::integral) return !can_have_load_torque(at);
   // A sine or a record may begin in motion, and the axis with it.
-  if (name == "initial.velocity")
-    return !loop::moves_for_ever(
-        static_cast<loop::ReferenceShape>(static_cast<int>(at.limits("command.profile.shape").low)));
+  if (name == parameter::initial::velocity)
+    return !loop::moves_for_ever(static_cast<loop::ReferenceShape>(
+        static_cast<int>(at.limits(parameter::command::profile::shape).low)));
   // A law without a Stribeck velocity has one level of friction.
-  if (name == "friction.coulomb_ratio") {
+  if (name == parameter::friction::coulomb_ratio) {
     const auto model =
-        static_cast<friction::FrictionModel>(static_cast<int>(at.limits("friction.model").low));
+        static_cast<friction::FrictionModel>(static_cast<int>(at.limits(parameter::friction::model).low));
     return friction::uses(friction::traits_of(model), &friction::FrictionParameters::stribeck_velocity);
   }
-  if (name == "plant.load.friction.coulomb_ratio")
-    return at.limits("plant.load.friction.model").low !=
+  if (name == parameter::plant::load::friction::coulomb_ratio)
+    return at.limits(parameter::plant::load::friction::model).low !=
            static_cast<double>(friction::LoadFrictionModel::dahl);
   return true;
 }
@@ -151,9 +151,9 @@ void add_even_friction(const PointEdit& at, std::vector<Effect>& all) {
 void with_finer_converter(PointEdit& at) {
   constexpr std::int64_t more_bits = 4;
   constexpr double ratio = 1 << more_bits;
-  at.add("dac.bits", more_bits);
-  at.scale("dac.resolution", 1.0 / ratio);
-  at.scale("dac.nonlinearity", ratio);
+  at.add(parameter::dac::bits, more_bits);
+  at.scale(parameter::dac::resolution, 1.0 / ratio);
+  at.scale(parameter::dac::nonlinearity, ratio);
 }
 
 /// If the limit already tames the step, the infinite range need not be the best, so three ranges are tried.
@@ -166,9 +166,10 @@ Effect with_wider_torque_range(int ratio) {
   const double converter_ratio = std::exp2(more_bits);
   Effect effect{.name = fmt::format("{} {} times wider", parameters::wider_torque_range, ratio),
                 .edit = [ratio, more_bits, converter_ratio](PointEdit& at) {
-                  at.add("dac.bits", more_bits);
-                  at.scale("amplifier.limit", ratio);
-                  at.scale("dac.range", converter_ratio);  // the resolution follows from it, and stays
+                  at.add(parameter::dac::bits, more_bits);
+                  at.scale(parameter::amplifier::limit, ratio);
+                  at.scale(parameter::dac::range,
+                           converter_ratio);  // the resolution follows from it, and stays
                 }};
   if (converter_ratio != ratio)
     effect.change = [part = ratio / converter_ratio](trial::TrialParameters& p) {
@@ -195,8 +196,8 @@ std::vector<Effect> idealisations_of(const study::Study& study, std::int64_t num
   add_disturbances(point, all);
   add_rigid_axis(point, all);
   const auto no_friction = static_cast<double>(friction::LoadFrictionModel::none);
-  if (acts(point, "plant.load.friction.model") &&
-      can_differ_from(no_friction, at.limits("plant.load.friction.model")))
+  if (acts(point, parameter::plant::load::friction::model) &&
+      can_differ_from(no_friction, at.limits(parameter::plant::load::friction::model)))
     all.push_back({.name = std::string(parameters::no_load_friction),
                    .change = [](trial::TrialParameters& p) { p.load_side.friction = {}; }});
   add_control_effects(point, all);

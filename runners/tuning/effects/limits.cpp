@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "analysis/statistics/distributions.hpp"
-#include "experiments/study/condition_study.hpp"
+#include "experiments/study/setting_study.hpp"
 #include "runners/tuning/effects/effects.hpp"
 
 namespace zerocount::tuning {
@@ -49,9 +49,9 @@ void name_claims(const EffectRuns& runs, Limit& limit) {
   limit.worst = names_of(study, place_of_claim(study, limit.estimate.worst));
   limit.rates.emplace();
   for (std::size_t claim = 0; claim < limit.estimate.rates.size(); ++claim) {
-    const auto [goal, condition] = names_of(study, place_of_claim(study, claim));
+    const auto [goal, setting] = names_of(study, place_of_claim(study, claim));
     limit.rates->emplace_back(
-        fmt::format("{}{}{}", goal.value_or(""), goal && condition ? ", " : "", condition.value_or("")),
+        fmt::format("{}{}{}", goal.value_or(""), goal && setting ? ", " : "", setting.value_or("")),
         limit.estimate.rates[claim]);
   }
 }
@@ -126,7 +126,7 @@ Limit cause_of(const EffectRuns& runs, const ChangedPoint& without, const Limit&
 void run_alone(const EffectRuns& runs, std::vector<ChangedPoint>& alone, const TellStage& tell) {
   constexpr std::int64_t trials_of_part = 2000;
   constexpr std::int64_t most_parts = 100;
-  const std::int64_t trials = runs.machines() * runs.trials_each() * std::ssize(runs.conditions()) *
+  const std::int64_t trials = runs.machines() * runs.trials_each() * std::ssize(runs.settings()) *
                               std::max<std::int64_t>(std::ssize(alone), 1);
   const std::int64_t parts = std::clamp<std::int64_t>(trials / trials_of_part, 1, most_parts);
   for (std::int64_t part = 1; part <= parts; ++part) {
@@ -203,7 +203,7 @@ std::vector<Limit> find_causes(const EffectRuns& runs, const TellStage& tell) {
 }
 
 double runs_of_causes(const study::Study& study, std::int64_t point, std::int64_t machines) {
-  const auto causes = static_cast<double>(idealisations_of(under_condition(study, 0), point).size());
+  const auto causes = static_cast<double>(idealisations_of(in_setting(study, 0), point).size());
   // Half of the pairs remain whenever their machines double.
   const double part = static_cast<double>(first_machines_of_pairs(machines)) /
                       static_cast<double>(std::max<std::int64_t>(machines, 1));

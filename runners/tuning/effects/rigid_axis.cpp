@@ -1,6 +1,7 @@
 #include "core/friction/friction_model.hpp"
 #include "core/trial/machine.hpp"
 #include "experiments/parameters/element_lists.hpp"
+#include "experiments/parameters/handles.hpp"
 #include "experiments/parameters/parameter_rows.hpp"
 #include "runners/tuning/effects/idealisations.hpp"
 
@@ -19,7 +20,7 @@ constexpr double stiffness_ratio = 100.0;  // ten times the natural frequency
 bool has_kinematic_error(const study::PointEdit& at) {
   bool found = false;
   visit_values(at, [&](std::size_t, const parameters::Parameter& row) {
-    found = found || (parameters::without_indices(row.name) == "plant.load.error.#.amplitude" &&
+    found = found || (parameters::without_indices(row.name) == parameter::plant::load::error::amplitude &&
                       can_differ_from(0.0, at.limits(row.name)));
   });
   return found;
@@ -27,9 +28,11 @@ bool has_kinematic_error(const study::PointEdit& at) {
 
 bool fits_one_mass(const study::PointEdit& at) {
   const bool has_two_frictions =
-      can_differ_from(static_cast<double>(FrictionModel::none), at.limits("friction.model")) &&
-      can_differ_from(static_cast<double>(LoadFrictionModel::none), at.limits("plant.load.friction.model"));
-  return !has_two_frictions && !can_differ_from(0.0, at.limits("plant.load.gap")) && !has_kinematic_error(at);
+      can_differ_from(static_cast<double>(FrictionModel::none), at.limits(parameter::friction::model)) &&
+      can_differ_from(static_cast<double>(LoadFrictionModel::none),
+                      at.limits(parameter::plant::load::friction::model));
+  return !has_two_frictions && !can_differ_from(0.0, at.limits(parameter::plant::load::gap)) &&
+         !has_kinematic_error(at);
 }
 
 FrictionModel same_law(LoadFrictionModel model) {
@@ -92,14 +95,15 @@ void with_a_rigid_load(trial::TrialParameters& p) {
 }  // namespace
 
 void add_rigid_axis(const IdealisedPoint& point, std::vector<Effect>& all) {
-  if (!can_differ_from(0.0, point.at.limits("plant.load.inertia"))) return;
+  if (!can_differ_from(0.0, point.at.limits(parameter::plant::load::inertia))) return;
   if (fits_one_mass(point.at)) {
     all.push_back(
         {.name = std::string(parameters::rigid_axis), .note = not_tuned_again, .change = with_a_rigid_load});
   } else {
-    all.push_back({.name = std::string(parameters::stiffer_coupling),
-                   .note = not_tuned_again,
-                   .edit = [](study::PointEdit& at) { at.scale("plant.load.stiffness", stiffness_ratio); }});
+    all.push_back(
+        {.name = std::string(parameters::stiffer_coupling),
+         .note = not_tuned_again,
+         .edit = [](study::PointEdit& at) { at.scale(parameter::plant::load::stiffness, stiffness_ratio); }});
   }
 }
 

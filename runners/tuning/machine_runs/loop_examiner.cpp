@@ -17,21 +17,22 @@
 #include "core/numerics/roots.hpp"
 #include "core/theory/margins.hpp"
 #include "core/trial/trial.hpp"
+#include "experiments/parameters/handles.hpp"
 #include "experiments/study/plan.hpp"
 #include "experiments/study/study_trial.hpp"
 
 namespace zerocount::tuning {
 namespace {
 
-/// Whether the study draws, under a condition, some input whose name satisfies `fits`.
+/// Whether the study draws, in a setting, some input whose name satisfies `fits`.
 template <class Fits>
-bool draws(const study::Study& study, std::int64_t condition, const Fits& fits) {
+bool draws(const study::Study& study, std::int64_t setting, const Fits& fits) {
   const study::StudyPlan& plan = *study.plan;
   for (std::size_t column = 0; column < study.columns.inputs.size(); ++column) {
     if (!fits(study.columns.inputs[column].name)) continue;
     const study::Value& value =
-        *study::value_at_point(plan, plan.inputs[column].slot, study::plan_point(plan, 0, condition));
-    if (!plan.has_conditions() || value.kind != study::Value::Kind::number) return true;
+        *study::value_at_point(plan, plan.inputs[column].slot, study::plan_point(plan, 0, setting));
+    if (!plan.settings_axis || value.kind != study::Value::Kind::number) return true;
   }
   return false;
 }
@@ -52,19 +53,20 @@ void spread_by(const std::optional<double>& part, std::vector<trial::TrialParame
   machines = std::move(spread);
 }
 
-/// Spread of the study's margins, without the quantities that the study itself draws under a condition. Empty
+/// Spread of the study's margins, without the quantities that the study itself draws in a setting. Empty
 /// without margins.
-/// @param condition 0 without conditions
-study::LoopSpread spread_of_undrawn(const study::Study& study, std::int64_t condition) {
+/// @param setting 0 without settings
+study::LoopSpread spread_of_undrawn(const study::Study& study, std::int64_t setting) {
   if (!study.tuning) return {std::nullopt, std::nullopt, std::nullopt};
   study::LoopSpread spread = study.tuning->margins.spread;
   const auto is_drawn = [&](std::initializer_list<std::string_view> names) {
-    return draws(study, condition,
+    return draws(study, setting,
                  [&](std::string_view name) { return std::ranges::find(names, name) != names.end(); });
   };
-  if (is_drawn({"plant.inertia", "plant.load.inertia"})) spread.inertia.reset();
-  if (is_drawn({"plant.presliding_damping", "plant.sliding_damping"})) spread.damping.reset();
-  if (is_drawn({"dac.gain_error"})) spread.torque_constant.reset();
+  if (is_drawn({parameter::plant::inertia, parameter::plant::load::inertia})) spread.inertia.reset();
+  if (is_drawn({parameter::plant::presliding_damping, parameter::plant::sliding_damping}))
+    spread.damping.reset();
+  if (is_drawn({parameter::dac::gain_error})) spread.torque_constant.reset();
   return spread;
 }
 
@@ -241,12 +243,12 @@ std::pair<double, std::optional<theory::TrialLoop>> delay_margin(const Examinati
   return {margin, first_lost};
 }
 
-/// Whether the machines differ, under a condition, in quantities that change only the spring stiffness of
+/// Whether the machines differ, in a setting, in quantities that change only the spring stiffness of
 /// their loops.
-bool differ_in_stiffness_alone(const study::Study& study, std::int64_t condition,
+bool differ_in_stiffness_alone(const study::Study& study, std::int64_t setting,
                                friction::FrictionModel model) {
   if (!friction::has_spring(model) && friction::traits_of(model).has_presliding_motion) return false;
-  return !draws(study, condition, [](std::string_view name) {
+  return !draws(study, setting, [](std::string_view name) {
     return !name.starts_with("friction.") && !name.starts_with("initial.") && !name.starts_with("command.");
   });
 }
@@ -263,7 +265,7 @@ SmallestMargins margins_of_machine(const Examination& machine) {
   const auto critical = [&](const theory::TrialLoop& one) {
     const bool has_spring = !one.slides && one.stiffness > 0.0;
     return CriticalLoop{one.name, has_spring ? std::optional(one.stiffness) : std::nullopt,
-                        machine.machine.draw, machine.machine.condition};
+                        machine.machine.draw, machine.machine.setting};
   };
   const Loops of = loops_of(machine);
   SmallestMargins smallest;
@@ -304,25 +306,26 @@ bool keeps(const SmallestMargins& margins, const study::LoopMargins& wanted) {
 }
 
 LoopExaminer::LoopExaminer(const study::Study& study, std::int64_t machines)
-    : conditions_(std::ssize(study.conditions)) {
+    : settings_(study.settings.total()) {
   const trial::TrialParameters first = study::study_trial(study, 0, 0).parameters;
   if (theory::has_no_linear_loop(first)) return;
   const study::TrialIndices indices = study::trial_indices(study);
-  std::vector<char> alike;  // [condition]
-  for (std::int64_t condition = 0; condition < indices.conditions; ++condition)
-    alike.push_back(differ_in_stiffness_alone(study, condition, first.friction.model) ? 1 : 0);
+  std::vector<char> alike;  // [setting]
+  for (std::int64_t setting = 0; setting < indices.settings.total(); ++setting)
+    alike.push_back(differ_in_stiffness_alone(study, setting, first.friction.model) ? 1 : 0);
   examined_ = std::ranges::count(alike, 0) == 0 ? machines : std::min(machines, max_unlike_machines);
-  std::vector<ExaminedMachine> all(static_cast<std::size_t>(examined_ * indices.conditions));
+  std::vector<ExaminedMachine> all(static_cast<std::size_t>(examined_ * indices.settings.total()));
   parallel::for_each_index(all.size(), [&](std::size_t i) {
-    const std::int64_t condition = static_cast<std::int64_t>(i) % indices.conditions;
-    const std::int64_t trial = indices.trial_of(static_cast<std::int64_t>(i) / indices.conditions, condition);
+    const std::int64_t setting = static_cast<std::int64_t>(i) % indices.settings.total();
+    const std::int64_t trial =
+        indices.trial_of(static_cast<std::int64_t>(i) / indices.settings.total(), setting);
     const auto [softest, stiffest] = theory::stiffness_range(study::study_trial(study, 0, trial).parameters);
-    const std::int64_t draw = static_cast<std::int64_t>(i) / indices.conditions;
-    all[i] = {trial, condition, draw, spread_of_undrawn(study, condition), softest, stiffest};
+    const std::int64_t draw = static_cast<std::int64_t>(i) / indices.settings.total();
+    all[i] = {trial, setting, draw, spread_of_undrawn(study, setting), softest, stiffest};
   });
   for (const ExaminedMachine& one : all) {
-    const auto like_it = std::ranges::find(machines_, one.condition, &ExaminedMachine::condition);
-    const bool is_alike = alike[static_cast<std::size_t>(one.condition)] != 0;
+    const auto like_it = std::ranges::find(machines_, one.setting, &ExaminedMachine::setting);
+    const bool is_alike = alike[static_cast<std::size_t>(one.setting)] != 0;
     if (!is_alike || like_it == machines_.end()) {
       machines_.push_back(one);
       if (is_alike) machines_.back().draw.reset();
@@ -331,11 +334,11 @@ LoopExaminer::LoopExaminer(const study::Study& study, std::int64_t machines)
       like_it->stiffest = std::max(like_it->stiffest, one.stiffest);
     }
   }
-  // The softest and the stiffest under each condition.
-  for (std::int64_t condition = 0; condition < indices.conditions; ++condition) {
+  // The softest and the stiffest in each setting.
+  for (std::int64_t setting = 0; setting < indices.settings.total(); ++setting) {
     std::optional<std::size_t> softest, stiffest;
     for (std::size_t i = 0; i < machines_.size(); ++i) {
-      if (machines_[i].condition != condition) continue;
+      if (machines_[i].setting != setting) continue;
       if (!softest || machines_[i].softest < machines_[*softest].softest) softest = i;
       if (!stiffest || machines_[i].stiffest > machines_[*stiffest].stiffest) stiffest = i;
     }
@@ -424,11 +427,11 @@ SmallestMargins LoopExaminer::margins_of(const study::Study& candidate, bool sli
   SmallestMargins all;
   all.machines = examined_;
   if (!machines_.empty()) all.spread = machines_.front().spread;
-  all.conditions.resize(static_cast<std::size_t>(conditions_), all);
+  all.settings.resize(static_cast<std::size_t>(settings_), all);
   for (std::size_t i = 0; i < found.size(); ++i) {
     include(all, found[i]);
-    if (conditions_ > 0)
-      include(all.conditions[static_cast<std::size_t>(machines_[corners[i].machine].condition)], found[i]);
+    if (settings_ > 0)
+      include(all.settings[static_cast<std::size_t>(machines_[corners[i].machine].setting)], found[i]);
   }
   return all;
 }

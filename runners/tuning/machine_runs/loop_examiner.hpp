@@ -23,7 +23,7 @@ struct CriticalLoop {
   std::optional<double> stiffness{};
   /// Number of the draw that made the machine; nothing if the stiffness describes the machine completely.
   std::optional<std::int64_t> machine{};
-  std::int64_t condition{0};
+  std::int64_t setting{0};
 };
 
 /// Worst value of a margin, and its loop. Without a loop that limits the margin, there is no loop.
@@ -39,13 +39,13 @@ struct SmallestMargins {
   Smallest phase{};   ///< Phase margin, degrees.
   /// Delay margin, samples: growth of the delay until a loop is unstable, at most max_delay.
   Smallest delay{max_delay};
-  Smallest sensitivity{0.0};                  ///< Largest |S|, with S = 1/(1 + L).
-  double crossover{0.0};                      ///< Highest frequency at which |L| = 1, Hz; 0 without one.
-  std::int64_t machines{0};                   ///< Number of examined machines under each condition.
-  bool before_sliding{false};                 ///< Whether loops before sliding were examined.
-  bool sliding{false};                        ///< Whether loops of sliding machines were examined.
-  study::LoopSpread spread{};                 ///< Spread of the machines in addition to the study's draws.
-  std::vector<SmallestMargins> conditions{};  ///< [condition] Smallest margins; empty without conditions.
+  Smallest sensitivity{0.0};                ///< Largest |S|, with S = 1/(1 + L).
+  double crossover{0.0};                    ///< Highest frequency at which |L| = 1, Hz; 0 without one.
+  std::int64_t machines{0};                 ///< Number of examined machines in each setting.
+  bool before_sliding{false};               ///< Whether loops before sliding were examined.
+  bool sliding{false};                      ///< Whether loops of sliding machines were examined.
+  study::LoopSpread spread{};               ///< Spread of the machines in addition to the study's draws.
+  std::vector<SmallestMargins> settings{};  ///< [setting] Smallest margins; empty without settings.
 
   static constexpr double max_delay = 10.0;
 };
@@ -53,11 +53,11 @@ struct SmallestMargins {
 /// Whether all loops are stable and all wanted margins are kept.
 bool keeps(const SmallestMargins& margins, const study::LoopMargins& wanted);
 
-/// A machine under a condition, and the range of its contact stiffness. It may represent all machines that
+/// A machine in a setting, and the range of its contact stiffness. It may represent all machines that
 /// differ only in stiffness.
 struct ExaminedMachine {
   std::int64_t trial;
-  std::int64_t condition;
+  std::int64_t setting;
   /// Number of the draw of the trial; nothing if the machine represents all that differ only in stiffness.
   std::optional<std::int64_t> draw;
   study::LoopSpread spread;
@@ -74,7 +74,7 @@ struct Examination {
   bool slides;
 };
 
-/// Examines whether the linear loops of the machines keep margins under every condition.
+/// Examines whether the linear loops of the machines keep margins in every setting.
 ///
 /// The contact before sliding is examined over its range of stiffness: from k1 to k1 + k2 over the friction
 /// profile of the machine, or at the stiffness of its bristles. The sliding contact is examined if machines
@@ -134,8 +134,8 @@ class LoopExaminer {
   void add_critical(std::size_t machine);
 
   std::vector<ExaminedMachine> machines_;
-  std::int64_t examined_{0};    ///< Number of machines that machines_ represent, under each condition.
-  std::int64_t conditions_{0};  ///< Number of conditions; 0: the study has none.
+  std::int64_t examined_{0};  ///< Number of machines that machines_ represent, in each setting.
+  std::int64_t settings_{0};  ///< Number of settings; 0: the study has none.
   std::vector<Corner> critical_;
 };
 

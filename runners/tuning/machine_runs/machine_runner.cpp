@@ -50,12 +50,12 @@ class TrialCounter {
   explicit TrialCounter(const study::Study& study)
       : goals_(measures::asked_of_moves(study)),
         criteria_(criteria_of(study)),
-        conditions_(static_cast<std::size_t>(study::condition_count(study))) {}
+        settings_(static_cast<std::size_t>(study.settings.total())) {}
 
-  void add(std::span<const trial::MoveOutcome> moves, std::int64_t condition, MachineResult& result) const {
-    result.claims.resize(goals_.size() * conditions_);
+  void add(std::span<const trial::MoveOutcome> moves, std::int64_t setting, MachineResult& result) const {
+    result.claims.resize(goals_.size() * settings_);
     for (std::size_t goal = 0; goal < goals_.size(); ++goal) {
-      ClaimResult& claim = result.claims[goal * conditions_ + static_cast<std::size_t>(condition)];
+      ClaimResult& claim = result.claims[goal * settings_ + static_cast<std::size_t>(setting)];
       for (const trial::MoveOutcome& move : moves) {
         if (!measures::asks(goals_[goal], move)) continue;
         ++claim.moves;
@@ -69,7 +69,7 @@ class TrialCounter {
  private:
   std::vector<measures::CountedGoal> goals_;
   std::vector<Criterion> criteria_;
-  std::size_t conditions_;
+  std::size_t settings_;
 };
 
 /// Parameters of trial i of a machine, with the change of the entry applied.
@@ -141,19 +141,19 @@ void add_outcomes(const Block& block, const trials::Replicates& machines,
                   std::span<const trial::TrialOutcome> outcomes) {
   std::optional<TrialCounter> counter;
   const MachinesToRun* entry = nullptr;
-  std::int64_t conditions = 1;
+  std::int64_t settings = 1;
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     const auto trial = static_cast<std::int64_t>(i);
     const MachineOfEntry& one = block[i / static_cast<std::size_t>(machines.trials_each)];
     if (one.entry != std::exchange(entry, one.entry)) {
       counter.emplace(*entry->study);
-      conditions = study::condition_count(*entry->study);
+      settings = entry->study->settings.total();
     }
     const bool same_units = entry->finer == FinerUnits{};
     const std::vector<trial::MoveOutcome> converted =
         same_units ? std::vector<trial::MoveOutcome>{}
                    : moves_in_study_units(one, machines, trial % machines.trials_each, outcomes[i].moves);
-    counter->add(same_units ? outcomes[i].moves : converted, trial % machines.trials_each % conditions,
+    counter->add(same_units ? outcomes[i].moves : converted, trial % machines.trials_each % settings,
                  (*entry->results)[static_cast<std::size_t>(one.machine)]);
   }
 }
@@ -271,40 +271,40 @@ std::vector<Criterion> criteria_of(const study::Study& study) {
 
 Aim aim_of(const study::Study& study) {
   Aim aim{.claims = {},
-          .conditions = static_cast<std::size_t>(study::condition_count(study)),
+          .settings = static_cast<std::size_t>(study.settings.total()),
           .quantile = criteria_of(study).front().quantile,
           .worlds = study.worlds};
   const std::vector<study::Goal> goals =
       study.goals.empty() ? std::vector{study::Goal{.moves = 1.0}} : study.goals;
   for (const study::Goal& goal : goals)
-    aim.claims.insert(aim.claims.end(), aim.conditions, {goal.moves, goal.machines});
+    aim.claims.insert(aim.claims.end(), aim.settings, {goal.moves, goal.machines});
   return aim;
 }
 
 ClaimPlace place_of_claim(const study::Study& study, std::size_t claim) {
-  const auto conditions = static_cast<std::size_t>(study::condition_count(study));
-  return {claim / conditions, claim % conditions};
+  const auto settings = static_cast<std::size_t>(study.settings.total());
+  return {claim / settings, claim % settings};
 }
 
 std::size_t claim_at(const study::Study& study, const ClaimPlace& place) {
-  return place.goal * static_cast<std::size_t>(study::condition_count(study)) + place.condition;
+  return place.goal * static_cast<std::size_t>(study.settings.total()) + place.setting;
 }
 
 bool has_named_claims(const study::Study& study) {
-  return study.goals.size() > 1 || !study.conditions.empty();
+  return study.goals.size() > 1 || !study.settings.empty();
 }
 
 ClaimNames names_of(const study::Study& study, const ClaimPlace& place) {
   ClaimNames names;
   if (has_named_claims(study) && !study.goals.empty() && !study.goals[place.goal].name.empty())
     names.goal = study.goals[place.goal].name;
-  if (!study.conditions.empty()) names.condition = study.conditions[place.condition];
+  if (!study.settings.empty()) names.setting = study::label_of(study.settings, place.setting);
   return names;
 }
 
 std::string claim_text(const study::Study& study, const ClaimPlace& place) {
   return (study.goals.size() > 1 ? fmt::format(" '{}'", study.goals[place.goal].name) : std::string()) +
-         study::condition_text(study, static_cast<std::int64_t>(place.condition));
+         study::setting_phrase(study.settings, static_cast<std::int64_t>(place.setting));
 }
 
 MachineResult result_of(const study::Study& study, std::span<const trial::TrialOutcome> outcomes) {
@@ -344,7 +344,7 @@ std::vector<MachineResult> results_in(const reading::AllTrialsFile& file, const 
   const study::TrialIndices indices = study::trial_indices(study);
   std::vector<MachineResult> results(static_cast<std::size_t>(machines.count));
   measures::visit_trials(file, file.rows(), [&](std::int64_t row, std::span<const trial::MoveOutcome> moves) {
-    counter.add(moves, indices.condition_of(row),
+    counter.add(moves, indices.setting_of(row),
                 results[static_cast<std::size_t>(indices.draw_of(row) % machines.count)]);
   });
   return results;

@@ -42,7 +42,7 @@ struct Criterion {
 };
 
 /// [goal] Criterion of each goal; a single one if the study has no goal. The criterion of a candidate is the
-/// largest over all goals and conditions.
+/// largest over all goals and settings.
 /// @throws Failure (bad_input) if Tuning::minimise names no quantile of a measure
 std::vector<Criterion> criteria_of(const study::Study& study);
 /// Name of the criterion: "band_settling_time.p95" if all goals have bands, "tolerance_settling_time.p95" if
@@ -54,25 +54,25 @@ bool is_of_settling(const study::Study& study);
 /// Whether the criterion is a settling time divided by the time that its goal allows.
 bool is_proportion_of_allowed(const study::Study& study);
 
-/// Aim of a tuning: all goals of the study under each of its conditions.
+/// Aim of a tuning: all goals of the study in each of its settings.
 Aim aim_of(const study::Study& study);
-/// Goal and condition of a claim, as indices. Aim::claims is ordered goal by goal.
+/// Goal and setting of a claim, as indices. Aim::claims is ordered goal by goal.
 struct ClaimPlace {
   std::size_t goal{0};
-  std::size_t condition{0};
+  std::size_t setting{0};
 };
 ClaimPlace place_of_claim(const study::Study& study, std::size_t claim);
 std::size_t claim_at(const study::Study& study, const ClaimPlace& place);
 /// Text such as " 'small' under condition loaded". It names the goal only if there are several, and the
-/// condition only if there are any.
+/// setting only if there are any.
 std::string claim_text(const study::Study& study, const ClaimPlace& place);
-/// Whether there is more than one goal, or any condition.
+/// Whether there is more than one goal, or any setting.
 bool has_named_claims(const study::Study& study);
 /// Names of a claim in data.
 struct ClaimNames {
   std::optional<std::string>
       goal{};  ///< Name of the goal; nothing if the study has no other claim or the goal has no name.
-  std::optional<std::string> condition{};  ///< Name of the condition; nothing without conditions.
+  std::optional<std::string> setting{};  ///< Name of the setting; nothing without settings.
 };
 ClaimNames names_of(const study::Study& study, const ClaimPlace& place);
 
@@ -89,7 +89,7 @@ struct MachinesToRun {
   FinerUnits finer{};                            ///< Units of the changed trials.
 };
 
-/// Result of trials that all belong to one machine, under the first condition.
+/// Result of trials that all belong to one machine, in the first setting.
 MachineResult result_of(const study::Study& study, std::span<const trial::TrialOutcome> outcomes);
 
 /// Runs the trials of all entries on all cores. The results do not depend on the number of cores.

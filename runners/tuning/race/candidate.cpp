@@ -141,7 +141,7 @@ Estimate estimate_of(const Aim& aim, std::span<const MachineResult> machines, st
     has_moves = has_moves || claims.back().has_moves;
   }
   estimate.machines = worlds == 1 ? count : std::max<std::int64_t>(count / worlds, has_moves ? 1 : 0);
-  std::vector<char> goal_is_missing((aim.claims.size() + aim.conditions - 1) / aim.conditions, 0);
+  std::vector<char> goal_is_missing((aim.claims.size() + aim.settings - 1) / aim.settings, 0);
   for (std::size_t claim = 0; claim < claims.size(); ++claim) {
     const ClaimEstimate& one = claims[claim];
     const goal::Standing standing = standing_of(aim.claims[claim], one, estimate.machines);
@@ -155,7 +155,7 @@ Estimate estimate_of(const Aim& aim, std::span<const MachineResult> machines, st
     estimate.rates.push_back(one.rate);
     estimate.near_goal += one.near_goal / static_cast<double>(claims.size());
     if (!seems_to_hold(aim.claims[claim], one.rate, estimate.machines))
-      goal_is_missing[claim / aim.conditions] = 1;
+      goal_is_missing[claim / aim.settings] = 1;
   }
   estimate.missing = std::ranges::count(goal_is_missing, 1);
   if (has_moves) estimate.criterion = latest_of(aim, machines).value;

@@ -10,7 +10,7 @@
 
 namespace zerocount::tuning {
 
-/// Result of one machine for one claim. Only moves that the claim's goal judges, under the claim's condition,
+/// Result of one machine for one claim. Only moves that the claim's goal judges, in the setting of the claim,
 /// are counted.
 struct ClaimResult {
   std::int32_t moves{0};  ///< Number of judged moves.
@@ -19,8 +19,8 @@ struct ClaimResult {
   std::vector<double> values;
 };
 
-/// Result of a candidate on one machine of the search, with its trials under each condition.
-/// If no goal asks for machines, each machine has one trial under each condition.
+/// Result of a candidate on one machine of the search, with its trials in each setting.
+/// If no goal asks for machines, each machine has one trial in each setting.
 struct MachineResult {
   std::vector<ClaimResult> claims;  ///< One entry for each claim, in the order of Aim::claims.
   bool slid{false};                 ///< Whether the axis slid in some move.
@@ -31,7 +31,7 @@ inline double met_proportion(const ClaimResult& claim) {
   return claim.moves == 0 ? 0.0 : static_cast<double>(claim.met) / claim.moves;
 }
 
-/// A claim that must hold: one goal under one condition.
+/// A claim that must hold: one goal in one setting.
 struct Claim {
   double moves{0.99};                ///< study::Goal::moves
   std::optional<double> machines{};  ///< study::Goal::machines
@@ -39,8 +39,8 @@ struct Claim {
 
 /// Requirements on the candidates. All claims must hold.
 struct Aim {
-  std::vector<Claim> claims{Claim{}};  ///< All pairs of goal and condition, goal by goal.
-  std::size_t conditions{1};           ///< Number of conditions, thus of claims per goal.
+  std::vector<Claim> claims{Claim{}};  ///< All pairs of goal and setting, goal by goal.
+  std::size_t settings{1};             ///< Number of settings, thus of claims per goal.
   double quantile{0.95};               ///< Probability (0 to 1) of the quantile that is the criterion.
   /// Number of worlds; 0: no worlds. Unit i belongs to world i mod worlds. The claims must hold in each
   /// world.
@@ -76,7 +76,7 @@ struct Estimate {
   std::vector<double> rates{};  ///< [claim] Rate as in `rate`.
   std::size_t worst{0};         ///< Index of the worst claim in Aim::claims.
   double margin{0.0};           ///< Logit of the worst claim's rate minus the logit of its wanted rate.
-  std::int64_t missing{0};      ///< Number of goals that the candidate seems to miss under some condition.
+  std::int64_t missing{0};      ///< Number of goals that the candidate seems to miss in some setting.
 };
 
 /// Estimate from the first `count` machines; from all if there are fewer.

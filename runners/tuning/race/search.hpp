@@ -74,7 +74,7 @@ struct SearchProblem {
   /// ends. It is a control with fewer blocks, which may be the better one or the only admissible one.
   std::vector<std::vector<std::size_t>> faces{};
   SearchSize size{};
-  std::int64_t trials_of_replicate{1};  ///< Trials of each machine, under all conditions together.
+  std::int64_t trials_of_replicate{1};  ///< Trials of each machine, in all settings together.
 
   /// Appends results to every candidate, so that each has those of `to` machines. Throws trial::Interrupted
   /// if the time is over; then no candidate is changed.

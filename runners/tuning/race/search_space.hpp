@@ -55,7 +55,7 @@ class Walk {
   /// @param first place number 0, 1, … at which the walk may begin
   std::vector<UnitCubePoint> next(const std::function<UnitCubePoint(std::int64_t)>& first);
 
-  /// Whether rounds are left.
+  /// Whether the walk has rounds left and should call next() again.
   bool goes_on() const;
 
  private:

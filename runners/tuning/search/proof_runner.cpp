@@ -28,7 +28,7 @@ namespace {
 constexpr std::int64_t usual_machines = 500;  // at least, where the effort is enough for them
 
 /// Smallest number of machines that can meet one goal.
-/// @param each trials of a machine under each condition
+/// @param each trials of a machine in each setting
 std::int64_t min_machines_of(const study::Study& study, std::size_t goal, std::int64_t each,
                              std::size_t points) {
   const measures::CountedGoal counted = measures::asked_of_moves(study)[goal];
@@ -49,19 +49,19 @@ std::int64_t min_machines_of(const study::Study& study, std::size_t goal, std::i
 std::int64_t min_machines_of(const study::Study& study, std::int64_t each, std::size_t points) {
   std::int64_t least = std::max<std::int64_t>(study.worlds, 1);
   for (std::size_t goal = 0; goal < study.goals.size(); ++goal)
-    least = std::max(least, min_machines_of(study, goal, each / study::condition_count(study), points));
+    least = std::max(least, min_machines_of(study, goal, each / study.settings.total(), points));
   return least;
 }
 
 /// @param each trials of a machine
 measures::CellCounts at_trials_each(const measures::CellCounts& counts, std::int64_t each) {
   measures::CellCounts scaled(counts.shape());
-  for (std::size_t condition = 0; condition < counts.conditions(); ++condition) {
-    const std::vector<statistics::MachineMoves> machines = counts.sum({.condition = condition}).machines;
+  for (std::size_t setting = 0; setting < counts.settings(); ++setting) {
+    const std::vector<statistics::MachineMoves> machines = counts.sum({.setting = setting}).machines;
     for (std::size_t machine = 0; machine < machines.size(); ++machine) {
-      const std::int64_t trials = each / static_cast<std::int64_t>(counts.conditions());
+      const std::int64_t trials = each / static_cast<std::int64_t>(counts.settings());
       const auto factor = static_cast<double>(trials) / static_cast<double>(machines[machine].trials);
-      scaled.add_machine(machine, condition,
+      scaled.add_machine(machine, setting,
                          {trials, std::llround(static_cast<double>(machines[machine].moves) * factor),
                           std::llround(static_cast<double>(machines[machine].met) * factor)});
     }
@@ -130,24 +130,23 @@ void make_run(const study::Study& study, const std::filesystem::path& output, in
 
 GoalCounts counts_of(const study::Study& study, const trials::Replicates& machines,
                      std::span<const MachineResult> results) {
-  const auto conditions = static_cast<std::size_t>(study::condition_count(study));
+  const auto settings = static_cast<std::size_t>(study.settings.total());
   measures::Shape shape = measures::shape_of(study);
   if (shape.machines > 0) shape.machines = std::ssize(results);
   GoalCounts goals(study.goals.size(), measures::CellCounts(shape));
   for (std::size_t goal = 0; goal < goals.size(); ++goal) {
     measures::CellCounts& counts = goals[goal];
     for (std::size_t machine = 0; machine < results.size(); ++machine) {
-      for (std::size_t condition = 0; condition < conditions; ++condition) {
-        const ClaimResult& claim = results[machine].claims[goal * conditions + condition];
+      for (std::size_t setting = 0; setting < settings; ++setting) {
+        const ClaimResult& claim = results[machine].claims[goal * settings + setting];
         const auto number = static_cast<std::int64_t>(machine);
         if (study.machines == 0) {
-          counts.add(
-              trials::trial_of_replicate(study, machines, number, static_cast<std::int64_t>(condition)),
-              claim.moves, claim.met);
+          counts.add(trials::trial_of_replicate(study, machines, number, static_cast<std::int64_t>(setting)),
+                     claim.moves, claim.met);
         } else {
           counts.add_machine(
-              machine, condition,
-              {machines.trials_each / static_cast<std::int64_t>(conditions), claim.moves, claim.met});
+              machine, setting,
+              {machines.trials_each / static_cast<std::int64_t>(settings), claim.moves, claim.met});
         }
       }
     }

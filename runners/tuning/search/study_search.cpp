@@ -13,6 +13,7 @@
 #include "analysis/statistics/unknown.hpp"
 #include "core/loop/controller/controller.hpp"
 #include "core/trial/trial.hpp"
+#include "experiments/parameters/handles.hpp"
 #include "experiments/study/plan.hpp"
 #include "experiments/study/study_table.hpp"
 #include "experiments/study/study_trial.hpp"
@@ -31,7 +32,7 @@ bool lie_in_ranges(const Values& values, std::span<const study::FreeParameter> f
   return true;
 }
 
-constexpr const char* observer_bandwidth = "controller.observer.bandwidth";
+constexpr parameter::Handle observer_bandwidth = parameter::controller::observer::bandwidth;
 
 OtherControl with_zeros(const study::Study& study, const std::vector<std::size_t>& zeros) {
   OtherControl control;
@@ -64,9 +65,12 @@ std::optional<OtherControl> with_observer(const study::Study& study) {
   const double rate = p.controller.sample_rate;
   const double lowest = 0.001 / (p.command.hold * static_cast<double>(study.moves));
   OtherControl control{"observer added", {}, {}, study.tuning->free};
-  control.free.push_back(
-      {.name = observer_bandwidth, .unit = "Hz", .low = lowest, .high = 0.25 * rate, .logarithmic = true});
-  control.overrides.push_back(fmt::format("{}={}", observer_bandwidth, lowest));
+  control.free.push_back({.name = std::string(observer_bandwidth.path),
+                          .unit = "Hz",
+                          .low = lowest,
+                          .high = 0.25 * rate,
+                          .logarithmic = true});
+  control.overrides.push_back(fmt::format("{}={}", observer_bandwidth.path, lowest));
   control.overrides.push_back(fmt::format("controller.observer.inertia={}", p.plant.inertia));
   return control;
 }
@@ -83,16 +87,16 @@ Values values_in_manifest(const study::Study& study, std::span<const study::Free
 }
 
 std::int64_t trials_of_machine(const study::Study& study) {
-  const std::int64_t conditions = study::condition_count(study);
+  const std::int64_t settings = study.settings.total();
   const bool on_machines =
       std::ranges::any_of(study.goals, [](const study::Goal& goal) { return goal.machines.has_value(); });
-  if (!on_machines) return conditions;
-  return std::max<std::int64_t>(study.trials / (study.machines * conditions), 10) * conditions;
+  if (!on_machines) return settings;
+  return std::max<std::int64_t>(study.trials / (study.machines * settings), 10) * settings;
 }
 
 std::int64_t search_trials_of_machine(const study::Study& study) {
-  const std::int64_t conditions = study::condition_count(study);
-  return std::min(trials_of_machine(study) / conditions, max_search_trials_of_machine) * conditions;
+  const std::int64_t settings = study.settings.total();
+  return std::min(trials_of_machine(study) / settings, max_search_trials_of_machine) * settings;
 }
 
 StudySearch::StudySearch(const study::Study& study, std::vector<study::FreeParameter> free,

@@ -22,12 +22,12 @@ namespace zerocount::tuning {
 /// Values of the free parameters in the manifest.
 Values values_in_manifest(const study::Study& study, std::span<const study::FreeParameter> free);
 
-/// Number of trials, under all conditions together, that decide whether a machine meets the goals. If no goal
-/// asks for machines: one trial under each condition.
+/// Number of trials, in all settings together, that decide whether a machine meets the goals. If no goal
+/// asks for machines: one trial in each setting.
 std::int64_t trials_of_machine(const study::Study& study);
 
-/// Number of trials of a machine in the search, under all conditions together: trials_of_machine() with an
-/// upper limit for each condition.
+/// Number of trials of a machine in the search, in all settings together: trials_of_machine() with an
+/// upper limit for each setting.
 std::int64_t search_trials_of_machine(const study::Study& study);
 
 /// The examined point closest to the wanted margins, for a search in which no point keeps them.

@@ -10,10 +10,10 @@
 #include "core/failure/failure.hpp"
 #include "core/numerics/normal_distribution.hpp"
 #include "experiments/manifest_text/manifest_text.hpp"
-#include "experiments/study/condition_study.hpp"
 #include "experiments/study/measured_machines.hpp"
 #include "experiments/study/plan.hpp"
 #include "experiments/study/point_limits.hpp"
+#include "experiments/study/setting_study.hpp"
 #include "runners/tuning/worst_machines/worst_machines.hpp"
 
 namespace zerocount::tuning {
@@ -202,7 +202,7 @@ std::string manifest_of(const MachineBox& box, const BoxPoint& point, const Name
                         const MachineManifest& manifest) {
   const study::Study& study = box.study();
   manifest_text::PointChanges changes{
-      .condition = manifest.condition, .values = values, .folder = manifest.folder.value_or("")};
+      .condition = manifest.setting, .values = values, .folder = manifest.folder.value_or("")};
   changes.removed = {"design", "worlds", "retain"};
   let_act_at_age(changes, box);
   if (are_correlated(box.inputs(), *study.plan)) changes.removed.emplace_back("correlation");
@@ -227,10 +227,9 @@ std::string manifest_of(const MachineBox& box, const BoxPoint& point, const Name
 
 std::string refusal_of_manifests(const study::Study& study, std::int64_t point) {
   const study::StudyPlan& plan = *study.plan;
-  for (std::int64_t condition = 0; condition < study::condition_count(study); ++condition) {
+  for (std::int64_t setting = 0; setting < study.settings.total(); ++setting) {
     for (std::size_t slot = 0; slot < plan.base.size(); ++slot) {
-      const study::Value& value =
-          *study::value_at_point(plan, slot, study::plan_point(plan, point, condition));
+      const study::Value& value = *study::value_at_point(plan, slot, study::plan_point(plan, point, setting));
       const bool is_shared =
           value.level == study::DrawLevel::contact || value.level == study::DrawLevel::study;
       if (value.aging && value.kind == study::Value::Kind::distribution && is_shared)

@@ -13,9 +13,9 @@
 #include "core/random/random_numbers.hpp"
 #include "experiments/designs/designs.hpp"
 #include "experiments/manifest/load_study.hpp"
-#include "experiments/study/condition_study.hpp"
 #include "experiments/study/group_inputs.hpp"
 #include "experiments/study/plan.hpp"
+#include "experiments/study/setting_study.hpp"
 #include "runners/trials/trial_set.hpp"
 #include "runners/tuning/race/search_space.hpp"
 
@@ -177,7 +177,7 @@ NamedValues inputs_of_machine(const study::Study& study, std::int64_t point, con
     return !study.columns.shared[of.grouping].empty();
   };
   const bool of_machine = study.machines > 0 && std::ranges::any_of(study::groupings, has_columns);
-  if (!of_machine || !study.conditions.empty()) {  // what conditions override is an input of trials
+  if (!of_machine || !study.settings.empty()) {  // what settings override is an input of trials
     add(study.columns.inputs, study::study_trial(study, point, machine.trial).inputs,
         of_machine ? study::DrawLevel::machine : study::DrawLevel::contact);
     return named;
@@ -249,24 +249,24 @@ JudgedMachine judged(const BoxPoint& point, const MachineBox& box, const Machine
   return machine;
 }
 
-/// The search under one condition.
+/// The search in one setting.
 class MachineSearch {
  public:
-  /// @param study study under the condition alone
+  /// @param study study in the setting alone
   /// @param machines machines of the study
-  /// @param condition name of the condition; empty: there is none
-  MachineSearch(const study::Study& study, const trials::Replicates& machines, std::string condition,
+  /// @param setting name of the setting; empty: there is none
+  MachineSearch(const study::Study& study, const trials::Replicates& machines, std::string setting,
                 const std::optional<std::filesystem::path>& folder, const trials::Effort& effort)
       : box_(study, machines.point),
         machines_(machines),
-        manifest_{std::move(condition), folder, trials_of_verdict},
+        manifest_{std::move(setting), folder, trials_of_verdict},
         numbers_{designs::random_key(study.seed, "worst machine"), 0},
         failures_(study, machines.point),
         effort_(effort) {}
 
-  /// Finds the worst machines under the condition.
+  /// Finds the worst machines in the setting.
   /// @param likely_met proportion of moves that meet the goals for the worst likely machine of other
-  /// conditions; 1 without one. A likely machine is sought only if some machine of the box meets less,
+  /// settings; 1 without one. A likely machine is sought only if some machine of the box meets less,
   /// because no likely machine can be worse than the box.
   WorstMachines run(double likely_met) {
     const std::vector<MachineResult> results =
@@ -386,11 +386,11 @@ WorstMachine worst_machine(const study::Study& study, std::int64_t point,
       static_cast<std::int64_t>(number), 0, met_proportion(result), {}, place_of_claim(study, claim)};
   const std::int64_t asked =
       measures::asked_moves(measures::asked_of_moves(study)[machine.claim.goal], study.moves);
-  const std::int64_t trial_under_condition =
+  const std::int64_t trial_in_setting =
       (std::ranges::max_element(result.values) - result.values.begin()) / asked;
-  machine.trial = trials::trial_of_replicate(study, {.count = std::ssize(results)}, machine.machine,
-                                             trial_under_condition * study::condition_count(study) +
-                                                 static_cast<std::int64_t>(machine.claim.condition));
+  machine.trial = trials::trial_of_replicate(
+      study, {.count = std::ssize(results)}, machine.machine,
+      trial_in_setting * study.settings.total() + static_cast<std::int64_t>(machine.claim.setting));
   machine.inputs = inputs_of_machine(study, point, machine);
   machine.names = names_of(study, machine.claim);
   return machine;
@@ -402,36 +402,32 @@ std::int64_t trials_of_worst_machines(const study::Study& study, const trials::R
       stage_trials[0] + (stage_trials[1] - stage_trials[0]) / 4 + (stage_trials[2] - stage_trials[1]) / 16;
   constexpr auto first = static_cast<std::int64_t>(starting_machines + max_corners + filling_points);
   constexpr auto later = static_cast<std::int64_t>(generations * children);
-  return machines.trials() +
-         study::condition_count(study) * (of_newcomer * (first + later) + 3 * trials_of_verdict);
+  return machines.trials() + study.settings.total() * (of_newcomer * (first + later) + 3 * trials_of_verdict);
 }
 
 WorstMachines worst_machines(const study::Study& study, const trials::Replicates& machines,
                              const std::optional<std::filesystem::path>& folder,
                              const trials::Effort& effort) {
-  std::vector<WorstMachines> under;  // [condition]
+  std::vector<WorstMachines> in_each;  // [setting]
   double likely_met = 1.0;
   trials::Replicates alone = machines;
-  alone.trials_each /= study::condition_count(study);
-  for (std::int64_t condition = 0; condition < study::condition_count(study); ++condition) {
-    const std::string name =
-        study.condition_names.empty()
-            ? ""
-            : study.condition_names[static_cast<std::size_t>(condition % study::conditions_of_age(study))];
-    WorstMachines& found = under.emplace_back(
-        MachineSearch(under_condition(study, condition), alone, name, folder, effort).run(likely_met));
+  alone.trials_each /= study.settings.total();
+  for (std::int64_t setting = 0; setting < study.settings.total(); ++setting) {
+    MachineSearch search(in_setting(study, setting), alone, study::condition_of(study.settings, setting),
+                         folder, effort);
+    WorstMachines& found = in_each.emplace_back(search.run(likely_met));
     likely_met = std::min(likely_met, found.likely.met);
-    found.of_study.claim.condition = static_cast<std::size_t>(condition);
-    found.of_study.trial = study::trial_indices(study).trial_of(found.of_study.trial, condition);
+    found.of_study.claim.setting = static_cast<std::size_t>(setting);
+    found.of_study.trial = study::trial_indices(study).trial_of(found.of_study.trial, setting);
     found.of_study.names = names_of(study, found.of_study.claim);
     for (JudgedMachine* one : {&found.again, &found.in_box, &found.likely}) {
-      one->condition = condition;
-      one->condition_name = found.of_study.names.condition;
+      one->setting = setting;
+      one->setting_name = found.of_study.names.setting;
     }
   }
-  const auto worst_by = [&](const auto& met) { return *std::ranges::min_element(under, {}, met); };
+  const auto worst_by = [&](const auto& met) { return *std::ranges::min_element(in_each, {}, met); };
   const auto is_same = [](const JudgedMachine& a, const JudgedMachine& b) {
-    return a.condition == b.condition && a.machine == b.machine && a.quantiles == b.quantiles;
+    return a.setting == b.setting && a.machine == b.machine && a.quantiles == b.quantiles;
   };
   WorstMachines found = worst_by([](const WorstMachines& one) { return one.of_study.met; });
   const WorstMachines in_box = worst_by([](const WorstMachines& one) { return one.in_box.met; });
@@ -440,7 +436,7 @@ WorstMachines worst_machines(const study::Study& study, const trials::Replicates
   found.likely = worst_by([](const WorstMachines& one) { return one.likely.met; }).likely;
   found.in_box.is_previous = is_same(found.in_box, found.again);
   found.likely.is_previous = is_same(found.likely, found.in_box);
-  const study::Study under_worst = under_condition(study, found.in_box.condition);
+  const study::Study under_worst = in_setting(study, found.in_box.setting);
   const auto all_at = [&](double place) {
     NamedValues values;
     for (const study::MachineInput& one : study::machine_inputs(under_worst, machines.point)) {

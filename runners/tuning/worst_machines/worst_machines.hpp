@@ -41,7 +41,7 @@ double place_at(double quantile);
 /// Box of machines at a design point of a study: machines whose inputs are each within their central 99.9 %.
 class MachineBox {
  public:
-  /// @param study study under one condition
+  /// @param study study in one setting
   /// @throws Failure (bad_input) if the study draws nothing that differs between machines
   MachineBox(study::Study study, std::int64_t point);
 
@@ -80,7 +80,7 @@ class MachineBox {
 
 /// Settings for the manifest of a machine.
 struct MachineManifest {
-  std::string condition{};  ///< Name of the condition; empty: there is none.
+  std::string setting{};  ///< Name of the setting; empty: there is none.
   /// Folder to which paths in the study's manifest are relative.
   std::optional<std::filesystem::path> folder{};
   std::int64_t trials{0};  ///< Number of trials of the machine.
@@ -107,25 +107,25 @@ struct WorstMachine {
   std::int64_t trial{0};    ///< Worst trial of the machine in `claim`.
   double met{0.0};          ///< Proportion of the machine's moves that meet the goal of `claim`.
   NamedValues inputs;       ///< Values of the machine's inputs.
-  /// Goal and condition that the machine meets in the smallest proportion of moves.
+  /// Goal and setting that the machine meets in the smallest proportion of moves.
   ClaimPlace claim{};
-  ClaimNames names{};  ///< Names of the goal and condition of `claim`.
+  ClaimNames names{};  ///< Names of the goal and setting of `claim`.
 };
 
-/// The machine of a study with the smallest proportion of moves that meet a goal under a condition. Ties go
+/// The machine of a study with the smallest proportion of moves that meet a goal in a setting. Ties go
 /// to the machine with the largest criterion.
 /// @param results results of all machines of the study
 WorstMachine worst_machine(const study::Study& study, std::int64_t point,
                            std::span<const MachineResult> results);
 
-/// A machine under a condition, judged by fresh trials.
+/// A machine in a setting, judged by fresh trials.
 ///
 /// The machine has a manifest in which values replace the distributions, so that nothing drawn differs
-/// between machines, and the overrides of the condition are written into the sections. The machine is judged
+/// between machines, and the overrides of the setting are written into the sections. The machine is judged
 /// by the trials of this manifest. Neither the study nor a search has used these trials.
 struct JudgedMachine {
-  std::int64_t condition{0};
-  std::optional<std::string> condition_name{};  ///< Name of the condition; nothing without conditions.
+  std::int64_t setting{0};
+  std::optional<std::string> setting_name{};  ///< Name of the setting; nothing without settings.
   /// Machine of the study from which it has its profiles; 0 without machines.
   std::int64_t machine{0};
   std::int64_t trial{0};              ///< Worst trial of the machine, as a trial number of the manifest.
@@ -148,7 +148,7 @@ struct BoxEdges {
 };
 
 /// Values of the machine inputs at these quantiles.
-/// @param study study under one condition
+/// @param study study in one setting
 /// @param quantiles [machine input] (study::machine_inputs)
 NamedValues values_at(const study::Study& study, std::int64_t point, std::span<const double> quantiles);
 
@@ -161,13 +161,13 @@ struct WorstMachines {
   JudgedMachine in_box;
   JudgedMachine likely;       ///< Worst machine of MachineRegion::likely.
   bool with_profiles{false};  ///< Whether each machine has profiles of its own.
-  BoxEdges edges{};           ///< Edges of the box under the condition of in_box.
+  BoxEdges edges{};           ///< Edges of the box in the setting of in_box.
 };
 
 /// Finds the machines with the smallest proportion of moves that meet the goals. Ties go to the machine whose
 /// moves have the larger score (measures::MoveScore::event, which `rare` uses too). The search in the box
-/// starts from the worst machines of the study, the corners, and points that fill the box. With conditions,
-/// the search is made under each condition, and the answer is the worst of all.
+/// starts from the worst machines of the study, the corners, and points that fill the box. With settings,
+/// the search is made in each setting, and the answer is the worst of all.
 ///
 ///     race of some machines, on the same random numbers: 4 trials each; the worst quarter goes on to 16
 ///       trials, the worst quarter of these to 64 trials; the 8 worst are kept

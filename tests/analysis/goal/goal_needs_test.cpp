@@ -211,7 +211,7 @@ TEST(GoalNeedsOfSeveralGoals, PlannedStudiesAreDecidedNineTimesInTen) {
   constexpr std::int64_t conditions = 2;
   using Truth = std::vector<double>;  // [goal + 2·condition]
   const auto study_of = [&](const Truth& truth, std::int64_t trials) {
-    std::vector<measures::CellCounts> counts(goals.size(), measures::CellCounts({.conditions = conditions}));
+    std::vector<measures::CellCounts> counts(goals.size(), measures::CellCounts({.settings = conditions}));
     for (std::int64_t trial = 0; trial < trials; ++trial) {
       const double common = draws.uniform(0.0, 1.0);
       const bool together = draws.chance(0.5);

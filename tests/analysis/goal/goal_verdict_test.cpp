@@ -22,7 +22,8 @@ trial::MoveOutcome move_settled_at(double time) {
   return move;
 }
 
-/// Counts of trials with one move each, on `machines` machines. `met` of the trials meet the goal.
+/// Counts of trials with one move each, on `machines` machines in turn; 0: no trials share a machine. The
+/// first `met` trials meet the goal.
 measures::CellCounts counts_of(std::int64_t met, std::int64_t trials, std::int64_t machines = 0) {
   measures::CellCounts counts({.machines = machines});
   for (std::int64_t i = 0; i < trials; ++i) {

@@ -67,14 +67,14 @@ struct LifeCase {
 Question question_over(const LifeCase& one) {
   Question question;
   question.parts = {{0, study::Goal{.within = 0.05, .moves = asked_moves, .machines = {}}, {}}};
-  question.ages.at.assign(ages.begin(), ages.end());
-  question.conditions.assign(one.conditions * ages.size(), "");
+  question.settings.ages.at.assign(ages.begin(), ages.end());
+  question.settings.conditions.assign(one.conditions, "");
   return question;
 }
 
 measures::CellCounts counts_over(testing::Draws& draws, const Aging& aging, const LifeCase& one) {
   measures::CellCounts counts(
-      {.machines = one.machines, .conditions = static_cast<std::int64_t>(one.conditions * ages.size())});
+      {.machines = one.machines, .settings = static_cast<std::int64_t>(one.conditions * ages.size())});
   for (std::int64_t number = 0; number < one.machines; ++number) {
     const Machine machine = aging.draw(draws);
     for (std::size_t setting = 0; setting < one.conditions * ages.size(); ++setting) {
@@ -155,7 +155,7 @@ void expect_bounds_cover(int studies) {
         const std::vector<measures::CellCounts> counts{counts_over(draws, aging, one)};
         const std::vector<BoundedProportion> at = machines_at_ages(question, counts);
         const std::vector<Survival> curve =
-            survival_of(lives_of_machines(question, counts), question.ages.at, 0.95);
+            survival_of(lives_of_machines(question, counts), question.settings.ages.at, 0.95);
         for (std::size_t age = 0; age < ages.size(); ++age) {
           machines.count(age, at[age], truth.machines[age]);
           living.count(age, curve[age].living, truth.living[age]);

@@ -78,7 +78,7 @@ TEST_EACH_SEED(SeveralGoals, TheWorstGoalDecides) {
 TEST_EACH_SEED(SeveralGoals, EachConditionIsJudgedLikeASeparateStudy) {
   const std::int64_t conditions = draws.integer(2, 3);
   std::vector<measures::CellCounts> under(
-      goals.size(), measures::CellCounts({.machines = machines, .conditions = conditions}));
+      goals.size(), measures::CellCounts({.machines = machines, .settings = conditions}));
   std::vector<std::vector<measures::CellCounts>> alone(goals.size());
   for (std::size_t i = 0; i < goals.size(); ++i) {
     alone[i].assign(static_cast<std::size_t>(conditions), measures::CellCounts({.machines = machines}));
@@ -112,9 +112,10 @@ TEST_EACH_SEED(SeveralGoals, EachConditionIsJudgedLikeASeparateStudy) {
 
 TEST_EACH_SEED(SeveralGoals, TheLoadIsShownUnderItsWorstCondition) {
   const std::int64_t conditions = draws.integer(2, 4);
-  const measures::Shape shape{.machines = machines, .conditions = conditions};
-  Question question{.parts = {},
-                    .conditions = std::vector<std::string>(static_cast<std::size_t>(conditions), "any")};
+  const measures::Shape shape{.machines = machines, .settings = conditions};
+  Question question{
+      .parts = {},
+      .settings = {.conditions = std::vector<std::string>(static_cast<std::size_t>(conditions), "any")}};
   measures::PointSummary point;
   for (std::size_t i = 0; i < goals.size(); ++i) {
     goals[i].beside_load = draws.chance(0.7);
@@ -136,10 +137,10 @@ TEST_EACH_SEED(SeveralGoals, TheLoadIsShownUnderItsWorstCondition) {
     double lowest = 1.0;
     for (std::int64_t c = 0; c < conditions; ++c) {
       const measures::MoveCounts counts =
-          point.for_the_load[claim.goal].sum({.condition = static_cast<std::size_t>(c)});
+          point.for_the_load[claim.goal].sum({.setting = static_cast<std::size_t>(c)});
       const double rate = static_cast<double>(counts.met) / static_cast<double>(counts.moves);
       lowest = std::min(lowest, rate);
-      if (static_cast<std::size_t>(c) == claim.load_condition) {
+      if (static_cast<std::size_t>(c) == claim.load_setting) {
         EXPECT_EQ(claim.of_load->value, rate);
       }
     }

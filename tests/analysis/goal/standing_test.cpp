@@ -64,12 +64,12 @@ TEST_EACH_SEED(FewMachines, EqualBoundsAreRankedByTheObservedProportions) {
   for (const ClaimVerdict& claim : verdict.claims) places.push_back(places_of(claim, goals[claim.goal]));
   const auto worst = static_cast<std::size_t>(std::ranges::min_element(places) - places.begin());
   EXPECT_EQ(verdict.goal, verdict.claims[worst].goal);
-  EXPECT_EQ(verdict.condition, verdict.claims[worst].condition);
+  EXPECT_EQ(verdict.setting, verdict.claims[worst].setting);
   for (std::size_t c = 0; c < static_cast<std::size_t>(conditions); ++c) {
     const ClaimVerdict& under =
-        worst_where(verdict, [c](const ClaimVerdict& claim) { return claim.condition == c; });
+        worst_where(verdict, [c](const ClaimVerdict& claim) { return claim.setting == c; });
     for (std::size_t i = 0; i < places.size(); ++i) {
-      if (verdict.claims[i].condition == c) {
+      if (verdict.claims[i].setting == c) {
         EXPECT_LE(places_of(under, goals[under.goal]), places[i]);
       }
     }
@@ -79,7 +79,7 @@ TEST_EACH_SEED(FewMachines, EqualBoundsAreRankedByTheObservedProportions) {
 // A study of few machines shows nothing of a proportion of machines: its bounds are 0 under every condition.
 TEST(Standing, ObservedMachinesRankClaimsWithEqualBounds) {
   const study::Goal goal{.within = 0.05, .moves = 0.9, .machines = 0.9};
-  measures::CellCounts counts({.machines = 3, .conditions = 3});
+  measures::CellCounts counts({.machines = 3, .settings = 3});
   const std::vector<std::vector<std::int64_t>> met{{5, 5, 5}, {5, 5, 4}, {5, 5, 5}};
   for (std::size_t c = 0; c < 3; ++c) {
     for (std::size_t machine = 0; machine < 3; ++machine)
@@ -87,7 +87,7 @@ TEST(Standing, ObservedMachinesRankClaimsWithEqualBounds) {
   }
   const Verdict verdict = judge_goal(goal, counts, 1);
   for (const ClaimVerdict& claim : verdict.claims) ASSERT_EQ(claim.machines.low, 0.0);
-  EXPECT_EQ(verdict.condition, 1U);
+  EXPECT_EQ(verdict.setting, 1U);
 }
 
 /// The settling times of the moves of each condition, [condition]: 95 % of them after this part of the time
@@ -136,18 +136,18 @@ TEST(Standing, ObservedProportionsRankPointsBeforeTimes) {
 // Of conditions that are alike in all proportions the slowest is the worst: the time beside them is its own.
 TEST(Standing, TheLaterOfEqualConditionsCountsAsTheWorst) {
   Question question = question_of_goal();
-  question.conditions = {"empty", "loaded", "cold"};
+  question.settings.conditions = {"empty", "loaded", "cold"};
   measures::PointSummary point;
-  measures::CellCounts counts({.machines = 5, .conditions = 3});
+  measures::CellCounts counts({.machines = 5, .settings = 3});
   for (std::size_t c = 0; c < 3; ++c) {
     for (std::size_t machine = 0; machine < 5; ++machine) counts.add_machine(machine, c, {20, 20, 20});
   }
   point.goals = {counts};
   point.goal_settling = {settling_after({0.4, std::numeric_limits<double>::infinity(), 0.6})};
-  EXPECT_EQ(verdict_on(question, point).condition, 1U);
+  EXPECT_EQ(verdict_on(question, point).setting, 1U);
   EXPECT_EQ(&settling_of(question, point), &point.goal_settling[0][1].times);
   point.goal_settling[0][1].time_ratio = 0.5;
-  EXPECT_EQ(verdict_on(question, point).condition, 2U);
+  EXPECT_EQ(verdict_on(question, point).setting, 2U);
 }
 
 }  // namespace

@@ -45,10 +45,11 @@ struct GoalSettlingTimes {
   /// where a move never settles.
   template <class Scale>
   std::vector<double> times_under(std::int64_t condition, Scale scale) const {
-    const study::TrialIndices indices{std::max<std::int64_t>(machines, 1), conditions};
+    const study::TrialIndices indices{.machines = std::max<std::int64_t>(machines, 1),
+                                      .settings = {.conditions = conditions}};
     std::vector<double> times;
     for (std::int64_t trial = 0; trial < trials; ++trial) {
-      if (indices.condition_of(trial) != condition) continue;
+      if (indices.setting_of(trial) != condition) continue;
       for (const std::int64_t move : goal.on) {
         const trial::MoveOutcome& outcome =
             of_trials[static_cast<std::size_t>(trial)][static_cast<std::size_t>(move)];
@@ -61,7 +62,7 @@ struct GoalSettlingTimes {
   }
 
   GoalSettling of(std::int64_t first, std::int64_t end) const {
-    GoalSettling settling(goal, {.machines = machines, .conditions = conditions});
+    GoalSettling settling(goal, {.machines = machines, .settings = conditions});
     for (std::int64_t trial = first; trial < end; ++trial)
       settling.add(trial, goal, of_trials[static_cast<std::size_t>(trial)]);
     return settling;
@@ -108,10 +109,11 @@ TEST_EACH_SEED(GoalSettlingTimes, CoverTheJudgedMovesUnderEachCondition) {
     EXPECT_DOUBLE_EQ(found[static_cast<std::size_t>(condition)].time_ratio,
                      std::isnan(ratio) ? std::numeric_limits<double>::infinity() : ratio);
     double longest = goal.within.after_profile ? 0.0 : goal.within.time;
-    const study::TrialIndices indices{std::max<std::int64_t>(machines, 1), conditions};
+    const study::TrialIndices indices{.machines = std::max<std::int64_t>(machines, 1),
+                                      .settings = {.conditions = conditions}};
     for (std::int64_t trial = 0; trial < trials; ++trial)
       for (const std::int64_t move : goal.on)
-        if (indices.condition_of(trial) == condition)
+        if (indices.setting_of(trial) == condition)
           longest = std::max(
               longest, allowed(of_trials[static_cast<std::size_t>(trial)][static_cast<std::size_t>(move)]));
     EXPECT_EQ(found[static_cast<std::size_t>(condition)].allowed, longest);
@@ -125,7 +127,7 @@ TEST_EACH_SEED(GoalSettlingTimes, DoNotDependOnTheDivisionOfTheTrials) {
   statistics::State state;
   statistics::StateWriter writer(state);
   GoalSettling::transfer(parts, writer);
-  GoalSettling restored(goal, {.machines = machines, .conditions = conditions});
+  GoalSettling restored(goal, {.machines = machines, .settings = conditions});
   statistics::StateReader reader(state.whole, state.real);
   GoalSettling::transfer(restored, reader);
   EXPECT_TRUE(restored.is_valid(trials * asked_moves(goal, moves)));

@@ -57,10 +57,10 @@ struct CountsInCells {
     for (std::int64_t trial = 0; trial < trials; ++trial) {
       // All machines, one after the other, under one condition after the other.
       const std::int64_t machine_count = std::max<std::int64_t>(shape.machines, 1);
-      const std::int64_t conditions = std::max<std::int64_t>(shape.conditions, 1);
+      const std::int64_t conditions = std::max<std::int64_t>(shape.settings, 1);
       const std::int64_t draw =
           trial % machine_count + machine_count * (trial / (machine_count * conditions));
-      if (cells.condition && !std::cmp_equal(trial / machine_count % conditions, *cells.condition)) continue;
+      if (cells.setting && !std::cmp_equal(trial / machine_count % conditions, *cells.setting)) continue;
       if (cells.world && !std::cmp_equal(draw % shape.worlds, *cells.world)) continue;
       const std::int64_t hits = met[static_cast<std::size_t>(trial)];
       sum.moves += moves;
@@ -92,15 +92,15 @@ TEST_EACH_SEED(CountsInCells, EqualTheCountsOfTheTrialsOfEachCell) {
   const CellCounts counts = counted();
   EXPECT_EQ(counts.sum(), alone({}));
   ASSERT_EQ(std::ssize(counts.by_world()), worlds);
-  ASSERT_EQ(std::ssize(counts.by_condition()), conditions);
+  ASSERT_EQ(std::ssize(counts.by_setting()), conditions);
   for (std::size_t world = 0; std::cmp_less(world, worlds); ++world)
     EXPECT_EQ(counts.by_world()[world], alone({.world = world}));
-  for (std::size_t condition = 0; condition < counts.conditions(); ++condition) {
-    EXPECT_EQ(counts.sum({.condition = condition}), alone({.condition = condition}));
-    EXPECT_EQ(counts.under(condition).sum(), alone({.condition = condition}));
-    EXPECT_EQ(counts.under(condition).worlds_under(0), counts.worlds_under(condition));
+  for (std::size_t condition = 0; condition < counts.settings(); ++condition) {
+    EXPECT_EQ(counts.sum({.setting = condition}), alone({.setting = condition}));
+    EXPECT_EQ(counts.in_setting(condition).sum(), alone({.setting = condition}));
+    EXPECT_EQ(counts.in_setting(condition).worlds_in(0), counts.worlds_in(condition));
     for (std::size_t world = 0; std::cmp_less(world, worlds); ++world)
-      EXPECT_EQ(counts.worlds_under(condition)[world], alone({condition, world}));
+      EXPECT_EQ(counts.worlds_in(condition)[world], alone({condition, world}));
   }
   EXPECT_TRUE(counts.is_valid(trials, moves));
   EXPECT_FALSE(counts.is_valid(trials + 1, moves));
@@ -122,7 +122,7 @@ TEST_EACH_SEED(CountsInCells, AreRestoredFromAnArchiveOfTheirShape) {
   EXPECT_EQ(state_of(same).whole, state.whole);
   EXPECT_EQ(state_of(same).real, state.real);
   Shape other = shape;
-  other.conditions = conditions == 0 ? 2 : 0;
+  other.settings = conditions == 0 ? 2 : 0;
   EXPECT_THROW(restored(state, other), Failure);
 }
 

@@ -3,8 +3,8 @@
 #include "core/friction/profile.hpp"
 #include "core/trial/trial.hpp"
 #include "experiments/manifest_text/manifest_text.hpp"
-#include "experiments/study/condition_study.hpp"
 #include "experiments/study/group_inputs.hpp"
+#include "experiments/study/setting_study.hpp"
 #include "experiments/study/study_trial.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
@@ -150,7 +150,7 @@ double rate_of(const AgedValue& value, const Study& study, const StudyTrial& tri
 TEST(Groupings, DivideTheTrialsEquallyAndIndependently) {
   constexpr std::int64_t trials = 240;
   for (const std::int64_t machines : {1, 4}) {
-    const TrialIndices indices{.machines = machines, .conditions = 6, .worlds = 2, .ages = 2};
+    const TrialIndices indices{.machines = machines, .settings = {.conditions = 3, .ages = 2}, .worlds = 2};
     const std::vector<std::int64_t> sizes{machines, 2, 3, 2};
     for (const GroupingTraits& of : groupings) {
       std::vector<std::int64_t> counted(
@@ -162,7 +162,7 @@ TEST(Groupings, DivideTheTrialsEquallyAndIndependently) {
     for (std::int64_t i = 0; i < trials; ++i) {
       // The conditions of an age are together. What a machine bears in turn leaves its draw as it is.
       EXPECT_EQ(indices.group_of(Grouping::condition, i) + 3 * indices.group_of(Grouping::age, i),
-                indices.condition_of(i));
+                indices.setting_of(i));
       for (const Grouping of_draw : {Grouping::machine, Grouping::world})
         EXPECT_EQ(indices.group_of(of_draw, indices.trial_of(indices.draw_of(i), 0)),
                   indices.group_of(of_draw, i));
@@ -179,7 +179,7 @@ TEST(Ages, TrialsTakeThemInRotationWithTheDrawsOfAStudyWithoutAges) {
     const std::vector<AgedValue> values = random.values(shape.worlds > 0);
     const Study study = study_of(manifest_of_shape(shape, values, ages));
     const Study without = study_of(manifest_of_shape(shape, values, std::nullopt));
-    ASSERT_EQ(std::ssize(study.conditions), shape.of_age() * shape.ages);
+    ASSERT_EQ(study.settings.total(), shape.of_age() * shape.ages);
     std::vector<double> rates(static_cast<std::size_t>(shape.machines) * values.size(), 0.0);
     for (std::int64_t i = 0; i < study.trials; ++i) {
       const std::int64_t r = shape.machines;
@@ -331,8 +331,8 @@ TEST(Ages, TheStudyUnderOneSettingHasItsTrials) {
     const Shape shape = random.shape();
     const Study study =
         study_of(manifest_of_shape(shape, random.values(shape.worlds > 0), random.ages(shape.ages)));
-    for (std::int64_t setting = 0; setting < condition_count(study); ++setting) {
-      const Study alone = under_condition(study, setting);
+    for (std::int64_t setting = 0; setting < study.settings.total(); ++setting) {
+      const Study alone = in_setting(study, setting);
       EXPECT_EQ(alone.trials, shape.machines * shape.each);
       for (std::int64_t j = 0; j < alone.trials; ++j) {
         const std::int64_t i = trial_indices(study).trial_of(j, setting);
@@ -351,9 +351,10 @@ TEST(Ages, AreNamedInFewDigits) {
       "km}\n"
       "conditions: {b: {friction.k2: {value: 400, aging: {linear: 0.1, scale: 1.0e+7}}}, a: {}}\n" +
       command_of_ages);
-  EXPECT_EQ(study.conditions, (std::vector<std::string>{"b, 0 km", "a, 0 km", "b, 100000 km", "a, 100000 km",
-                                                        "b, 1234567 km", "a, 1234567 km"}));
-  EXPECT_EQ(study.condition_names, (std::vector<std::string>{"b", "a"}));
+  EXPECT_EQ(labels_of(study.settings),
+            (std::vector<std::string>{"b, 0 km", "a, 0 km", "b, 100000 km", "a, 100000 km", "b, 1234567 km",
+                                      "a, 1234567 km"}));
+  EXPECT_EQ(study.settings.conditions, (std::vector<std::string>{"b", "a"}));
   EXPECT_EQ(setting_named(study, "a", 100000.0), 3);
   EXPECT_THROW(setting_named(study, "a", std::nullopt), std::exception);
   EXPECT_THROW(setting_named(study, "a", 5.0), std::exception);

@@ -1,7 +1,7 @@
 // `conditions` in a manifest: each machine bears all of them on the same draws, and what is refused.
 #include "core/trial/trial.hpp"
-#include "experiments/study/condition_study.hpp"
 #include "experiments/study/group_inputs.hpp"
+#include "experiments/study/setting_study.hpp"
 #include "experiments/study/study_trial.hpp"
 #include "tests/experiments/manifest_texts.hpp"
 
@@ -118,14 +118,14 @@ TEST(Conditions, ATrialEqualsThatOfTheStudyWithTheOverrides) {
             settings.emplace_back("plant.presliding_damping={interval: [0.1, 0.3]}");
           }
           const Study study = study_of(manifest_with(section + "}\n"), settings);
-          ASSERT_EQ(std::ssize(study.conditions), conditions);
+          ASSERT_EQ(study.settings.total(), std::max<std::int64_t>(conditions, 1));
           for (int c = 0; c < conditions; ++c) {
             std::vector<std::string> alone = settings;
             alone.push_back(fmt::format("trials={}", 24 / conditions));
             for (const std::size_t one : overrides[static_cast<std::size_t>(c)])
               for (const std::string& set : override_pool()[one].in_manifest) alone.push_back(set);
             const Study other = study_of(manifest_with(""), alone);
-            const Study part = under_condition(study, c);
+            const Study part = in_setting(study, c);
             EXPECT_EQ(part.trials, other.trials);
             std::set<std::int64_t> draws;
             for (std::int64_t i = 0; i < study.trials; ++i) {
@@ -185,8 +185,8 @@ TEST(Conditions, MachinesAndWorldsListOverriddenValuesPerCondition) {
       "friction.lambda: {uniform: [2, 4]}}}\n";
   const Study study = study_of(text);
   for (std::int64_t c = 0; c < 2; ++c) {
-    const Study part = under_condition(study, c);
-    const std::string place = "@" + study.conditions[static_cast<std::size_t>(c)];
+    const Study part = in_setting(study, c);
+    const std::string place = "@" + label_of(study.settings, c);
     const std::set<std::string> overridden{"friction.k2", "friction.lambda", "plant.inertia"};
     for (std::int64_t machine = 0; machine < study.machines; ++machine) {
       const StudyTrial trial = study_trial(study, 0, trial_indices(study).trial_of(machine, c));

@@ -135,7 +135,8 @@ const std::string aging_machines =
     "command: {units: si, targets: [{uniform: [-1.0e-4, 1.0e-4]}, 1.0e-4], hold: 0.004}\n"
     "verdict: {dwell: 0.001, window: 0.001}\n";
 
-/// Friction that follows from measured values. Some of these are drawn per contact.
+/// Friction that follows from measured values. Initial stiffness and breakaway are drawn per contact: anew at
+/// t = 0 and whenever the sliding friction sticks again.
 const std::string measured_friction =
     "friction: {measured: {initial_stiffness: {uniform: [600, 900], per: contact}, final_stiffness: "
     "{uniform: [90, 120]}, breakaway: {uniform: [0.29, 0.31], per: contact}, breakaway_travel: 2.0e-3}}\n";

@@ -108,8 +108,8 @@ TEST(Documentation, DescribesExactlyTheGroupsAndMeasuresOfAFile) {
   for_each_dataset(write_sample_file(directory_with_machines.path(), sample_study_with_machines()), look_up);
   for_each_dataset(write_sample_file(directory_with_external_inputs.path(), with_external_inputs), look_up);
   study::Study in_worlds = sample_study_in_worlds();
-  in_worlds.conditions = in_worlds.condition_names = {"empty", "loaded"};
-  in_worlds.ages.at = {0.0, 1.0};
+  in_worlds.settings.conditions = {"empty", "loaded"};
+  in_worlds.settings.ages.at = {0.0, 1.0};
   in_worlds.machines = 10;
   in_worlds.features.position_error = true;
   in_worlds.features.tolerances = {{1.0e-6}, 1};

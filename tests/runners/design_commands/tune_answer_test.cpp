@@ -148,7 +148,7 @@ goal::Verdict verdict_on_claims() {
       one.status = goal::Status::met;
       one.moves.value = 0.99 - 0.02 * static_cast<double>(goal) - 0.01 * static_cast<double>(condition);
       one.goal = goal;
-      one.condition = condition;
+      one.setting = condition;
     }
   }
   static_cast<goal::ClaimVerdict&>(whole) = whole.claims.back();

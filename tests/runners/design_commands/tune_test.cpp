@@ -189,8 +189,7 @@ TEST_F(Tune, BehaviourOfTheTunedValuesMatchesAPlainRun) {
     double saturated = 0.0, power = 0.0, changes = 0.0;
     std::int64_t at_rest = 0;
     for (std::int64_t trial = 0; trial < study.trials; ++trial) {
-      if (study.conditions[static_cast<std::size_t>(indices.condition_of(trial))] != row["condition"])
-        continue;
+      if (study::label_of(study.settings, indices.setting_of(trial)) != row["condition"]) continue;
       const std::vector<trial::MoveOutcome> moves = file.outcomes({trial, 1});
       const trial::MoveOutcome& one = moves[move];
       // From 0 to the first target, and back.

@@ -344,7 +344,7 @@ TEST(TrialsOfACondition, AreReadFromTheOpenFile) {
   std::filesystem::remove(folder / "two.h5");
   std::vector<double> under_both;
   for (const std::int64_t condition : {0, 1}) {
-    const reading::AllTrialsFile one = file.under_condition(condition);
+    const reading::AllTrialsFile one = file.in_setting(condition);
     ASSERT_EQ(one.header().trials, 20);
     const std::vector<double> some = one.measure("final_error", one.rows());
     under_both.insert(under_both.end(), some.begin(), some.end());

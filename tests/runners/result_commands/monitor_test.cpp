@@ -169,7 +169,7 @@ TEST_F(Monitor, AsksForThePointAndTheCondition) {
   EXPECT_TRUE(
       says(program({"monitor", "study.h5", "moves.csv", "--point", "1"}).err, "one of empty, loaded"));
   const reading::AllTrialsFile file(folder_.path() / "study.h5");
-  const reading::AllTrialsFile loaded = file.under_condition(1);
+  const reading::AllTrialsFile loaded = file.in_setting(1);
   const Json answer =
       json_of({"monitor", "study.h5", "moves.csv", "--point", "1", "--condition", "loaded"}, 3);
   EXPECT_EQ(answer["baseline_moves"], loaded.rows_of(1).count * loaded.moves());
@@ -181,6 +181,7 @@ TEST_F(Monitor, FollowingAGrowingLogGivesTheAnswerOfTheWholeLog) {
   write_log("before.csv", 200);
   write_log("moves.csv", 40);
   std::thread writer([&] {
+    std::this_thread::sleep_for(std::chrono::seconds(2));  // on a loaded machine the program starts late
     for (int i = 0; i < 3; ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(300));
       write_log("moves.csv", 30, 1.3, true);

@@ -4,9 +4,9 @@
 #include "core/failure/failure.hpp"
 #include "core/trial/trial.hpp"
 #include "experiments/manifest/load_study.hpp"
-#include "experiments/study/condition_study.hpp"
 #include "experiments/study/plan.hpp"
 #include "experiments/study/point_limits.hpp"
+#include "experiments/study/setting_study.hpp"
 #include "experiments/study/study_trial.hpp"
 #include "runners/trials/effort.hpp"
 #include "tests/support/test.hpp"
@@ -58,9 +58,9 @@ double value_of(const study::Study& study, const std::string& name) {
 }
 
 bool is_overridden(const study::StudyPlan& plan, std::size_t slot) {
-  return plan.has_conditions() &&
-         std::ranges::find(plan.axes[plan.condition_axis].assignments, slot, &study::Assignment::slot) !=
-             plan.axes[plan.condition_axis].assignments.end();
+  return plan.settings_axis &&
+         std::ranges::find(plan.axes[*plan.settings_axis].assignments, slot, &study::Assignment::slot) !=
+             plan.axes[*plan.settings_axis].assignments.end();
 }
 
 /// The numbers of the study that have one value, and an effect.
@@ -144,7 +144,7 @@ TEST(Variant, UnderAConditionHasTheTrialsOfThatCondition) {
   for (const study::Study* one : {&study, &edited}) {
     const study::TrialIndices indices = study::trial_indices(*one);
     for (std::int64_t trial = 0; trial < one->trials; ++trial) {
-      const study::Study alone = under_condition(*one, indices.condition_of(trial));
+      const study::Study alone = in_setting(*one, indices.setting_of(trial));
       EXPECT_EQ(alone.trials, study::draw_count(*one));
       EXPECT_EQ(motion_of(*one, trial), motion_of(alone, indices.draw_of(trial))) << trial;
     }
@@ -253,9 +253,10 @@ void expect_same(const study::Study& one, const study::Study& whole) {
   const study::TrialIndices all = study::trial_indices(whole);
   EXPECT_EQ(study::draw_count(one), study::draw_count(whole));
   for (std::int64_t trial = 0; trial < one.trials; ++trial) {
-    const std::string& name = one.conditions[static_cast<std::size_t>(indices.condition_of(trial))];
-    const auto setting = std::ranges::find(whole.conditions, name) - whole.conditions.begin();
-    ASSERT_LT(setting, std::ssize(whole.conditions)) << name;
+    const std::string name = study::label_of(one.settings, indices.setting_of(trial));
+    const std::vector<std::string> labels = study::labels_of(whole.settings);
+    const auto setting = std::ranges::find(labels, name) - labels.begin();
+    ASSERT_LT(setting, std::ssize(labels)) << name;
     EXPECT_EQ(study::study_trial(one, 0, trial).inputs,
               study::study_trial(whole, 0, all.trial_of(indices.draw_of(trial), setting)).inputs)
         << name << ", trial " << trial;
@@ -269,8 +270,8 @@ TEST(RestrictedStudy, HasTheMachinesAndDrawsOfTheWholeStudy) {
     for (const auto& condition : {std::optional<std::string>(), std::optional<std::string>("very. cold")}) {
       for (const auto& age : {std::optional<double>(), std::optional(1.0e5)}) {
         const study::Study one = restricted_to(whole, condition, age);
-        EXPECT_EQ(one.condition_names.size(), condition ? 1U : 2U);
-        EXPECT_EQ(one.ages.at.size(), age ? 1U : 3U);
+        EXPECT_EQ(one.settings.conditions.size(), condition ? 1U : 2U);
+        EXPECT_EQ(one.settings.ages.at.size(), age ? 1U : 3U);
         expect_same(one, whole);
       }
     }

@@ -59,7 +59,7 @@ TEST(FirstScreen, ShowsTheMovesOfEachGoalUnderItsCondition) {
   for (const summary::MoveBehaviour& row : summary::behaviour_in(file, file.study())) {
     peaks.insert(row.peak_torque.max);
     at = html.find("data-head=\"peak torque\">" + quantity_text(row.peak_torque.max, "N m") + ",", at + 1);
-    ASSERT_NE(at, std::string::npos) << *row.goal << " " << *row.condition;
+    ASSERT_NE(at, std::string::npos) << *row.goal << " " << *row.setting;
   }
   EXPECT_GE(peaks.size(), 3U);
 }

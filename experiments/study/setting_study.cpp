@@ -1,4 +1,4 @@
-#include "experiments/study/condition_study.hpp"
+#include "experiments/study/setting_study.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -24,16 +24,16 @@ PlanAxis only_option(const PlanAxis& axis, std::size_t option) {
   return only;
 }
 
-/// Removes the columns of other conditions, and the suffix of this condition from the names that stay.
-void keep_condition(std::int64_t condition, std::vector<InputColumn>& columns,
-                    std::vector<InputSource>& sources) {
+/// Removes the columns of other settings, and the suffix of this setting from the names that stay.
+void keep_setting(std::int64_t setting, std::vector<InputColumn>& columns,
+                  std::vector<InputSource>& sources) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < sources.size(); ++i) {
-    const bool overridden = sources[i].condition.has_value();
-    if (overridden && sources[i].condition != condition) continue;
+    const bool of_one_setting = sources[i].setting.has_value();
+    if (of_one_setting && sources[i].setting != setting) continue;
     columns[kept] = columns[i];
     sources[kept] = {sources[i].slot, sources[i].profile_mean};
-    if (overridden) columns[kept].name.resize(columns[kept].name.find(under_suffix("")));
+    if (of_one_setting) columns[kept].name.resize(columns[kept].name.find(under_suffix("")));
     ++kept;
   }
   columns.resize(kept);
@@ -42,30 +42,30 @@ void keep_condition(std::int64_t condition, std::vector<InputColumn>& columns,
 
 }  // namespace
 
-Study under_condition(const Study& study, std::int64_t condition) {
+Study in_setting(const Study& study, std::int64_t setting) {
   Study one = study;
-  if (study.conditions.empty()) return one;
+  if (study.settings.empty()) return one;
   auto plan = std::make_shared<StudyPlan>(*study.plan);
-  PlanAxis& conditions = plan->axes[plan->condition_axis];
-  conditions = only_option(conditions, static_cast<std::size_t>(condition));
-  if (!plan->ages.empty()) plan->ages = {age_at(*plan, plan_point(*plan, 0, condition))};
-  plan->conditions = 0;
+  PlanAxis& axis = plan->axes[plan->settings_axis.value()];
+  axis = only_option(axis, static_cast<std::size_t>(setting));
+  if (!plan->ages.empty()) plan->ages = {age_at(*plan, plan_point(*plan, 0, setting))};
+  plan->settings = {};
+  plan->settings_axis.reset();
   for (const GroupingTraits& of : groupings)
-    keep_condition(condition, one.columns.shared[of.grouping], plan->shared_inputs[of.grouping]);
+    keep_setting(setting, one.columns.shared[of.grouping], plan->shared_inputs[of.grouping]);
   one.plan = std::move(plan);
   one.trials = draw_count(study);
-  one.conditions.clear();
-  one.condition_names.clear();
-  one.ages.at.clear();
+  one.settings.conditions.clear();
+  one.settings.ages.at.clear();
   const TrialIndices indices = trial_indices(study);
   one.retained_trials.clear();
   for (const std::int64_t trial : study.retained_trials) {
-    if (indices.condition_of(trial) == condition) one.retained_trials.push_back(indices.draw_of(trial));
+    if (indices.setting_of(trial) == setting) one.retained_trials.push_back(indices.draw_of(trial));
   }
   return one;
 }
 
-bool differs_under_condition(const Study& one, std::size_t column) {
+bool differs_in_setting(const Study& one, std::size_t column) {
   const InputSource& source = one.plan->inputs[column];
   const Value::Kind kind = value_at_point(*one.plan, source.slot, 0)->kind;
   if (source.profile_mean) return kind == Value::Kind::profile;
@@ -77,13 +77,13 @@ std::string under_suffix(std::string_view place) {
   return fmt::format("@{}", place);
 }
 
-std::string label_under(std::string_view label, std::string_view condition) {
-  return condition.empty() ? std::string(label) : fmt::format("{}, {}", label, condition);
+std::string label_under(std::string_view label, std::string_view setting) {
+  return setting.empty() ? std::string(label) : fmt::format("{}, {}", label, setting);
 }
 
 std::int64_t setting_named(const Study& study, const std::optional<std::string>& condition,
                            const std::optional<double>& age) {
-  const auto place_in = [&study](const auto& all, const auto& wanted, std::string_view noun,
+  const auto index_in = [&study](const auto& all, const auto& wanted, std::string_view noun,
                                  std::string_view option) -> std::int64_t {
     if (all.empty() && wanted)
       throw Failure(ExitCode::bad_input,
@@ -96,18 +96,20 @@ std::int64_t setting_named(const Study& study, const std::optional<std::string>&
                               "with one of {}",
                               study.name, all.size(), noun, option, fmt::join(all, ", ")));
   };
-  return place_in(study.condition_names, condition, "condition", "--condition") +
-         conditions_of_age(study) * place_in(study.ages.at, age, "age", "--age");
+  const Settings& settings = study.settings;
+  return settings.counts().index_of(
+      {.condition = index_in(settings.conditions, condition, "condition", "--condition"),
+       .age = index_in(settings.ages.at, age, "age", "--age")});
 }
 
-std::int64_t condition_named(const Study& study, std::string_view name) {
-  const auto found = std::ranges::find(study.conditions, name);
-  if (found != study.conditions.end()) return found - study.conditions.begin();
+std::int64_t setting_labelled(const Study& study, std::string_view label) {
+  const std::vector<std::string> labels = labels_of(study.settings);
+  const auto found = std::ranges::find(labels, label);
+  if (found != labels.end()) return found - labels.begin();
   throw Failure(ExitCode::bad_input,
-                study.conditions.empty()
-                    ? fmt::format("{}: it has no conditions, and so no '{}'", study.name, name)
-                    : fmt::format("{}: it has no condition '{}'; expected one of {}", study.name, name,
-                                  fmt::join(study.conditions, ", ")));
+                labels.empty() ? fmt::format("{}: it has no conditions, and so no '{}'", study.name, label)
+                               : fmt::format("{}: it has no condition '{}'; expected one of {}", study.name,
+                                             label, fmt::join(labels, ", ")));
 }
 
 }  // namespace zerocount::study

@@ -24,8 +24,10 @@ ExitCode say(ExitCode code, const std::string& message) {
   return code;
 }
 
-/// A reader that closed its end of the pipe, such as head, wants no more: the process ends as the system
-/// would have ended it. @param error errno of the write
+/// Ends the program after a failed write to standard output. If the reader has closed its end of the pipe, as
+/// head does, it wants no more: the process then ends by SIGPIPE, as the system would have ended it.
+/// Otherwise prints the reason.
+/// @param error errno of the write
 ExitCode end_without_output(int error) {
   if (error == EPIPE) {
     std::signal(SIGPIPE, SIG_DFL);
@@ -70,17 +72,18 @@ extern "C" void end_interrupted(int) {
   _exit(static_cast<int>(ExitCode::interrupted));
 }
 
-/// Signals that end a command which has nothing to keep: the exit code tells it. Commands that have something
-/// to keep watch these signals themselves (status::InterruptionWatch). Signals that the parent ignores stay
-/// ignored.
+/// Lets SIGINT and SIGTERM end the process with the exit code of an interruption. This is meant for commands
+/// that have nothing to keep or remove. Other commands watch these signals themselves
+/// (status::InterruptionWatch). Signals that the parent process ignores stay ignored.
 void end_by_signals() {
   for (const int signal : {SIGINT, SIGTERM}) {
     if (std::signal(signal, end_interrupted) == SIG_IGN) std::signal(signal, SIG_IGN);
   }
 }
 
-/// Takes the places of closed standard streams, so that no file opened later gets one of them, and with it
-/// what is written to the stream. Reading and writing them fails as before.
+/// Opens /dev/null in place of each standard stream that is closed. Otherwise a file opened later could get
+/// the descriptor of a standard stream, and the messages written to this stream would go into the file.
+/// Reading and writing the streams fails as before.
 void occupy_closed_streams() {
   int descriptor = 0;
   do {

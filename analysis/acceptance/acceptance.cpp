@@ -27,10 +27,12 @@
 namespace zerocount::acceptance {
 namespace {
 
-/// [machine][judged move] Whether the move meets the goal.
+/// [machine][move] Whether the move of a measured machine meets a goal. Only the moves that the goal judges
+/// are counted.
 using MetMoves = std::vector<std::vector<bool>>;
 
-/// Values of a measure in a log.
+/// Values of a measure in the log of a measured machine, one per move, in the unit of the study.
+/// @param log log that has a column for the measure
 /// @param axis kind of the axis of the study
 /// @throws Failure (bad_input) if the unit in the log has another dimension
 const std::vector<double>& values_of(const monitor::MoveLog& log, const std::string& measure,
@@ -45,7 +47,7 @@ const std::vector<double>& values_of(const monitor::MoveLog& log, const std::str
   return column->values;
 }
 
-/// The measures of a log that tell whether a move meets the goal.
+/// Names of the measures that a log must contain so that the goal can be judged for each of its moves.
 std::vector<std::string> measures_of(const study::Goal& goal) {
   std::vector<std::string> names{goal::name_of_settling(goal)};
   if (goal.within.after_profile) names.emplace_back("travel_time");
@@ -53,7 +55,8 @@ std::vector<std::string> measures_of(const study::Goal& goal) {
   return names;
 }
 
-/// A measure that a log lacks, and the column of the log that looks like it.
+/// Text for a message: the name of a measure that the log lacks, with the column of the log that resembles
+/// the name, if there is one.
 std::string missing_text(const monitor::MoveLog& log, const std::string& measure) {
   const std::optional<std::string> near = monitor::resembling_column(measure, log.other_columns);
   return near ? fmt::format("{} (its column '{}' looks like it)", measure, text::printable(*near)) : measure;
@@ -69,8 +72,11 @@ void require_columns(const std::vector<study::Goal>& goals, const monitor::MoveL
                                                    fmt::join(missing, ", ")));
 }
 
-/// Whether the goal is about this row.
-/// @param moves of a trial
+/// Whether the goal judges the move in this row of the log. True for each row if the goal judges all moves of
+/// a trial.
+/// @param moves number of moves of a trial of the study
+/// @throws Failure if the goal judges only some moves, and the log does not number its moves (bad_input) or
+/// the number in this row is not one of a trial's moves (bad_data)
 bool is_asked(const study::Goal& goal, const monitor::MoveLog& log, std::size_t row, std::int64_t moves) {
   if (goal.on.empty()) return true;
   if (!log.labels.numbered)
@@ -87,10 +93,10 @@ bool is_asked(const study::Goal& goal, const monitor::MoveLog& log, std::size_t 
   return std::ranges::find(goal.on, number) != goal.on.end();
 }
 
-/// A limit of a goal, and the column of a log that it is about.
+/// A limit of a goal on a measure, with the values of this measure in a log.
 struct LoggedLimit {
   const monitor::MonitoredMeasure& measure;
-  const std::vector<double>& values;  ///< [row] Value in the log.
+  const std::vector<double>& values;  ///< [row] Value of the measure for the move in this row of the log.
   double largest;
 };
 
@@ -99,7 +105,9 @@ bool meets(const LoggedLimit& limit, std::size_t row) {
   return monitor::is_nothing(limit.measure, value) || std::abs(value) <= limit.largest;
 }
 
-/// [judged move] Whether the move meets the goal.
+/// [move] Whether the move of the log meets the goal. Only the moves that the goal judges are contained, in
+/// the order of the log.
+/// @throws Failure (bad_data) if the log has none of these moves
 std::vector<bool> met_moves(const study::Goal& goal, const monitor::MoveLog& log,
                             const reading::AllTrialsFile& file) {
   std::vector<bool> asked;
@@ -129,7 +137,8 @@ std::vector<bool> met_moves(const study::Goal& goal, const monitor::MoveLog& log
   return met;
 }
 
-/// [goal] Counts of the moves of each machine of the study at the point.
+/// [goal] Numbers of moves of each simulated machine at the design point: moves that the goal judges, and
+/// moves that meet the goal.
 std::vector<measures::CellCounts> simulated_counts(const reading::AllTrialsFile& file, std::int64_t point) {
   const study::Study& study = file.study();
   const std::vector<measures::CountedGoal> goals = measures::counted_goals(study);
@@ -148,8 +157,9 @@ goal::BoundedProportion bounded_rate(std::int64_t met, std::int64_t moves, doubl
           statistics::proportion_at_most(met, moves, confidence)};
 }
 
-/// Compares the first moves of the measured machines with those of the simulated machines. Each machine
-/// counts with the smallest number of moves of any machine.
+/// Compares the measured machines with the simulated machines by the number of moves that meet a goal. All
+/// machines have the same number of moves in the comparison: the first n moves of each measured machine, with
+/// n the smallest number of moves of any machine.
 Agreement agreement_with(const MetMoves& met_of_machines, const measures::MoveCounts& simulated,
                          std::uint64_t seed) {
   std::int64_t common = std::numeric_limits<std::int64_t>::max();
@@ -161,9 +171,9 @@ Agreement agreement_with(const MetMoves& met_of_machines, const measures::MoveCo
   return agreement_of(first_met, common, simulated.machines, seed);
 }
 
-/// Sets the prediction of a claim, and whether the measured machines agree with it. With worlds, the
-/// prediction is that of the world most like the machines, and the predicted interval spans the intervals of
-/// all worlds.
+/// Sets the predicted part of the claim, and whether the measured machines agree with it. If the study has
+/// several worlds (draws of what all machines share), the prediction is that of the world most like the
+/// measured machines, and the predicted interval spans the intervals of all worlds.
 void compare_with_prediction(Claim& claim, const measures::CellCounts& simulated, const MetMoves& met,
                              std::uint64_t seed) {
   if (simulated.shape().worlds > 0) claim.like_worlds = 0;
@@ -181,8 +191,9 @@ void compare_with_prediction(Claim& claim, const measures::CellCounts& simulated
   claim.is_below_prediction = claim.agreement.p <= claim.significance && claim.agreement.is_lower;
 }
 
-/// Status of the goal for the measured machines alone.
-/// @param parts number of goals that must be met
+/// Status of the goal for the measured machines alone, without a statement about other machines.
+/// @param measured counts of the measured moves
+/// @param parts number of goals that must all be met
 goal::Status status_of_these(const study::Goal& goal, const measures::MoveCounts& measured,
                              std::size_t parts) {
   const auto bounds = [&](std::int64_t met, std::int64_t moves, std::size_t statements) {
@@ -205,7 +216,8 @@ goal::Status status_of_these(const study::Goal& goal, const measures::MoveCounts
   return static_cast<double>(not_missing) < wanted ? goal::Status::missed : goal::Status::undecided;
 }
 
-/// The moves of the machines, each a cluster. @param met_of_machines [machine, move]
+/// Counts of the measured moves, with each machine as a cluster of dependent moves. @param met_of_machines
+/// [machine][move] whether the move meets the goal
 measures::CellCounts measured_counts(const MetMoves& met_of_machines) {
   measures::CellCounts measured({.machines = std::ssize(met_of_machines)});
   for (std::size_t i = 0; i < met_of_machines.size(); ++i) {
@@ -218,8 +230,8 @@ measures::CellCounts measured_counts(const MetMoves& met_of_machines) {
   return measured;
 }
 
-/// Sets the measured results and the status of each claim.
-/// @param measured [goal]
+/// Sets the measured results and the status of each claim. @param measured [goal] counts of the moves of the
+/// measured machines
 void judge(Acceptance& acceptance, std::span<const study::Goal> goals,
            std::span<const measures::CellCounts> measured) {
   const goal::Verdict verdict = goal::judge_goals(goals, measured, 1);
@@ -241,8 +253,9 @@ void judge(Acceptance& acceptance, std::span<const study::Goal> goals,
 using Sequence = std::span<const study::SequenceMove>;
 using Values = std::vector<iso230::AxisRepeatability>;
 
-/// The values of ISO 230-2 of one run, computed from encoder counts. The true positions of the moves do not
-/// matter for them. Nothing if the run has no values.
+/// The values of ISO 230-2 of one run of the test, computed from the encoder counts at the ends of its moves.
+/// The true positions are not used. Null if the run has no values. @param moves moves of the run, in the
+/// order of `sequence`
 std::optional<iso230::AxisRepeatability> values_of_run(Sequence sequence,
                                                        std::span<const trial::MoveOutcome> moves) {
   trial::TrialParameters parameters;
@@ -262,7 +275,8 @@ Values simulated_values(const reading::AllTrialsFile& file, std::int64_t point) 
   return values;
 }
 
-/// The values of each whole run in a log.
+/// Appends the values of ISO 230-2 of each complete run of the test in a log. A run is complete if successive
+/// rows hold all moves of `sequence` in order, each with a final error.
 void add_measured(Sequence sequence, const monitor::MoveLog& log, Values& values) {
   const std::vector<double>& errors = log.find("final_error")->written;
   std::vector<trial::MoveOutcome> run;
@@ -282,7 +296,7 @@ void add_measured(Sequence sequence, const monitor::MoveLog& log, Values& values
   }
 }
 
-/// Sample quantile, interpolated linearly between the values of a sorted sample.
+/// Sample quantile at probability `p`, interpolated linearly between the values of a sorted sample.
 double sample_quantile(const std::vector<double>& sorted, double p) {
   const double place = p * static_cast<double>(sorted.size() - 1);
   const auto below = static_cast<std::size_t>(place);
@@ -292,7 +306,7 @@ double sample_quantile(const std::vector<double>& sorted, double p) {
 
 constexpr int draws = 9999;
 
-/// Number of moves that meet the requirement among `wanted` random moves of the machine, drawn without
+/// Number of moves that meet the goal among `wanted` moves of a machine, which are drawn at random without
 /// replacement.
 std::int64_t thinned(const statistics::MachineMoves& machine, std::int64_t wanted,
                      random::NumberSource& numbers) {
@@ -307,7 +321,9 @@ std::size_t below(std::size_t count, random::NumberSource& numbers) {
   return std::min(count - 1, static_cast<std::size_t>(numbers.uniform() * static_cast<double>(count)));
 }
 
-/// 1/(N + R over N), the probability of one choice of N.
+/// Probability of one particular choice of N machines from N + R: 1 divided by the binomial coefficient of N
+/// + R over N. @param measured N, number of measured machines @param simulated R, number of simulated
+/// machines
 double chance_of_a_choice(std::size_t measured, std::size_t simulated) {
   double chance = 1.0;
   for (std::size_t i = 1; i <= measured; ++i)
@@ -315,8 +331,14 @@ double chance_of_a_choice(std::size_t measured, std::size_t simulated) {
   return chance;
 }
 
-/// Number of moves that meet the requirement on randomly chosen machines, as many as are measured. They are
-/// chosen from the machines from `first` on; the measured machines come before the simulated ones.
+/// One random choice of the permutation test: the number of moves that meet the goal on N randomly chosen
+/// machines, with N the number of measured machines. The measured machines have the indices 0 to N − 1, the
+/// simulated machines the following ones.
+/// @param met [measured machine] number of its moves that meet the goal
+/// @param moves number of moves of each machine in the test
+/// @param first index of the first machine that can be chosen: 0 for all machines, N for the simulated ones
+/// alone
+/// @param order working memory
 std::int64_t drawn(std::span<const std::int64_t> met, std::int64_t moves,
                    std::span<const statistics::MachineMoves> simulated, std::size_t first,
                    std::vector<std::size_t>& order, random::NumberSource& numbers) {
@@ -344,8 +366,8 @@ double rank_test_of(std::int64_t met, std::int64_t moves,
   return statistics::machine_rank_test({met, moves}, successes, simulated[0].moves).p;
 }
 
-/// What the first log lacks that does not tell the values of the axis: "a.csv has no column final_error".
-/// Empty if all tell them.
+/// Names the first log that lacks a column for the values of ISO 230-2, and this column: "a.csv has no column
+/// final_error". Empty if no log lacks a column.
 std::string lacking_for_standard(std::span<const monitor::MoveLog> logs) {
   for (const monitor::MoveLog& log : logs) {
     const bool has_error = log.find("final_error") != nullptr;
@@ -356,9 +378,10 @@ std::string lacking_for_standard(std::span<const monitor::MoveLog> logs) {
   return "";
 }
 
-/// The values of the axis, where the study has a sequence of moves and each log the columns `final_error` and
-/// `move`; empty otherwise. A run of the test is as many rows with the numbers 0 to the last one in this
-/// order; other rows are left out.
+/// The values of ISO 230-2 for the axis, from the simulated and the measured runs. Empty if the study has no
+/// sequence of moves, or a log lacks one of the columns `final_error` and `move`. A measured run is a series
+/// of successive rows whose moves have the numbers 0 to the last one of the sequence, in this order; other
+/// rows are left out.
 std::vector<StandardValue> standard_values(const reading::AllTrialsFile& file, std::int64_t point,
                                            std::span<const monitor::MoveLog> logs) {
   const Sequence sequence = file.study().sequence;

@@ -18,88 +18,105 @@
 namespace zerocount::acceptance {
 
 enum class Status {
-  /// Every goal is shown to be met, and none is met less often than predicted.
+  /// Every goal is shown to be met, and no goal is met significantly less often than the simulation
+  /// predicted.
   accepted,
-  rejected,  ///< A goal is shown to be missed, or is met less often than predicted.
-  undecided  ///< Neither accepted nor rejected.
+  /// A goal is shown to be missed, or is met significantly less often than the simulation predicted.
+  rejected,
+  undecided  ///< The measured moves do not suffice to accept or to reject.
 };
 
-/// The machines that a goal is judged for.
+/// The machines about which the acceptance makes its statement.
 enum class Judged {
   /// The population from which the measured machines are a sample, as in the goal's claim (goal_verdict.hpp).
   all_machines,
-  these_machines  ///< The measured machines alone.
+  these_machines  ///< The measured machines alone, without a statement about other machines.
 };
 
-/// Test of whether the measured machines agree with the simulated ones.
+/// Result of the test of whether the measured machines agree with the simulated ones in the proportion of
+/// moves that meet a goal.
 struct Agreement {
-  /// Number of compared moves of each machine: the smallest number that any machine has.
+  /// Number of moves of each machine that are compared: the smallest number of moves that any machine has.
   std::int64_t moves{0};
-  std::int64_t met{0};   ///< Number of the measured machines' first `moves` moves that meet the goal.
-  double p{1.0};         ///< Two-sided p-value.
-  double lowest_p{1.0};  ///< Smallest p-value that is possible with these numbers of machines.
-  bool is_lower{false};  ///< True if fewer moves than simulated meet the goal.
+  /// Number of moves that meet the goal among the first `moves` moves of each measured machine, summed over
+  /// these machines.
+  std::int64_t met{0};
+  /// Two-sided p-value of the hypothesis that the measured machines are from the population of the simulated
+  /// ones; small if they differ.
+  double p{1.0};
+  /// Smallest p-value that the test can give with these numbers of machines. If it exceeds the significance
+  /// level, the test cannot show a difference.
+  double lowest_p{1.0};
+  /// True if the goal is met by a smaller proportion of measured moves than of simulated moves.
+  bool is_lower{false};
   /// Prediction interval (95 %) of the proportion of moves that meet the goal, for as many simulated machines
   /// with as many moves.
   statistics::ConfidenceInterval predicted{0.0, 1.0};
 };
 
-/// One goal: what was predicted, and what was measured.
+/// One goal of the study, with its prediction from the simulated machines and its result on the measured
+/// machines.
 struct Claim {
   study::Goal goal{};
-  goal::ClaimVerdict predicted{};  ///< Verdict on the simulated machines.
-  /// Verdict on the population from which the measured machines are a sample.
+  goal::ClaimVerdict predicted{};  ///< Verdict on the goal from the simulated machines.
+  /// Verdict on the goal, from the measured moves, for the population from which the measured machines are a
+  /// sample.
   goal::ClaimVerdict measured{};
-  std::int64_t moves{0};  ///< Number of measured moves of all machines that the goal judges.
+  std::int64_t moves{0};  ///< Number of measured moves that the goal judges, summed over all machines.
   std::int64_t met{0};
   /// Proportion of the measured machines' moves that meet the goal, with one-sided bounds, each with the
   /// confidence of the goal.
   goal::BoundedProportion rate{};
-  /// Status of the goal for the machines that are judged.
+  /// Status of the goal (met, missed or undecided) for the machines in Acceptance::judged.
   goal::Status status{goal::Status::undecided};
-  /// Significance level at which the measured moves differ from the prediction of this goal: 0.05 divided by
-  /// the number of goals (Bonferroni).
+  /// Significance level for the comparison of the measured moves with the prediction of this goal: 0.05
+  /// divided by the number of goals (Bonferroni). They differ if Agreement::p is at most this level.
   double significance{0.05};
   bool is_below_prediction{false};  ///< True if significantly fewer moves meet the goal than predicted.
   Agreement agreement{};
-  /// Number of worlds of the study with which the machines agree. The prediction is that of the world most
-  /// like the machines, with the intervals of all worlds. Null if the study has no worlds.
+  /// Number of worlds of the study with which the measured machines agree. A world is one draw of what all
+  /// machines share. The prediction is that of the world most like the machines, and the predicted interval
+  /// spans the intervals of all worlds. Null if the study has no worlds.
   std::optional<std::int64_t> like_worlds{};
 };
 
-/// The moves of one machine, by goal.
+/// Numbers of moves of one measured machine, by goal.
 struct MeasuredMachine {
   std::string name;
-  std::vector<std::int64_t> moves{};  ///< [goal] Number of moves that the goal judges.
-  std::vector<std::int64_t> met{};    ///< [goal] Number of these moves that meet the goal.
+  std::vector<std::int64_t> moves{};  ///< [goal] Number of moves of the machine that the goal judges.
+  std::vector<std::int64_t> met{};    ///< [goal] Number of the machine's judged moves that meet the goal.
 };
 
-/// A value of ISO 230-2 from encoder counts, for the simulated and the measured machines.
+/// A quantity of ISO 230-2, such as the repeatability, computed from encoder counts, for the simulated and
+/// the measured machines.
 struct StandardValue {
-  std::string_view name;    ///< Name, such as "repeatability".
-  std::string_view symbol;  ///< Symbol in the standard.
-  double median{0.0};       ///< Median of the simulated runs of the test, counts.
-  /// Lower end of the range with the central 95 % of the simulated runs, counts.
+  std::string_view name;    ///< Name of the quantity, such as "repeatability".
+  std::string_view symbol;  ///< Symbol of the quantity in ISO 230-2, such as "R".
+  double median{0.0};       ///< Median over the simulated runs of the test, counts.
+  /// Lower end of the range that contains the central 95 % of the simulated runs, counts.
   double low{0.0};
-  double high{0.0};  ///< Upper end of that range, counts.
-  /// [run] Value of each measured run of all machines, counts; NaN if it is not defined.
+  double high{0.0};  ///< Upper end of the range that contains the central 95 % of the simulated runs, counts.
+  /// [run] Value of each measured run of the test, of all machines, counts; NaN if the value is not defined.
   std::vector<double> measured{};
-  std::int64_t within{0};  ///< Number of measured runs between `low` and `high`.
+  std::int64_t within{0};  ///< Number of measured runs whose value is between `low` and `high`.
 };
 
 struct Acceptance {
-  std::string study{};  ///< Name of the results file.
-  std::string point{};  ///< Label of the design point.
+  /// Name of the results file of the study, with whose simulated machines the measured ones are compared.
+  std::string study{};
+  std::string point{};  ///< Label of the design point with which the machines are compared.
   std::vector<Claim> claims{};
   std::vector<MeasuredMachine> machines{};
   Judged judged{Judged::all_machines};
-  /// Number of machines with which the goals would be decided for all machines. 0: they are decided, or no
-  /// number up to 10⁵ suffices.
+  /// Number of measured machines with which the goals would be decided for the population of machines. 0 if
+  /// they are decided already, or if no number up to 10⁵ suffices.
   std::int64_t needed_machines{0};
   std::int64_t simulated{0};  ///< Number of simulated machines.
-  std::int64_t worlds{0};     ///< Number of worlds in the study; 0: none.
-  /// Values of ISO 230-2. Empty if the study has no sequence of moves, if a log lacks a column that they
-  /// need, or if the logs or the study have no run with these values.
+  /// Number of worlds in the study (draws of what all machines share); 0 if it has none.
+  std::int64_t worlds{0};
+  /// Quantities of ISO 230-2 of the simulated and the measured machines. Empty if the study has no sequence
+  /// of moves, if a log lacks a column that they need, or if the logs or the study have no run with these
+  /// values.
   std::vector<StandardValue> standard_values{};
   /// Column that a log lacks for the values of ISO 230-2: "a.csv has no column final_error". Empty if no
   /// column is lacking, or if the study has no sequence.
@@ -110,21 +127,28 @@ struct Acceptance {
 };
 
 Status status_of(const Claim& claim);
-/// Status of all claims together: rejected if any is, otherwise undecided if any is, otherwise accepted.
+/// Status of the whole acceptance: rejected if any claim is rejected, otherwise undecided if any claim is
+/// undecided, otherwise accepted.
 Status status_of(const Acceptance& acceptance);
-/// Exit code of a status: success if accepted, regression if rejected, otherwise inconclusive.
+/// Exit code of the program for a status: success if accepted, regression if rejected, otherwise
+/// inconclusive.
 ExitCode exit_code_of(Status status);
 
-/// Judges the logged machines by the goals of the study, and compares them with the study's machines at the
-/// point. Machines that are as predicted are found below the prediction of any goal with a probability of at
-/// most 5 %.
-/// @param file of one setting, with goals
+/// Judges the measured machines, whose moves are in the logs, by the goals of the study, and compares them
+/// with the simulated machines at the design point `point`. If the measured machines are as predicted, the
+/// probability that any goal is reported as met less often than predicted is at most 5 %.
+/// @param file results file of a study with goals, in one setting (a condition at an age)
+/// @param point index of the design point
+/// @param logs one log per measured machine
+/// @param judged the machines about which the statement is made
 ///
-/// If only these machines are judged, a goal refers to all their moves, or to `machines` of them. Each
-/// machine is then judged by the bounds of its own moves, with the confidence 1 − (1 − γ)/m for m machines.
+/// If only these machines are judged, a goal refers to all their moves, or, if it has the key `machines`, to
+/// this proportion of the machines. Each machine is then judged by the bounds of its own moves, with the
+/// confidence 1 − (1 − γ)/m for m machines.
 ///
-/// A goal `on` some moves is judged by the rows of a log whose column `move` names these moves. With worlds,
-/// the machines differ from the study only if they differ from each world, so the largest p-value counts.
+/// A goal that judges only some moves (key `on`) uses the rows of a log whose column `move` has the numbers
+/// of these moves. If the study has worlds (draws of what all machines share), the machines differ from the
+/// study only if they differ from each world, so the largest p-value decides.
 /// @throws Failure: bad_input for a study without machines, for a log without a measure that a goal needs,
 /// for a measure in a unit of another dimension than in the study, and for a log that does not number its
 /// moves although a goal refers to some moves; bad_data for a log without moves

@@ -24,7 +24,7 @@ using document::Item;
 using document::Notation;
 using document::with_words;
 
-/// [Status]
+/// The words for the values of Status, in the order of the enumerators.
 std::vector<std::string> status_words() {
   return {"accepted", "rejected", "undecided"};
 }
@@ -33,7 +33,9 @@ std::string word_of(Status status) {
   return status_words()[static_cast<std::size_t>(status)];
 }
 
-/// The words of Summary's comparison with what was observed.
+/// Word for the agreement of the measured machines with the prediction of a goal: "differs", "consistent", or
+/// "too_few" if these numbers of machines could not show a difference. The command `summary` uses the same
+/// words.
 std::string_view agreement_word(const Claim& c) {
   if (c.agreement.p <= c.significance) return "differs";
   return c.agreement.lowest_p <= c.significance ? "consistent" : "too_few";
@@ -43,7 +45,8 @@ std::string name_of(const Claim& claim) {
   return claim.goal.name.empty() ? "goal" : claim.goal.name;
 }
 
-/// "20 moves of 1 machine"; "20 to 40 moves" where the goals are about different moves.
+/// Text of the numbers of judged moves and measured machines: "20 moves of 1 machine". "20 to 40 moves of …"
+/// if the goals judge different numbers of moves.
 std::string judged_text(const Acceptance& a) {
   const auto [least, most] = std::ranges::minmax(a.claims, {}, &Claim::moves);
   const std::string moves = least.moves == most.moves ? fmt::format("{}", most.moves)
@@ -51,7 +54,8 @@ std::string judged_text(const Acceptance& a) {
   return fmt::format("{} moves of {} machine{}", moves, a.machines.size(), a.machines.size() == 1 ? "" : "s");
 }
 
-/// "missed: fast; met less often than predicted: near (80 % of the moves, predicted 97 %)".
+/// Text of the reasons for a rejection: "missed: fast; met less often than predicted: near (80 % of the
+/// moves, predicted 97 %)". Empty if there is no reason.
 std::string reasons_to_reject(const Acceptance& a) {
   std::vector<std::string> missed, fewer;
   for (const Claim& claim : a.claims) {
@@ -68,8 +72,9 @@ std::string reasons_to_reject(const Acceptance& a) {
   return fmt::format("{}", fmt::join(reasons, "; "));
 }
 
-/// Moves of these machines, those that there are included, that show each undecided goal without another
-/// miss; 0 where a goal is about machines, each of which has its own number.
+/// Total number of moves of these machines, including the moves already measured, that would show each
+/// undecided goal if no further move misses it. 0 if a goal is about a proportion of machines, because each
+/// machine then needs its own number of moves.
 std::int64_t moves_needed(const Acceptance& a) {
   std::int64_t needed = 0;
   for (const Claim& claim : a.claims) {
@@ -176,7 +181,8 @@ Description<Claim> claim_rows() {
              [](const Claim& c) { return of_machines(c, c.measured); });
 }
 
-/// "20 of 20" for each goal.
+/// Text of the numbers of moves of the machine that meet each goal: "20 of 20" for a goal, in the order of
+/// the goals.
 std::string met_text(const MeasuredMachine& machine) {
   std::vector<std::string> goals;
   for (std::size_t goal = 0; goal < machine.met.size(); ++goal)
@@ -197,7 +203,7 @@ Description<MeasuredMachine> machine_rows() {
       .shown_as(met_text);
 }
 
-/// "3 to 5", or one number.
+/// Text of the range of the measured values: "3 to 5", or one number if they are equal.
 std::string measured_text(const StandardValue& value) {
   std::vector<double> known;
   std::ranges::copy_if(value.measured, std::back_inserter(known),

@@ -32,7 +32,8 @@ std::string why_bits_may_differ(const layout::FileHeader& one, const layout::Fil
   return {};
 }
 
-/// Decides whether the files must be equal to the bit, and compares the datasets if they can be.
+/// Decides whether the two files must be equal to the bit. If so, compares all datasets and stores the first
+/// difference in `result`.
 void compare_bits(StudyComparison& result, const reading::AllTrialsFile& baseline,
                   const reading::AllTrialsFile& current) {
   const std::string different = why_bits_may_differ(baseline.header(), current.header());
@@ -47,7 +48,8 @@ void compare_bits(StudyComparison& result, const reading::AllTrialsFile& baselin
                                           : different + ", and yet every dataset is equal to the bit";
 }
 
-/// Finds whether the trials are paired.
+/// Finds whether trial i of both files drew the same random numbers (the trials are then paired), and stores
+/// the layer of the comparison and its reason in `result`.
 void pair_trials(StudyComparison& result, const StudyPair& pair) {
   const DrawComparison draws = compare_draws(pair);
   result.layer = draws.same ? ComparisonLayer::paired : ComparisonLayer::two_samples;
@@ -55,13 +57,14 @@ void pair_trials(StudyComparison& result, const StudyPair& pair) {
   result.changed_inputs = draws.changed_inputs;
 }
 
-/// The trials of a point in both files.
+/// The trials of a design point in the baseline and in the current file.
 struct PointPair {
   PointTrials baseline;
   PointTrials current;
 };
 
-/// Reads the compared trials of a point in both files. @throws Failure (bad_data) if a file is damaged
+/// Reads the trials of a design point that are compared, from both files. @throws Failure (bad_data) if a
+/// file is damaged
 PointPair read_trials(const StudyPair& pair, const MatchedPoint& point) {
   const auto read = [&](const ComparedStudy& study, std::int64_t at) {
     return read_point_trials(study.trials_of(point), at, study.trials, study.also);
@@ -69,8 +72,8 @@ PointPair read_trials(const StudyPair& pair, const MatchedPoint& point) {
   return {read(pair.baseline, point.baseline), read(pair.current, point.current)};
 }
 
-/// Calls `use` with the trials that are compared. If trials are paired, these are the trials that both files
-/// have.
+/// Calls `use` with the trials that are compared, and returns its result. If trials are paired, only the
+/// trials that both files have are passed; otherwise all.
 template <class Use>
 auto of_compared(const PointPair& trials, bool paired, const Use& use) {
   if (!paired) return use(BothTrials{trials.baseline, trials.current, false});
@@ -80,7 +83,9 @@ auto of_compared(const PointPair& trials, bool paired, const Use& use) {
   return use(BothTrials{baseline, current, true});
 }
 
-/// The judgements at a point. The verdicts on measures are still missing, as they depend on all points.
+/// Compares one design point of both files. The verdicts on measures are still missing, because they depend
+/// on the p-values at all points. @param failing confidence with which a requirement must be contradicted to
+/// fail
 PointComparison compare_point(const StudyComparison& comparison, const GateRules& rules,
                               const StudyPair& pair, const MatchedPoint& point, double failing) {
   const PointPair trials = read_trials(pair, point);
@@ -110,8 +115,8 @@ PointComparison compare_point(const StudyComparison& comparison, const GateRules
   return result;
 }
 
-/// Whether the study is open-loop, so that no move can be judged. Only the first moves of the file are
-/// examined.
+/// Whether the study is open-loop: its moves have torque levels and no targets, so that no measure of the
+/// gate applies. Only the first moves of the file are examined.
 bool judges_nothing(const reading::AllTrialsFile& file) {
   const std::int64_t trials = std::min(file.rows().count, layout::chunk_rows(file.moves()));
   const std::vector<double> outcomes = file.measure("outcome", {file.rows().first, trials});
@@ -142,12 +147,13 @@ void judge_points(StudyComparison& result, const GateRules& rules, const StudyPa
     result.notes.push_back("the moves have torque levels and no targets: no measure of the gate applies");
 }
 
-/// Whether the forecast needs a sample of the judgement. Measures of equal data are never open.
+/// Whether a judgement takes part in the forecast of the number of trials, so that its sample is needed.
+/// Measures of data that are equal to the bit never take part, because they cannot be inconclusive.
 bool is_forecast(const StudyComparison& comparison, const Judgement& one) {
   return !one.is_measure() || (!comparison.equal_to_the_bit && has_finite_bounds(one));
 }
 
-/// Adds the samples of a point to the samples of a forecast.
+/// Adds the samples of one design point to the samples from which the number of trials is forecast.
 void add_point(ForecastSamples& samples, const StudyComparison& comparison, const GateRules& rules,
                const PointComparison& point, const PointPair& trials) {
   samples.add_point(point.baseline_trials, point.current_trials);
@@ -166,8 +172,9 @@ void add_point(ForecastSamples& samples, const StudyComparison& comparison, cons
     samples.add(requirement_sample(requirement, trials.current));
 }
 
-/// [file] number of independent units in the samples of a forecast. The number of pairs is that of the
-/// smaller file. A requirement is judged on all units of the current file.
+/// [0: baseline, 1: current file] Number of independent units (trials, machines or worlds) in the samples of
+/// a forecast. If trials are paired, both have the number of units of the smaller file. A requirement is
+/// judged on all units of the current file.
 std::array<std::int64_t, 2> units_of_samples(const StudyComparison& comparison, const GateRules& rules,
                                              const StudyPair& pair) {
   const auto units = [](const ComparedStudy& study) {
@@ -195,8 +202,9 @@ Forecast forecast_of(const StudyComparison& comparison, const GateRules& rules, 
   return forecast_decision(samples, options);
 }
 
-/// Finds the number of trials, per design point in all settings, that would decide the open judgements.
-/// The trials are read again only then, because most comparisons leave nothing open.
+/// Finds the number of trials, per design point and summed over its settings, that would decide the
+/// inconclusive judgements. Does nothing if no judgement is inconclusive; only otherwise are the trials read
+/// again.
 void forecast(StudyComparison& result, const GateRules& rules, const StudyPair& pair) {
   const std::vector<Judgement*> judgements = judgements_of(result.points);
   if (std::ranges::none_of(judgements, [](const Judgement* one) { return one->is_open(); })) return;
@@ -231,7 +239,8 @@ void forecast(StudyComparison& result, const GateRules& rules, const StudyPair& 
   }
 }
 
-/// Passes every measure of equal data. They need no statistics, because no measure can be worse.
+/// Gives every measure the verdict `passed`, because the data of both files are equal to the bit. No
+/// statistics are needed.
 void pass_equal_data(StudyComparison& result) {
   for (Judgement* const measure : judgements_of(result.points)) {
     if (!measure->is_measure()) continue;
@@ -243,8 +252,8 @@ void pass_equal_data(StudyComparison& result) {
   }
 }
 
-/// Sets the verdicts on the points and on the whole comparison. A point at which nothing was measured leaves
-/// the whole undecided.
+/// Sets the verdict on each design point and on the whole comparison. A point at which nothing was measured
+/// makes the whole inconclusive.
 void find_verdict(StudyComparison& result) {
   std::vector<GateVerdict> whole;
   for (PointComparison& point : result.points) {
@@ -275,7 +284,7 @@ void note_undecided_moves(StudyComparison& result) {
   result.notes.emplace_back(measures::undecided_meaning);
 }
 
-/// Notes which trials are left out.
+/// Adds a note for the reader if trials of a file are left out of the comparison.
 void note_trials(StudyComparison& result, const StudyPair& pair) {
   const auto note_left_out = [&](const ComparedStudy& study) {
     const std::int64_t trials = study.trials_of(pair.points.front()).header().trials;
@@ -294,7 +303,8 @@ void note_trials(StudyComparison& result, const StudyPair& pair) {
       std::min(before, after), before > after ? result.baseline.path : result.current.path));
 }
 
-/// Notes by which goal the points are judged if the goals of the manifests differ.
+/// Adds a note that says by which file's goals the points are judged, if the goals of the two manifests
+/// differ.
 void note_goal(StudyComparison& result, const StudyPair& pair) {
   const auto is_of_goal = [](const manifest_text::ManifestDifference& difference) {
     return keys::is_within(difference.key, "goal") || keys::is_within(difference.key, "goals");
@@ -305,7 +315,8 @@ void note_goal(StudyComparison& result, const StudyPair& pair) {
                                      pair.goals_of_baseline ? result.baseline.path : result.current.path));
 }
 
-/// Notes which units are independent, and what worlds mean.
+/// Adds notes that say which units are independent (trials, machines or worlds), and what the worlds of the
+/// studies mean for the comparison.
 void note_units(StudyComparison& result, const StudyPair& pair) {
   if (pair.other_worlds) {
     result.notes.push_back(
@@ -323,7 +334,8 @@ void note_units(StudyComparison& result, const StudyPair& pair) {
                                 : "means and rates are averages over the worlds");
 }
 
-/// Fills in the judgements, the verdicts and the forecast of the comparison.
+/// Fills in the judgements, the verdicts and the forecast of the comparison. @param given rules of the user,
+/// before they are adapted to the points and goals of the pair
 void judge(StudyComparison& result, const GateRules& given, const StudyPair& pair) {
   const GateRules rules = rules_for(pair, given);
   result.goals = pair.goals;

@@ -28,7 +28,7 @@ using document::to_people;
 using document::with_words;
 using Comparison = const StudyComparison&;
 
-/// A judgement with its texts for people: a row of the table, and a case of JUnit.
+/// One judgement with its texts for people. It is a row of the table, and a test case of the JUnit file.
 struct JudgementRow {
   const StudyComparison& comparison;
   const PointComparison& point;
@@ -50,7 +50,8 @@ struct JudgementRow {
   std::string note() const;
   bool has(GateVerdict wanted) const { return one.verdict == wanted; }
   bool has(ChangeVerdict wanted) const { return one.is_measure() && one.change == wanted; }
-  /// Whether the judgement did not pass, or the measure became better.
+  /// Whether the reader should see the judgement in a long table: it did not pass, or the measure became
+  /// better.
   bool is_noteworthy() const { return !has(GateVerdict::passed) || one.change == ChangeVerdict::better; }
 };
 
@@ -61,7 +62,8 @@ std::vector<JudgementRow> all_rows(Comparison comparison) {
   return rows;
 }
 
-/// Number of judgements with this verdict: a GateVerdict, or a ChangeVerdict of a measure.
+/// Number of judgements with this verdict. A GateVerdict counts measures and requirements, a ChangeVerdict
+/// only measures.
 template <class Verdict>
 std::int64_t count(Comparison comparison, Verdict verdict) {
   return std::ranges::count_if(all_rows(comparison),
@@ -72,13 +74,14 @@ std::int64_t failed(Comparison comparison) {
   return count(comparison, GateVerdict::regression) + count(comparison, GateVerdict::changed);
 }
 
-/// Number of judgements that have enough values.
+/// Number of judgements (on measures and requirements) that have enough values for a verdict.
 std::int64_t judged(Comparison comparison) {
   return std::ranges::count_if(all_rows(comparison),
                                [](const JudgementRow& row) { return !row.has(GateVerdict::not_measured); });
 }
 
-/// "3 of 40 judgements failed (1 worse, 2 better)"; empty if none failed.
+/// Text of the number of failed judgements: "3 of 40 judgements failed (1 worse, 2 better)"; empty if none
+/// failed.
 std::string failures_text(Comparison comparison) {
   if (failed(comparison) == 0) return "";
   std::string text = fmt::format("{} of {} judgements failed", failed(comparison), judged(comparison));
@@ -88,7 +91,7 @@ std::string failures_text(Comparison comparison) {
   return text;
 }
 
-/// Advice on the number of trials that would decide the comparison.
+/// Sentence that advises the user of the number of trials that would decide an inconclusive comparison.
 std::string advice_text(Comparison comparison) {
   if (comparison.trials_to_decide)
     return fmt::format("; {} trials per design point would decide, with a probability of {:.0f} %",
@@ -107,8 +110,8 @@ std::string advice_text(Comparison comparison) {
                      fmt::join(open, ", "));
 }
 
-/// For the comparison of two points: the measures by their change, "better: success_rate, arrival_time;
-/// worse: none; ...", in each setting.
+/// Answer to a comparison of two design points: the names of the measures grouped by their change, "better:
+/// success_rate, arrival_time; worse: none; ...", for each setting.
 std::string answer_text(Comparison comparison) {
   std::string text = fmt::format("{} against {}", text::printable(comparison.points.front().design_point),
                                  text::printable(comparison.baseline_label));
@@ -149,7 +152,7 @@ std::optional<std::int64_t> whole(const std::optional<double>& trials) {
   return trials ? std::optional(static_cast<std::int64_t>(*trials)) : std::nullopt;
 }
 
-/// The texts of the verdicts from the first to `last`.
+/// The texts of the verdicts in the order of the enumerators of Verdict, from the first one to `last`.
 template <class Verdict>
 std::vector<std::string> words_until(Verdict last) {
   std::vector<std::string> words;
@@ -316,8 +319,8 @@ Description<StudyComparison> counts_description() {
   return counts;
 }
 
-/// Text of the bounds. For a requirement on a quantile these are bounds of the proportion of trials within
-/// the limit.
+/// Text of the bounds of the change. For a requirement, bounds of the required quantity; for a requirement on
+/// a quantile, bounds of the proportion of trials within the limit.
 std::string JudgementRow::bounds() const {
   if (std::isnan(one.bounds.low)) return "–";
   if (one.is_measure() || one.measure.find('.') == std::string::npos)
@@ -408,7 +411,8 @@ Description<manifest_text::ManifestDifference> difference_description() {
       .shown_as(shown(&Difference::current));
 }
 
-/// All rows; only the noteworthy ones if there are more than max_rows.
+/// The rows of the table that people see: all judgements, or only the noteworthy ones if there are more than
+/// max_rows.
 std::vector<JudgementRow> rows_shown(Comparison comparison) {
   std::vector<JudgementRow> all = all_rows(comparison);
   if (all.size() <= max_rows) return all;
@@ -422,7 +426,8 @@ std::string omitted_sentence(Comparison comparison) {
   return omitted == 0 ? "" : fmt::format("({} rows that simply passed are not shown)", omitted);
 }
 
-/// Whether any test is significant although its bounds leave the direction of the change open.
+/// Whether any judgement has a significant test although the bounds of its effect leave the direction of the
+/// change open.
 bool any_contrast(Comparison comparison) {
   return std::ranges::any_of(all_rows(comparison), [&](const JudgementRow& row) {
     return shown_p(row.one) < comparison.false_discovery_rate && row.one.bounds.low < 0.0 &&

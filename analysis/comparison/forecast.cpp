@@ -17,30 +17,35 @@ using two_samples::ContinuationDraw;
 using two_samples::FileSums;
 using two_samples::FileWeights;
 
-/// Variance of the effects that are not zero, in units of the squared standard error.
+/// Variance of those effects of measures that are not zero, in units of the squared standard error of the
+/// effect.
 constexpr double slab_variance = 9.0;
 constexpr int expectation_steps = 40;
-constexpr double jeffreys_shape = 0.5;  ///< Prior weight of a kind of unit that was not seen, in units.
+/// Shape of the gamma prior (Jeffreys) for the number of units of a kind that the sample does not contain,
+/// such as trials that fail if all succeeded.
+constexpr double jeffreys_shape = 0.5;
 
-/// An assumption about the true effects.
+/// Assumption of a simulation about the true effects (differences between the two studies).
 enum class Truth {
-  as_seen,    ///< The true effects are those seen, with their uncertainty.
-  some_zero,  ///< The true effects are those seen, but some are zero.
-  no_effect,  ///< Both studies are from one population; the sample is from one of them.
+  as_seen,    ///< The true effects are the estimated ones, with their uncertainty.
+  some_zero,  ///< The true effects are the estimated ones, but each is zero with its posterior probability.
+  /// There is no effect: both studies are from one population, and the sample is from one of them.
+  no_effect,
 };
 
-/// Random weight from the gamma distribution of shape ½: the posterior weight of a kind of unit that was not
-/// seen.
+/// Random weight of a kind of unit that the sample does not contain, drawn from its posterior, the gamma
+/// distribution of shape ½. @param bits 64 random bits
 double unseen_weight(std::uint64_t bits) {
   const double z = random::standard_normal(bits);
   return jeffreys_shape * z * z;
 }
 
-/// The result of a simulated comparison.
+/// Result of one simulated comparison with more trials: whether it is decided, as a whole and in each
+/// judgement.
 struct SimulatedComparison {
   bool decided{false};
-  std::vector<bool> each;       ///< [judgement] whether the judgement is decided
-  std::vector<double> margins;  ///< [measure] margin above which the measure would be decided
+  std::vector<bool> each;       ///< [judgement] Whether the judgement is decided (not inconclusive).
+  std::vector<double> margins;  ///< [measure] Margin above which the measure would be decided, in its unit.
 };
 
 class Simulator {
@@ -60,7 +65,9 @@ class Simulator {
   }
   std::size_t judgements() const { return samples_.measures().size() + samples_.requirements().size(); }
 
-  /// [assumption] a simulated comparison; all use the same random numbers.
+  /// [assumption] One simulated comparison under each assumption in `truths`; all of them use the same random
+  /// numbers. @param trials number of trials per design point @param simulation number of the simulation,
+  /// which selects the random numbers
   std::vector<SimulatedComparison> simulate(double trials, const std::vector<Truth>& truths,
                                             std::uint32_t simulation) const {
     FileWeights population;
@@ -84,7 +91,7 @@ class Simulator {
   }
 
  private:
-  /// Index of the file whose sample represents the population of this file.
+  /// Index of the file (0: baseline, 1: current) whose sample represents the population of the file `file`.
   std::uint32_t population_of(std::size_t file) const {
     return samples_.one_sample() ? 1 : static_cast<std::uint32_t>(file);
   }
@@ -95,8 +102,10 @@ class Simulator {
     return samples_.one_sample() ? units * trials / there : std::max(0.0, units * trials / there - units);
   }
 
-  /// Number of further units of a kind that the sample of the file lacks. It is the same for all measures of
-  /// a point.
+  /// Random number of units of a kind that the sample of the file does not contain but further trials bring.
+  /// The number is the same for all measures of a point. @param kind 0: units that fail, 1: units that
+  /// succeed; for pairs, those of which only one fails, in the two directions @param trials number of trials
+  /// per design point
   double unseen_units(std::size_t file, std::size_t point, std::uint32_t kind, std::uint32_t simulation,
                       double trials) const {
     const double weight = unseen_weight(two_samples::continuation_bits(
@@ -115,7 +124,7 @@ class Simulator {
     return u < zero_probabilities_[measure];
   }
 
-  /// [measure] sums over the further units.
+  /// [measure] Sums over the units that the further trials bring, for both files.
   std::vector<FileSums> further_sums(const FileWeights& further, std::uint32_t simulation,
                                      double trials) const {
     std::vector<FileSums> all;
@@ -158,8 +167,9 @@ class Simulator {
     return verdicts;
   }
 
-  /// The result of a simulated comparison. Two equal studies (Truth::no_effect) are decided only if they are
-  /// found equivalent; a false alarm does not decide them.
+  /// The result of a simulated comparison, from its tested measures and its verdicts on requirements. Under
+  /// Truth::no_effect it is decided only if all measures are found equivalent; a false alarm does not decide
+  /// it.
   SimulatedComparison outcome_of(const std::vector<TestedMeasure>& tested,
                                  const std::vector<GateVerdict>& requirements, Truth truth) const {
     SimulatedComparison outcome;
@@ -182,17 +192,22 @@ class Simulator {
 
   const ForecastSamples& samples_;
   ForecastOptions options_;
-  std::vector<double> zero_probabilities_;  ///< [measure] probability that the effect is zero
+  std::vector<double> zero_probabilities_;  ///< [measure] Posterior probability that the true effect is zero.
 };
 
-/// Proportions of the simulations with a given number of trials that decide.
+/// Results of the simulations with one number of trials: proportions of them that decide, and decided
+/// margins.
 struct Chances {
-  double whole{1.0};            ///< proportion that decides the whole comparison
-  std::vector<double> each;     ///< [judgement] proportion that decides the judgement
-  std::vector<double> margins;  ///< [measure] smallest margin decided with the stated probability
+  double whole{1.0};         ///< Proportion of the simulations that decide the whole comparison.
+  std::vector<double> each;  ///< [judgement] Proportion of the simulations that decide the judgement.
+  /// [measure] Smallest margin that is decided with the stated probability, in the measure's unit.
+  std::vector<double> margins;
 };
 
-/// The proportions under one assumption. @param outcomes [simulation][assumption] simulated comparisons
+/// The proportions and margins under one assumption about the true effects.
+/// @param outcomes [simulation][assumption] simulated comparisons
+/// @param assumption index of the assumption
+/// @param probability probability with which a margin must be decided
 Chances chances_under(const std::vector<std::vector<SimulatedComparison>>& outcomes, std::size_t assumption,
                       double probability) {
   const auto proportion = [&](const auto& is) {
@@ -214,7 +229,8 @@ Chances chances_under(const std::vector<std::vector<SimulatedComparison>>& outco
   return chances;
 }
 
-/// The least favourable value of each proportion and margin over all assumptions.
+/// The results of the simulations with `trials` trials per design point. Each proportion and margin is the
+/// least favourable one over all assumptions in `truths`.
 Chances chances_with(const Simulator& simulator, double trials, const std::vector<Truth>& truths,
                      const ForecastOptions& options) {
   std::vector<std::vector<SimulatedComparison>> outcomes(static_cast<std::size_t>(options.simulations));
@@ -233,9 +249,10 @@ Chances chances_with(const Simulator& simulator, double trials, const std::vecto
   return lowest;
 }
 
-/// Number of trials at which the chance reaches the probability, by interpolation that is linear in the
-/// logarithm of the trials. @param few, low a number of trials with its chance @param many, high a larger
-/// number with its chance
+/// Number of trials at which the probability of a decision reaches `probability`, by interpolation that is
+/// linear in the logarithm of the number of trials.
+/// @param few, low a number of trials, and the probability of a decision with it
+/// @param many, high a larger number of trials, and the probability of a decision with it
 double crossing_between(double few, double low, double many, double high, double probability) {
   if (high <= low) return many;
   const double part = std::clamp((probability - low) / (high - low), 0.0, 1.0);

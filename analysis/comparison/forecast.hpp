@@ -13,8 +13,8 @@
 /// Forecast of the number of trials that would decide a comparison, by simulating it with more trials.
 namespace zerocount::comparison {
 
-/// The samples of all design points, reduced to the sums that simulations need. The memory does not grow with
-/// the number of trials.
+/// The samples of a comparison at all its design points, reduced to the sums that the simulations of the
+/// forecast need. The memory does not grow with the number of trials.
 class ForecastSamples {
  public:
   struct Measure {
@@ -24,7 +24,8 @@ class ForecastSamples {
   };
   struct Requirement {
     std::size_t point;
-    RequirementSample asked;  ///< the requirement, without the values of units
+    /// The requirement, without the values of the independent units (`hits` and `events` are empty).
+    RequirementSample asked;
     two_samples::BlockedSums sums;
   };
 
@@ -33,9 +34,11 @@ class ForecastSamples {
   /// @param one_sample whether the samples of the current file represent the baseline too
   ForecastSamples(std::array<std::int64_t, 2> units, bool one_sample);
 
-  /// Begins a design point with these numbers of trials in the baseline and in the current file.
+  /// Begins the next design point, which has these numbers of trials. All measures and requirements added
+  /// afterwards belong to it.
   void add_point(std::int64_t baseline_trials, std::int64_t current_trials);
-  /// Adds a measure of the current point. It must have enough values for a verdict.
+  /// Adds a measure of the design point that was added last. The measure must have enough values for a
+  /// verdict.
   void add(const TestedMeasure& found, two_samples::Sample sample);
   void add(RequirementSample requirement);
 
@@ -43,7 +46,8 @@ class ForecastSamples {
   const std::array<two_samples::Continuation, 2>& continuations() const { return continuations_; }
   const std::vector<Measure>& measures() const { return measures_; }
   const std::vector<Requirement>& requirements() const { return requirements_; }
-  /// Largest number of trials of any point in the baseline (0) or the current file (1); at least 1.
+  /// Largest number of trials of any design point in the baseline (`file` = 0) or in the current file (`file`
+  /// = 1); at least 1.
   std::int64_t trials_of(std::size_t file) const { return trials_[file]; }
 
  private:
@@ -56,32 +60,39 @@ class ForecastSamples {
 };
 
 struct ForecastOptions {
-  double confidence{statistics::summary_confidence};  ///< Confidence of each bound.
+  double confidence{statistics::summary_confidence};  ///< Confidence of each one-sided bound of an effect.
   double false_discovery_rate{0.05};  ///< False discovery rate over all measures at all points.
-  /// Confidence with which a requirement must be contradicted to fail.
+  /// Confidence with which the data must contradict a requirement so that it fails.
   double failing_confidence{statistics::summary_confidence};
-  double probability{decision_probability};  ///< Probability with which the number of trials decides.
-  int simulations{400};                      ///< Number of simulations for each number of trials.
-  double factor_step{1.4};  ///< Ratio of the numbers of trials that are tried one after the other.
+  /// Probability with which the forecast number of trials must decide the comparison.
+  double probability{decision_probability};
+  int simulations{400};     ///< Number of simulated comparisons for each number of trials that is tried.
+  double factor_step{1.4};  ///< Ratio of successive numbers of trials that are tried.
   double min_factor{1.0};   ///< Smallest number of trials that is tried, as a multiple of the present number.
   double max_factor{100.0};  ///< Largest number of trials that is tried, as a multiple of the present number.
 };
 
-/// Limits the simulations of a comparison with many judgements, so that their work does not grow faster than
-/// the comparison itself. At least an eighth of the simulations remain, and the logarithms of the numbers of
-/// trials are twice as far apart.
+/// Reduces the work of a forecast with many judgements, so that it does not grow faster than that of the
+/// comparison itself. Changes `options.simulations`, at most to an eighth, and makes the steps between the
+/// numbers of trials twice as large on a logarithmic scale. @param judgements number of judgements
 void limit_work(ForecastOptions& options, std::size_t judgements);
 
-/// The forecast of one judgement.
+/// The forecast for one judgement: a measure or a requirement at one point.
 struct JudgementForecast {
-  std::optional<double> trials;  ///< Trials per design point that decide this judgement by itself.
-  double margin{0.0};  ///< For a measure: smallest margin that is decided with Forecast::max_trials.
+  /// Number of trials per design point that decides this judgement by itself. Null if no number up to
+  /// Forecast::max_trials suffices.
+  std::optional<double> trials;
+  /// For a measure: smallest margin that Forecast::max_trials trials decide, in the measure's unit.
+  double margin{0.0};
 };
 
 struct Forecast {
-  std::optional<double> trials;               ///< Trials per design point that decide the whole comparison.
-  double max_trials{0.0};                     ///< Largest number of trials per design point that was tried.
-  std::vector<JudgementForecast> judgements;  ///< all measures in order, then all requirements
+  /// Number of trials per design point that decides the whole comparison. Null if no number up to max_trials
+  /// suffices.
+  std::optional<double> trials;
+  double max_trials{0.0};  ///< Largest number of trials per design point that was tried.
+  /// Forecasts of all measures in order, then of all requirements.
+  std::vector<JudgementForecast> judgements;
 };
 
 /// The number of trials with which the whole comparison is decided with the stated probability: some measure
@@ -105,9 +116,9 @@ Forecast forecast_decision(const ForecastSamples& samples, const ForecastOptions
 /// @param pilot samples of the trials of one study
 Forecast forecast_equivalence(const ForecastSamples& pilot, const ForecastOptions& options);
 
-/// [measure] posterior probability that the effect is zero. z = e/s is modelled by a mixture of N(0, 1) for
-/// zero effects and N(0, 1 + 3²) for others. The weights are estimated from all z by expectation
-/// maximisation, with one more measure of each kind.
+/// [measure] Posterior probability that the true effect is zero. @param z [measure] effect divided by its
+/// standard error. z is modelled by a mixture of N(0, 1) for zero effects and N(0, 1 + 3²) for others. The
+/// weights are estimated from all z by expectation maximisation, with one more measure of each kind.
 std::vector<double> zero_difference_probabilities(const std::vector<double>& z);
 
 }  // namespace zerocount::comparison

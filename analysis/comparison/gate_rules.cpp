@@ -32,8 +32,8 @@ auto find_named(const List& all, std::string_view name) {
   return std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.name == name; });
 }
 
-/// Appends the quantities of a measure. @param stem name of the measure, which precedes the name of a
-/// quantile
+/// Appends the quantities of a measure that a requirement can limit, such as its quantiles. @param stem name
+/// of the measure, which precedes the name of a quantile
 void add_quantities(std::vector<RequirableQuantity>& quantities, const std::string& stem,
                     const GateMeasure& measure) {
   if (measure.proportion()) {
@@ -47,7 +47,7 @@ void add_quantities(std::vector<RequirableQuantity>& quantities, const std::stri
   }
 }
 
-/// Appends the quantities of the error bands and tolerances of the table.
+/// Appends the quantities that a requirement can limit for each error band and tolerance in the table.
 void add_limit_quantities(std::vector<RequirableQuantity>& quantities, const layout::MeasureTable& measures) {
   for (const layout::Measure& measure : measures) {
     if (!measure.band && !measure.tolerance) continue;
@@ -56,7 +56,8 @@ void add_limit_quantities(std::vector<RequirableQuantity>& quantities, const lay
   }
 }
 
-/// The number in brackets, 5 in "band_settling_time[5].p95"; empty without a number of at least 0.
+/// The number in the brackets of a name: 5 in "band_settling_time[5].p95". Empty if there is no number, or if
+/// it is negative.
 template <class Number>
 std::optional<Number> number_in(std::string_view name) {
   const std::size_t open = name.find('[');
@@ -66,8 +67,8 @@ std::optional<Number> number_in(std::string_view name) {
   return number && *number >= Number{} ? number : std::nullopt;
 }
 
-/// The features of a study that has the error band, or the tolerance, in "band_settling_time[5].p95" or
-/// "tolerance_settling_time[1e-8].p95"; empty for other names.
+/// The features of a study with just the error band or tolerance in the name: "band_settling_time[5].p95",
+/// "tolerance_settling_time[1e-8].p95". Empty for other names.
 std::optional<study::StudyFeatures> features_with_limit(std::string_view name) {
   study::StudyFeatures features;
   if (const auto band = number_in<std::int64_t>(name); band && name.starts_with("band_")) {
@@ -81,7 +82,8 @@ std::optional<study::StudyFeatures> features_with_limit(std::string_view name) {
   return features;
 }
 
-/// The name as files write it. Users may write a tolerance in several ways.
+/// The name of a quantity as results files write it. In the input, users may write the number of a tolerance
+/// in several ways, such as 1e-8 or 0.00000001.
 std::string name_in_files(std::string_view name) {
   const auto tolerance = number_in<double>(name);
   if (!tolerance || !layout::is_of_tolerance(name)) return std::string(name);
@@ -89,14 +91,15 @@ std::string name_in_files(std::string_view name) {
          std::string(name.substr(name.find(']') + 1));
 }
 
-/// The names by which the rules may call a measure, the most specific one first.
+/// The names by which the rules may refer to a measure, the most specific one first: "goal_rate[large]", then
+/// "goal_rate".
 std::vector<std::string> names_in_rules(const std::string& measure) {
   std::vector<std::string> names{measure};
   if (const std::string_view whole = without_goal(measure); whole != measure) names.emplace_back(whole);
   return names;
 }
 
-/// The rules for all points, followed by the rules for single points.
+/// Pointers to the rules for all points, followed by the rules for each single point.
 std::vector<const PointRules*> all_rules(const GateRules& rules) {
   std::vector<const PointRules*> all{&rules};
   for (const auto& [label, own] : rules.points) all.push_back(&own);
@@ -110,7 +113,8 @@ std::vector<const Requirement*> all_requirements(const GateRules& rules) {
   return all;
 }
 
-/// The names of all measures in the rules: in the list of measures, or with a margin.
+/// The names of all measures that occur in the rules: those in the list of judged measures, and those with a
+/// margin.
 std::vector<std::string> named_measures(const GateRules& rules) {
   std::vector<std::string> names = rules.measures;
   for (const PointRules* const one : all_rules(rules))
@@ -118,7 +122,7 @@ std::vector<std::string> named_measures(const GateRules& rules) {
   return names;
 }
 
-/// Whether the rules list the measure, by one of its names.
+/// Whether the measure is in the rules' list of judged measures, by one of its names.
 bool is_listed(const GateRules& rules, const std::string& measure) {
   return std::ranges::any_of(names_in_rules(measure), [&](const std::string& name) {
     return std::ranges::find(rules.measures, name) != rules.measures.end();
@@ -138,7 +142,8 @@ const GateMargin* margin_in(const std::map<std::string, GateMargin>& margins, co
   return nullptr;
 }
 
-/// The requirements, with the requirement `goal` replaced by one for each goal.
+/// Copy of the requirements, in which the requirement `goal` is replaced by one requirement for each goal.
+/// @param goals names of the goals
 std::vector<Requirement> for_each_goal(const std::vector<Requirement>& requirements,
                                        std::span<const std::string> goals) {
   std::vector<Requirement> all;
@@ -163,7 +168,7 @@ std::vector<std::string> names_of(const List& all) {
   return names;
 }
 
-/// A key of a map, with the function that reads its value.
+/// A key that a map of the YAML file may have, with the function that reads its value.
 struct Key {
   std::string name;
   std::function<void(const yaml::Field&)> read;
@@ -179,7 +184,8 @@ void read_keys(const yaml::Field& map, const std::vector<Key>& keys, yaml::Probl
   }
 }
 
-/// Reads `worse` or `changed`. True for `changed`: a change for the better fails too.
+/// Reads the key that says which change fails the gate: `worse` or `changed`. True for `changed`: a change
+/// for the better fails too.
 bool read_changed_fails(const yaml::Field& field, yaml::Problems& problems) {
   const std::optional<std::string> word = yaml::read_text(field, problems);
   if (!word) return false;
@@ -190,7 +196,8 @@ bool read_changed_fails(const yaml::Field& field, yaml::Problems& problems) {
   return *word == "changed";
 }
 
-/// Reads a margin: a map, or a number that is the absolute margin. Empty if it is invalid.
+/// Reads a margin from YAML: a map, or a number, which is the absolute margin. Null if it is invalid; the
+/// problem is then added to `problems`.
 std::optional<GateMargin> read_margin(const yaml::Field& field, yaml::Problems& problems) {
   GateMargin margin;
   if (field.node->kind == yaml::YamlNode::Kind::scalar) {
@@ -235,7 +242,8 @@ void read_margin_of(const yaml::Field& map, const yaml::YamlEntry& entry,
 
 const char* const requirement_form = "a text such as 'success_rate ≥ 0.995' (or >=, ≤, <=), or goal";
 
-/// The parts of a text such as "success_rate ≥ 0.995"; for "goal" only the name.
+/// The parts (name, sign, limit) of a requirement such as "success_rate ≥ 0.995"; for "goal" only the name.
+/// Empty if the text is neither.
 std::optional<text::Relation> parts_of(std::string_view text) {
   const std::string_view name = text::trimmed(text);
   if (name == "goal") return text::Relation{name, {}, {}, {}};
@@ -288,7 +296,7 @@ std::optional<Requirement> read_requirement(const yaml::Field& field, yaml::Prob
   return requirement;
 }
 
-/// Reads one requirement, or a list of requirements.
+/// Reads one requirement, or a list of requirements, and appends them. Mistakes are added to `problems`.
 void read_requirements(const yaml::Field& field, std::vector<Requirement>& requirements,
                        yaml::Problems& problems) {
   const auto add = [&](const yaml::Field& one) {
@@ -298,8 +306,8 @@ void read_requirements(const yaml::Field& field, std::vector<Requirement>& requi
   for (std::size_t i = 0; i < field.node->items.size(); ++i) add(yaml::item_of(field, i));
 }
 
-/// Reads a map of margins by measure. @param is_own whether the map is for a single point; it may then
-/// contain `require`
+/// Reads a map {name of a measure: margin} into `rules`. @param is_own whether the map is for a single design
+/// point; it may then contain `require`
 void read_point(const yaml::Field& field, bool is_own, PointRules& rules, yaml::Problems& problems) {
   const char* const expected =
       is_own ? "a map from measures to margins, and require" : "a map from measures to margins";
@@ -350,7 +358,8 @@ void read_measures(const yaml::Field& field, std::vector<std::string>& measures,
   }
 }
 
-/// The keys of the file. @param labels labels of the design points
+/// The top-level keys of the file of margins and requirements. @param labels labels of the compared design
+/// points, which the file may name
 std::vector<Key> keys_of(GateRules& rules, std::span<const std::string> labels, yaml::Problems& problems) {
   using yaml::Field;
   const auto number = [&](double& to, double low, double high) {

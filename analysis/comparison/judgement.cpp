@@ -11,7 +11,8 @@
 namespace zerocount::comparison {
 namespace {
 
-/// Number of steps of the fixed-point iteration for detectable_change(); each at least halves the error.
+/// Number of steps of the fixed-point iteration with which detectable_change() finds the smallest detectable
+/// change; each step at least halves the error.
 constexpr int detectable_steps = 40;
 
 /// The harmonic number 1 + 1/2 + … + 1/n.
@@ -21,15 +22,16 @@ double harmonic_number(std::size_t n) {
   return sum;
 }
 
-/// The p-value by which a failure is judged: one-sided, for a change for the worse beyond the margin;
-/// two-sided if every change fails.
+/// The p-value of a failure of the gate: one-sided, for a change for the worse beyond the margin; two-sided
+/// if a change in either direction fails.
 double failure_p(const TestedMeasure& measure) {
   const two_samples::DirectionalP& p = measure.beyond;
   return measure.changed_fails ? std::min(1.0, 2.0 * std::min(p.worse, p.better)) : p.worse;
 }
 
-/// Adjusts the p-values. Failures form one family of tests, improvements another. If every change of a
-/// measure fails, its p-value in the first family counts for the direction of its effect.
+/// Computes the p-values that are adjusted for false discoveries. Failures of the gate form one family of
+/// tests, improvements another. If a change of a measure in either direction fails, its p-value in the first
+/// family counts for the direction of its effect.
 void adjust(std::span<TestedMeasure> tested) {
   std::vector<double> failures;
   std::vector<double> improvements;
@@ -55,7 +57,7 @@ ChangeVerdict change_of(const TestedMeasure& measure, double rate) {
   return measure.bounds.low > -measure.margin ? ChangeVerdict::equivalent : ChangeVerdict::not_worse;
 }
 
-/// The reason why a measure is inconclusive.
+/// The reason why a measure is inconclusive, as a text for the reader.
 std::string reason_of(const TestedMeasure& measure) {
   const bool beyond =
       measure.effect > measure.margin || (measure.changed_fails && -measure.effect > measure.margin);

@@ -18,75 +18,101 @@ namespace zerocount::comparison {
 /// change is found.
 inline constexpr double decision_probability = 0.8;
 
-/// The gate's verdict on a measure, a requirement, a point or the whole comparison; the worst first.
+/// Verdict of the gate (the pass/fail check of a comparison) on a measure, a requirement, a point or the
+/// whole comparison; the worst first.
 enum class GateVerdict {
-  regression,    ///< Shown: worse by more than the margin, or the requirement is not met.
-  changed,       ///< Shown: better by more than the margin, and every change fails.
-  inconclusive,  ///< Neither a failure nor its absence is shown.
-  passed,        ///< Shown: no failing change exceeds the margin, or the requirement is met.
-  not_measured   ///< Too few trials have a value; does not affect the other verdicts.
+  /// The data show a failure: a change for the worse beyond the margin, or a requirement that is not met.
+  regression,
+  /// The data show a change for the better beyond the margin, and the rules say that every change fails.
+  changed,
+  inconclusive,  ///< The data show neither a failure nor that there is none.
+  /// The data show that no change that would fail exceeds the margin, or that the requirement is met.
+  passed,
+  not_measured  ///< Too few trials have a value; the verdict on the whole comparison does not depend on it.
 };
 
 /// The change of one measure that the data show. It determines the gate's verdict. e is the effect (positive:
 /// for the worse) and M the margin.
 enum class ChangeVerdict {
-  worse,        ///< e > M is shown: by the adjusted p of e ≤ M, and by the lower bound
-  better,       ///< e < −M is shown: by the adjusted p of e ≥ −M, and by the upper bound
-  equivalent,   ///< −M < e < M: both one-sided bounds are within the margin
-  not_worse,    ///< only e < M is shown: the measure is better or equivalent
-  undecided,    ///< none of the changes above is shown
-  not_measured  ///< too few trials have a value
+  /// Effect e > M is shown, a change for the worse beyond the margin M: by the adjusted p of e ≤ M, and by
+  /// the lower bound of e.
+  worse,
+  /// Effect e < −M is shown, a change for the better beyond the margin M: by the adjusted p of e ≥ −M, and by
+  /// the upper bound of e.
+  better,
+  /// −M < e < M is shown, a change within the margin M: both one-sided bounds of e are within it.
+  equivalent,
+  /// Only e < M is shown: the measure is better or equivalent, but not worse by more than the margin M.
+  not_worse,
+  undecided,    ///< None of the other changes is shown.
+  not_measured  ///< Too few trials have a value for a test.
 };
 
-/// "passed", "regression", "changed", "inconclusive" or "not measured".
+/// Text of a verdict: "passed", "regression", "changed", "inconclusive" or "not measured".
 std::string_view to_string(GateVerdict verdict);
-/// "worse", "better", "equivalent", "not worse", "undecided" or "not measured".
+/// Text of a change: "worse", "better", "equivalent", "not worse", "undecided" or "not measured".
 std::string_view to_string(ChangeVerdict change);
 
-/// Whether the verdict fails the gate.
+/// Whether the verdict fails the gate: regression or changed.
 constexpr bool fails(GateVerdict verdict) {
   return verdict == GateVerdict::regression || verdict == GateVerdict::changed;
 }
 
-/// The gate's verdict on a change. @param changed_fails whether a change for the better fails too
+/// The gate's verdict that follows from a shown change of a measure. @param changed_fails whether a change
+/// for the better fails too
 GateVerdict gate_verdict(ChangeVerdict change, bool changed_fails);
 
 /// The worst of several verdicts, in the order of GateVerdict; not_measured if all are not_measured.
 GateVerdict worst_of(std::span<const GateVerdict> verdicts);
 
-/// The numbers of one measure that determine its verdict.
+/// The change of one measure between the two files, with the numbers that determine its verdict.
 struct TestedMeasure : two_samples::Change {
-  double margin{statistics::unknown};      ///< largest accepted effect
-  bool changed_fails{false};               ///< A change for the better beyond the margin fails too.
-  double adjusted_p{statistics::unknown};  ///< beyond.worse, adjusted for false discoveries
-  double adjusted_improvement_p{statistics::unknown};  ///< beyond.better, adjusted for false discoveries
+  /// Largest effect (change for the worse) that is accepted, in the measure's unit.
+  double margin{statistics::unknown};
+  bool changed_fails{false};  ///< True: a change for the better beyond the margin fails the gate, too.
+  /// p-value of the hypothesis that the measure is not worse by more than the margin (beyond.worse), adjusted
+  /// for false discoveries.
+  double adjusted_p{statistics::unknown};
+  /// p-value of the hypothesis that the measure is not better by more than the margin (beyond.better),
+  /// adjusted for false discoveries.
+  double adjusted_improvement_p{statistics::unknown};
   ChangeVerdict change{ChangeVerdict::not_measured};
 };
 
-/// The judgement of a measure at a design point in the two files, or of an absolute requirement on a quantity
-/// of the current file. For a requirement, `margin` is its limit.
+/// The judgement of a measure at a design point by comparing the two files, or of an absolute requirement on
+/// a quantity of the current file alone. For a requirement, `margin` is its limit.
 struct Judgement : TestedMeasure {
-  std::string measure{};  ///< Name in gate_measures(); for a requirement the quantity, "arrival_time.p95".
-  std::string unit{};     ///< Unit of every value of the judgement.
-  std::string requirement{};   ///< Text of the requirement, "success_rate ≥ 0.995"; empty for a measure.
-  bool at_least{true};         ///< Sign of a requirement: ≥ if true, otherwise ≤.
-  std::string test{};          ///< Name of the test that gave p.
-  std::int64_t baseline_n{0};  ///< Number of trials of the baseline with a value; if paired, number of pairs.
-  std::int64_t current_n{0};   ///< Number of trials of the current file with a value; if paired, of pairs.
-  double baseline{statistics::unknown};  ///< proportion, mean or quantile of the baseline
-  double current{statistics::unknown};   ///< proportion, mean or quantile of the current file
-  /// Smallest true change for the worse that these trials find with decision_probability
-  /// (detectable_change()).
+  /// Name of the measure in gate_measures(); for a requirement the name of its quantity, "arrival_time.p95".
+  std::string measure{};
+  std::string unit{};         ///< Unit of the values, effects, bounds and margins of the judgement.
+  std::string requirement{};  ///< Text of the requirement, "success_rate ≥ 0.995"; empty for a measure.
+  /// Direction of a requirement: true if the quantity must be at least (≥) the limit, false if at most (≤).
+  bool at_least{true};
+  std::string test{};  ///< Name of the statistical test that gave the p-values.
+  /// Number of trials of the baseline with a value; if trials are paired, number of pairs.
+  std::int64_t baseline_n{0};
+  /// Number of trials of the current file with a value; if trials are paired, number of pairs.
+  std::int64_t current_n{0};
+  /// Value of the baseline: the proportion, mean or quantile that is compared.
+  double baseline{statistics::unknown};
+  /// Value of the current file: the proportion, mean or quantile that is compared.
+  double current{statistics::unknown};
+  /// Smallest true change for the worse that a study with these trials finds with probability
+  /// decision_probability (detectable_change()), in the measure's unit.
   double detectable_change{statistics::unknown};
-  bool paired_proportion{false};                   ///< The trials of a proportion were compared one by one.
-  GateVerdict verdict{GateVerdict::not_measured};  ///< The gate's verdict.
-  /// Trials per design point that decide an inconclusive judgement with decision_probability.
+  /// True: the measure is a proportion, and its trials were compared one by one.
+  bool paired_proportion{false};
+  GateVerdict verdict{GateVerdict::not_measured};  ///< The gate's verdict on this measure or requirement.
+  /// For an inconclusive judgement: number of trials per design point that decides it with probability
+  /// decision_probability. Null if no tried number does.
   std::optional<double> trials_to_decide{};
-  /// For an inconclusive measure: the present trials decide any margin larger than this.
+  /// For an inconclusive measure: smallest margin, in its unit. The present trials would decide any margin
+  /// larger than this.
   double decided_margin{statistics::unknown};
-  /// Set if no number of trials decides: the smallest margin that max_trials_to_decide trials decide.
+  /// If no tried number of trials decides the measure: the smallest margin that
+  /// StudyComparison::max_trials_to_decide trials decide. Otherwise unknown (NaN).
   double max_trials_margin{statistics::unknown};
-  std::string note{};  ///< reason or remark; may be empty
+  std::string note{};  ///< Reason for the verdict, or another remark; may be empty.
 
   bool is_measure() const { return requirement.empty(); }
   bool is_open() const { return verdict == GateVerdict::inconclusive; }
@@ -96,28 +122,29 @@ struct Judgement : TestedMeasure {
 /// bounds.
 bool has_finite_bounds(const TestedMeasure& measure);
 
-/// The standard error of a normal distribution with these one-sided bounds. @param confidence confidence of
-/// each bound
+/// The standard error of a normally distributed estimate with these one-sided bounds. @param confidence
+/// confidence of each bound
 double standard_error_of(const statistics::ConfidenceInterval& bounds, double confidence);
 
-/// The largest failing change that the bounds of the measure leave possible. A margin larger than this is
-/// decided.
+/// The largest change, among those that would fail the gate, that is still possible by the bounds of the
+/// measure. If the margin were larger than this, the measure would be decided.
 double largest_possible_change(const TestedMeasure& measure);
 
-/// Adjusts the p-values of all measures of a comparison, and sets the verdict on the change of each.
-/// @param rate accepted rate of false discoveries
+/// Adjusts the p-values of all measures of a comparison for false discoveries, and sets the shown change of
+/// each. @param rate accepted false discovery rate
 void decide(std::span<TestedMeasure> tested, double rate);
 
-/// Gives every measure its adjusted p-values and its verdicts.
+/// Gives every measure of a comparison its adjusted p-values and its verdicts.
 ///
 /// A measure is worse if the hypothesis of a change within the margin is rejected: its adjusted p is at most
-/// the rate, and the lower bound exceeds the margin. An estimate beyond the margin shows nothing by itself. A
-/// measure is better if both hold for the opposite direction. It is equivalent if both bounds of its effect
-/// are within the margin (two one-sided tests: Schuirmann, Journal of Pharmacokinetics and Biopharmaceutics
-/// 15 (1987), 657), and not worse if only the upper bound is below the margin. Worse fails the gate; better,
-/// equivalent and not worse pass. If every change fails, better fails too, and only equivalent passes.
+/// the accepted false discovery rate, and the lower bound of the effect exceeds the margin. An estimate
+/// beyond the margin shows nothing by itself. A measure is better if both hold for the opposite direction. It
+/// is equivalent if both bounds of its effect are within the margin (two one-sided tests: Schuirmann, Journal
+/// of Pharmacokinetics and Biopharmaceutics 15 (1987), 657), and not worse if only the upper bound is below
+/// the margin. Worse fails the gate; better, equivalent and not worse pass. If the rules say that every
+/// change fails, better fails too, and only equivalent passes.
 /// @param measures measures of all points
-/// @return number of tests over which the false discoveries were controlled
+/// @return number of tests over which the false discovery rate was controlled
 std::int64_t decide(std::span<Judgement* const> measures, const GateRules& rules);
 
 /// The smallest true change δ for the worse that is found with decision_probability, the solution of

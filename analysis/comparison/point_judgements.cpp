@@ -17,19 +17,21 @@ namespace {
 using two_samples::QuantileSample;
 using two_samples::Sample;
 
-/// The value transformed so that larger is worse; the transform is its own inverse. If less is worse, a
-/// proportion p becomes 1 − p, any other value changes its sign.
+/// The value of the measure, transformed so that a larger value is worse; the transform is its own inverse.
+/// If less of the measure is worse, a proportion p becomes 1 − p, and any other value changes its sign.
 double worsened(const GateMeasure& measure, double value) {
   if (measure.worse == layout::Worse::more) return value;
   return measure.proportion() ? 1.0 - value : -value;
 }
 
-/// Whether trials share machines, or worlds in place of machines.
+/// Whether the trials of either file share machines (or worlds in place of machines), so that trials are
+/// dependent.
 bool over_machines(const BothTrials& trials) {
   return trials.baseline.machines > 0 || trials.current.machines > 0;
 }
 
-/// [trial] the mean values in both files, over the moves that have a value in both; NaN if no move has.
+/// [trial] The mean value of the measure in both files, over the moves that have a value in both; NaN if no
+/// move has a value in both. For paired trials.
 Sample values_of_pairs(const BothTrials& trials, const GateMeasure& measure) {
   Sample sample{.paired = true};
   const std::vector<double>& before = trials.baseline.of(measure);
@@ -56,8 +58,8 @@ Sample values_of_pairs(const BothTrials& trials, const GateMeasure& measure) {
   return sample;
 }
 
-/// Number of trials on each machine that both files have. Machines are judged by the moves seen on each, so
-/// both files must contribute equally many.
+/// Number of trials of each machine that are used in both files: the smaller one of the two. Machines are
+/// judged by the moves seen on each, so both files must contribute equally many.
 std::int64_t common_trials_of_machine(const BothTrials& trials, std::size_t goal) {
   const auto of_machine = [goal](const PointTrials& all) {
     return all.trials / std::max<std::int64_t>(all.judged[goal].machines, 1);
@@ -78,7 +80,7 @@ std::vector<double> machines_in_goal(const PointTrials& trials, const GoalTrials
   return met;
 }
 
-/// [trial] proportion of the judged moves that meet the goal.
+/// [trial] Proportion of the moves that meet the goal, among the moves of the trial that the goal judges.
 std::vector<double> moves_in_goal(const PointTrials& trials, const GoalTrials& goal) {
   std::vector<double> met = goal.moves_in_goal;
   for (double& value : met) value /= static_cast<double>(goal.asked_moves(trials.moves));
@@ -92,14 +94,15 @@ std::int64_t clusters_of(const PointTrials& trials, const GateMeasure& measure) 
   return of_machines ? 0 : trials.machines;
 }
 
-/// Whether the measure is a proportion whose values are independent and each 0 or 1.
+/// Whether the values behind the measure are independent and each exactly 0 or 1, so that exact tests of
+/// proportions apply.
 bool are_whole(const PointTrials& trials, const GateMeasure& measure) {
   return measure.proportion() && clusters_of(trials, measure) == 0 &&
          (measure.statistic != GateStatistic::moves ||
           trials.judged[measure.goal].asked_moves(trials.moves) == 1);
 }
 
-/// The values of the trials in both files; for GateStatistic::machines, of the machines.
+/// The values of the measure in both files, one per trial; for GateStatistic::machines, one per machine.
 Sample values_of_both(const BothTrials& trials, const GateMeasure& measure) {
   if (!measure.proportion() && trials.paired) return values_of_pairs(trials, measure);
   const auto values = [&](const PointTrials& all) {
@@ -119,8 +122,9 @@ Sample values_of_both(const BothTrials& trials, const GateMeasure& measure) {
   return {.paired = trials.paired, .baseline = values(trials.baseline), .current = values(trials.current)};
 }
 
-/// Plausible difference of a single trial, the `unit` of cautious_bounds(). It is 1 for counts and
-/// proportions. For times it is the larger mean of the two files, or 1 ms if there is none.
+/// Plausible difference between two values of the measure in a single trial, the `unit` of cautious_bounds().
+/// It is 1 for counts and proportions. For times it is the larger mean of the two files, or 1 ms if there is
+/// none.
 double plausible_difference(const GateMeasure& measure, const Sample& sample) {
   if (measure.proportion() || measure.measure->field.column.element != hdf5::Element::float64) return 1.0;
   const auto mean = [](const std::vector<double>& values) {
@@ -130,7 +134,8 @@ double plausible_difference(const GateMeasure& measure, const Sample& sample) {
   return value > 0.0 ? value : 1e-3;
 }
 
-/// The values of the independent units in both files, transformed by worsened().
+/// The values of the measure for the independent units (trials, machines or worlds) in both files,
+/// transformed by worsened() so that larger is worse.
 Sample sample_of(const BothTrials& trials, const GateMeasure& measure) {
   Sample sample = values_of_both(trials, measure);
   sample.failures = are_whole(trials.baseline, measure) && are_whole(trials.current, measure);
@@ -156,15 +161,16 @@ std::string test_name(const Sample& sample, bool over_machines) {
                      over_machines ? ", over machines" : "");
 }
 
-/// The margin for a given value of the baseline: the larger of the absolute and the relative part. If the
-/// value is unknown or infinite, only the absolute part applies.
+/// The margin as a change in the measure's unit, for this value of the baseline: the larger of the absolute
+/// margin and of the relative one times the value. If the value is unknown or infinite, only the absolute
+/// margin applies.
 double margin_at(const GateMargin& margin, double baseline) {
   return std::isfinite(baseline) ? std::max(margin.absolute, margin.relative * std::abs(baseline))
                                  : margin.absolute;
 }
 
-/// Stores the values of the sample in the judgement and, if there are enough of them, the change that they
-/// show.
+/// Stores the values of both files in the judgement and, if there are enough of them, the change that they
+/// show with its bounds and p-values.
 void compare_sample(Judgement& result, const GateMeasure& measure, const BothTrials& trials,
                     const GateMargin& margin, double confidence) {
   const Sample sample = sample_of(trials, measure);
@@ -186,7 +192,7 @@ void compare_sample(Judgement& result, const GateMeasure& measure, const BothTri
   static_cast<two_samples::Change&>(result) = two_samples::change_of(sample, confidence, result.margin);
 }
 
-/// Probability of the compared quantile of the goal's settling time.
+/// Probability of that quantile of the goal's settling time that is compared between the files.
 constexpr double judged_quantile = 0.95;
 
 QuantileSample times_of(const BothTrials& trials, const GateMeasure& measure) {
@@ -222,8 +228,10 @@ void compare_quantile(Judgement& result, const GateMeasure& measure, const BothT
   static_cast<two_samples::Change&>(result) = two_samples::change_of(times, confidence, result.margin);
 }
 
-/// Bounds of the proportion of hits among events. @param sums sums_of_unit() over all units @param clustered
-/// whether the units are machines
+/// Bounds of a proportion of hits among events.
+/// @param sums sums_of_unit() summed over all units
+/// @param clustered whether the units are machines, on which events are dependent
+/// @param low_confidence, high_confidence confidence of the lower and of the upper bound
 statistics::ConfidenceInterval proportion_bounds(const two_samples::Sums& sums, bool clustered,
                                                  double low_confidence, double high_confidence) {
   const std::int64_t hits = std::llround(sums[1]);
@@ -268,7 +276,8 @@ void judge_mean(Judgement& result, const std::vector<double>& values, double con
   result.verdict = verdict_of(result.bounds, result.margin, result.at_least);
 }
 
-/// Judges the requirement `goal` by the verdict on the goal, with the confidence that the manifest states.
+/// Judges the requirement that the goal is met by the verdict on the goal, with the confidence that the
+/// manifest states. @param claims number of claims that must all be met
 void judge_goal(Judgement& result, const GoalTrials& required, std::size_t claims) {
   const study::Goal& asked = required.goal;
   const measures::MoveCounts counts = required.counts.sum();
@@ -285,7 +294,8 @@ void judge_goal(Judgement& result, const GoalTrials& required, std::size_t claim
 }
 
 /// Sets the hits and events of the sample, summed by unit. Trial i belongs to unit i mod `units`; if `units`
-/// is 0, each trial is a unit. @param hits [trial] @param events events of each trial
+/// is 0, each trial is a unit. @param hits [trial] number of hits @param events number of events of each
+/// trial
 void add_units(RequirementSample& sample, std::span<const double> hits, double events, std::int64_t units) {
   const std::size_t count = units > 0 ? static_cast<std::size_t>(units) : hits.size();
   sample.hits.assign(count, 0.0);
@@ -296,8 +306,9 @@ void add_units(RequirementSample& sample, std::span<const double> hits, double e
   }
 }
 
-/// The sample of the requirement `goal`: by machine or trial, the moves that meet the goal. If the goal asks
-/// for machines: whether the machine meets it. If worlds take the place of machines, the units are worlds.
+/// The sample behind the requirement that the goal is met: for each machine, or each trial without machines,
+/// its moves and those that meet the goal. If the goal asks for a proportion of machines: whether each
+/// machine meets it. If worlds take the place of machines, the units are worlds.
 RequirementSample goal_sample(const PointTrials& trials, const GoalTrials& counted) {
   const study::Goal& goal = counted.goal;
   RequirementSample sample{RequirementKind::goal, true, goal.machines.value_or(goal.moves), true};
@@ -320,7 +331,7 @@ RequirementSample goal_sample(const PointTrials& trials, const GoalTrials& count
   return sample;
 }
 
-/// [trial] 1 if the trial meets the requirement by itself, otherwise 0.
+/// [trial] 1 if the value of this trial satisfies the requirement, otherwise 0.
 std::vector<double> met_by_trial(const Requirement& requirement, const PointTrials& trials) {
   const RequirableQuantity& quantity = requirement.quantity;
   if (quantity.kind == RequirementKind::proportion) return trials.of(quantity.measure);

@@ -16,18 +16,19 @@ namespace zerocount::comparison {
 /// they do not arrive, the proportion of arrivals shows the difference.
 inline constexpr std::int64_t min_values = 20;
 
-/// The trials of a point in both files.
+/// The compared trials of one design point in the baseline and in the current file.
 struct BothTrials {
   const PointTrials& baseline;
   const PointTrials& current;
-  bool paired{false};  ///< Trial i drew the same random numbers in both; both have equal numbers of trials.
+  /// True: trial i drew the same random numbers in both files, and both have equal numbers of trials.
+  bool paired{false};
 };
 
-/// The measures that are judged at a point with these trials.
+/// The measures that are judged, by these rules, at a design point with these trials.
 std::vector<GateMeasure> judged_measures(const GateRules& rules, const PointTrials& trials);
 
-/// Tests all judged measures at one point. The verdicts follow in decide(), which controls the false
-/// discoveries over all points.
+/// Tests all judged measures at the design point with this label. The verdicts are not set yet; decide() sets
+/// them, which controls the false discovery rate over all points.
 std::vector<Judgement> compare_measures(const GateRules& rules, const std::string& label,
                                         const BothTrials& trials);
 
@@ -47,23 +48,27 @@ std::vector<two_samples::Sample> measure_samples(const GateRules& rules, std::sp
 Judgement judge_requirement(const Requirement& requirement, const PointTrials& trials, double confidence,
                             double failing_confidence);
 
-/// The numbers of the independent units by which a requirement is judged.
+/// The sample by which a requirement is judged: one pair of numbers for each independent unit (trial, machine
+/// or world).
 struct RequirementSample {
   RequirementKind kind{RequirementKind::proportion};
   bool at_least{true};
-  double limit{0.0};      ///< Limit of the mean, or of the proportion of trials.
-  bool clustered{false};  ///< The units are machines, not single trials.
-  /// [unit] number of trials that meet the requirement by themselves; for a mean, the value of the unit.
+  double limit{0.0};      ///< Limit of the requirement: for the mean, or for the proportion of trials.
+  bool clustered{false};  ///< True: the independent units are machines or worlds. False: single trials.
+  /// [unit] Number of the unit's trials (for a goal: moves) that satisfy the requirement; for a mean, the
+  /// value of the unit.
   std::vector<double> hits{};
-  std::vector<double> events{};  ///< [unit] number of trials; 1 for a mean
+  std::vector<double> events{};  ///< [unit] Number of the unit's trials (for a goal: moves); 1 for a mean.
 };
 RequirementSample requirement_sample(const Requirement& requirement, const PointTrials& trials);
 
-/// The terms 1, h, e, h², h·e, e² of a unit with h hits in e events. The verdict depends on the sums of these
-/// terms over the units.
+/// The terms 1, h, e, h², h·e, e² of an independent unit with h hits in e events. The verdict on a
+/// requirement depends on the sums of these terms over the units.
 two_samples::Sums sums_of_unit(double hits, double events);
 
-/// The verdict of judge_requirement() on a sample with these sums.
+/// The verdict of judge_requirement() from sums alone. @param sample the requirement; its values are not used
+/// @param sums sums_of_unit() summed over the units @param confidence, failing_confidence as for
+/// judge_requirement()
 GateVerdict requirement_verdict(const RequirementSample& sample, const two_samples::Sums& sums,
                                 double confidence, double failing_confidence);
 

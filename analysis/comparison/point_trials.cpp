@@ -11,7 +11,8 @@
 namespace zerocount::comparison {
 namespace {
 
-/// Counts trials by a goal. @param first index of the first of these trials at its point
+/// Adds trials to the counts of a goal. @param first index of the first of these trials at its design point
+/// @param moves number of moves of each trial @param outcomes [trial][move], flattened
 void add_to_goal(GoalTrials& goal, std::int64_t first, std::int64_t moves,
                  std::span<const trial::MoveOutcome> outcomes) {
   for (auto move = outcomes.begin(); move != outcomes.end(); move += moves) {
@@ -20,7 +21,7 @@ void add_to_goal(GoalTrials& goal, std::int64_t first, std::int64_t moves,
   }
 }
 
-/// Appends the settling times of the moves that the goal judges, s; infinity for moves that do not settle.
+/// Appends the settling times of the moves that the goal judges, s; infinity for a move that does not settle.
 void add_goal_times(std::vector<double>& times, const GoalTrials& goal,
                     std::span<const trial::MoveOutcome> outcomes) {
   for (const trial::MoveOutcome& move : outcomes) {
@@ -38,7 +39,8 @@ PointTrials empty_trials(std::int64_t moves, const AlsoRead& also, const layout:
   return trials;
 }
 
-/// Adds trials, from the outcomes of all their moves, [trial][move], flattened.
+/// Adds the compared values of further trials. @param outcomes outcomes of all their moves, [trial][move],
+/// flattened
 void add_trials(PointTrials& trials, std::span<const trial::MoveOutcome> outcomes) {
   for (GoalTrials& goal : trials.required) add_to_goal(goal, trials.trials, trials.moves, outcomes);
   for (GoalTrials& goal : trials.judged) {

@@ -16,30 +16,36 @@
 
 namespace zerocount::comparison {
 
-/// The trials of one design point, counted by one goal.
+/// One goal with the counts of the moves that meet it, for the trials of one design point.
 struct GoalTrials {
   study::Goal goal{};
   measures::CountedGoal counted{};
-  std::int64_t machines{0};  ///< Number of machines, even if worlds take their place; 0: none.
+  /// Number of machines, also if worlds take their place as independent units; 0: the study has no machines.
+  std::int64_t machines{0};
   /// Counts of moves by machine; without machines, by world (a draw of what all machines share).
   measures::CellCounts counts{};
-  std::vector<double> moves_in_goal{};  ///< [trial] number of moves that meet the goal
+  /// [trial] Number of moves that meet the goal, among those that it judges.
+  std::vector<double> moves_in_goal{};
 
   /// Number of moves of a trial that the goal judges. @param moves number of moves of a trial
   std::int64_t asked_moves(std::int64_t moves) const { return measures::asked_moves(counted, moves); }
-  /// Key of the goal's settling times in PointTrials::values: "goal_settling_time",
+  /// Key of the goal's settling times in PointTrials::values: "goal_settling_time", or with the goal's name
   /// "goal_settling_time[large]".
   std::string settling_time() const { return name_of_goal_measure("goal_settling_time", goal.name); }
 };
 
-/// The values of trials that are read in addition to the gate measures.
+/// Data of the trials that are read in addition to the values of the gate measures.
 struct AlsoRead {
-  std::vector<GateMeasure> bands{};    ///< Measures of error bands and tolerances that the file has.
-  std::vector<GoalTrials> required{};  ///< Counts by the goals that a requirement asks for.
-  std::vector<GoalTrials> judged{};    ///< Counts by the goals whose measures are judged.
-  std::size_t claims{1};  ///< Claims on a design point that must all be met: goals times settings.
-  /// Number of machines, or of worlds in their place. Trial i is on machine i mod machines. 0: no trials
-  /// share a machine.
+  /// Measures of error bands and tolerances that requirements name and the file has.
+  std::vector<GateMeasure> bands{};
+  /// Goals that a requirement names, with the counts of the moves that meet them.
+  std::vector<GoalTrials> required{};
+  /// Goals whose measures are judged, with the counts of the moves that meet them.
+  std::vector<GoalTrials> judged{};
+  /// Number of claims on a design point that must all be met: number of goals times number of settings.
+  std::size_t claims{1};
+  /// Number of clusters of dependent trials: machines, or worlds in their place. Trial i belongs to cluster i
+  /// mod `machines`. 0: all trials are independent.
   std::int64_t machines{0};
 };
 
@@ -47,11 +53,12 @@ struct AlsoRead {
 struct PointTrials : AlsoRead {
   std::int64_t trials{0};
   std::int64_t moves{0};  ///< Number of moves of each trial.
-  /// [name of the gate measure] the values. Qualities (1 or 0) and sums: [trial]. Other measures:
+  /// {name of a gate measure: its values}. Qualities (1 or 0) and sums: one per trial. Other measures:
   /// [trial][move], flattened; NaN if a move has no value. goal_settling_time: infinite if the error does not
   /// settle.
   std::map<std::string, std::vector<double>, std::less<>> values{};
-  measures::UndecidedMoves undecided{};  ///< Undecided moves among all moves.
+  /// Counts of the moves that ended off target and are undecided: neither stable nor shown unstable.
+  measures::UndecidedMoves undecided{};
   const layout::MeasureTable* table{&layout::measure_table()};
 
   const std::vector<double>& of(const GateMeasure& measure) const {
@@ -59,8 +66,8 @@ struct PointTrials : AlsoRead {
   }
 };
 
-/// The compared values of trials. @param outcomes outcomes of all moves of the trials, [trial][move],
-/// flattened
+/// The compared values of trials that are in memory. @param outcomes outcomes of all moves of the trials,
+/// [trial][move], flattened
 /// @param moves number of moves of each trial
 PointTrials gather_trials(std::span<const trial::MoveOutcome> outcomes, std::int64_t moves,
                           const AlsoRead& also = {},
@@ -72,11 +79,11 @@ PointTrials read_point_trials(const reading::AllTrialsFile& file, std::int64_t p
                               const AlsoRead& also = {});
 
 /// A copy with only the first `trials` trials. `undecided`, `required` and GoalTrials::counts of `judged`
-/// stay those of all trials.
+/// still refer to all trials.
 PointTrials first_trials(const PointTrials& all, std::int64_t trials);
 
-/// [trial] mean over the moves with a value; NaN if no move has a value. For arrival_time this is the mean
-/// arrival time of the moves, not the settling time of the trial (worst_of_moves()).
+/// [trial] Mean over those moves of the trial that have a value; NaN if no move has one. For arrival_time
+/// this is the mean arrival time of the moves, not the settling time of the trial (worst_of_moves()).
 std::vector<double> values_of_trials(const PointTrials& trials, const GateMeasure& measure);
 
 /// [machine] mean over the trials of the machine, ignoring NaN; NaN for a machine without a value. Without
@@ -84,8 +91,8 @@ std::vector<double> values_of_trials(const PointTrials& trials, const GateMeasur
 /// @param values [trial]
 std::vector<double> means_of_units(std::span<const double> values, std::int64_t machines);
 
-/// [trial] worst value of the moves; infinitely bad if a move has no value. For arrival_time this is the
-/// settling time of the trial.
+/// [trial] Worst value among the moves of the trial; infinitely bad if a move has no value. For arrival_time
+/// this is the settling time of the trial.
 std::vector<double> worst_of_moves(const PointTrials& trials, const GateMeasure& measure);
 
 }  // namespace zerocount::comparison

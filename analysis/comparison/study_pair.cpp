@@ -32,7 +32,9 @@ std::string some_of(const std::vector<std::string>& names) {
   return names.size() > shown ? fmt::format("{} and {} more", text, names.size() - shown) : text;
 }
 
-/// @param what noun for the things with these names: "design points"
+/// Requires that both files have the same names of something, such as design points. @param before names in
+/// the baseline @param after names in the current file @param what noun for the things with these names:
+/// "design points"
 /// @throws Failure (bad_data) with a list of the names without a partner
 void require_same_names(const StudyPair& pair, const std::vector<std::string>& before,
                         const std::vector<std::string>& after, std::string_view what) {
@@ -62,7 +64,8 @@ std::map<std::string, std::int64_t> points_by_label(const AllTrialsFile& file) {
   return points;
 }
 
-/// Text that reads back to the same number; "drawn" for any NaN.
+/// Text of a swept value that reads back to the same number; "drawn" for any NaN, which marks a value that is
+/// drawn at random.
 std::string exact_text(double value) {
   return std::isnan(value) ? "drawn" : fmt::format("{}", value);
 }
@@ -103,13 +106,15 @@ void match_points(StudyPair& pair) {
   require_equal_axes(pair);
 }
 
-/// The labels of the settings. Empty without settings; the manifest is then not parsed.
+/// The labels of the settings (conditions at ages) of the study. Empty without settings; the manifest is then
+/// not parsed.
 std::vector<std::string> labels_of_settings(const AllTrialsFile& file) {
   const bool any = file.root().contains("condition") || file.root().contains("age");
   return any ? study::labels_of(file.study().settings) : std::vector<std::string>();
 }
 
-/// Replaces the points of the pair by each point in each setting, ordered by point.
+/// Replaces each matched design point of the pair by one entry for each setting that it has; ordered by
+/// point, then by setting. @throws Failure (bad_data) if the files have different settings
 void match_settings(StudyPair& pair) {
   const std::vector<std::string> names = labels_of_settings(pair.baseline.file);
   require_same_names(pair, names, labels_of_settings(pair.current.file), "conditions");
@@ -142,7 +147,7 @@ void require_same_kind(const StudyPair& pair) {
 
 constexpr const char* expected_goal = "expected one such as goal: {band: 1, within: 0.05, moves: 0.99}";
 
-/// The goals of the manifest; empty if it has none.
+/// The goals in the manifest of the study; empty if it has none.
 std::vector<study::Goal> goals_of(const ComparedStudy& study) {
   const bool has_goal = std::ranges::any_of(study.values, [](const auto& value) {
     return keys::is_within(value.first, "goal") || keys::is_within(value.first, "goals");
@@ -154,7 +159,8 @@ std::int64_t whole_value(const ComparedStudy& study, const std::string& key) {
   return std::stoll(value_or(study.values, key, "0"));
 }
 
-/// The goal adapted to this file, whose loop may be closed by the encoder of the other mass.
+/// Copy of the goal for this file. It judges the same mass as `goal`, but Goal::of_other_mass says whether,
+/// in this file, the encoder of the other mass closes the loop.
 study::Goal for_loop_of(const ComparedStudy& study, study::Goal goal) {
   const std::vector<study::Goal>& goals = study.file.study().goals;
   const auto own = std::ranges::find_if(goals, [](const study::Goal& one) { return one.of.has_value(); });
@@ -162,8 +168,7 @@ study::Goal for_loop_of(const ComparedStudy& study, study::Goal goal) {
   return goal;
 }
 
-/// The goals with the criteria by which the moves of the file are counted.
-/// @throws Failure (bad_data) if the file lacks a band, tolerance or limit of a goal
+/// The goals with the criteria by which the moves of this file are counted.
 std::vector<GoalTrials> counted_in(const ComparedStudy& study, const std::vector<study::Goal>& goals) {
   std::vector<GoalTrials> all;
   for (const study::Goal& of_both : goals) {
@@ -182,14 +187,17 @@ std::vector<GoalTrials> counted_in(const ComparedStudy& study, const std::vector
   return all;
 }
 
-/// @throws Failure (bad_input) always: the manifest of the file has no goal. @param purpose clause that says
-/// what the goal is needed for
+/// Throws the message that the manifest of the file has no goal, although one is needed. @param purpose
+/// clause that says what the goal is needed for
+/// @throws Failure (bad_input) always
 [[noreturn]] void refuse_without_goal(const AllTrialsFile& file, std::string_view purpose) {
   throw Failure(ExitCode::bad_input, fmt::format("{}: its manifest has no goal, {}; {}", file.path().string(),
                                                  purpose, expected_goal));
 }
 
-/// The measure in the file's own table for a measure of an error band or tolerance that a requirement names.
+/// The measure with the same band or tolerance in the file's own table. @param wanted measure of an error
+/// band or tolerance that a requirement names
+/// @throws Failure (bad_input) if the file lacks it
 GateMeasure in_file(const AllTrialsFile& file, const GateMeasure& wanted) {
   const bool of_tolerance = wanted.measure->tolerance.has_value();
   std::vector<std::string> limits;
@@ -229,8 +237,9 @@ void take_goals(StudyPair& pair, const GateRules& rules) {
     also.bands.push_back(in_file(pair.current.file, measure));
 }
 
-/// Sets the number of compared trials of each point, and the units of independent trials. If the studies have
-/// different worlds, the trials in one world are dependent; otherwise the trials on one machine.
+/// Sets the number of compared trials of each point, and the clusters of dependent trials. If the studies
+/// have different worlds (draws of what all machines share), the trials in one world are dependent; otherwise
+/// the trials on one machine.
 void take_trials(StudyPair& pair, const GateRules& rules) {
   const std::string before = value_or(pair.baseline.values, "worlds", "0");
   const std::string after = value_or(pair.current.values, "worlds", "0");
@@ -252,7 +261,8 @@ std::vector<std::string> names_of(const std::vector<GoalTrials>& goals) {
   return names;
 }
 
-/// Relation between the values of one drawn parameter in the two files; the worst comes last.
+/// Relation between the values of one random parameter in the two files, trial by trial; the worst relation
+/// comes last. same_order: the values differ, but sort the trials in the same order.
 enum class InputRelation { equal, same_order, different };
 
 InputRelation relation_of(const std::vector<double>& before, const std::vector<double>& after) {
@@ -268,8 +278,7 @@ InputRelation relation_of(const std::vector<double>& before, const std::vector<d
   return InputRelation::same_order;
 }
 
-/// The worst relation of one parameter over all points.
-/// @param columns column of the parameter in the baseline and in the current file
+/// The worst relation between the values of one random parameter in the two files, over all points.
 InputRelation relation_over_points(const StudyPair& pair, std::pair<std::size_t, std::size_t> columns) {
   const std::int64_t trials = std::min(pair.baseline.trials, pair.current.trials);
   const auto values = [&](const ComparedStudy& study, const MatchedPoint& point, std::int64_t at,

@@ -14,41 +14,48 @@ namespace zerocount::comparison {
 
 /// A design point that both files have, in one setting if the files have settings.
 struct MatchedPoint {
-  std::string label{};         ///< Label of the point, with the setting if there is one.
-  std::int64_t baseline{0};    ///< Index of the point in the baseline.
-  std::int64_t current{0};     ///< Index of the point in the current file.
-  std::string design_point{};  ///< Label of the point without the setting.
-  std::string setting{};       ///< Name of the setting; empty without settings.
-  std::size_t setting_at{0};   ///< Index of the setting in the order of the baseline.
+  std::string label{};         ///< Label of the design point, with the setting if there is one.
+  std::int64_t baseline{0};    ///< Index of the design point in the baseline.
+  std::int64_t current{0};     ///< Index of the design point in the current file.
+  std::string design_point{};  ///< Label of the design point without the setting.
+  /// Label of the setting (a condition at an age); empty if the studies have no settings.
+  std::string setting{};
+  std::size_t setting_at{0};  ///< Index of the setting in the baseline's list of settings.
 };
 
-/// One of the two files.
+/// One of the two results files that are compared, with what was found out about it.
 struct ComparedStudy {
   const reading::AllTrialsFile& file;
   manifest_text::ManifestValues values{};
-  std::vector<std::int64_t> under{};  ///< Indices of the settings, in the order of the baseline.
-  /// Number of machines, or of the worlds that take their place; 0: each trial is independent.
+  /// Indices of this file's settings, in the order of the baseline's settings; empty without settings.
+  std::vector<std::int64_t> under{};
+  /// Number of clusters of dependent trials: machines, or the worlds that take their place; 0: each trial is
+  /// independent.
   std::int64_t machines{0};
-  /// Number of trials that are compared at each point (in each setting). The first trials are taken.
+  /// Number of trials that are compared at each design point (in each setting), from the first trial on.
   std::int64_t trials{0};
   AlsoRead also{};  ///< Data that goals and requirements need, read in addition to the gate measures.
 
-  /// The trials of the point in its setting.
+  /// The file restricted to the setting of this point.
   reading::AllTrialsFile trials_of(const MatchedPoint& point) const {
     return under.empty() ? file : file.in_setting(under[point.setting_at]);
   }
 };
 
-/// The two files, or two design points of one file, after matching.
+/// The two results files, or one file with two of its design points, after matching.
 struct StudyPair {
   ComparedStudy baseline;
   ComparedStudy current;
   std::vector<MatchedPoint> points{};
-  std::int64_t settings{1};          ///< Number of settings in which each design point is compared.
-  bool in_worlds{false};             ///< At least one study has worlds.
-  bool other_worlds{false};          ///< The studies have different worlds, which take the place of machines.
+  std::int64_t settings{1};  ///< Number of settings in which each design point is compared.
+  /// True: at least one of the studies has worlds (draws of what all machines share).
+  bool in_worlds{false};
+  /// True: the studies drew different worlds. Worlds then take the place of machines as independent units.
+  bool other_worlds{false};
   std::vector<study::Goal> goals{};  ///< Goals by which the points are judged.
-  bool goals_of_baseline{false};     ///< The baseline's manifest has goals; `goals` are then those.
+  /// True: the baseline's manifest has goals, and `goals` are these. False: they are those of the current
+  /// file.
+  bool goals_of_baseline{false};
 };
 
 /// Matches the design points of both files by label, in the order of the baseline, and settings by name. In
@@ -60,28 +67,28 @@ struct StudyPair {
 StudyPair pair_studies(const reading::AllTrialsFile& baseline, const reading::AllTrialsFile& current,
                        const GateRules& rules);
 
-/// Matches two design points of one file.
-/// @throws Failure in the cases of pair_studies() and require_independent_trials()
+/// Treats two design points of one file as a pair to be compared. @param baseline, current indices of the
+/// points @throws Failure in the cases of pair_studies() and require_independent_trials()
 StudyPair pair_points(const reading::AllTrialsFile& file, std::int64_t baseline, std::int64_t current,
                       const GateRules& rules);
 
-/// Rejects saltelli designs. Every test assumes independent trials, but the trials of a saltelli design share
-/// most of their random numbers.
-/// @throws Failure (bad_data) for a saltelli design
+/// Rejects a study with a saltelli design (sampling for Sobol' indices). Every test assumes independent
+/// trials, but the trials of such a design share most of their random numbers. @throws Failure (bad_data) for
+/// a saltelli design
 void require_independent_trials(const ComparedStudy& study);
 
-/// The rules, with the rules for a design point copied to each of its settings, and with the requirement
-/// `goal` replaced by one for each goal of the current file.
-/// @throws Failure (bad_input) if the rules name a measure of a goal that is not judged
+/// The user's rules adapted to the matched files: the rules for a design point are copied to each of its
+/// settings, and the requirement `goal` becomes one for each goal of the current file. @throws Failure
+/// (bad_input) if the rules name a measure of a goal that is not judged
 GateRules rules_for(const StudyPair& pair, const GateRules& rules);
 
-/// Maximum number of trials of each point that are compared.
+/// Largest number of trials of each design point that are compared by these rules.
 std::int64_t trial_limit(const GateRules& rules, const reading::AllTrialsFile& file);
 
-/// The result of compare_draws().
+/// Whether two files drew the same random numbers, as compare_draws() finds.
 struct DrawComparison {
   bool same{false};      ///< Whether trial i of both files drew the same random numbers.
-  std::string reason{};  ///< reason for the result, one line
+  std::string reason{};  ///< Reason for the result, one line.
   /// Drawn parameters whose values differ although the draws are the same, because the manifests differ.
   std::vector<std::string> changed_inputs{};
 };
@@ -91,7 +98,7 @@ struct DrawComparison {
 /// or, after a change of its distribution, sorts the trials in the same order.
 DrawComparison compare_draws(const StudyPair& pair);
 
-/// The value of a swept key at a design point, as text; "missing" if it is not swept.
+/// The value of a swept manifest key at a design point, as text; "missing" if the key is not swept.
 std::string axis_value(const std::vector<study::SweepAxis>& axes, const std::string& name,
                        std::int64_t point);
 

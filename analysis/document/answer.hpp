@@ -16,10 +16,10 @@
 
 namespace zerocount::document {
 
-/// A type of answers: its name, its version and its items.
+/// A type of answers, one for each command: its name, its version and its items.
 struct AnswerType {
-  std::string name;     ///< The command; value of "answer" in JSON.
-  std::string meaning;  ///< a phrase without a full stop
+  std::string name;     ///< Name of the command that gives the answer; value of "answer" in JSON.
+  std::string meaning;  ///< Meaning of the answer, a phrase without a full stop.
   int version{1};       ///< Value of "version" in JSON; grows with each change that readers of JSON notice.
   /// Key of the table that the CSV holds. Empty: the CSV has one line with the values of the answer and the
   /// members of its objects. "points.rates": the tables `rates` of all rows of `points`; each line begins
@@ -31,14 +31,16 @@ struct AnswerType {
 /// An answer: the contents of the items of its type. Every format is rendered from an Answer.
 struct Answer {
   AnswerType type;
-  Members contents;  ///< One content for each of type.items.
+  Members contents;  ///< Contents of the items of the type: one for each of type.items, in their order.
   ExitCode exit_code{ExitCode::success};
 };
 
-/// A type of answers, with the functions that read each item from a `Subject`.
+/// A type of answers, with the functions that read the content of each item from a `Subject`, the result of
+/// the command.
 template <class Subject>
 struct AnswerDescription {
-  AnswerType type;  ///< The type; its items are left empty (complete_type() has them).
+  /// Type of the answer, whose list of items is left empty; complete_type() returns the type with its items.
+  AnswerType type;
   Description<Subject> items;
 
   AnswerType complete_type() const {
@@ -73,26 +75,27 @@ std::vector<Figure> figures(const Answer& answer);
 /// @param indent number of blanks per level; text::one_line: no line breaks
 void write_json(const Answer& answer, int indent, const std::function<void(std::string_view)>& take);
 
-/// The text of write_json() in one piece.
+/// The JSON text of the answer, as write_json() passes it, in one piece. @param indent number of blanks per
+/// level; text::one_line: no line breaks
 std::string json_text(const Answer& answer, int indent = 2);
 
-/// The JSON of the answer as a tree. The tree of a large answer takes much memory; json_text() takes less.
+/// The answer as a tree of JSON values. The tree of a large answer takes much memory; json_text() takes less.
 nlohmann::ordered_json json(const Answer& answer);
 
 /// A JSON object with these items, in the form that json() gives an object of an answer.
 nlohmann::ordered_json json(const std::vector<Item>& items, const Members& contents);
 
-/// The rows of the table AnswerType::csv_table as CSV: RFC 4180 with \n as line end; the first line has the
-/// names of the columns. A member of an object is named "<object>_<member>", unless Item::column names it. A
-/// column of an outer table with the name of an inner column becomes "<table>_<name>". An unknown number is
-/// `nan`; a list is written as in JSON. A text that spreadsheets would read as a formula gets an apostrophe
-/// in front (text::csv_field).
+/// The answer as CSV: the rows of the table AnswerType::csv_table. Format of RFC 4180 with \n as line end;
+/// the first line has the names of the columns. A member of an object is named "<object>_<member>", unless
+/// Item::column names it. A column of an outer table with the name of an inner column becomes
+/// "<table>_<name>". An unknown number is `nan`; a list is written as in JSON. A text that spreadsheets would
+/// read as a formula gets an apostrophe in front (text::csv_field).
 std::string csv(const Answer& answer);
 
-/// The columns that an item has in CSV, each as {name, cell}.
+/// The columns that an item has in CSV, each as {name of the column, text of the cell}.
 std::vector<std::pair<std::string, std::string>> csv_cells(const Item& item, const Content& content);
 
-/// JSON Schema of json() for the answers of this type.
+/// JSON Schema that describes the JSON of the answers of this type.
 nlohmann::ordered_json json_schema(const AnswerType& type);
 
 /// JSON Schema (draft 2020-12) of the answers of all these types: "$defs" holds one schema for each name.

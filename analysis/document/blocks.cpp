@@ -107,20 +107,22 @@ bool is_numeric(const Item& item) {
   return kind == Kind::whole || kind == Kind::number || item.numeric;
 }
 
-/// Whether the item is a column in the table of its rows, or an object whose members are columns there.
+/// Whether people see the item as a column of the table to whose rows it belongs. True also for an object
+/// whose members are columns there.
 bool is_column(const Item& item) {
   const Kind kind = shown_kind(item);
   return is_for_people(item) && item.own_table.empty() && !item.names_row && kind != Kind::sentence &&
          kind != Kind::table;
 }
 
-/// Whether the item is an object whose members are shown like items of its own level.
+/// Whether the item is an object without a heading, whose members are shown as if they were items of its own
+/// level.
 bool is_flat(const Item& item) {
   return shown_kind(item) == Kind::object && item.heading.empty();
 }
 
-/// Appends a column for each item, unless the item has no known value. @param rows [row] the members of the
-/// items; null if the row has none
+/// Appends a column of a table for each item, except for items without any known value. @param rows [row]
+/// contents of the items; null if the row has none
 void add_columns(std::vector<BlockColumn>& columns, const std::vector<Item>& items,
                  const std::vector<const Members*>& rows) {
   for (std::size_t i = 0; i < items.size(); ++i) {
@@ -152,7 +154,7 @@ TableBlock table_block(const Item& item, const Rows& rows) {
   return table;
 }
 
-/// Index of the item that names the rows of a table in the tables of Item::own_table: the one with
+/// Index of the item whose text names the rows in separate tables (Item::own_table): the one with
 /// Item::names_row, otherwise the first column. Equals items.size() if there is none.
 std::size_t naming_item(const std::vector<Item>& items) {
   const auto named = std::ranges::find(items, true, &Item::names_row);
@@ -160,14 +162,14 @@ std::size_t naming_item(const std::vector<Item>& items) {
   return static_cast<std::size_t>(found - items.begin());
 }
 
-/// The description of a table with its rows.
+/// The item that describes a table, together with the rows of the table.
 struct ItemWithRows {
   Item item;
   Rows rows;
 };
 
-/// The separate table with this title (Item::own_table) for members of the rows of `outer`. If `outer` has
-/// several rows, the first column names the row.
+/// The separate table with this title (Item::own_table), built from those members of the rows of `outer` that
+/// have the title. If `outer` has several rows, the first column names the row of `outer`.
 ItemWithRows own_table(const Item& outer, const Rows& rows, const std::string& title) {
   ItemWithRows own{{.heading = title, .kind = Kind::table}, {}};
   const std::size_t naming = naming_item(outer.members);
@@ -213,7 +215,7 @@ ItemWithRows own_table(const Item& outer, const Rows& rows, const std::string& t
   return own;
 }
 
-/// The sentences of a row, and those of its flat objects (is_flat()).
+/// The texts of the sentence items of a row, including those of its flat objects (is_flat()).
 std::vector<std::string> sentences_of(const std::vector<Item>& items, const Members& row) {
   std::vector<std::string> sentences;
   for (std::size_t i = 0; i < items.size(); ++i) {
@@ -227,8 +229,8 @@ std::vector<std::string> sentences_of(const std::vector<Item>& items, const Memb
   return sentences;
 }
 
-/// The sentences of the rows of an own_table(), one per line. @param is_named whether the first column names
-/// the row; the sentence then begins with this name
+/// The sentences of all rows of an own_table(), one per line. @param is_named whether the first column names
+/// the row; each sentence then begins with this name
 std::string sentences_below(const ItemWithRows& own, bool is_named) {
   std::string text;
   for (const Members& row : own.rows.rows) {

@@ -16,29 +16,30 @@ namespace zerocount::document {
 /// characters other than tab and line feed, and bytes that are not UTF-8, by U+FFFD.
 std::string markup(std::string_view text);
 
-/// markup() of the text, without line breaks before percent signs.
+/// Text escaped as by markup(), in which no line can break before a percent sign.
 std::string prose_markup(std::string_view text);
 
-/// A named value for people.
+/// A named value, as people are shown it outside of tables.
 struct Fact {
   std::string name;
-  std::string value;  ///< text of the value with its unit
+  std::string value;  ///< Text of the value with its unit.
 };
 
 /// A column of a table. Row i of the table consists of cell i of each column.
 struct BlockColumn {
   std::string head;
-  std::string unit;  ///< empty: none
-  bool numeric;      ///< aligned to the right
+  std::string unit;  ///< Unit of the cells; empty if they have none.
+  bool numeric;      ///< True: the cells are aligned to the right.
   std::vector<std::string> cells{};
-  std::vector<std::string> links{};  ///< [row] file that the cell links to, in HTML only; empty: no link
+  /// [row] Path of the file to which the cell links, in HTML only; empty: no link.
+  std::vector<std::string> links{};
 };
 
 struct FactsBlock {
   std::vector<Fact> facts;
 };
 struct TableBlock {
-  std::string title;  ///< may be empty
+  std::string title;  ///< Title of the table; may be empty.
   std::vector<BlockColumn> columns;
 
   void add_row(std::vector<std::string> cells) {
@@ -49,22 +50,23 @@ struct HeadlineBlock {
   std::string sentence;
 };
 struct SentenceBlock {
-  std::string sentence;  ///< may have several lines
+  std::string sentence;  ///< Sentences, one per line.
 };
 struct SectionBlock {
   std::string title;
 };
 /// Lines shown verbatim, such as a part of a manifest.
 struct VerbatimBlock {
-  std::string title;  ///< may be empty
+  std::string title;  ///< Title above the lines; may be empty.
   std::string lines;
 };
 
-/// A part of an answer for people, in plain text. A section is followed by its blocks.
+/// One part of an answer as people see it, in plain text. A section block is a title; the blocks of the
+/// section follow it.
 using Block = std::variant<HeadlineBlock, SentenceBlock, FactsBlock, TableBlock, SectionBlock, VerbatimBlock>;
 
-/// The parts of an answer for people, in their order. Left out are figures, empty parts, columns without any
-/// content, and items that are shown in data only.
+/// The parts of an answer as people see it, in their order. Figures, empty parts, columns without any
+/// content, and items that only data formats show are left out.
 std::vector<Block> blocks(const Answer& answer);
 
 /// The block as a fragment of HTML.

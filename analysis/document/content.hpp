@@ -15,19 +15,21 @@ namespace zerocount::document {
 struct Figure;   // figure.hpp
 struct Twofold;  // below
 
-/// A number with bounds, all in the unit of the item.
+/// A number with a lower and an upper bound, all in the unit of the item that describes it.
 struct Bounded {
   double value;
   double low;
   double high;
 };
 
-/// A Bounded from a value and its bounds. @param bounds any type with members `low` and `high`
+/// The number `value` with the members `low` and `high` of `bounds`. @param bounds any type with members
+/// `low` and `high`
 Bounded bounded(double value, const auto& bounds) {
   return {value, bounds.low, bounds.high};
 }
 
-/// Range of a quantity over trials, in the unit of the item. Adding NaN does not change the range.
+/// Range (minimum to maximum) of a quantity over trials, in the unit of the item that describes it. Adding
+/// NaN does not change the range.
 struct Range {
   double low{std::numeric_limits<double>::infinity()};
   double high{-std::numeric_limits<double>::infinity()};
@@ -39,27 +41,28 @@ struct Range {
   bool empty() const { return low > high; }
 };
 
-/// "0.5 … 2 Hz"; one number if the ends are equal. Empty for an empty range.
+/// Text of a range: "0.5 … 2 Hz"; one number if the ends are equal. Null for a range without values.
 std::optional<std::string> range_text(const Range& range, const std::string& unit = {});
 
 struct Content;
 
-/// The contents of the members of an item, in their order.
+/// The contents of the members of an object (or of the columns of a row), one for each item, in the order of
+/// the items.
 struct Members {
   std::vector<Content> contents;
 };
 
-/// The values of a list.
+/// The values of a list, as the content of one item.
 struct List {
   std::vector<Content> values;
 };
 
-/// Values by name, in their order.
+/// Values by name, in their order, as the content of one item.
 struct Named {
   std::vector<std::pair<std::string, Content>> values;
 };
 
-/// The rows of a table.
+/// The rows of a table, as the content of one item.
 struct Rows {
   std::vector<Members> rows;
 };
@@ -73,8 +76,8 @@ struct Content {
   bool is_empty() const { return value.index() == 0; }
 };
 
-/// A content for data, and another that people are shown in its place. Content holds it by pointer, so that a
-/// Content stays as small as a text: an answer holds one for each value.
+/// A content with two forms: one for data formats, and another that people are shown in its place. Content
+/// holds it by pointer, so that a Content stays as small as a text: an answer holds one for each value.
 struct Twofold {
   Content data;
   Content shown;

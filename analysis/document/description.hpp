@@ -19,9 +19,9 @@
 
 namespace zerocount::document {
 
-/// Maps a C++ type to the kind and the content of an item. Values are whole numbers, floating-point numbers,
-/// estimates with bounds, Range, bool, text, and a variant of number and text. A vector is a list. A map or a
-/// vector of pairs is a map. An empty optional is null.
+/// Maps a C++ type to the kind and the content of an item of an answer. Types of values are whole numbers,
+/// floating-point numbers, estimates with bounds, Range, bool, text, and a variant of number and text. A
+/// vector is a list. A map or a vector of pairs is a map. An empty optional is null.
 template <class T>
 struct ValueType;
 
@@ -46,7 +46,7 @@ struct ValueType<T> {
   static Content content(T value) { return {static_cast<double>(value)}; }
 };
 
-/// An estimate with its bounds: any type with the members `value`, `low` and `high`.
+/// Specialisation for an estimate with its bounds: any type with the members `value`, `low` and `high`.
 template <class T>
 requires requires(const T& of) {
   Bounded{of.value, of.low, of.high};
@@ -59,7 +59,7 @@ struct ValueType<T> {
   static Content content(const T& of) { return {Bounded{of.value, of.low, of.high}}; }
 };
 
-/// A Range: an object with `low` and `high` in data, a text with the unit for people.
+/// Specialisation for a Range: an object with `low` and `high` in data, a text with the unit for people.
 template <>
 struct ValueType<Range> {
   static void describe(Item& item) {
@@ -101,7 +101,8 @@ struct ValueType<std::optional<T>> {
   }
 };
 
-/// The item of an element of a list or a map. It inherits unit, notation and words from the list or map.
+/// The item that describes each element of a list or a map. It inherits unit, notation and words from the
+/// item of the list or map.
 template <class T>
 Item element_of(const Item& whole) {
   Item element{.unit = whole.unit, .notation = whole.notation, .words = whole.words};
@@ -138,8 +139,8 @@ struct ValueType<std::vector<std::pair<std::string, T>>> {
 template <class T>
 struct ValueType<std::map<std::string, T>> : ValueType<std::vector<std::pair<std::string, T>>> {};
 
-/// The subject as a pointer: looks through pointers and optional values. Null if there is no subject; the
-/// item then has no content.
+/// Pointer to the object that an item describes: looks through pointers and optional values. Null if there is
+/// no object; the item then has no content.
 template <class T>
 const T* subject_in(const T& subject) {
   return &subject;
@@ -153,14 +154,15 @@ const T* subject_in(const std::optional<T>& subject) {
   return subject ? &*subject : nullptr;
 }
 
-/// The items of an object, a row or an answer, with the functions that read each from a `Row`. All formats
-/// keep the order of the items.
+/// The items of an object, a row or an answer, with the functions that read the content of each item from a
+/// `Row`. All formats show the items in the order in which they were added.
 template <class Row>
 class Description {
  public:
   using ContentOf = std::function<Content(const Row&, Audience)>;
 
-  /// Adds a value. Its kind follows from the type that `get` returns (ValueType).
+  /// Adds an item with a single value, a list or a map. `get` returns it from a Row; the kind of the item
+  /// follows from the type (ValueType).
   template <class Get>
   Description& value(Item item, Get get) {
     using Type = std::remove_cvref_t<std::invoke_result_t<Get, const Row&>>;
@@ -191,7 +193,8 @@ class Description {
     return *this;
   }
 
-  /// Shows people the item that was added last only in rows for which `is_worth` returns true.
+  /// Shows people the item that was added last only in those rows for which `is_worth` returns true. Data
+  /// formats always show it.
   template <class IsWorth>
   Description& shown_where(IsWorth is_worth) {
     contents_.back() = [data = std::move(contents_.back()), is_worth](const Row& row, Audience audience) {
@@ -203,7 +206,8 @@ class Description {
     return *this;
   }
 
-  /// Adds an object with the items of `parts`. `get` returns a Part, an optional one, or a pointer to one.
+  /// Adds an item that is an object with the items of `parts`. `get` returns a Part from a Row, an optional
+  /// Part, or a pointer to one.
   template <class Part, class Get>
   Description& object(Item item, Description<Part> parts, Get get) {
     item.kind = Kind::object;
@@ -218,23 +222,24 @@ class Description {
         });
   }
 
-  /// Adds a table with the items of `columns`. `get` returns a range of Parts.
+  /// Adds an item that is a table with the items of `columns`. `get` returns a range of Parts from a Row, one
+  /// per row of the table.
   template <class Part, class Get>
   Description& table(Item item, Description<Part> columns, Get get) {
     item.kind = Kind::table;
     return add_rows(std::move(item), std::move(columns), std::move(get));
   }
 
-  /// Adds sections with the items of `parts`: a list of objects in JSON, one section below the other for
-  /// people. `get` returns a range of Parts.
+  /// Adds sections, each with the items of `parts`: a list of objects in JSON, one section below the other
+  /// for people. `get` returns a range of Parts from a Row, one per section.
   template <class Part, class Get>
   Description& sections(Item item, Description<Part> parts, Get get) {
     item.kind = Kind::sections;
     return add_rows(std::move(item), std::move(parts), std::move(get));
   }
 
-  /// Adds the items of `parts` at the level of this description. `get` returns a Part, an optional one, or a
-  /// pointer to one; without a Part the items are empty.
+  /// Adds the items of `parts` one by one, as items of this description itself. `get` returns a Part from a
+  /// Row, an optional Part, or a pointer to one; without a Part the items are empty.
   template <class Part, class Get>
   Description& include(const Description<Part>& parts, Get get) {
     for (std::size_t i = 0; i < parts.items().size(); ++i) {
@@ -251,26 +256,28 @@ class Description {
     return *this;
   }
 
-  /// Adds the answer in one sentence. Each answer has exactly one headline.
+  /// Adds the headline: the answer in one sentence, which `get` returns. Each answer has exactly one
+  /// headline.
   template <class Get>
   Description& headline(Get get) {
     return add_text({.key = "headline", .meaning = "the answer in one sentence", .kind = Kind::headline},
                     std::move(get));
   }
 
-  /// Adds the title of a section.
+  /// Adds the title of a section, for people only. `get` returns its text.
   template <class Get>
   Description& title(Get get) {
     return add_text({.shown = Visibility::to_people, .kind = Kind::title}, std::move(get));
   }
 
-  /// Adds sentences for people, each on a line of its own; none if `get` returns an empty text.
+  /// Adds sentences for people, each on a line of its own. `get` returns their text from a Row; none are
+  /// shown if it is empty.
   template <class Get>
   Description& sentence(Get get) {
     return add_text({.shown = Visibility::to_people, .kind = Kind::sentence}, std::move(get));
   }
 
-  /// Adds figures. `get` returns a vector of Figure.
+  /// Adds figures, for people only. `get` returns a vector of Figure from a Row.
   template <class Get>
   Description& figures(Get get) {
     return add({.shown = Visibility::to_people, .kind = Kind::figure},

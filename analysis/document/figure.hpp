@@ -9,28 +9,32 @@
 
 namespace zerocount::document {
 
-/// A column of the data of a figure.
+/// A column of a dataset of a figure.
 struct FigureColumn {
-  std::string field;  ///< name in the specification
-  std::string title;  ///< header in the figure's data table; empty: not shown there
-  std::string unit;   ///< "1" where dimensionless, "" for text
+  std::string field;  ///< Name of the column in the figure's specification.
+  /// Header of the column in the data table that is shown with the figure; empty: the column is not shown
+  /// there.
+  std::string title;
+  std::string unit;  ///< Unit of the values; "1" for dimensionless numbers, "" for text.
 };
 
 /// A dataset of a figure, named in the specification by {"data": {"name": name}}.
 struct FigureData {
   std::string name;
   std::vector<FigureColumn> columns;
-  std::vector<nlohmann::ordered_json> rows{};  ///< [row] an array with one value per column
+  std::vector<nlohmann::ordered_json> rows{};  ///< [row] JSON array with one value per column.
 };
 
-/// A column of a dataset, with the function that returns its value for a subject.
+/// A column of a dataset, with the function that returns its value for a subject (the object that one row
+/// describes).
 template <class Subject>
 struct ColumnOf {
   FigureColumn column;
   std::function<nlohmann::ordered_json(const Subject&)> value;
 };
 
-/// A dataset with one row for each of `subjects`.
+/// The dataset with one row for each of `subjects`, whose values the functions of `columns` return.
+/// @param name name of the dataset in the specification
 template <class Subject>
 FigureData data_of(std::string name, const std::vector<Subject>& subjects,
                    const std::vector<ColumnOf<Subject>>& columns) {
@@ -45,11 +49,12 @@ FigureData data_of(std::string name, const std::vector<Subject>& subjects,
 
 /// A figure: a Vega-Lite specification, its data, title and caption.
 struct Figure {
-  std::string name;  ///< Name for the command `plot`, and anchor of the figure in the page.
+  /// Name of the figure, by which the command `plot` selects it; also its anchor in the HTML page.
+  std::string name;
   std::string title;
-  std::string caption;  ///< plain text
+  std::string caption;  ///< Caption, plain text.
   nlohmann::ordered_json specification;
-  std::vector<FigureData> data;  ///< the first one is also shown as a table
+  std::vector<FigureData> data;  ///< Datasets of the figure; the first one is also shown as a table.
   /// Values for the placeholders in the specification: {"NAME": value that replaces "$NAME"}.
   nlohmann::ordered_json parameters{};
 };

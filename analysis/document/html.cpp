@@ -12,7 +12,7 @@
 namespace zerocount::document {
 namespace {
 
-/// Largest number of columns of a table that fits a page.
+/// Largest number of columns of a table that fits on a page.
 constexpr std::size_t max_columns = 10;
 
 std::string facts_html(const std::vector<Fact>& facts) {
@@ -43,14 +43,15 @@ std::string linked_cell(const BlockColumn& column, std::size_t row) {
   return fmt::format("<a href=\"./{}\">{}</a>", percent_encoded(column.links[row]), cell);
 }
 
-/// A cell with the head of its column as an attribute; narrow screens show the head in front of the cell.
+/// HTML of one cell of a table. The cell has the head of its column as an attribute; narrow screens show this
+/// head in front of the cell.
 std::string cell_html(const BlockColumn& column, std::size_t row) {
   return fmt::format("<td{} data-head=\"{}\">{}</td>", column.numeric ? "" : " class=\"text wrap\"",
                      markup(column.head + (column.unit.empty() ? "" : " (" + column.unit + ")")),
                      linked_cell(column, row));
 }
 
-/// The columns as one table.
+/// HTML of the columns as one table.
 std::string columns_html(std::span<const BlockColumn* const> columns) {
   std::string html = "<table><thead><tr>";
   for (const BlockColumn* const column : columns)
@@ -93,7 +94,7 @@ std::string table_html(const TableBlock& table) {
   return html;
 }
 
-/// The HTML of each kind of block.
+/// Visitor that returns the HTML of each kind of block.
 struct BlockHtml {
   std::string operator()(const HeadlineBlock& block) const {
     return fmt::format("<div class=\"verdict\"><p class=\"headline\">{}</p></div>\n",

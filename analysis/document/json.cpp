@@ -13,8 +13,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 using TakeText = std::function<void(std::string_view)>;
 
-/// Writes JSON as nlohmann's dump() does, but in pieces: a tree of an answer with 10⁵ rows would take several
-/// times the memory of its text.
+/// Writes an answer as JSON in pieces, with the text that nlohmann's dump() would give. A tree of an answer
+/// with 10⁵ rows would take several times the memory of its text.
 class JsonWriter {
  public:
   JsonWriter(int indent, const TakeText& take) : indent_(indent), take_(take) {}
@@ -128,7 +128,7 @@ class JsonWriter {
     is_empty_ = true;
   }
 
-  /// Begins a member or an element: writes the comma and the line break before it.
+  /// Begins a member of an object or an element of a list: writes the comma and the line break before it.
   void next() {
     constexpr std::size_t piece = 1 << 16;
     if (!is_empty_) text_ += ',';
@@ -153,9 +153,9 @@ class JsonWriter {
   int indent_;
   const TakeText& take_;
   const Item* item_{nullptr};
-  std::string text_;  ///< text not yet passed to take_
+  std::string text_;  ///< Text that has not been passed to `take_` yet.
   int depth_{0};
-  bool is_empty_{true};  ///< whether the object or list opened last has no member yet
+  bool is_empty_{true};  ///< Whether the object or list that was opened last has no member yet.
 };
 
 }  // namespace

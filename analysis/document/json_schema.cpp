@@ -34,7 +34,8 @@ Json object_schema(const std::vector<Item>& items) {
   return schema;
 }
 
-/// The schema of the item's content by its kind, before Item::nullable is applied.
+/// The JSON Schema of the item's content, by its kind. It does not allow null; Item::nullable is applied
+/// later.
 Json kind_schema(const Item& item) {
   switch (item.kind) {
     case Kind::flag:

@@ -24,7 +24,8 @@ std::string escaped(std::string_view text) {
   return escaped;
 }
 
-/// Escapes a text that begins a line. There some characters begin a heading, a list, a quotation or a rule.
+/// Escapes a text for the beginning of a line of Markdown, where some characters begin a heading, a list, a
+/// quotation or a rule.
 std::string escaped_line(std::string_view text) {
   std::string line = escaped(text);
   const std::size_t digits = std::min(line.find_first_not_of("0123456789"), line.size());
@@ -34,7 +35,7 @@ std::string escaped_line(std::string_view text) {
   return line;
 }
 
-/// The text with each line as a paragraph; blank lines are dropped.
+/// The text as Markdown with each line as a paragraph; blank lines are dropped.
 std::string paragraphs(std::string_view text) {
   std::string paragraphs;
   while (!text.empty()) {
@@ -69,7 +70,7 @@ std::string table_markdown(const TableBlock& table) {
   return markdown + "\n";
 }
 
-/// The Markdown of each kind of block.
+/// Visitor that returns the Markdown of each kind of block.
 struct BlockMarkdown {
   std::string operator()(const HeadlineBlock& block) const {
     return fmt::format("**{}**\n\n", escaped(block.sentence));

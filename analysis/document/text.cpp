@@ -42,7 +42,7 @@ std::string table_text(const TableBlock& table, std::optional<std::size_t> width
   return title + text::aligned_table(columns, width);
 }
 
-/// The text of each kind of block.
+/// Visitor that returns the plain text of each kind of block.
 struct BlockText {
   std::optional<std::size_t> width;
 
@@ -61,7 +61,7 @@ struct BlockText {
   }
 };
 
-/// Whether a blank line stands between these blocks.
+/// Whether a blank line separates these two successive blocks in plain text.
 bool apart(const Block& above, const Block& below) {
   const auto stands_alone = [](const Block& block) {
     return std::holds_alternative<TableBlock>(block) || std::holds_alternative<VerbatimBlock>(block);

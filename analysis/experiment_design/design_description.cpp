@@ -24,7 +24,7 @@ double seconds(const ExperimentDesign& design, std::int64_t samples) {
   return static_cast<double>(samples) * design.frame.sample_time;
 }
 
-/// "0.0892 N m held for 1.75 s": the holds behind the pulses.
+/// Text of the levels and durations of the holds that follow the pulses: "0.0892 N m held for 1.75 s".
 std::string holds_text(const ExperimentDesign& design) {
   std::string text;
   const auto edges = static_cast<std::size_t>(2 * pulses_in(design.shape, design.frame));
@@ -50,8 +50,8 @@ std::string parts_text(const ExperimentDesign& design) {
   return pulses + (shape.holds_first > 0.5 ? holds + ramps : ramps + holds);
 }
 
-/// Sentences on the parameters that the record does not determine, or not on all machines, and on a lack of
-/// fit.
+/// Sentences on the parameters that the designed record does not determine, or not on all machines, and on a
+/// lack of fit.
 std::string limits_text(const ExperimentDesign& design) {
   std::string text;
   for (const ExpectedParameter& parameter : design.parameters) {
@@ -71,7 +71,8 @@ std::string limits_text(const ExperimentDesign& design) {
   return text;
 }
 
-/// The command that identifies what the axis records, with the options that the manifest tells.
+/// The command line of `identify` for the file that the axis will record, with the options that follow from
+/// the manifest.
 std::string identify_command(const ExperimentDesign& design) {
   const trial::TrialParameters& machine = design.median.parameters;
   const double count = loop::fine_resolution(machine.encoder);

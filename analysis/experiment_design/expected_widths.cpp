@@ -78,10 +78,11 @@ namespace {
 using fit::coordinate_count;
 using fit::TestRecord;
 
-/// The fit of a record, at the truth in place of a fit.
+/// A fit of a simulated record whose point is the machine's own (true) parameters; nothing is fitted.
 struct TrueFit : fit::Fit {
   std::vector<TestRecord> records;
-  /// [parameter] of the keys of a manifest; without those that the fit does not leave free.
+  /// [parameter] Reported quantity of each parameter with a manifest key; null for parameters that the fit
+  /// keeps fixed.
   std::array<std::optional<fit::Quantity>, fit::time_offset> quantities;
 };
 

@@ -26,8 +26,8 @@ void require_known_law(const study::Study& study, const Machine& machine) {
                                                    study.name));
 }
 
-/// Time in which an oscillation about the spring falls to 1/e, s: 2J/c, or of an overdamped motion the
-/// reciprocal of its slower rate.
+/// Time in which the free motion on the spring falls to 1/e, s: 2J/c for an oscillation; for an overdamped
+/// motion the reciprocal of its slower rate.
 double ring_down_time(const fit::ContactParameters& contact) {
   const double damping = contact.plant.presliding_damping;
   const double discriminant = damping * damping - 4.0 * contact.plant.inertia * contact.friction.k1;
@@ -35,7 +35,8 @@ double ring_down_time(const fit::ContactParameters& contact) {
   return 0.5 * (damping + std::sqrt(discriminant)) / contact.friction.k1;
 }
 
-/// The frame for all the machines, the median one first.
+/// The limits (torque, number of samples, ring-down time) of a protocol for all the machines. @param machines
+/// the median machine first @param least_breakaway smallest breakaway torque of all machines, N m
 ProtocolFrame frame_for(const std::vector<Machine>& machines, const DesignSettings& settings,
                         double least_breakaway) {
   const trial::TrialParameters& median = machines.front().parameters;
@@ -70,7 +71,8 @@ double guess_of(const fit::ContactParameters& contact, std::size_t parameter) {
   return values[parameter];
 }
 
-/// Relative half-width of the interval of a parameter: half-width over value.
+/// Relative half-width of the interval of a parameter: half-width divided by value. @param parameter index in
+/// fit::coordinate_keys @param width half-width on the scale of Widths
 double relative_width(std::size_t parameter, double width, const fit::ContactParameters& contact) {
   return parameter == fit::creep_exponent ? width / contact.friction.n : std::sinh(width);
 }
@@ -97,7 +99,8 @@ std::vector<ExpectedParameter> expected_parameters(const ExperimentDesign& desig
   return parameters;
 }
 
-/// [machine] All infinite where `identify` refuses the record.
+/// [machine] Expected half-widths of the parameters' intervals; all infinite if `identify` refuses the record
+/// of the machine.
 std::vector<Widths> widths_on(const std::vector<Machine>& machines, const TorqueProtocol& protocol) {
   std::vector<Widths> widths(machines.size());
   parallel::for_each_index(machines.size(), [&](std::size_t i) {
@@ -117,10 +120,10 @@ void set_shape(ExperimentDesign& design, const ProtocolShape& shape) {
   design.record = simulate(design.median, design.protocol);
 }
 
-/// Takes the best shape under which `identify` finds the median machine. The linear theory does not know
-/// whether a fit converges from its starting values; shapes nearer to the usual one are easier for it. A
-/// record that is not explained is taken if there is no other: the manifest may have effects that `identify`
-/// does not model.
+/// Chooses the best protocol shape with which `identify` succeeds on the median machine. The linear theory
+/// does not know whether a fit converges from its starting values; shapes nearer to the usual one are easier
+/// for it. A record whose residuals are not explained is accepted only if there is no other: the manifest may
+/// have effects that `identify` does not model.
 void identify_median(ExperimentDesign& design, const fit::StageReport& report) {
   const std::vector<JudgedShape> shapes = design.search.improvements;
   std::optional<ExperimentDesign> unexplained;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// [axis] Index of the value on the axis' grid.
+/// [property of the shape] Index of the property's value among the values that the search tries.
 using GridPoint = std::vector<std::size_t>;
 
 ProtocolShape shape_at(const GridPoint& point) {
@@ -26,7 +26,7 @@ ProtocolShape shape_at(const GridPoint& point) {
   return shape;
 }
 
-/// The grid point of the default shape.
+/// The grid point of the default ProtocolShape.
 GridPoint first_point() {
   const ProtocolShape shape;
   GridPoint point;
@@ -37,7 +37,7 @@ GridPoint first_point() {
   return point;
 }
 
-/// Reason why a record is not safe; empty if it is safe.
+/// Reason why a simulated record is not safe (it slides, or travels too far); empty if it is safe.
 std::string danger_in(const SearchProblem& problem, const SimulatedRecord& record) {
   if (record.slid) return "a machine breaks away";
   if (record.travel <= problem.max_travel) return "";
@@ -60,7 +60,8 @@ class ProtocolSearch {
   }
 
  private:
-  /// Lowers the levels of the usual protocol until it is safe.
+  /// Starts the search from the usual protocol, with its torque levels lowered until it is safe on all
+  /// machines.
   void start() {
     best_ = first_point();
     best_spread_ = spread_at(best_);
@@ -78,8 +79,8 @@ class ProtocolSearch {
     result_.improvements.push_back({shape_at(best_), best_spread_});
   }
 
-  /// Tries to change each property by one step, up or down.
-  /// @returns whether any change was better.
+  /// Tries to change each property of the shape by one step, up or down, and keeps each change that is
+  /// better. @returns whether any change was better.
   bool improve_once() {
     bool improved = false;
     for (std::size_t axis = 0; axis < best_.size(); ++axis) {
@@ -129,7 +130,8 @@ class ProtocolSearch {
     return entry->second;
   }
 
-  /// Mean of log_spread() over the judged machines; infinite if `identify` would refuse the record of one.
+  /// Criterion of a protocol, smaller is better: mean of log_spread() over the judging machines; infinite if
+  /// `identify` would refuse the record of one of them.
   double mean_spread(const TorqueProtocol& protocol) {
     const std::size_t count = std::min(problem_.judging, problem_.machines.size());
     std::vector<double> spreads(count, infinite);

@@ -12,10 +12,13 @@ namespace zerocount::experiment_design {
 
 namespace {
 
-/// Rest at torque 0 before the first and after the last part, samples.
+/// Number of samples at torque 0 before the first and after the last part of a protocol.
 constexpr std::int64_t rest_samples = 25;
 
-/// The ramps and the holds of a shape; the samples of a segment are those of a hold, or 0 for a ramp.
+/// The ramps and the holds of a protocol shape. The number of samples of each segment is that of a hold, or 0
+/// for a ramp, whose length is set later.
+/// @param amplitude largest torque of ramps and holds, N m
+/// @param hold_samples number of samples of both holds together
 std::vector<ProtocolSegment> ramps_and_holds(const ProtocolShape& shape, double amplitude,
                                              std::int64_t hold_samples) {
   std::vector<ProtocolSegment> ramps;
@@ -120,7 +123,8 @@ TorqueProtocol sampled_protocol(std::span<const ProtocolSegment> segments, const
 
 namespace {
 
-/// A row for each sample: time, torque, and `last`(sample).
+/// A text table with a row for each sample: time, torque, and the result of `last(sample)`. @param last_name
+/// head of the last column
 template <class Last>
 std::string table_of(const ExperimentDesign& design, std::string_view last_name, const Last& last) {
   const TorqueProtocol& protocol = design.protocol;

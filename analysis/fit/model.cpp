@@ -59,22 +59,22 @@ QuantityEstimate on_parameter_scale(const Quantity& quantity, QuantityEstimate e
 
 namespace {
 
-/// Truncation error allowed per step of a motion, and the amplitude of an oscillation at rest, in units of
-/// the readings.
+/// Truncation error allowed per step of the simulated motion, and amplitude below which an oscillation counts
+/// as decayed, in units of the readings.
 constexpr double motion_tolerance = 1e-9;
 constexpr double rest_tolerance = 1e-8;
 
-/// Step of the finite differences with respect to coordinates: small enough for a smooth path, far above the
-/// error of the integration.
+/// Step of the finite differences with respect to coordinates of a fit: small enough for a smooth path, far
+/// above the error of the integration.
 constexpr double difference_step = 1e-6;
 
-/// The contact after a reversal.
+/// The friction contact, linearised just after a reversal, where it is stiffest.
 friction::LinearContact stiffest_contact(const AxisParameters& axis) {
   return friction::stiffest_of(friction::traits_of(axis.friction.model)
                                    .linear_contacts(axis.plant, axis.friction, axis.friction.uniform));
 }
 
-/// Decay rate (1/s) of the slowest oscillation about a point of the spring.
+/// Decay rate of the slowest oscillation about a point of the contact's spring, 1/s.
 double decay_rate(const AxisParameters& axis) {
   const double damping = axis.plant.presliding_damping;
   const double inertia = axis.plant.inertia;
@@ -84,7 +84,7 @@ double decay_rate(const AxisParameters& axis) {
   return 2.0 * stiffness / (damping + std::sqrt(discriminant));
 }
 
-/// The steps in which creep alone moves the axis.
+/// The long integration steps for the time in which creep alone moves the axis.
 LongSteps long_steps(const AxisParameters& axis) {
   if (!friction::has_creep(axis.friction.model)) return {};
   constexpr double settled = 40.0;     // exp(−40) of an oscillation is below rounding
@@ -92,7 +92,8 @@ LongSteps long_steps(const AxisParameters& axis) {
   return {settled / decay_rate(axis), creep_step / axis.friction.uniform.alpha};
 }
 
-/// Adds compliance (in units of the readings/(N m)) times the torque that acted until each reading.
+/// Adds the twist of a compliance in series to the path: compliance (in units of the readings/(N m)) times
+/// the torque that acted until each reading. @param offset time offset of the torque, samples
 void add_twist(const TestRecord& record, double compliance, double offset, Eigen::VectorXd& path) {
   const double delay = record.delay_fraction + offset;
   const auto last = static_cast<double>(record.torque.size() - 1);
@@ -104,7 +105,7 @@ void add_twist(const TestRecord& record, double compliance, double offset, Eigen
   }
 }
 
-/// The samples of a record, each weighted by the steps that a fast rotor needs in it.
+/// Number of samples of a record, each weighted by the integration steps that a fast rotor needs in it.
 std::int64_t weighted_samples(const TestRecord& record, const AxisParameters& axis) {
   const double steps = 1.0 + fastest_rate(axis) * record.sample_time;
   return static_cast<std::int64_t>(std::min(steps, 1e3) * static_cast<double>(sample_count(record)));

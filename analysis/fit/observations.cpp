@@ -20,7 +20,7 @@ namespace {
 /// count does not outweigh all others.
 constexpr double min_edge_width = 0.02;
 
-/// Travel (counts) over which readings with noise are averaged.
+/// Travel of the rotor, counts, over which readings with noise are averaged to one observation.
 constexpr double averaging_travel = 0.5;
 
 void observe_edges(const Eigen::VectorXd& path, const Eigen::VectorXd& readings,
@@ -101,7 +101,7 @@ class TravelHistogram {
     weight_[node + 1] += weight * part;
   }
 
-  /// Σ weight·`value`(distance)
+  /// Σ weight·value(distance) over the nodes of the histogram.
   template <class Value>
   double sum(Value value) const {
     double sum = 0.0;
@@ -143,7 +143,7 @@ double expected_square(double distance, double noise) {
   return square;
 }
 
-/// True if a reading of the samples `first` or `last` is masked, or one between them.
+/// True if any reading from the sample `first` to the sample `last` is masked.
 bool has_excluded(const TestRecord& record, Eigen::Index first, Eigen::Index last) {
   for (Eigen::Index k = first; k <= last; ++k) {
     if (is_excluded(record, static_cast<std::size_t>(k))) return true;
@@ -151,8 +151,8 @@ bool has_excluded(const TestRecord& record, Eigen::Index first, Eigen::Index las
   return false;
 }
 
-/// Largest difference of a change of the count from the travel that is taken for noise: more is a wrong
-/// reading.
+/// Largest difference between a change of the count and the travel that is taken for noise, counts: more is a
+/// wrong reading.
 double largest_difference(const Eigen::VectorXd& path, const Eigen::VectorXd& readings) {
   std::vector<double> differences;
   for (Eigen::Index k = 1; k < path.size(); ++k)
@@ -212,9 +212,9 @@ double counting_noise(const TestRecord& record, const Eigen::VectorXd& path,
 
 namespace {
 
-/// Σ w·q² over the edges that slow motion passes. Here q = e₋ − 2e + e₊ is the second difference of the
-/// distances e of three successive edges from the path, without a reversal between them. For an assumed noise
-/// of 0.03 counts the weight w is 1/Var(q).
+/// Sum Σ w·q² over the edges between counts that slow motion passes. Here q = e₋ − 2e + e₊ is the second
+/// difference of the distances e of three successive edges from the path, without a reversal between them.
+/// For an assumed noise of 0.03 counts the weight w is 1/Var(q).
 struct EdgeDifferences {
   double squares{0.0};
   double weight{0.0};
@@ -225,11 +225,11 @@ struct EdgeDifferences {
 constexpr double of_second_difference = 6.0;  // Var(q)/Var(e)
 constexpr double typical_noise = 0.03;        // counts
 
-/// An edge between two samples.
+/// An edge between two counts of the encoder that the rotor passes between two samples.
 struct PassedEdge {
-  double distance;  ///< Distance of the edge from the path, counts.
-  double travel;    ///< Signed travel of the path between the two samples, counts.
-  double variance;  ///< Variance of the edge position without noise, counts².
+  double distance;  ///< Distance of the edge from the modelled path, counts.
+  double travel;    ///< Signed travel of the modelled path between the two samples, counts.
+  double variance;  ///< Variance of the edge position if the encoder has no noise, counts².
 };
 
 void add_edges(const TestRecord& record, const Eigen::VectorXd& path, const Eigen::VectorXd& readings,

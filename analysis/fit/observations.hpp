@@ -46,7 +46,7 @@ struct AngleObservation {
 void observe(const TestRecord& record, const Eigen::VectorXd& path, const Eigen::VectorXd& readings,
              double noise, std::vector<AngleObservation>& observations);
 
-/// Mean of `values` over the samples of the observation: one row.
+/// Mean of `values` ([sample], or [sample, coordinate]) over the samples of the observation: one row.
 template <class Values>
 auto mean_over(const AngleObservation& observation, const Values& values) {
   const auto first = static_cast<Eigen::Index>(observation.first);

@@ -12,7 +12,8 @@ namespace zerocount::fit {
 
 namespace {
 
-/// Fills the samples inside a step of `m` samples by cubic Hermite interpolation.
+/// Fills in the samples inside a long step of `m` samples by cubic Hermite interpolation. @param first index
+/// of the sample at which the step begins
 void fill_between(SampledPath& path, Eigen::Index first, std::size_t m) {
   const Eigen::Index last = first + static_cast<Eigen::Index>(m);
   const double from = path.angle[first];
@@ -82,7 +83,7 @@ class RecordRun {
     }
   }
 
-  /// Simulates unevenly sampled records from event to event. An event is a reading, or a change of the
+  /// Simulates a record with uneven sampling from event to event. An event is a reading, or a change of the
   /// torque.
   void run_uneven() {
     double now = delay_ * record_.sample_time;  // when the first torque begins
@@ -113,7 +114,8 @@ class RecordRun {
     return static_cast<std::size_t>(std::clamp(duration / record_.sample_time, 1.0, 1e9));
   }
 
-  /// Torque over an interval. After the last interval the last torque stays.
+  /// Course of the torque over an interval between two samples. After the last interval the last torque
+  /// stays.
   const motion::TorqueCourse& torque_of(std::ptrdiff_t interval) const {
     return record_.torque[static_cast<std::size_t>(
         std::min(interval, static_cast<std::ptrdiff_t>(record_.torque.size()) - 1))];
@@ -124,8 +126,8 @@ class RecordRun {
     path_.velocity[k] = plant_.omega() * record_.sample_time / record_.unit;
   }
 
-  /// Advances the plant by one sample, from the reading's fraction of one torque interval to that of the
-  /// next.
+  /// Advances the simulated plant by one sample: from the time of a reading within one torque interval to
+  /// that of the next reading within the next interval.
   void advance_sample(std::ptrdiff_t interval) {
     const motion::TorqueCourse& torque = torque_of(interval);
     if (fraction_ == 0.0 || same_torque(interval + 1)) {
@@ -145,7 +147,8 @@ class RecordRun {
     return motion::is_constant(torque) && motion::is_constant(before) && torque.now == before.now;
   }
 
-  /// Number of samples, at most `most`, to the last reading that is reached with the torque of an interval.
+  /// Number of samples, at most `most`, until the last reading that is reached while the torque of this
+  /// interval stays unchanged.
   std::size_t steady_samples(std::ptrdiff_t interval, std::ptrdiff_t most) const {
     if (!motion::is_constant(torque_of(interval))) return 1;
     if (fraction_ > 0.0 && !same_torque(interval + 1)) return 1;
@@ -182,13 +185,14 @@ constexpr double slow_threshold = 0.2;        // fraction of the range
 constexpr std::size_t min_part_samples = 20;  // for a hold and for a slow branch
 constexpr std::size_t step_samples = 8;
 
-/// The torque at a sample; before the first it is 0.
+/// The torque at the beginning of a sample interval, N m; 0 before the first sample.
 double torque_at(const TestRecord& record, std::ptrdiff_t sample) {
   return sample < 0 ? 0.0 : record.torque[static_cast<std::size_t>(sample)].now;
 }
 
-/// The branches between turning points. A turning point is an extreme after which the torque returns by more
-/// than the threshold.
+/// The branches of a record: its parts between turning points of the torque. A turning point is an extreme
+/// after which the torque returns by more than a threshold. @param range range of the torque, of which the
+/// threshold is a fraction
 std::vector<LoadingBranch> branches_of(const TestRecord& record, double range) {
   const double threshold = reversal_threshold * range;
   std::vector<LoadingBranch> branches;

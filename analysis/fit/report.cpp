@@ -31,7 +31,8 @@ std::optional<std::string> value_text(const ParameterEstimate& estimate) {
   return with_digits(estimate.value, estimate);
 }
 
-/// Half the width of the interval: relative, of the time offset in samples.
+/// Text of half the width of the 95 % interval: relative to the value, for the time offset in samples. Null
+/// if there is no estimate.
 std::optional<std::string> half_width_text(const ParameterEstimate& estimate) {
   if (!is_estimated(estimate)) return {};
   return estimate.name == "time_offset"

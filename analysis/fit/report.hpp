@@ -16,12 +16,12 @@ namespace zerocount::fit {
 /// The report of all kinds of identification, and its description in their answers.
 
 enum class EstimateStatus {
-  estimated,  ///< The value comes from the records.
+  estimated,  ///< The value was estimated from the records.
   known,      ///< The user has given the value.
   /// The records do not determine the parameter, and the fit was repeated with a fixed value. Only the time
   /// offset is kept, at 0: the torque acts with the delay that the record states.
   kept,
-  not_identifiable  ///< the records do not determine it
+  not_identifiable  ///< The records do not determine the parameter.
 };
 
 /// Estimate of one parameter in its own unit, with the 95 % interval. All four numbers are NaN if the
@@ -31,21 +31,22 @@ struct ParameterEstimate : QuantityEstimate {
   std::string key;  ///< Manifest key of the parameter; empty if it has none.
   std::string unit;
   EstimateStatus status{EstimateStatus::not_identifiable};
-  std::string reason{};  ///< Reason why the parameter is not identifiable, or was kept.
+  /// Reason why the parameter is not identifiable, or was kept fixed; otherwise empty.
+  std::string reason{};
 };
 
 inline bool is_estimated(const ParameterEstimate& parameter) {
   return parameter.status == EstimateStatus::estimated;
 }
 
-/// Makes a parameter not identifiable.
+/// Marks a parameter as not identifiable for this reason, and sets its numbers to NaN.
 void leave_open(ParameterEstimate& parameter, std::string reason);
 
 /// The parameters that were identified from records of one axis.
 struct FitReport {
   parameters::AxisKind axis{parameters::AxisKind::rotary};
   std::vector<ParameterEstimate> parameters;
-  std::string fragment;  ///< Fragment of a manifest, see fragment_text().
+  std::string fragment;  ///< Lines for a manifest with the identified parameters, see fragment_text().
 };
 
 /// Name and size of a record, and the readings that were left out of it.
@@ -53,7 +54,7 @@ struct RecordExtent {
   std::string name;
   parameters::AxisKind axis{parameters::AxisKind::rotary};
   std::size_t samples{0};
-  std::size_t excluded{0};  ///< masked samples
+  std::size_t excluded{0};  ///< Number of masked samples, which the fit does not use.
   std::string note{};       ///< Note on what was cut out of the record; empty if nothing was.
 };
 
@@ -66,44 +67,48 @@ document::Description<ParameterEstimate> estimate_description();
 /// that is not identifiable.
 document::Description<FitReport> estimates_description();
 
-/// "109.98 to 110.02", with as many digits as the interval justifies; nothing if it is not estimated.
+/// Text of the 95 % interval: "109.98 to 110.02", with as many digits as the interval justifies; null if the
+/// parameter is not estimated.
 std::optional<std::string> interval_text(const ParameterEstimate& estimate);
 
 /// A sentence on each parameter that is not identifiable, on a line of its own.
 std::string missing_parameters_text(std::span<const ParameterEstimate> parameters);
 
-/// An item that is shown to people only and does not appear in data output.
+/// Creates an item of an answer that is shown to people only and does not appear in data output.
 inline document::Item for_people(const char* key, const char* heading, bool numeric = true) {
   return {.key = key, .heading = heading, .shown = document::Visibility::to_people, .numeric = numeric};
 }
 
-/// "1.23e-06 m", a length on an axis.
+/// Text of a length on an axis with its unit: "1.23e-06 m". @param axis kind of the axis: rad for rotary, m
+/// for linear
 std::string length_text(double length, parameters::AxisKind axis);
 
-/// The item for the kind of axis, with the words of parameters::axis_labels.
+/// The item of an answer that states the kind of axis, with the words of parameters::axis_labels.
 document::Item axis_item();
 
-/// The item for a fragment of a manifest.
+/// The item of an answer that holds a fragment of a manifest.
 document::Item fragment_item();
 
 /// A fragment of a manifest with identified parameters: the maps `plant` and `friction`, for a linear axis
 /// preceded by `axis`.
 struct Fragment {
-  std::vector<std::string> records;  ///< Names of the records.
-  std::string remarks;               ///< Remarks after the sentence on the intervals; ends with a newline.
-  std::string plant;                 ///< Lines of the map `plant`, for example from manifest_lines().
-  std::string friction;              ///< Lines of the map `friction`.
+  std::vector<std::string> records;  ///< Names of the records from which the parameters were identified.
+  /// Comment lines with remarks, which follow the sentence on the intervals; ends with a newline.
+  std::string remarks;
+  std::string plant;     ///< Text of the lines of the map `plant`, for example from manifest_lines().
+  std::string friction;  ///< Text of the lines of the map `friction`.
   const char* source{"Identified from"};
 };
 
-/// The text of a fragment; ends with a newline. A map whose lines are all comments is written as a comment
-/// itself.
+/// The text of a manifest fragment; ends with a newline. A map whose lines are all comments is written as a
+/// comment itself.
 std::string fragment_text(const Fragment& fragment, parameters::AxisKind axis);
 
-/// The comment on a lack of fit, on a line of its own; empty if the model explains the residuals.
+/// The comment line that states that the model does not explain the residuals; empty if it does.
+/// @param explained whether the model explains them
 std::string lack_of_fit_comment(bool explained);
 
-/// The lines of the parameters whose keys are in the map `group`, "plant" or "friction".
+/// The manifest lines of those parameters whose keys are in the map `group`, "plant" or "friction".
 std::string manifest_lines(std::span<const ParameterEstimate> parameters, const std::string& group);
 
 /// The manifest line with the key `name` for a parameter; ends with a newline. For an estimated parameter it
@@ -114,10 +119,10 @@ std::string manifest_lines(std::span<const ParameterEstimate> parameters, const 
 /// truncated to 0 … 1.
 std::string manifest_line(const ParameterEstimate& parameter, const std::string& name);
 
-/// The distribution of one estimated parameter in the fragment.
+/// The distribution of one estimated parameter, as text for a manifest.
 std::string distribution_text(const ParameterEstimate& parameter);
 
-/// `value` with one digit more than the half-width of the parameter's interval justifies.
+/// Text of `value` with one digit more than the half-width of the parameter's interval justifies.
 std::string with_digits(double value, const ParameterEstimate& parameter);
 
 /// A number for a manifest, with two digits more than the relative uncertainty justifies; with all digits if

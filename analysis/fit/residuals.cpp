@@ -57,8 +57,9 @@ ResidualStatistics residual_statistics(const std::vector<double>& residuals) {
 
 namespace {
 
-/// (observed − modelled angle)/√variance of every observation along the paths, plus `step` in the linearised
-/// model; an empty `step` is 0.
+/// Normalised residuals (observed − modelled angle)/√variance of all observations along the paths, plus the
+/// effect of `step` in the linearised model. @param paths [record] modelled path @param step change of all
+/// unknowns; empty: 0
 std::vector<double> residuals_along(const FittedModel& model, const std::vector<Eigen::VectorXd>& paths,
                                     const Observations& observations, const Eigen::VectorXd& step) {
   std::vector<double> residuals;
@@ -132,7 +133,8 @@ constexpr Eigen::Index shortest_window = 64;
 constexpr Eigen::Index transform_length = 2 * longest_window;
 constexpr std::size_t spectrum_replicates = 1000;
 
-/// The samples of a ring-down.
+/// First and last sample of the part of a ring-down (oscillation after a step of the torque) that is
+/// examined.
 struct Window {
   Eigen::Index first{0};
   Eigen::Index length{0};
@@ -152,7 +154,8 @@ std::vector<Window> ring_downs_of(const TestRecord& record) {
   return windows;
 }
 
-/// Values without mean and slope, faded out towards the end, because the oscillation is at the beginning.
+/// The values without their mean and slope, weighted less and less towards the end, because the oscillation
+/// is at the beginning.
 Eigen::VectorXd faded(const Eigen::VectorXd& values) {
   const Eigen::Index count = values.size();
   const Eigen::ArrayXd time = Eigen::ArrayXd::LinSpaced(count, -1.0, 1.0);
@@ -162,7 +165,8 @@ Eigen::VectorXd faded(const Eigen::VectorXd& values) {
   return (centred - slope * time) * fade;
 }
 
-/// [bin] Power of the residuals in the windows; bin i is the frequency i/(transform_length·T).
+/// [bin] Power spectrum of the residuals in the windows, summed over the windows; bin i is the frequency
+/// i/(transform_length·T).
 Eigen::ArrayXd power_of(const Eigen::VectorXd& residuals, const std::vector<Window>& windows) {
   Eigen::FFT<double> transform;
   transform.SetFlag(Eigen::FFT<double>::HalfSpectrum);
@@ -177,7 +181,8 @@ Eigen::ArrayXd power_of(const Eigen::VectorXd& residuals, const std::vector<Wind
   return power;
 }
 
-/// Bins at which a line is looked for: from four periods in the longest window, outside of `own`.
+/// Frequency bins at which a peak is searched: from four periods in the longest window on, except for the
+/// frequencies `own` of the model's oscillation.
 std::vector<Eigen::Index> searched_bins(const TestRecord& record, const std::vector<Window>& windows,
                                         const FrequencyRange& own) {
   Eigen::Index longest = 0;
@@ -191,10 +196,12 @@ std::vector<Eigen::Index> searched_bins(const TestRecord& record, const std::vec
   return bins;
 }
 
-/// The spectra of replicates of the readings along the path of a record.
+/// The usual power of the residuals: spectra of simulated replicates of the readings along the path of a
+/// record.
 struct UsualPower {
-  Eigen::ArrayXd power;  ///< [bin] Largest power in the first half of the replicates.
-  /// Largest ratio of the power in the other half of the replicates to `power`.
+  /// [frequency bin] Usual power: the largest power in the first half of the replicates.
+  Eigen::ArrayXd power;
+  /// Largest ratio, over all bins, of the power in the other half of the replicates to `power`.
   double max_ratio{0.0};
 };
 
@@ -217,7 +224,7 @@ UsualPower usual_power(const TestRecord& record, const Eigen::VectorXd& path, do
   return usual;
 }
 
-/// Bin of the local maximum to which the power rises from `bin`; nothing if the maximum is at the edge of the
+/// Bin of the local maximum to which the power rises from `bin`; null if the maximum is at the edge of the
 /// searched bins.
 std::optional<Eigen::Index> peak_at(const Eigen::ArrayXd& power, const std::vector<Eigen::Index>& bins,
                                     Eigen::Index bin) {
@@ -229,7 +236,8 @@ std::optional<Eigen::Index> peak_at(const Eigen::ArrayXd& power, const std::vect
   return std::nullopt;
 }
 
-/// True if at least half of the power above the usual one lies within ±10 % of the frequency of `peak`.
+/// True if the peak is narrow: at least half of the power above the usual one lies within ±10 % of the
+/// frequency of `peak`.
 bool is_narrow(const Eigen::ArrayXd& power, const Eigen::ArrayXd& usual,
                const std::vector<Eigen::Index>& bins, Eigen::Index peak) {
   constexpr double half_width = 0.1;
@@ -278,7 +286,8 @@ double spread_of(const ResidualStatistics& residuals) {
   return std::sqrt(residuals.squares / static_cast<double>(residuals.observations));
 }
 
-/// Proportion of the replicates for which `extreme` holds, counting the record itself as one of them.
+/// Estimated p-value: proportion of the replicates for which `extreme` holds, with the record itself counted
+/// as one of them.
 template <class Extreme>
 double proportion(const std::vector<ResidualStatistics>& replicates, Extreme extreme) {
   const auto count = std::count_if(replicates.begin(), replicates.end(), extreme);
@@ -342,7 +351,7 @@ std::string reason_of_misfit(const ResidualChecks& checks) {
 
 namespace {
 
-/// Standard deviation of normal residuals, from the median of their magnitudes.
+/// Standard deviation of normally distributed residuals, estimated from the median of their magnitudes.
 double robust_deviation(const std::vector<double>& magnitudes) {
   constexpr double deviation_over_median = 1.4826;
   return deviation_over_median * statistics::upper_median(magnitudes);

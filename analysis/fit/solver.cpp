@@ -41,10 +41,10 @@ SearchResult search_least_squares(ceres::Problem& problem, const SearchSetting& 
 
 namespace {
 
-/// Variance of a reading in a fit to all of them: that of the rounding to counts.
+/// Variance of a reading in a fit to all readings, counts²: that of the rounding to counts.
 constexpr double count_variance = 1.0 / 12.0;
 
-/// The finite ones, by their sums of squares, at most `most`.
+/// The fits with a finite sum of squares, sorted by it, at most `most`.
 std::vector<FitResult> by_squares(std::vector<FitResult> fits, std::size_t most) {
   std::erase_if(fits, [](const FitResult& fit) { return !std::isfinite(fit.squares); });
   std::stable_sort(fits.begin(), fits.end(),
@@ -53,8 +53,8 @@ std::vector<FitResult> by_squares(std::vector<FitResult> fits, std::size_t most)
   return fits;
 }
 
-/// Ceres cost function: the residuals of all records and of the prior. Parameter blocks: the contact's
-/// coordinates and the offsets.
+/// Ceres cost function of a fit: the residuals of all records and of the prior. Its parameter blocks are the
+/// contact's coordinates and the records' encoder offsets.
 class JointResiduals : public ceres::CostFunction {
  public:
   JointResiduals(Records records, const Observations& observations, const FitSetting& setting)
@@ -102,8 +102,8 @@ class JointResiduals : public ceres::CostFunction {
   }
 
  private:
-  /// The motions of the last point. A step of the search asks for the paths at its end and, if it is taken,
-  /// for the derivatives there.
+  /// The motions simulated at the last point, which are kept. A step of the search asks for the paths at its
+  /// end and, if it is taken, for the derivatives there.
   struct LastMotions {
     Point axis;
     std::vector<RecordMotion> motions;
@@ -111,7 +111,9 @@ class JointResiduals : public ceres::CostFunction {
     std::int64_t samples_of_slopes{0};
   };
 
-  /// Counts what is asked for, so that the end of the search does not depend on what is simulated ahead.
+  /// The modelled motions at the point; simulates them unless they are known. Counts the samples of what is
+  /// asked for, not of what is simulated ahead, so that the end of the search does not depend on the number
+  /// of threads. @param with_slopes whether the derivatives are needed
   const std::vector<RecordMotion>& motions_at(const Point& axis, bool with_slopes) const {
     if (last_.motions.empty() || last_.axis != axis) {
       last_ = {axis, {}};
@@ -136,7 +138,7 @@ class JointResiduals : public ceres::CostFunction {
         model.simulated->load() - (knows_paths ? 0 : samples_of_paths(records_, model, last_.axis));
   }
 
-  /// Whether the derivatives take no longer than the paths alone.
+  /// Whether there are enough idle threads that the derivatives take no longer than the paths alone.
   bool has_idle_threads() const {
     const auto columns = std::ranges::count(setting_.free, true) + 1;
     return columns * std::ssize(records_) <= parallel::threads();
@@ -148,7 +150,7 @@ class JointResiduals : public ceres::CostFunction {
   mutable LastMotions last_;
 };
 
-/// Ends a fit that has simulated more samples than its setting allows.
+/// Ceres callback that ends a fit once it has simulated more samples than its settings allow.
 class EndOfEffort : public ceres::IterationCallback {
  public:
   explicit EndOfEffort(const FitSetting& setting) : setting_(setting) {}
@@ -310,7 +312,8 @@ Eigen::MatrixXd textbook_covariance(const FittedModel& model, const Observations
 
 namespace {
 
-/// One of better_points(), with an infinite sum of squares if it cannot be simulated.
+/// One result of better_points(): the point changed by `change`, after one linear step. Its sum of squares is
+/// infinite if the point cannot be simulated.
 FitResult linear_fit(Records records, const Observations& observations, const FittedModel& model,
                      const FitSetting& setting, const Point& change) {
   FitResult result{model.point, std::numeric_limits<double>::infinity(), false};

@@ -25,7 +25,8 @@ std::int64_t scaled(std::int64_t number, double factor) {
   return std::llround(static_cast<double>(number) * factor);
 }
 
-/// The counts of a study without machines that is `factor` times as large, with the same proportions.
+/// The expected counts of a study without machines that has `factor` times as many trials, with the
+/// proportions of the observed counts.
 measures::MoveCounts larger_study(const measures::MoveCounts& counts, double factor) {
   measures::MoveCounts larger;
   larger.moves = scaled(counts.moves, factor);
@@ -40,9 +41,9 @@ measures::MoveCounts larger_study(const measures::MoveCounts& counts, double fac
   return larger;
 }
 
-/// The counts of a study on `machines` machines that resemble the observed ones: machine i equals the
-/// quantile (i + ½)/machines of the observed machines. @param sorted observed machines by rising number of
-/// moves that meet the goal
+/// The expected counts of a study on `machines` machines that resemble the observed ones: machine i equals
+/// the quantile (i + ½)/machines of the observed machines. @param sorted observed machines by rising number
+/// of moves that meet the goal
 measures::MoveCounts machines_like(std::vector<statistics::MachineMoves> sorted, std::int64_t machines) {
   measures::MoveCounts counts;
   for (std::int64_t i = 0; i < machines; ++i) {
@@ -56,7 +57,7 @@ measures::MoveCounts machines_like(std::vector<statistics::MachineMoves> sorted,
   return counts;
 }
 
-/// The smallest number from `low` to `high` for which `decides` is true; 0 if there is none. `decides` is
+/// The smallest integer from `low` to `high` for which `decides` is true; 0 if there is none. `decides` is
 /// assumed to stay true for all larger numbers.
 template <class Decides>
 std::int64_t smallest(std::int64_t low, std::int64_t high, const Decides& decides) {
@@ -64,37 +65,41 @@ std::int64_t smallest(std::int64_t low, std::int64_t high, const Decides& decide
   return found <= high ? found : 0;
 }
 
-/// Maximum of PlannedSize::more_on_each_machine.
+/// Largest value of PlannedSize::more_on_each_machine that is tried.
 constexpr std::int64_t max_more_trials = 1024;
 
-/// Size of one world of a planned study, or of a study without worlds.
+/// Size of a planned study: of one world (a draw of what all machines share), or of the whole study if it has
+/// no worlds.
 struct PlannedSize {
-  std::int64_t units{0};                 ///< machines, or trials without machines
-  std::int64_t more_on_each_machine{1};  ///< trials of a machine, as a multiple of those observed
+  std::int64_t units{0};  ///< Number of machines; in a study without machines, number of trials.
+  /// Number of trials on each machine, as a multiple of the observed number.
+  std::int64_t more_on_each_machine{1};
 };
 
-/// Probabilities of the verdicts that a planned study will have.
+/// Probabilities with which a planned study will have the verdicts met and missed.
 struct Chances {
   double met{0.0};
   double missed{0.0};
 };
 
-/// The chances of the verdicts of a planned study in one world, given the moves observed in it.
+/// The probabilities that a planned study gives each verdict in one world (a draw of what all machines
+/// share), given the moves observed in this world.
 ///
 /// Goal on moves: the true proportion π is unknown. Given k hits in n independent events it has the posterior
-/// distribution Beta(k + ½, n − k + ½) of Jeffreys' prior, and the chances are averaged over it (assurance;
-/// O'Hagan, Stevens and Campbell, Pharmaceutical Statistics 4 (2005) 187). n is the effective number of
-/// independent moves in the observed clusters. Without a miss, or without a hit, the observation does not
-/// tell how clusters differ, so each move counts as one event; the bounds of the planned study still depend
-/// on its number of clusters. If a machine of m moves is worth e1 independent events, a machine of c·m moves
-/// is worth 1/(1/e1 − 1/m + 1/(c·m)).
+/// distribution Beta(k + ½, n − k + ½) of Jeffreys' prior, and the probabilities are averaged over it
+/// (assurance; O'Hagan, Stevens and Campbell, Pharmaceutical Statistics 4 (2005) 187). n is the effective
+/// number of independent moves in the observed clusters. Without a miss, or without a hit, the observation
+/// does not show how clusters differ, so each move counts as one event; the bounds of the planned study still
+/// depend on its number of clusters. If a machine of m moves is worth e1 independent events, a machine of c·m
+/// moves is worth 1/(1/e1 − 1/m + 1/(c·m)).
 ///
 /// Goal on machines: the planned machines resemble the observed ones, and each meets the goal in its moves as
 /// often as observed. A distribution of π is not used here: the bounds of machine_proportion.hpp leave a
 /// range of proportions open that no study decides, so the probability of a decision would stay limited.
 class ObservedWorld {
  public:
-  /// @param counts counts of one world, with at least one move @param points, parts as for judge_goal()
+  /// Prepares the probabilities for a goal in one world. @param counts observed counts in this world, with at
+  /// least one move @param points, parts as for judge_goal()
   ObservedWorld(const study::Goal& goal, measures::MoveCounts counts, std::size_t points, std::size_t parts)
       : goal_(goal),
         counts_(std::move(counts)),
@@ -144,8 +149,9 @@ class ObservedWorld {
     return std::max(1.0, events / (t * t));
   }
 
-  /// The chances for a goal on moves. The clusters are replaced by their effective number of single events;
-  /// what these can show is limited by the number of clusters.
+  /// Probabilities of the verdicts for a goal on a proportion of moves. The clusters of dependent moves are
+  /// replaced by their effective number of single events; what these can show is limited by the number of
+  /// clusters.
   Chances of_moves(const PlannedSize& planned) const {
     const auto n = static_cast<std::int64_t>(planned_events(planned));
     const auto verdict = [&](std::int64_t hits) {
@@ -171,8 +177,8 @@ class ObservedWorld {
     return {chance_of_at_least(n, met), 1.0 - chance_of_at_least(n, not_missed)};
   }
 
-  /// Expected number of the observed machines that have at least `met` moves in the goal.
-  /// @param more trials of a machine, as a multiple of those observed
+  /// Expected number, among the observed machines, of those that would have at least `met` moves in the goal.
+  /// @param more number of trials on a machine, as a multiple of the observed number
   double machines_passing(std::int64_t met, std::int64_t more) {
     const auto [at, is_new] = passing_.try_emplace({met, more}, 0.0);
     if (!is_new) return at->second;
@@ -186,8 +192,9 @@ class ObservedWorld {
     return at->second;
   }
 
-  /// The chances for a goal on machines. A verdict can be reached in several ways (MachineBound::enough());
-  /// its chance is at least that of the likeliest way, which is returned.
+  /// Probabilities of the verdicts for a goal on a proportion of machines. A verdict can be reached in
+  /// several ways (MachineBound::enough()); its probability is at least that of the likeliest way, which is
+  /// returned.
   Chances of_machines(const PlannedSize& planned) {
     const statistics::MachineMoves& machine = counts_.machines.front();
     const statistics::MachineStudy study{planned.units, machine.trials * planned.more_on_each_machine,
@@ -217,18 +224,25 @@ class ObservedWorld {
   measures::MoveCounts counts_;
   std::size_t points_;
   std::size_t parts_;
-  double confidence_low_, confidence_high_;  ///< confidences of the lower and the upper bounds
+  /// Confidences of the lower bounds (met) and of the upper bounds (missed).
+  double confidence_low_, confidence_high_;
   statistics::ClusterSums sums_;
-  double worth_{0.0};                                ///< effective number of independent moves observed
-  std::array<double, 100> likely_{};                 ///< equally probable values of π
-  std::map<std::int64_t, std::int64_t> machines_{};  ///< {moves in the goal: number of machines with so many}
-  std::map<std::pair<std::int64_t, std::int64_t>, double> passing_{};  ///< cache of machines_passing()
+  double worth_{0.0};  ///< Effective number of independent moves among the observed ones.
+  /// Equally probable values of the true proportion π of moves that meet the goal.
+  std::array<double, 100> likely_{};
+  /// {number of moves in the goal: number of observed machines with just as many}
+  std::map<std::int64_t, std::int64_t> machines_{};
+  /// Results of machines_passing() that were already computed, by its arguments.
+  std::map<std::pair<std::int64_t, std::int64_t>, double> passing_{};
 };
 
-/// One claim: a goal in one setting, in all worlds. Worlds with the same observation have the same
-/// chances, which are computed once.
+/// One claim: a goal in one setting, which must be met in all worlds. Worlds with the same observation have
+/// the same probabilities, which are computed once.
 class ObservedClaim {
  public:
+  /// Prepares the probabilities for a goal in one setting.
+  /// @param worlds [world] observed counts
+  /// @param points number of design points among which the point was chosen
   /// @param claims number of claims of the study
   ObservedClaim(const study::Goal& goal, const std::vector<measures::MoveCounts>& worlds, std::size_t points,
                 std::size_t claims) {
@@ -245,8 +259,8 @@ class ObservedClaim {
     }
   }
 
-  /// Probability that the claim is met in all worlds, and that it is missed in at least one. Worlds are
-  /// independent.
+  /// Probability that a planned study meets the claim in all worlds, and probability that it misses the claim
+  /// in at least one. Worlds are independent.
   Chances chances_of(const PlannedSize& planned) {
     double all_met = 1.0;
     double none_missed = 1.0;
@@ -259,11 +273,12 @@ class ObservedClaim {
   }
 
  private:
-  std::vector<std::pair<ObservedWorld, std::int64_t>> different_{};  ///< distinct worlds with their numbers
+  /// Worlds with different observations, each with the number of worlds that have it.
+  std::vector<std::pair<ObservedWorld, std::int64_t>> different_{};
 };
 
-/// All claims of a study: each goal in each setting. The claims are evaluated one by one; nothing is
-/// assumed about their dependence.
+/// All claims of the observed study: each goal in each setting. Their probabilities are evaluated one by one;
+/// nothing is assumed about their dependence.
 class ObservedStudy {
  public:
   ObservedStudy(std::span<const study::Goal> goals, std::span<const measures::CellCounts> counts,
@@ -284,7 +299,7 @@ class ObservedStudy {
   bool has_moves() const { return has_moves_; }
   std::int64_t worlds() const { return worlds_; }
   std::int64_t settings() const { return settings_; }
-  /// Trials of one machine in one setting; 0 without machines.
+  /// Number of observed trials of one machine in one setting; 0 without machines.
   std::int64_t trials_of_machine() const { return trials_of_machine_; }
 
   /// Lower bound of the probability that a study whose worlds have this size is decided. It is decided if no
@@ -306,8 +321,9 @@ class ObservedStudy {
   bool has_moves_{true};
 };
 
-/// The smallest number of machines (without machines: of trials) that meets the goal if no move misses it; 0
-/// if there is none. @param trials trials on each machine; 0: no trials share a machine
+/// The smallest number of machines (in a study without machines: of trials) with which a study shows that the
+/// goal is met if no move misses it; 0 if there is none. @param trials number of trials on each machine; 0:
+/// no trials share a machine @param points number of design points among which the best is chosen
 std::int64_t smallest_without_miss(const AskedGoal& asked, std::int64_t trials, std::size_t points) {
   const auto met = [&](const measures::MoveCounts& counts) {
     return judge_goal(asked.goal, counts, points).status == Status::met;

@@ -19,7 +19,7 @@
 namespace zerocount::goal {
 namespace {
 
-/// "at least 97.1 %, at most 98 %".
+/// Text of the bounds of a proportion: "at least 97.1 %, at most 98 %".
 std::string with_bounds(const BoundedProportion& proportion) {
   return fmt::format("at least {}, at most {}", text::percent_at_least(proportion.low),
                      text::percent_at_most(proportion.high));
@@ -27,7 +27,7 @@ std::string with_bounds(const BoundedProportion& proportion) {
 
 constexpr int goal_digits = 6;  // of what a goal asks for
 
-/// "|error| ≤ 1 count", "|position error| ≤ 10 nm".
+/// Text of the error band or tolerance of a goal: "|error| ≤ 1 count", "|position error| ≤ 10 nm".
 std::string band_text(const study::Goal& goal) {
   if (goal.tolerance)
     return fmt::format("|position error{}| ≤ ", of_mass(goal)) +
@@ -36,7 +36,7 @@ std::string band_text(const study::Goal& goal) {
   return fmt::format("|error{}| ≤ {}", of_mass(goal), text::counted(goal.band, "count"));
 }
 
-/// The largest value of a limit with its unit: "200 counts", "45 N", "1 µm".
+/// Text of the largest allowed value of a limit of a goal, with its unit: "200 counts", "45 N", "1 µm".
 std::string largest_text(const study::GoalLimit& limit, parameters::AxisKind axis) {
   study::StudyFeatures features{.axis = axis, .motion = true, .position_error = true};
   features.tolerances.count = 1;
@@ -49,7 +49,7 @@ std::string largest_text(const study::GoalLimit& limit, parameters::AxisKind axi
   return text::quantity_text(limit.largest, parameters::unit_on(axis, unit), goal_digits);
 }
 
-/// ", overshoot ≤ 200 counts, peak_torque ≤ 45 N"; empty without limits.
+/// Text of the limits of a goal: ", overshoot ≤ 200 counts, peak_torque ≤ 45 N"; empty without limits.
 std::string limits_text(const study::Goal& goal) {
   std::string text;
   for (const study::GoalLimit& limit : goal.limits)
@@ -57,13 +57,13 @@ std::string limits_text(const study::Goal& goal) {
   return text;
 }
 
-/// "move 3", "moves 0, 1": the moves of a trial that the goal judges; empty if it judges all.
+/// Text that names the moves of a trial that the goal judges: "move 3", "moves 0, 1"; empty if it judges all.
 std::string moves_text(const study::Goal& goal) {
   if (goal.on.empty()) return {};
   return fmt::format("move{} {}", goal.on.size() == 1 ? "" : "s", fmt::join(goal.on, ", "));
 }
 
-/// "large: ", the name of the goal; empty without a name.
+/// The name of the goal as the beginning of a line: "large: "; empty if the goal has no name.
 std::string name_text(const study::Goal& goal) {
   return goal.name.empty() ? "" : goal.name + ": ";
 }
@@ -91,12 +91,13 @@ std::string indented(const std::string& line) {
   return line.empty() ? line : "  " + line;
 }
 
-/// The number of machines, and the numbers of trials and moves of one machine. @param counts with machines
+/// The number of machines in the counts, and the numbers of trials and moves of one machine. @param counts
+/// counts of a study with machines
 statistics::MachineStudy shape_of(const measures::MoveCounts& counts) {
   return {std::ssize(counts.machines), counts.machines.front().trials, counts.machines.front().moves};
 }
 
-/// The proportions of the worst world, and how many worlds have each verdict.
+/// Text of the proportions in the worst world, and of the number of worlds with each verdict.
 std::string readings_of_worlds(const study::Goal& goal, const measures::MoveCounts& counts,
                                const ClaimVerdict& verdict) {
   const std::size_t worst = worst_worlds_first(goal, verdict).front();

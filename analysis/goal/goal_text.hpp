@@ -11,21 +11,24 @@
 
 namespace zerocount::goal {
 
-/// "after 0.05 s", "0.25 s after the profile". @param time text of the time with its unit
+/// Text of the time within which a goal must be met: "after 0.05 s", "0.25 s after the profile". @param time
+/// text of the time with its unit
 std::string after_text(const study::TimeLimit& limit, const std::string& time);
 
-/// " of the load" or " of the motor": the mass that a goal names on an axis with two masses. With
-/// Goal::of_either: " of the mass whose encoder closes the loop". Empty without a mass.
+/// Text that names the mass whose error a goal judges on an axis with two masses: " of the load" or " of the
+/// motor". With Goal::of_either: " of the mass whose encoder closes the loop". Empty on an axis with one
+/// mass.
 std::string of_mass(const study::Goal& goal);
 
-/// "|error| ≤ 1 count for good after 0.05 s in at least 99 % of the moves of at least 99 % of machines, with
-/// 95 % confidence".
+/// The goal in words: "|error| ≤ 1 count for good after 0.05 s in at least 99 % of the moves of at least 99 %
+/// of machines, with 95 % confidence".
 std::string goal_sentence(const study::Goal& goal);
 
-/// goal_sentence() of each goal of the question.
+/// The goals of the question in words: goal_sentence() of each goal.
 std::string claim_sentence(const Question& question);
 
-/// "the goal: |error| ≤ 1 count …", "success: all moves of a trial end at zero counts".
+/// The question in words: "the goal: |error| ≤ 1 count …", or without a goal "success: all moves of a trial
+/// end at zero counts".
 std::string question_sentence(const Question& question);
 
 /// The proportions behind a verdict with their bounds, one line each: the moves that meet the goal; with
@@ -33,19 +36,20 @@ std::string question_sentence(const Question& question);
 std::string readings_text(const study::Goal& goal, const measures::MoveCounts& counts,
                           const ClaimVerdict& verdict);
 
-/// readings_text() of the goal. If the question has several goals: of each goal, with its name and verdict.
-/// @param verdict verdict on the point
+/// The proportions behind the verdict on a design point, with their bounds: readings_text() of the goal. If
+/// the question has several goals: of each goal, with its name and verdict. @param verdict verdict on the
+/// point
 std::string goals_text(const Question& question, const measures::PointSummary& point, const Verdict& verdict);
 
-/// Predicate of a move that does not meet the question: "misses the goal: |error| ≤ 1 count for good after
-/// 0.05 s", "does not end at zero counts".
+/// Predicate for a move that does not meet the question: "misses the goal: |error| ≤ 1 count for good after
+/// 0.05 s", or without a goal "does not end at zero counts".
 std::string missing_text(const Question& question);
 
-/// Predicate of the moves of a trial that succeeds: "meet the goal", "end at zero counts".
+/// Predicate for the moves of a trial that succeeds: "meet the goal", or without a goal "end at zero counts".
 std::string doing_text(const Question& question);
 
-/// How the moves of a trial end: "2 of 3 moves meet the goal", or the ending of its worst move: "it ends at
-/// zero counts".
+/// Text that says how the moves of a trial end: "2 of 3 moves meet the goal", or without a goal the ending of
+/// its worst move: "it ends at zero counts".
 std::string ending_text(const Question& question, std::span<const trial::MoveOutcome> moves);
 
 /// One line that says why the moves of one machine are too few: "40 moves in 10 trials cannot show 99 % of
@@ -55,25 +59,26 @@ std::string ending_text(const Question& question, std::span<const trial::MoveOut
 std::string one_machine_text(const study::Goal& goal, const statistics::MachineStudy& study,
                              const ClaimVerdict& verdict);
 
-/// "About 300 machines with 100 trials each decide it with a probability of 90 %, …", or a sentence that no
-/// study decides it.
-/// @param on_machines whether trials share machines
+/// Sentence on the study size that decides the goal: "About 300 machines with 100 trials each decide it with
+/// a probability of 90 %, …", or that no study decides it. @param on_machines whether trials share machines
 std::string needs_sentence(const study::Goal& goal, const Needs& needs, bool on_machines);
 
-/// All texts of text_of(): "met", "missed", "undecided".
+/// All texts for a Status, in the order of the enumerators: "met", "missed", "undecided".
 std::vector<std::string> status_words();
 
-/// A proportion with its bounds.
+/// Converts a proportion with its bounds to the content of an item of an answer.
 inline document::Bounded bounded(const BoundedProportion& proportion) {
   return {proportion.value, proportion.low, proportion.high};
 }
 
-/// The items of Needs, in data only: people read needs_sentence().
+/// Description of Needs (the study size that decides a goal), for JSON and CSV only: people read
+/// needs_sentence().
 document::Description<Needs> needs_description();
-/// The item of the moves in which the load meets a goal of the motor (ClaimVerdict::of_load).
+/// Description of the proportion of moves in which the load meets a goal of the motor
+/// (ClaimVerdict::of_load).
 document::Description<BoundedProportion> load_description();
 
-/// The needs if a study of practicable size decides the goal (Needs::trials > 0); otherwise null.
+/// The study size that decides the goal, if it is practicable (Needs::trials > 0); otherwise null.
 const Needs* practicable(const std::optional<Needs>& needs);
 
 }  // namespace zerocount::goal

@@ -17,10 +17,14 @@ Status status_of(const BoundedProportion& proportion, double wanted) {
   return proportion.high < wanted ? Status::missed : Status::undecided;
 }
 
-/// Confidences of the bounds in one part (a world, or a claim) of what must be met.
+/// Confidences of the bounds for one part (a world, or a claim), if all parts must be met.
 struct Confidences {
-  double low;   ///< Confidence of lower bounds, uncorrected: the goal must be met in every part.
-  double high;  ///< Confidence of upper bounds (Bonferroni): a miss in one part is a miss of the whole.
+  /// Confidence of lower bounds. It is not corrected for the number of parts, because the goal must be met in
+  /// every part.
+  double low;
+  /// Confidence of upper bounds, corrected for the number of parts (Bonferroni), because a miss in one part
+  /// is a miss of the whole.
+  double high;
 
   Confidences(const study::Goal& goal, std::size_t points, std::size_t parts)
       : low(statistics::confidence_of_each(goal.confidence, points)),
@@ -57,14 +61,15 @@ WorldVerdict judge_world(const study::Goal& goal, const measures::MoveCounts& co
   return verdict;
 }
 
-/// Difference of the logits of the observed and the wanted proportion. Infinite if nothing was observed, so
-/// that such proportions rank last.
+/// Difference of the logits of the observed and the wanted proportion; positive if more was observed than
+/// wanted. Infinite if nothing was observed, so that such proportions rank last.
 double observed_margin(const BoundedProportion& proportion, double wanted) {
   if (std::isnan(proportion.value)) return std::numeric_limits<double>::infinity();
   return logit_difference(proportion.value, wanted);
 }
 
-/// @param verdict with its status and proportions
+/// Standing (rank) of a verdict, by its status first. @param verdict verdict whose status and proportions are
+/// set
 Standing standing_of(const study::Goal& goal, const WorldVerdict& verdict) {
   const BoundedProportion& claimed = goal.machines ? verdict.machines : verdict.moves;
   const double wanted = goal.machines.value_or(goal.moves);
@@ -77,7 +82,8 @@ Standing standing_of(const study::Goal& goal, const WorldVerdict& verdict) {
   return standing;
 }
 
-/// @param worlds in each of which the claim must hold
+/// Judges a claim: one goal in one setting. @param worlds [world] counts of the moves in each world, in each
+/// of which the claim must hold; a single element without worlds @param points, parts as for judge_goals()
 ClaimVerdict judge_claim(const study::Goal& goal, std::span<const measures::MoveCounts> worlds,
                          std::size_t points, std::size_t parts) {
   const Confidences confidence(goal, points, parts * worlds.size());

@@ -17,12 +17,12 @@
 namespace zerocount::goal {
 
 enum class Status {
-  met,       ///< the lower bound reaches the goal
-  missed,    ///< the upper bound is below it
-  undecided  ///< neither
+  met,       ///< the lower bound of the proportion reaches what the goal demands
+  missed,    ///< the upper bound of the proportion is below what the goal demands
+  undecided  ///< Neither is shown: the demanded proportion is between the bounds.
 };
 
-/// "met", "missed", "undecided".
+/// Text of a status: "met", "missed" or "undecided".
 std::string_view text_of(Status status);
 
 /// A proportion with one-sided bounds, each with the confidence of the verdict.
@@ -32,13 +32,14 @@ struct BoundedProportion {
   double high{1.0};
 };
 
-/// Standing of a proportion about which the study makes no claim, to rank it among others of the same kind.
+/// Rank of a proportion that is not demanded by any goal, to compare it with others of the same kind.
 Standing standing_of(const BoundedProportion& proportion);
 
-/// The minimum of the two proportions, of their lower bounds, and of their upper bounds, each on its own.
+/// The proportion, lower bound and upper bound that are the smaller ones of `a` and `b`, each on its own.
 BoundedProportion lowest(const BoundedProportion& a, const BoundedProportion& b);
 
-/// The verdict on a claim in one world.
+/// The proportions and the verdict on a claim (a goal in one setting) in one world, which is one draw of what
+/// all machines share.
 struct WorldVerdict {
   Status status{Status::undecided};
   /// Proportion of all moves of all machines that meets the goal; bounds by clustered_proportion.hpp.
@@ -49,10 +50,10 @@ struct WorldVerdict {
   /// Proportion of machines without a miss in as many moves as were observed on each. Value NaN and bounds 0
   /// and 1 if the goal does not ask for machines.
   BoundedProportion without_miss;
-  /// Number of observed machines that meet the goal in Goal::moves of their moves; 0 if the goal does not ask
-  /// for machines.
+  /// Number of observed machines that meet the goal in at least the proportion Goal::moves of their moves; 0
+  /// if the goal does not ask for machines.
   std::int64_t machines_meeting{0};
-  std::int64_t machines_without_miss{0};  ///< machines all of whose moves meet the goal
+  std::int64_t machines_without_miss{0};  ///< Number of observed machines all of whose moves meet the goal.
 };
 
 /// The verdict on a claim, which is one goal in one setting, for all machines that the manifest
@@ -64,9 +65,9 @@ struct WorldVerdict {
 /// 295). The goal is missed if it is shown to be missed in one world, so the upper bounds have the confidence
 /// 1 − (1 − γ)/worlds (Bonferroni).
 struct ClaimVerdict : WorldVerdict {
-  std::size_t goal{0};                 ///< Index of the goal among those that were judged.
-  std::size_t setting{0};              ///< 0 without settings
-  std::vector<WorldVerdict> worlds{};  ///< [world]; empty without worlds
+  std::size_t goal{0};                 ///< Index of the goal in the list of judged goals.
+  std::size_t setting{0};              ///< Index of the setting (condition at an age); 0 without settings.
+  std::vector<WorldVerdict> worlds{};  ///< [world] Verdict on the claim in each world; empty without worlds.
   /// Proportion of moves in which the load meets a goal of the motor, in the setting with the lowest
   /// proportion (`load_setting`). Empty unless the moves of the load are counted (Goal::beside_load).
   std::optional<BoundedProportion> of_load{};
@@ -79,31 +80,34 @@ struct ClaimVerdict : WorldVerdict {
 /// proportion demanded, as a difference of logits. The upper bounds allow for the number of claims
 /// (Bonferroni).
 struct Verdict : ClaimVerdict {
-  std::vector<ClaimVerdict> claims{};  ///< One for each goal and setting: [goal, setting].
+  std::vector<ClaimVerdict> claims{};  ///< Verdicts on the single claims: [goal, setting], flattened.
 };
 
-/// The verdict on each goal in each setting. @param counts [goal]
-/// @param points number of design points from which the point was chosen by its trials; 1 if it was chosen
-/// before. The bounds have the confidence 1 − (1 − γ)/points (Bonferroni).
-/// @param parts number of parts in each of which all these claims must be met
+/// The verdicts on each goal in each setting, and the verdict on all of them together. @param counts [goal]
+/// counts of the moves @param points number of design points from which the point was chosen by its trials; 1
+/// if it was chosen before. The bounds have the confidence 1 − (1 − γ)/points (Bonferroni). @param parts
+/// number of parts in each of which all these claims must be met
 Verdict judge_goals(std::span<const study::Goal> goals, std::span<const measures::CellCounts> counts,
                     std::size_t points, std::size_t parts = 1);
 inline Verdict judge_goal(const study::Goal& goal, const measures::CellCounts& counts, std::size_t points,
                           std::size_t parts = 1) {
   return judge_goals({&goal, 1}, {&counts, 1}, points, parts);
 }
-/// The verdict on one claim, from the moves of one world. @param parts number of claims that must be met
+/// The verdict on one goal from the moves of one world (a draw of what all machines share). @param points
+/// number of design points from which the point was chosen; 1 if it was chosen before @param parts number of
+/// claims that must all be met
 ClaimVerdict judge_goal(const study::Goal& goal, const measures::MoveCounts& counts, std::size_t points,
                         std::size_t parts = 1);
 
-/// The worst of the claims on one goal, or of the claims in another group. The verdict has such a claim.
+/// The worst of the verdict's claims on the goal with the index `goal` or, for worst_where(), of the claims
+/// that `is_asked` selects. The verdict must have such a claim.
 const ClaimVerdict& worst_of_goal(const Verdict& verdict, std::size_t goal);
 const ClaimVerdict& worst_where(const Verdict& verdict,
                                 const std::function<bool(const ClaimVerdict&)>& is_asked);
 
-/// 0 for missed, 1 for undecided, 2 for met.
+/// Number by which statuses are ranked, the worst one first: 0 for missed, 1 for undecided, 2 for met.
 int rank_of(Status status);
-/// Whether `one` has the smaller standing.
+/// Whether the claim `one` is worse than `other`, by their standing (Standing).
 inline bool is_worse(const ClaimVerdict& one, const ClaimVerdict& other) {
   return one.standing < other.standing;
 }
@@ -115,13 +119,14 @@ std::vector<std::size_t> worst_worlds_first(const study::Goal& goal, const Claim
 /// Indices of the worlds whose verdict has this status, rising.
 std::vector<std::size_t> worlds_that(Status status, const ClaimVerdict& verdict);
 
-/// Study size that decides the goal with a stated probability.
+/// Size of a study that decides the goal with a stated probability.
 struct Needs {
-  std::int64_t machines{0};  ///< 0 without machines
-  std::int64_t trials{0};    ///< per design point; 0 if no study of up to 10⁹ trials is large enough
+  std::int64_t machines{0};  ///< Number of machines; 0 for a study without machines.
+  /// Number of trials per design point; 0 if no study of up to 10⁹ trials is large enough.
+  std::int64_t trials{0};
 };
 
-/// Probability with which a study of the size of needs_of() is decided, unless another is asked for.
+/// Default probability with which a study of the size that needs_of() returns is decided.
 inline constexpr double probability_of_needs = 0.9;
 
 /// Studies large enough to decide the verdict on all goals in all settings with at least this
@@ -138,10 +143,11 @@ std::vector<Needs> deciding_studies(std::span<const study::Goal> goals,
                                     std::span<const measures::CellCounts> counts, std::size_t points,
                                     double probability = probability_of_needs);
 
-/// The study with the fewest trials. @param studies at least one
+/// The study with the fewest trials. @param studies at least one study
 const Needs& cheapest(std::span<const Needs> studies);
 
-/// The cheapest of deciding_studies().
+/// The study with the fewest trials among those that decide all goals with this probability; see
+/// deciding_studies() for the parameters.
 Needs needs_of(std::span<const study::Goal> goals, std::span<const measures::CellCounts> counts,
                std::size_t points, double probability = probability_of_needs);
 inline Needs needs_of(const study::Goal& goal, const measures::CellCounts& counts, std::size_t points,
@@ -157,18 +163,23 @@ struct AskedGoal {
 
 /// Grouping of the trials of a study by machines, worlds and settings.
 struct StudyShape {
-  bool on_machines{false};   ///< whether trials share machines
-  std::int64_t worlds{0};    ///< Number of worlds; the goals must be met in each. 0: the study has none.
-  std::int64_t settings{1};  ///< Number of settings; the goals must be met in each.
+  bool on_machines{false};  ///< Whether trials share machines.
+  /// Number of worlds (draws of what all machines share); the goals must be met in each. 0: the study has
+  /// none.
+  std::int64_t worlds{0};
+  /// Number of settings (conditions at ages); the goals must be met in each. 1 without settings.
+  std::int64_t settings{1};
 };
 
 /// The smallest studies that can meet the goals, if no move misses them. With machines: for several numbers
-/// of trials on each machine, the fewest machines. Without machines: one study. Empty if no study of up to
-/// 10⁹ trials or 10⁵ machines can meet them. @param points number of design points from which the best is
-/// chosen
+/// of trials on each machine, the fewest machines that suffice. Without machines: one study. Empty if no
+/// study of up to 10⁹ trials or 10⁵ machines can meet them. @param points number of design points from which
+/// the best is chosen
 std::vector<Needs> smallest_studies(std::span<const AskedGoal> goals, const StudyShape& shape,
                                     std::size_t points);
-/// The smallest studies that can meet one goal in one setting. @param moves moves per trial
+/// The smallest studies that can meet one goal in one setting, if no move misses it. @param on_machines
+/// whether trials share machines @param moves number of moves per trial that the goal judges @param points
+/// number of design points from which the best is chosen
 inline std::vector<Needs> smallest_studies(const study::Goal& goal, bool on_machines, std::int64_t moves,
                                            std::size_t points, std::int64_t worlds = 0) {
   const AskedGoal asked{goal, moves};

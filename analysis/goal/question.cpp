@@ -70,7 +70,8 @@ QuestionWords words_of_success(std::string_view of_mass) {
           .falls_short = "are shown to succeed less often than the median world"};
 }
 
-/// The trials of the point, each counted as one move that is met if the trial succeeds.
+/// Counts of the trials of the design point. Each trial counts as one move, which is met if the trial
+/// succeeds.
 measures::MoveCounts successes_of(const measures::PointSummary& point) {
   measures::MoveCounts counts{
       .moves = point.judged, .met = point.outcomes.zero_count, .of_trials = {}, .machines = {}};
@@ -88,7 +89,7 @@ measures::MoveCounts successes_of(const measures::PointSummary& point) {
   return counts;
 }
 
-/// The goals of all claims, and for each goal the counts of the point's moves.
+/// The goals of all claims of a question, and for each goal the counts of the point's moves.
 struct CountedClaims {
   std::vector<study::Goal> goals{};
   std::vector<measures::CellCounts> counts{};
@@ -101,7 +102,7 @@ struct CountedClaims {
   }
 };
 
-/// Whether the settling times of each goal were collected.
+/// Whether the settling times for each goal were collected at the design point.
 bool has_settling_times(const Question& question, const measures::PointSummary& point) {
   return std::ranges::all_of(
       question.parts, [&](const JudgedPart& part) { return part.number < point.goal_settling.size(); });
@@ -418,17 +419,19 @@ statistics::ConfidenceInterval bounds_of_chosen(const measures::PointSummary& po
 
 namespace {
 
-/// One goal in one setting at one age.
+/// One goal in one setting at one age, with the counts of the moves on each machine.
 struct ClaimAtAge {
-  study::Goal goal;  ///< Always on machines: a goal on moves is given a usual proportion of machines.
+  /// The goal, always demanding a proportion of machines: a goal on moves is given a usual one.
+  study::Goal goal;
   measures::CellCounts counts;
-  std::vector<statistics::MachineMoves> machines;  ///< [machine] moves of `counts`, summed over its cells
+  /// [machine] Numbers of judged moves and of moves that meet the goal, from `counts`.
+  std::vector<statistics::MachineMoves> machines;
 
   bool is_met_by(std::size_t machine) const {
     return statistics::rate(machines[machine].met, machines[machine].moves) >= goal.moves;
   }
 };
-using ClaimsAtAge = std::vector<std::vector<ClaimAtAge>>;  ///< [goal][setting]
+using ClaimsAtAge = std::vector<std::vector<ClaimAtAge>>;  ///< [goal][setting] The claims at one age.
 
 ClaimsAtAge claims_at_age(const Question& question, const std::vector<measures::CellCounts>& counts,
                           std::size_t age) {
@@ -458,8 +461,8 @@ std::size_t machine_count(const ClaimsAtAge& claims) {
   return claims.front().front().machines.size();
 }
 
-/// The minimum over the worlds of `of(values)`, where `values` holds value(machine) of the world's machines.
-/// Without worlds all machines form one group. At most 1.
+/// The minimum over the worlds of `of(values)`, at most 1. `values` holds value(machine) of the machines in
+/// the world; without worlds all machines form one group. @param worlds number of worlds; 0: none
 template <class Value, class Of>
 double least_of_worlds(std::size_t machines, std::int64_t worlds, const Value& value, const Of& of) {
   const auto groups = static_cast<std::size_t>(std::max<std::int64_t>(worlds, 1));
@@ -472,7 +475,8 @@ double least_of_worlds(std::size_t machines, std::int64_t worlds, const Value& v
   return least;
 }
 
-/// Proportion of machines that meet all claims, in the worst world.
+/// Observed proportion of machines that meet all claims, in the worst world. @param worlds number of worlds;
+/// 0: none
 double proportion_meeting(const ClaimsAtAge& claims, std::int64_t worlds) {
   return least_of_worlds(
       machine_count(claims), worlds, [&](std::size_t machine) { return meets_all(claims, machine); },
@@ -481,16 +485,17 @@ double proportion_meeting(const ClaimsAtAge& claims, std::int64_t worlds) {
       });
 }
 
-/// Upper bound of the proportion of machines that meet this claim. @param claims number of claims that share
-/// the error probability (Bonferroni)
+/// Upper bound of the proportion of machines that meet this claim (one goal in one setting). @param claims
+/// number of claims that share the error probability (Bonferroni)
 double most_of(const ClaimAtAge& claim, std::size_t claims) {
   study::Goal goal = claim.goal;
   goal.confidence = statistics::confidence_of_each(goal.confidence, claims);
   return judge_goal(goal, claim.counts, 1).machines.high;
 }
 
-/// The fewest moves of a machine that meet one goal in any of the settings. If the machine made more
-/// moves in some settings than in others, the surplus moves count as met and are left out.
+/// Numbers of moves of a machine in the setting in which the fewest of its moves meet the goal. If the
+/// machine made more moves in some settings than in others, the surplus moves count as met and are left out.
+/// @param settings the claims on one goal in each setting
 statistics::MachineMoves least_moves(const std::vector<ClaimAtAge>& settings, std::size_t machine) {
   statistics::MachineMoves least = settings.front().machines[machine];
   for (const ClaimAtAge& claim : settings) {
@@ -503,8 +508,9 @@ statistics::MachineMoves least_moves(const std::vector<ClaimAtAge>& settings, st
   return least;
 }
 
-/// Lower bound of the proportion of machines that meet one goal in every setting. @param goals number of
-/// goals that share the error probability (Bonferroni)
+/// Lower bound of the proportion of machines that meet one goal in every setting, in the worst world.
+/// @param settings the claims on this goal in each setting
+/// @param goals number of goals that share the error probability (Bonferroni)
 double least_of(const std::vector<ClaimAtAge>& settings, std::int64_t worlds, std::size_t goals) {
   const study::Goal& goal = settings.front().goal;
   const statistics::MachineClaim claim{.proportion = goal.moves,

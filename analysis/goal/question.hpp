@@ -21,97 +21,116 @@
 /// trials, machines, worlds and design points takes its criteria, and the words for them, from here.
 namespace zerocount::goal {
 
-/// One criterion that moves must meet: a goal, or success.
+/// One criterion that moves must meet: a goal of the study, or success (the move ends at zero counts).
 struct JudgedPart {
-  std::size_t number{0};               ///< Index of the goal in Study::goals; 0 for success.
-  std::optional<study::Goal> claim{};  ///< The goal, a claim about all machines; empty for success.
-  measures::CountedGoal counted{};     ///< the moves that meet it
+  std::size_t number{0};  ///< Index of the goal in Study::goals; 0 for the criterion of success.
+  /// The goal, a claim about all machines; null for the criterion of success.
+  std::optional<study::Goal> claim{};
+  measures::CountedGoal counted{};  ///< Criterion by which moves are counted: they meet the goal, or succeed.
 };
 
 /// The criteria by which a study is judged. All parts must be met: one for each goal of the study, or one
 /// for success.
 struct Question {
   std::vector<JudgedPart> parts{JudgedPart{}};
-  std::int64_t worlds{0};      ///< Number of worlds; the criteria must be met in each. 0: no worlds.
-  bool stopped{false};         ///< the outcomes decided the number of trials (`stop`)
-  study::Settings settings{};  ///< Conditions and ages; the criteria must be met in each setting.
-  /// study::of_closing_mass(): " of the motor", the mass whose zero counts are success.
+  /// Number of worlds (draws of what all machines share); the criteria must be met in each. 0: no worlds.
+  std::int64_t worlds{0};
+  bool stopped{false};  ///< True: the outcomes of the trials decided when the study stopped (key `stop`).
+  /// Conditions and ages of the study; each pair is a setting, in which the criteria must be met.
+  study::Settings settings{};
+  /// Text that names the mass whose zero counts mean success: " of the motor" (study::of_closing_mass());
+  /// empty on an axis with one mass.
   std::string_view of_mass{};
 
-  /// The first goal; empty if the study is judged by success.
+  /// The first goal; null if the study has none and is judged by success.
   const std::optional<study::Goal>& claim() const { return parts.front().claim; }
   const measures::CountedGoal& counted() const { return parts.front().counted; }
 };
 
 Question question_of(const study::Study& study);
-/// " under condition loaded", " at loaded, 100000 cycles"; empty without settings.
+/// Text that names a setting: " under condition loaded", " at loaded, 100000 cycles"; empty without settings.
+/// @param setting index of the setting
 std::string under_text(const Question& question, std::size_t setting);
 
 /// Whether the study has several goals.
 inline bool has_several(const Question& question) {
   return question.parts.size() > 1;
 }
-/// Whether the goals have names: they stand in `goals`, which may hold a single goal.
+/// Whether the goals have names. They have names if they are in the manifest's `goals`, which may hold a
+/// single goal.
 inline bool has_names(const Question& question) {
   return question.claim() && !question.claim()->name.empty();
 }
-/// The question with only the part of this number, to judge a point by its worst goal (Verdict::goal).
+/// The question restricted to the part with the index `number`, to judge a point by its worst goal
+/// (Verdict::goal).
 Question only(const Question& question, std::size_t number);
-/// @throws Failure (bad_input) if the study has no goal. @param path path of the manifest or file
+/// Requires that the study has a goal.
+/// @param path path of the manifest or file, for the message
 /// @param others what the user may give instead of a goal: ", or --success"
+/// @throws Failure (bad_input) if the study has no goal
 void require_claim(const study::Study& study, std::string_view path, std::string_view others = "");
-/// @throws Failure (bad_input) if the study applies torque levels, whose moves have no targets. @param path
-/// path of the manifest or file
+/// Requires that the moves of the study have targets. @param path path of the manifest or file, for the
+/// message
+/// @throws Failure (bad_input) if the study applies torque levels, whose moves have no targets
 void require_targets(const study::Study& study, std::string_view path);
-/// The question with success in place of its goals.
+/// The question in which success (all moves end at zero counts) takes the place of the goals.
 inline Question success(const Question& question) {
   Question without = question;
   without.parts = {JudgedPart{}};
   return without;
 }
 
-/// The words of answers about the question. With a claim, answers count moves; otherwise they count trials,
-/// because a trial succeeds as a whole. On an axis with two masses, "zero counts" names the mass whose
-/// encoder is read.
+/// The words that answers use for the question. If the study has a goal, answers count moves; otherwise they
+/// count trials, because a trial succeeds as a whole. On an axis with two masses, "zero counts" names the
+/// mass whose encoder is read.
 struct QuestionWords {
-  std::string_view subject;       ///< "goal", "success"
-  std::string_view title;         ///< Title of figures: "Moves in the goal", "Success".
-  std::string_view events;        ///< Noun for what is counted: "moves", "trials".
-  std::string meeting;            ///< "moves that meet the goal", "trials that end at zero counts"
-  std::string meet;               ///< Predicate of moves: "meet the goal", "end at zero counts".
-  std::string_view head;          ///< Column head of the rate: "moves in goal", "zero-count".
-  std::string_view rate;          ///< "rate of moves in goal", "success rate"
-  std::string_view hits;          ///< "moves in goal", "successes"
-  std::string_view settles;       ///< Predicate of a move: "settles in the goal's band", "arrives".
-  std::string_view failed;        ///< Predicate of a trial: "missed the goal", "failed".
-  std::string_view succeeded;     ///< Predicate of what succeeded: "met the goal", "succeeded".
-  std::string_view failure;       ///< "miss", "failure"
-  std::string_view failing;       ///< Noun for trials: "trials that miss the goal", "failed trials".
-  std::string_view trial_rate;    ///< "rate of trials in goal", "success rate"
-  std::string_view machine_head;  ///< Column head: "machines w/o miss", "machines w/o failure".
-  std::string machine_meaning;    ///< "proportion of machines all of whose moves meet the goal" …
+  std::string_view subject;  ///< Noun for what must be met: "goal", "success".
+  std::string_view title;    ///< Title of figures: "Moves in the goal", "Success".
+  std::string_view events;   ///< Noun for what is counted: "moves", "trials".
+  /// Noun for what meets the question: "moves that meet the goal", "trials that end at zero counts".
+  std::string meeting;
+  std::string meet;            ///< Predicate of moves: "meet the goal", "end at zero counts".
+  std::string_view head;       ///< Column head of the proportion: "moves in goal", "zero-count".
+  std::string_view rate;       ///< Noun for the proportion: "rate of moves in goal", "success rate".
+  std::string_view hits;       ///< Noun for the number of successes: "moves in goal", "successes".
+  std::string_view settles;    ///< Predicate of a move: "settles in the goal's band", "arrives".
+  std::string_view failed;     ///< Predicate of a trial: "missed the goal", "failed".
+  std::string_view succeeded;  ///< Predicate of what succeeded: "met the goal", "succeeded".
+  std::string_view failure;    ///< Noun for one failure: "miss", "failure".
+  std::string_view failing;    ///< Noun for trials that fail: "trials that miss the goal", "failed trials".
+  /// Noun for the proportion of trials that succeed: "rate of trials in goal", "success rate".
+  std::string_view trial_rate;
+  /// Column head for the number of machines without a failure: "machines w/o miss", "machines w/o failure".
+  std::string_view machine_head;
+  /// Meaning of the proportion of machines without a failure: "proportion of machines all of whose moves meet
+  /// the goal" …
+  std::string machine_meaning;
   std::string_view falls_short;  ///< Predicate of worlds: "fall short of the goal by their observed rates" …
 };
 const QuestionWords& words_of(const Question& question);
-/// Words for trials that succeed: "succeed", with two masses "end at zero counts of the motor".
+/// Predicate for trials that succeed: "succeed", with two masses "end at zero counts of the motor".
 std::string success_words(const Question& question);
 
-/// Whether a trial with these moves meets the question: all of them do.
+/// Whether a trial with these moves meets the question: all moves meet the goals that judge them or, without
+/// goals, all succeed.
 bool meets(const Question& question, std::span<const trial::MoveOutcome> moves);
 
-/// When the slowest of the moves is within the goal's band for good, or has arrived, s; infinite if never.
+/// Settling time of a trial, s: the time at which the slowest of its moves is within the goal's band for good
+/// or, without a goal, has arrived. Infinite if a move never does.
 double settling_time(const Question& question, std::span<const trial::MoveOutcome> moves);
 
-/// Rank of a trial among others; the larger value, compared in order of the array, is worse. With a claim:
-/// number of moves that miss a goal, settling_time(), severity of the outcome, |final error| in counts.
-/// Without one: severity, |final error|, settling_time(), 0.
+/// Numbers that rank a trial among others; the larger value, compared in the order of the array, is worse.
+/// With a goal: number of moves that miss a goal, settling_time(), severity of the outcome, |final error| in
+/// counts. Without one: severity, |final error|, settling_time(), 0.
 using Badness = std::array<double, 4>;
 Badness badness_of(const Question& question, std::span<const trial::MoveOutcome> moves);
 
-/// The verdict on all claims at a point. @param points as for judge_goals()
+/// The verdict on all goals of the question, in all settings, at a design point. @param points number of
+/// design points from which this one was chosen by its trials; 1 if it was chosen before
 Verdict verdict_on(const Question& question, const measures::PointSummary& point, std::size_t points = 1);
 
-/// deciding_studies() and needs_of() for all claims at a point.
+/// Sizes of studies that decide all goals of the question at a design point; see deciding_studies() and
+/// needs_of() for lists of goals.
 std::vector<Needs> deciding_studies(const Question& question, const measures::PointSummary& point,
                                     std::size_t points);
 Needs needs_of(const Question& question, const measures::PointSummary& point, std::size_t points);
@@ -120,20 +139,23 @@ Needs needs_of(const Question& question, const measures::PointSummary& point, st
 /// counts of the trials, each as one move, and of those that succeed.
 measures::MoveCounts counts_of(const Question& question, const measures::PointSummary& point);
 
-/// The final settling times of the moves that one goal judges: from when on the error stays within its band
-/// or tolerance.
+/// Final settling times of the moves that one goal judges in one setting: the times from which on the error
+/// stays within the goal's band or tolerance.
 struct GoalTimes {
-  std::size_t part{0};     ///< Index in Question::parts.
-  std::size_t setting{0};  ///< 0 without settings
+  std::size_t part{0};     ///< Index of the goal in Question::parts.
+  std::size_t setting{0};  ///< Index of the setting; 0 without settings.
   const measures::MeasureStatistics* statistics{nullptr};
-  double allowed{statistics::unknown};  ///< Longest time allowed to a judged move, s from its start.
-  /// 95 % quantile of settling time / allowed time; infinite if it is never reached.
+  /// Longest time that the goal allows to a judged move, s from the start of the move.
+  double allowed{statistics::unknown};
+  /// 95 % quantile of settling time divided by allowed time; infinite if this proportion of the moves does
+  /// not settle.
   double time_ratio{statistics::unknown};
 };
 /// Settling times for each pair of goal and setting. Only moves that the goal judges are counted.
-/// @param question with a claim
+/// @param question a question with at least one goal
 std::vector<GoalTimes> goal_times(const Question& question, const measures::PointSummary& point);
-/// The settling times with the largest GoalTimes::time_ratio. @param question with a claim
+/// The settling times of the goal and setting with the largest GoalTimes::time_ratio, that is, the slowest
+/// ones. @param question a question with at least one goal
 GoalTimes slowest_goal_times(const Question& question, const measures::PointSummary& point);
 
 /// The element of `times` for the goal and the setting of the claim. @param times goal_times() of the same
@@ -155,7 +177,7 @@ std::vector<std::string> settling_measures(const Question& question);
 /// The quantile of settling_measure() by which points are compared: the 95 % quantile of a goal's settling
 /// time, or the median of the arrival time.
 statistics::Quantile measures::MeasureStatistics::*settling_quantile(const Question& question);
-/// Name in files of settling_quantile(): "band_settling_time_p95[2]", "arrival_time_median".
+/// Name of the statistic of settling_quantile() in files: "band_settling_time_p95[2]", "arrival_time_median".
 std::string settling_statistic(const Question& question);
 
 /// Numbers by which design points are compared, the most important one first; larger is better. With a claim:
@@ -167,20 +189,23 @@ std::vector<double> merits_of(const Question& question, const measures::PointSum
 /// With worlds and a claim: proportion in the worst world, with the lowest bounds of all worlds.
 struct QuestionRate {
   double value{statistics::unknown};
-  /// Bounds of the proportion. With a claim: one-sided, each with the confidence of the claim. Otherwise: a
+  /// Bounds of the proportion. With a goal: one-sided, each with the confidence of the goal. Otherwise: a
   /// two-sided interval.
   statistics::ConfidenceInterval bounds{0.0, 1.0};
-  std::int64_t hits{0}, events{0};  ///< number of successes, and of all that are counted
+  /// Number of successes, and number of all moves or trials that are counted.
+  std::int64_t hits{0}, events{0};
 };
-/// @param points number of design points from which the point was chosen
-/// @param confidence confidence of the two-sided bounds without a claim
+/// The proportion of successes at a design point with its bounds. @param points number of design points from
+/// which the point was chosen @param confidence confidence of the two-sided bounds if the question has no
+/// goal
 QuestionRate rate_of(const Question& question, const measures::PointSummary& point, std::size_t points = 1,
                      double confidence = statistics::summary_confidence);
 
-/// Machines of a point all of whose moves meet the question.
+/// Number of machines of a design point all of whose moves meet the question.
 struct MachinesWithoutFailure {
-  std::int64_t machines{0};  ///< Number of machines that qualify.
-  std::int64_t of{0};        ///< Number of all machines; 0 without machines.
+  /// Number of machines without a failure (or, for machines_meeting_all(), of machines that meet every goal).
+  std::int64_t machines{0};
+  std::int64_t of{0};  ///< Number of all machines; 0 if the study has no machines.
 };
 MachinesWithoutFailure machines_without_failure(const Question& question,
                                                 const measures::PointSummary& point);
@@ -192,7 +217,7 @@ const BoundedProportion& judged_rate(const Question& question, const WorldVerdic
 /// that meet the goal", or QuestionWords::head and ::meeting.
 std::string_view judged_head(const Question& question);
 std::string_view judged_meeting(const Question& question);
-/// Whether the first goal is about machines.
+/// Whether the first goal demands a proportion of machines, not only of moves.
 inline bool is_of_machines(const Question& question) {
   return question.claim() && question.claim()->machines;
 }
@@ -202,7 +227,7 @@ inline bool is_of_machines(const Question& question) {
 std::optional<MachinesWithoutFailure> machines_meeting_all(const Question& question,
                                                            const measures::PointSummary& point);
 
-/// Whether QuestionRate describes the worst world.
+/// Whether QuestionRate describes the worst world, because the question has a goal and worlds.
 inline bool is_of_worst_world(const Question& question) {
   return question.worlds > 0 && question.claim();
 }
@@ -210,8 +235,9 @@ inline bool is_of_worst_world(const Question& question) {
 /// Confidence of the bounds by which the question is judged: that of the first goal, or `others` without one.
 double confidence_of(const Question& question, double others);
 
-/// The claim on the success of a point. Its bounds account for the choice from `points` points (Bonferroni).
-/// @param stopped whether the outcomes decided the number of trials (`stop`)
+/// Tolerance statement about the success of all machines at a design point. Its bounds account for the choice
+/// from `points` points (Bonferroni). @param stopped whether the outcomes decided the number of trials
+/// (`stop`)
 statistics::SuccessClaim claim_of_chosen(const measures::PointSummary& point, std::size_t points,
                                          bool stopped);
 
@@ -221,34 +247,36 @@ statistics::SuccessClaim claim_of_chosen(const measures::PointSummary& point, st
 statistics::ConfidenceInterval bounds_of_chosen(const measures::PointSummary& point, std::size_t points,
                                                 bool stopped, double confidence);
 
-/// [age] the proportion of machines that meet the question at the age, with one-sided bounds.
+/// [age] The proportion of machines that meet the question at each age, with one-sided bounds.
 ///
 /// For one goal in one setting these are the bounds of a claim on machines (judge_goal()).
 ///
-/// Several settings: a machine that misses the goal in some setting reaches c good moves in all
-/// settings at most as often as in that one. So the machines that meet the goal in all settings are
-/// bounded by the fewest good moves of each machine in any setting, in the same way as those that meet
-/// it in one setting are bounded by their good moves (statistics::MachineClaim). This holds however the
-/// moves in the settings depend on each other.
+/// Several settings: a machine that misses the goal in some setting reaches c good moves in all settings at
+/// most as often as in that one. So the machines that meet the goal in all settings are bounded by the fewest
+/// good moves of each machine in any setting, in the same way as those that meet it in one setting are
+/// bounded by their good moves (statistics::MachineClaim). This holds however the moves in the settings
+/// depend on each other.
 ///
-/// Several goals: the lower bound for G goals is 1 − Σ(1 − low of each goal), each at the confidence
-/// 1 − (1 − γ)/G. The upper bound is the minimum over the K pairs of goal and setting, each at
-/// 1 − (1 − γ)/K (Bonferroni). With worlds all values are those of the worst world.
-/// @param counts [goal of the study] (PointSummary::goals)
+/// Several goals: the lower bound for G goals is 1 − Σ(1 − low of each goal), each at the confidence 1 − (1 −
+/// γ)/G. The upper bound is the minimum over the K pairs of goal and setting, each at 1 − (1 − γ)/K
+/// (Bonferroni). With worlds all values are those of the worst world.
+/// @param counts [goal of the study] counts of the moves (PointSummary::goals)
 std::vector<BoundedProportion> machines_at_ages(const Question& question,
                                                 const std::vector<measures::CellCounts>& counts);
 
-/// [machine] the life of the machine: the last age up to and including which it meets the question at every
-/// age; NaN if it does not meet it at the first age.
+/// [machine] Life of each machine: the last age up to and including which it meets the question at every age;
+/// NaN if it does not meet it at the first age. @param counts [goal of the study] counts of the moves
 std::vector<double> lives_of_machines(const Question& question,
                                       const std::vector<measures::CellCounts>& counts);
 
-/// The machines that meet the question at every age up to a given age.
+/// Number and proportion of the machines that meet the question at every age up to a given age.
 struct Survival {
-  std::int64_t machines{0};  ///< Number of these machines.
-  BoundedProportion living;  ///< Proportion of all machines, with one-sided Clopper–Pearson bounds.
+  std::int64_t machines{0};  ///< Number of machines that meet the question at every age up to this age.
+  /// These machines as a proportion of all machines, with one-sided Clopper–Pearson bounds.
+  BoundedProportion living;
 };
-/// [age] the survival curve of these lives. @param confidence confidence of each bound
+/// [age] Survival curve: the machines that meet the question at every age up to this one. @param lives
+/// [machine] lives_of_machines() @param ages ages in rising order @param confidence confidence of each bound
 std::vector<Survival> survival_of(const std::vector<double>& lives, const std::vector<double>& ages,
                                   double confidence);
 

@@ -14,13 +14,17 @@ double logit_difference(double a, double b);
 /// Few machines cap the lower bounds, and the bounds of claims on machines are often 0. So the bounds may be
 /// equal although the observed proportions differ.
 struct Standing {
-  int status{0};         ///< rank_of(); 0 without a claim
-  double bound{0.0};     ///< logit_difference() of the lower bound and the proportion that the goal demands
-  double observed{0.0};  ///< Like `bound`, by the observed proportion; infinite if nothing was observed.
-  /// Bound and observed proportion of the moves, if the claim is about machines.
+  int status{0};  ///< Rank of the status: 0 missed, 1 undecided, 2 met (rank_of()); 0 if nothing is claimed.
+  /// Difference of the logits of the lower bound and the proportion that the goal demands; positive if the
+  /// bound exceeds it.
+  double bound{0.0};
+  /// Difference of the logits of the observed proportion and the demanded one; infinite if nothing was
+  /// observed.
+  double observed{0.0};
+  /// If the claim is about machines: the differences `bound` and `observed` for the proportion of moves.
   double bound_of_moves{0.0}, observed_of_moves{0.0};
-  /// Minus the 95 % quantile of the settling time, as a proportion of the time allowed; 0 if it is not
-  /// known.
+  /// Minus the ratio of the 95 % quantile of the settling time to the time allowed, so that larger is better;
+  /// 0 if it is not known.
   double earliness{0.0};
 
   friend bool operator<(const Standing& a, const Standing& b);

@@ -23,13 +23,14 @@
 namespace zerocount::history {
 namespace {
 
-/// errno of opening the file for writing; 0 if it can be opened.
+/// The value of errno after an attempt to open the file for writing; 0 if it can be opened.
 int opening_error(const std::filesystem::path& path) {
   const storage::FileDescriptor file(::open(path.c_str(), O_RDWR | O_CLOEXEC));
   return file.valid() ? 0 : errno;
 }
 
-/// @param system_error errno of the call that failed, or 0
+/// Throws the Failure that describes a failed call of SQLite for the database at `path`. @param code error
+/// code of SQLite @param system_error errno of the call that failed, or 0
 [[noreturn]] void fail(const std::filesystem::path& path, int code, int system_error) {
   const auto failure = [&](ExitCode exit_code, const char* reason) {
     return Failure(exit_code, fmt::format("{}: {}", path.string(), reason));
@@ -62,12 +63,12 @@ int opening_error(const std::filesystem::path& path) {
   }
 }
 
-/// A wait in progress.
+/// A wait until another process releases the database. It begins with the first call of sleep().
 class Patience {
  public:
   explicit Patience(const Wait& wait) : wait_(wait) {}
 
-  /// Sleeps for a moment; false where the time is over.
+  /// Sleeps for 20 ms. False, without sleeping, if the longest time to wait is over.
   bool sleep() {
     using Clock = std::chrono::steady_clock;
     if (!start_) start_ = Clock::now();
@@ -84,7 +85,8 @@ class Patience {
   bool noticed_{false};
 };
 
-/// @return as sqlite3_busy_handler expects: 0 to give up
+/// Callback for sqlite3_busy_handler: waits while another process uses the database. @param patience a
+/// Patience @return 1: try again; 0: give up
 int wait_for_other(void* patience, int /*calls*/) {
   return static_cast<Patience*>(patience)->sleep() ? 1 : 0;
 }
@@ -92,9 +94,11 @@ int wait_for_other(void* patience, int /*calls*/) {
 using SQLite::Database;
 using SQLite::Statement;
 
-constexpr std::int64_t application_id = 0x7a636869;  ///< "zchi": tells a history from other SQLite files
+/// SQLite application_id of a history file ("zchi"), which distinguishes it from other SQLite files.
+constexpr std::int64_t application_id = 0x7a636869;
 
-/// Rows are written and read in the order of these columns.
+/// SQL that creates the tables of a history. The program writes and reads the values of a row in the order of
+/// these columns.
 constexpr const char* schema_sql = R"(
 CREATE TABLE run (
   id INTEGER PRIMARY KEY,
@@ -148,7 +152,7 @@ std::string to_string(statistics::MeasurementKind kind) {
                             database.getFilename()));
 }
 
-/// The number that `sql` gives in one row.
+/// The integer in the first column of the single row that the query `sql` returns.
 std::int64_t number_of(Database& database, const char* sql) {
   return database.execAndGet(sql).getInt64();
 }
@@ -195,7 +199,8 @@ std::int64_t insert_run(Database& database, const RunRecord& run) {
   return database.getLastInsertRowid();
 }
 
-/// SQLite stores NaN as NULL.
+/// Inserts the values of the run with this row id into the database. NaN becomes NULL, because SQLite stores
+/// NaN as NULL.
 void insert_values(Database& database, std::int64_t id, const RunRecord& run) {
   Statement insert(database, "INSERT INTO value VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   for (const RunValue& value : run.values) {
@@ -219,7 +224,7 @@ std::int64_t integer(Statement& row, int column) {
   return row.getColumn(column).getInt64();
 }
 
-/// NaN for NULL.
+/// The number in this column of a row; NaN if the column is NULL.
 double number(Statement& row, int column) {
   const SQLite::Column value = row.getColumn(column);
   if (value.isNull()) return statistics::unknown;
@@ -249,7 +254,7 @@ RunValue value_of(Statement& row) {
   return value;
 }
 
-/// The row of the run with this file, and whether it has a comparison.
+/// A run that the database already contains: its row id, and whether it has a comparison with a baseline.
 struct KnownRun {
   std::int64_t id{0};
   bool compared{false};

@@ -12,31 +12,32 @@ namespace SQLite {
 class Database;
 }
 
-/// The SQLite file of a history. README.md documents its schema.
+/// The SQLite file that keeps a history: the values of many runs of studies over time. README.md documents
+/// its schema.
 namespace zerocount::history {
 
-/// The version of the schema, kept as the file's `user_version`.
+/// The version of the tables in a history file, kept as the SQLite `user_version` of the file.
 inline constexpr std::int64_t schema_version = 1;
 
-/// Limits for waiting until another process releases a database.
+/// Limits for the wait until another process releases a database file.
 struct Wait {
-  double seconds{60.0};            ///< Longest time to wait, s.
-  double notice{1.0};              ///< Time after which `notify` is called once, s.
-  std::function<void()> notify{};  ///< Called once after `notice`; may be empty.
+  double seconds{60.0};  ///< Longest time to wait, s; after it the call fails.
+  double notice{1.0};    ///< Waiting time after which `notify` is called once, s.
+  /// Function that is called once when the wait exceeds `notice`, to tell the user; may be empty.
+  std::function<void()> notify{};
 };
 
-/// Result of add_run().
+/// What add_run() changed in the history.
 enum class Addition {
   added,
-  already_there,  ///< The run had been added before; nothing changed.
-  /// The run had been added before without its comparison, which was added now.
+  already_there,  ///< The history already contained the run; nothing changed.
+  /// The history already contained the run, but without its comparison with a baseline, which was added now.
   comparison_added,
 };
 
-/// Adds a run to a history; creates the file if it does not exist. Either the whole run is added or nothing.
-/// Waits while another process writes.
-/// @throws Failure: bad_data if the file is damaged, is something else, or has a newer version of the schema;
-/// machine_failed if it cannot be written.
+/// Adds a run of a study to a history file; creates the file if it does not exist. Either the whole run is
+/// added or nothing. Waits while another process writes. @throws Failure: bad_data if the file is damaged, is
+/// not a history, or has a newer version of the schema; machine_failed if it cannot be written.
 Addition add_run(const std::filesystem::path& database, const RunRecord& run, const Wait& wait = {});
 
 /// Whether the history contains the run of a results file with this checksum. False if there is no history
@@ -55,7 +56,8 @@ std::vector<RunRecord> read_runs(const std::filesystem::path& database, const Wa
 void with_database(const std::filesystem::path& path, int flags, const Wait& wait,
                    const std::function<void(SQLite::Database&)>& action);
 
-/// Throws an SQLite::Exception that with_database() reports as damage, unless `condition` holds.
+/// Reports a damaged history: throws an SQLite::Exception, which with_database() reports as damage, unless
+/// `condition` holds.
 void require_undamaged(bool condition);
 
 }  // namespace zerocount::history

@@ -36,8 +36,9 @@ double number_of(const Json& value) {
   return value.is_number() ? value.get<double>() : statistics::unknown;
 }
 
-/// Gives `take` the parsed JSON of a command's answer, and its text.
-/// @param format that makes the command print it
+/// Reads a file with a command's answer as JSON, and calls `take` with the parsed JSON and with its text.
+/// @param command name of the command whose answer is expected @param format option that makes the command
+/// print the answer as JSON, for messages
 void read_answer(const std::filesystem::path& path, std::string_view command, std::string_view format,
                  const std::function<void(const Json&, const std::string&)>& take) {
   constexpr std::size_t max_size = std::size_t{256} << 20U;  // bytes
@@ -63,7 +64,7 @@ ValueComparison value_comparison(const Json& measure) {
   return found;
 }
 
-/// "NAME, made 2026-… by commit …, seed 7, 200 trials".
+/// Text that describes a run: "NAME, made 2026-… by commit …, seed 7, 200 trials".
 std::string description_of(const RunIdentity& run) {
   return fmt::format("{}, made {} by commit {}, seed {}, {} trials", run.study, run.created, run.git_commit,
                      run.seed, run.trials);
@@ -96,7 +97,7 @@ void add(RunRecord& run, const Json& comparison) {
   }
 }
 
-/// When the file was written, UTC.
+/// Time at which the file was last written, UTC, as 2002-07-21T12:00:00Z.
 std::string time_written(const std::filesystem::path& path) {
   const auto written = std::chrono::file_clock::to_sys(std::filesystem::last_write_time(path));
   const std::time_t time =
@@ -128,7 +129,8 @@ RunValue value_of(const Json& answer, const Json& measure) {
   return value;
 }
 
-/// The medians of each kind of moves, for a measure whose kinds make several peaks.
+/// The median of the measure for each kind of similar moves in the answer of `zerocount monitor`. Empty
+/// unless the kinds of moves make several peaks in the distribution of the measure.
 std::vector<RunValue> values_of_likes(const Json& answer, const Json& measure) {
   std::vector<RunValue> values;
   if (!answer.contains("likes")) return values;
@@ -202,8 +204,9 @@ RunValue proportion_value(const std::string& label, std::string measure, const g
   return value;
 }
 
-/// The judgement of a goal at a point, with two-sided bounds as those of other values; with worlds in the
-/// worst, with bounds of the lowest of all. @param question of this goal alone
+/// The values of one goal at a design point, with two-sided bounds like those of other values. With worlds
+/// (draws of what all machines share): the value of the worst world, with the bounds of the lowest of all.
+/// @param question a question of this goal alone @param label label of the point
 std::vector<RunValue> goal_values(const goal::Question& question, const measures::PointSummary& point,
                                   const std::string& label, double confidence) {
   study::Goal both_sides = *question.claim();
@@ -229,7 +232,8 @@ std::vector<RunValue> goal_values(const goal::Question& question, const measures
   return values;
 }
 
-/// Adds the values of trials, all of one setting. @param setting empty without settings
+/// Appends the values of a summary whose trials are all in one setting. @param setting label of the setting
+/// (a condition at an age); empty without settings
 void add_values(std::vector<RunValue>& values, const summary::StudySummary& summary,
                 const std::string& setting) {
   for (std::size_t i = 0; i < summary.points.size(); ++i) {

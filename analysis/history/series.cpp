@@ -99,8 +99,8 @@ std::vector<SeriesChange> changes_of_levels(const Series& series, double thresho
   return changes;
 }
 
-/// The runs from `start` to `last`, divided where the levels before and after differ most; the baseline's
-/// value stands before the first.
+/// The change between two groups of runs: the runs from `start` to `last` are divided where the levels before
+/// and after differ most. The baseline's value counts as a run before the first one.
 SeriesChange divided_since_baseline(const Series& series, std::size_t start, std::size_t last) {
   std::vector<double> values{series.runs[last].value.comparison->baseline};
   for (std::size_t i = start; i <= last; ++i) values.push_back(series.runs[i].value.value);
@@ -162,7 +162,7 @@ std::vector<SeriesChange> changes_since_baseline(const Series& series, double ma
                   fmt::join(studies, ", "), fmt::join(points, ", "), fmt::join(measures, ", ")));
 }
 
-/// "2026-11-22T02:30:00Z (commit 1a2b3c4d5e)".
+/// Text of the time and the commit of a run: "2026-11-22T02:30:00Z (commit 1a2b3c4d5e)".
 std::string place_text(const RunPlace& place) {
   constexpr std::size_t shown = 10;
   const std::string& commit = place.git_commit;
@@ -175,13 +175,14 @@ std::string value_text(const RunValue& of, double value) {
   return comparison::value_text(value, of.measure, of.unit);
 }
 
-/// "36.5 % [30 %, 43 %]".
+/// Text of a value with its bounds: "36.5 % [30 %, 43 %]".
 std::string bounded_text(const RunValue& value) {
   return fmt::format("{} [{}, {}]", value_text(value, value.value), value_text(value, value.bounds.low),
                      value_text(value, value.bounds.high));
 }
 
-/// Names the runs of a change, and notes it at them.
+/// Fills in the text members of a change: the times and commits of its runs and the sentence. Also counts the
+/// change at its runs in the series.
 void describe(Series& series, SeriesChange& change) {
   const auto place_of = [&](std::size_t run) {
     return RunPlace{series.runs[run].run->created, series.runs[run].run->git_commit};
@@ -210,7 +211,8 @@ using document::in_data;
 using document::to_people;
 using Run = const SeriesRun&;
 
-/// Comparison of a run's value with the baseline, for runs that were compared.
+/// Description of the columns that show the comparison of a run's value with the baseline; empty cells for
+/// runs that were not compared.
 Description<SeriesRun> comparison_description() {
   const auto of_value =
       Description<ValueComparison>()
@@ -304,7 +306,7 @@ std::string headline(const History& history) {
   return fmt::format("{} of {} series changed.", changed, history.series.size());
 }
 
-/// The changes in words, and what a false alarm costs.
+/// Sentences for the reader on the changes of all series, and on the probability of a false alarm.
 std::string sentences(const History& history) {
   std::string text;
   for (const Series& series : history.series)

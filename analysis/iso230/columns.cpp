@@ -20,7 +20,8 @@ using Point = const PointRepeatability&;
 using TrialTable = RepeatabilityTable<SequenceTrial>;
 using PointTable = RepeatabilityTable<PointRepeatability>;
 
-/// A column for every value of `fields`, from every source. `values(repeatability, target)` has them.
+/// Adds a column to a table of trials for every quantity of `fields`, computed from every kind of deviation
+/// in `sources`. `values(repeatability, target)` returns the struct that has the quantities.
 template <typename Values, typename ValuesOf>
 void add_values(TrialTable& table, const DeviationSources& sources,
                 std::span<const RepeatabilityField<Values>> fields, ValuesOf values) {
@@ -36,8 +37,8 @@ void add_values(TrialTable& table, const DeviationSources& sources,
   }
 }
 
-/// A column for every statistic of every value of `fields`, from every source. `values(source, target)` has
-/// the statistics, [field].
+/// Adds a column to a table of design points for every statistic of every quantity of `fields`, computed from
+/// every kind of deviation in `sources`. `values(source, target)` returns the statistics, [field].
 template <typename Values, typename ValuesOf>
 void add_statistics(PointTable& table, const DeviationSources& sources,
                     std::span<const RepeatabilityField<Values>> fields, bool of_targets, ValuesOf values) {

@@ -26,87 +26,98 @@ namespace zerocount::iso230 {
 /// and p95 with order-statistic bounds.
 using ValueStatistics = measures::MeasureStatistics;
 
+/// Statistics of the values of an ISO 230-2 quantity.
 /// @param values in any order; NaN is left out
+/// @param confidence confidence of the bounds
 ValueStatistics statistics_of(std::vector<double> values, double confidence = statistics::summary_confidence);
 
-/// One reported number of ValueStatistics. In formats without groups its name is "<value>_<name>".
+/// One reported number of ValueStatistics, such as the median. In formats without groups its name is
+/// "<value>_<name>".
 struct ValueStatisticField {
   std::string_view name;
-  std::string long_name;  ///< Beginning of the number's long name.
-  bool of_targets;        ///< True if the number is also reported for the values of a target.
+  std::string long_name;  ///< Beginning of the number's long name; the long name of the quantity follows.
+  /// True if the number is reported for the quantities of single targets, too, not only for those of the
+  /// axis.
+  bool of_targets;
   double (*value)(const ValueStatistics&);
 };
 
 const std::vector<ValueStatisticField>& value_statistic_fields();
 
-/// The values of ISO 230-2 over the trials of a point, from one kind of deviation.
+/// Statistics of the quantities of ISO 230-2 over the trials of a design point, computed from one kind of
+/// deviation (DeviationSource).
 struct SourceRepeatability {
-  std::vector<ValueStatistics> axis;  ///< [axis_fields()] Statistics of the values of the axis.
-  /// [target][target_fields()] Statistics of the values of the targets.
+  std::vector<ValueStatistics> axis;  ///< [field of axis_fields()] Statistics of the quantities of the axis.
+  /// [target][field of target_fields()] Statistics of the quantities of each target.
   std::vector<std::vector<ValueStatistics>> targets;
 };
 
-/// The statistics of a design point of a study with a sequence of moves.
+/// The statistics of ISO 230-2 for a design point of a study with a sequence of moves.
 struct PointRepeatability {
   std::int64_t trials{0};
-  /// Number of trials that have values: those whose motion never became non-finite.
+  /// Number of trials that have ISO 230-2 quantities: those whose motion never became non-finite.
   std::int64_t evaluated{0};
-  /// Number of trials in which, by the encoder, all approaches of a target ended on the same count: R = 0;
-  /// with one direction only R↑ = 0 or R↓ = 0. Nothing for a single cycle, which has no repeatability.
+  /// Number of trials with repeatability 0: by the encoder, all approaches of a target ended on the same
+  /// count (R = 0; with approaches from one side only R↑ = 0 or R↓ = 0). Null for a single cycle, which has
+  /// no repeatability.
   std::optional<std::int64_t> zero_repeatability{};
-  double zero_rate{statistics::unknown};  ///< zero_repeatability / trials; NaN for n = 1
-  /// Bounds of zero_rate; with machines after Korn and Graubard.
+  /// Proportion of trials with repeatability 0: zero_repeatability / trials; NaN for a single cycle.
+  double zero_rate{statistics::unknown};
+  /// Bounds of zero_rate; if the study has machines, those of Korn and Graubard for dependent trials.
   statistics::ConfidenceInterval zero_bounds{0.0, 1.0};
-  std::vector<statistics::Moments> positions;  ///< [target] Moments of the target positions, counts.
-  std::vector<SourceRepeatability> sources;    ///< [source] Statistics from this kind of deviation.
-  bool has_load{false};                        ///< True if there is a second mass in some trial.
-  /// Mass whose encoder closes the loop. Nothing on an axis with one mass, or where trials of the point
-  /// differ.
+  /// [target] Moments over the trials of the target position, counts.
+  std::vector<statistics::Moments> positions;
+  /// [source] Statistics computed from each kind of deviation, in the order of deviation_sources().
+  std::vector<SourceRepeatability> sources;
+  bool has_load{false};  ///< True if the axis has a second mass in at least one trial.
+  /// Mass whose encoder closes the loop. Null on an axis with one mass, or if it differs between trials of
+  /// the point.
   std::optional<motion::EncoderPlace> closing{};
 };
 
-/// The reported numbers of a point that belong to neither the axis nor a target.
+/// The reported numbers of a design point that belong neither to the axis nor to a target, such as the number
+/// of evaluated trials.
 const std::vector<text::ReportField<PointRepeatability>>& point_repeatability_fields();
 
-/// The scale by which the deviations are measured.
+/// Kind of deviation from which the quantities of ISO 230-2 are computed: of a true position, or of the
+/// encoder's count.
 struct DeviationSource {
-  /// Name of the position whose deviations are meant. "true", "encoder": the true position and the count of
-  /// the fine encoder; with two masses, those of the mass whose encoder closes the loop. "load_true",
+  /// Name of the position whose deviations are used. "true": true position, "encoder": count of the fine
+  /// encoder; with two masses, both are those of the mass whose encoder closes the loop. "load_true",
   /// "motor_true": the true position of the other mass.
   std::string name;
-  std::string unit;       ///< Unit of the deviations, and of all values computed from them.
-  std::string long_name;  ///< End of the long name of a value.
+  std::string unit;       ///< Unit of the deviations, and of all quantities computed from them.
+  std::string long_name;  ///< End of the long name of a quantity, which names the kind of deviation.
   Repeatability TrialRepeatability::*values;
-  /// Mass to which the deviations belong if it is not the one that closes the loop. Nothing for the mass that
-  /// closes the loop.
+  /// Mass to which the deviations belong if it is not the one whose encoder closes the loop; otherwise null.
   std::optional<motion::EncoderPlace> other{};
 };
 using DeviationSources = std::vector<DeviationSource>;
 
-/// The sources of a study: the true position, then the encoder. With a second mass they are followed by the
-/// true position of each mass that does not close the loop in some trial.
+/// The kinds of deviation of a study: of the true position, then of the encoder. With a second mass they are
+/// followed by the true position of each mass that does not close the loop in some trial.
 const DeviationSources& deviation_sources(const study::StudyFeatures& features);
 
-/// The repeatability part of the summary of a study with a sequence.
+/// The accuracy and repeatability (ISO 230-2) in the summary of a study with a sequence of moves.
 struct RepeatabilitySummary {
   double confidence{statistics::summary_confidence};  ///< Confidence of all bounds.
   SequenceShape shape;
   std::vector<PointRepeatability> points;  ///< [point] Statistics of the design point.
   /// Kind of the axis, which sets the units of the deviations.
   parameters::AxisKind axis{parameters::AxisKind::rotary};
-  /// Sources for which the points have values.
+  /// Kinds of deviation for which the points have statistics.
   const DeviationSources* sources{&deviation_sources({})};
 };
 
-/// A table of the group /repeatability of a results file. Columns of values are named "<source>/<value>", for
-/// every source in order and every one of axis_fields() or target_fields(). In tables of points they are
-/// named "<source>/<value>_<statistic>", in the order of value_statistic_fields(). The file, the CSV summary
-/// and the export all use these tables.
+/// A table of the group /repeatability of a results file. Columns of quantities are named "<source>/<value>",
+/// for every kind of deviation in order and every one of axis_fields() or target_fields(). In tables of
+/// points they are named "<source>/<value>_<statistic>", in the order of value_statistic_fields(). The file,
+/// the CSV summary and the export all use these tables.
 template <typename Row>
 struct RepeatabilityTable {
   using ValueOf = std::function<double(const Row&, std::size_t)>;
   layout::Table table;
-  /// [column] Value for a row and a target; the target is 0 if the table has none.
+  /// [column] Function that returns the value for a row and a target; the target is 0 if the table has none.
   std::vector<ValueOf> values{};
 
   void add(layout::Column column, ValueOf value) {
@@ -115,26 +126,29 @@ struct RepeatabilityTable {
   }
 };
 
-/// A trial as a row of the tables of trials.
+/// Data of one trial, which is one row of the tables of trials.
 struct SequenceTrial {
-  std::vector<double> positions;             ///< [target] Target position, counts.
-  std::optional<TrialRepeatability> values;  ///< Values of the trial; none if a move became non-finite.
+  std::vector<double> positions;  ///< [target] Target position, counts.
+  /// ISO 230-2 quantities of the trial; null if the motion became non-finite in a move.
+  std::optional<TrialRepeatability> values;
 };
 
-/// /repeatability/trial: `evaluated`, then the values of the axis, [trial].
+/// The table /repeatability/trial of a results file, [trial]: `evaluated`, then the quantities of the axis.
 RepeatabilityTable<SequenceTrial> trial_axis_table(const DeviationSources& sources);
-/// /repeatability/trial_target: `position`, then the values of the targets, [trial, target].
+/// The table /repeatability/trial_target of a results file, [trial, target]: `position`, then the quantities
+/// of the targets.
 RepeatabilityTable<SequenceTrial> trial_target_table(const DeviationSources& sources);
-/// /repeatability/point: point_repeatability_fields(), then the statistics of the axis, [point].
+/// The table /repeatability/point of a results file, [point]: point_repeatability_fields(), then the
+/// statistics of the axis.
 RepeatabilityTable<PointRepeatability> point_axis_table(const DeviationSources& sources);
-/// /repeatability/point_target: `position_min`, `position_max`, then the statistics of the targets, [point,
-/// target].
+/// The table /repeatability/point_target of a results file, [point, target]: `position_min`, `position_max`,
+/// then the statistics of the targets.
 RepeatabilityTable<PointRepeatability> point_target_table(const DeviationSources& sources);
 
 template <typename Values>
 struct RepeatabilityField {
   std::string_view name;
-  std::string_view symbol;  ///< Symbol in the standard.
+  std::string_view symbol;  ///< Symbol of the quantity in ISO 230-2, such as "R".
   std::string_view long_name;
   double Values::*value;
 };

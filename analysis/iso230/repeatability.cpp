@@ -16,7 +16,7 @@ namespace {
 
 constexpr double coverage = 2.0;  // of the standard's bands x̄ ± 2·s
 
-/// Smallest and largest of the values added; one that is NaN makes both NaN.
+/// Accumulates the smallest and the largest of the values added. One NaN makes both NaN.
 class Extremes {
  public:
   void add(double value) {
@@ -110,7 +110,8 @@ std::int64_t target_count(std::span<const study::SequenceMove> sequence) {
   return last + 1;
 }
 
-/// The deviations that `deviation(move)` gives for the moves that go to a target.
+/// [target] The deviations of the moves that end at each target, sorted by direction of approach.
+/// `deviation(move)` returns the deviation of the move with this number.
 template <typename Deviation>
 std::vector<TargetDeviations> deviations(std::span<const study::SequenceMove> sequence,
                                          const Deviation& deviation) {

@@ -39,61 +39,69 @@
 /// approaches from one side only, the unidirectional values of that side are all there is.
 namespace zerocount::iso230 {
 
-/// The deviations at one target, any unit.
+/// The deviations from one target position, by direction of approach, in any unit.
 struct TargetDeviations {
-  /// [cycle] x_ij↑; empty if the target is not approached in positive direction.
+  /// [cycle] Deviations x_ij↑ of approaches in positive direction; empty if the target is not approached in
+  /// this direction.
   std::vector<double> positive;
-  /// [cycle] x_ij↓; empty if the target is not approached in negative direction.
+  /// [cycle] Deviations x_ij↓ of approaches in negative direction; empty if the target is not approached in
+  /// this direction.
   std::vector<double> negative;
 };
 
-/// The quantities of the standard for one target, in the unit of the deviations; NaN if a quantity is not
-/// defined.
+/// The quantities of ISO 230-2 for one target position, in the unit of the deviations; NaN if a quantity is
+/// not defined.
 struct TargetRepeatability {
-  double mean_positive{statistics::unknown};           ///< x̄i↑
-  double mean_negative{statistics::unknown};           ///< x̄i↓
-  double mean{statistics::unknown};                    ///< x̄i
-  double reversal{statistics::unknown};                ///< Bi
-  double uncertainty_positive{statistics::unknown};    ///< si↑
-  double uncertainty_negative{statistics::unknown};    ///< si↓
-  double repeatability_positive{statistics::unknown};  ///< Ri↑
-  double repeatability_negative{statistics::unknown};  ///< Ri↓
-  double repeatability{statistics::unknown};           ///< Ri
+  /// x̄i↑: mean deviation of the approaches in positive direction.
+  double mean_positive{statistics::unknown};
+  /// x̄i↓: mean deviation of the approaches in negative direction.
+  double mean_negative{statistics::unknown};
+  double mean{statistics::unknown};      ///< x̄i: mean bidirectional deviation.
+  double reversal{statistics::unknown};  ///< Bi = x̄i↑ − x̄i↓: reversal value at the target.
+  /// si↑: sample standard deviation in positive direction.
+  double uncertainty_positive{statistics::unknown};
+  /// si↓: sample standard deviation in negative direction.
+  double uncertainty_negative{statistics::unknown};
+  double repeatability_positive{statistics::unknown};  ///< Ri↑ = 4·si↑: unidirectional repeatability.
+  double repeatability_negative{statistics::unknown};  ///< Ri↓ = 4·si↓: unidirectional repeatability.
+  double repeatability{statistics::unknown};           ///< Ri: bidirectional repeatability at the target.
 };
 
-/// The quantities of the standard for the axis, in the unit of the deviations. NaN if a quantity is not
-/// defined, which is so if it is undefined for one of the targets.
+/// The quantities of ISO 230-2 for the axis, in the unit of the deviations. NaN if a quantity is not defined,
+/// which is so if it is undefined for one of the targets.
 struct AxisRepeatability {
-  double reversal{statistics::unknown};                ///< B
-  double mean_reversal{statistics::unknown};           ///< B̄, signed
-  double repeatability_positive{statistics::unknown};  ///< R↑
-  double repeatability_negative{statistics::unknown};  ///< R↓
-  double repeatability{statistics::unknown};           ///< R
-  double systematic_positive{statistics::unknown};     ///< E↑
-  double systematic_negative{statistics::unknown};     ///< E↓
-  double systematic{statistics::unknown};              ///< E
-  double mean_bidirectional{statistics::unknown};      ///< M
-  double accuracy_positive{statistics::unknown};       ///< A↑
-  double accuracy_negative{statistics::unknown};       ///< A↓
-  double accuracy{statistics::unknown};                ///< A
+  double reversal{statistics::unknown};                ///< B = max|Bi|: reversal value of the axis.
+  double mean_reversal{statistics::unknown};           ///< B̄: mean reversal value over the targets, signed.
+  double repeatability_positive{statistics::unknown};  ///< R↑ = max Ri↑: unidirectional repeatability.
+  double repeatability_negative{statistics::unknown};  ///< R↓ = max Ri↓: unidirectional repeatability.
+  double repeatability{statistics::unknown};           ///< R = max Ri: bidirectional repeatability.
+  double systematic_positive{statistics::unknown};     ///< E↑: unidirectional systematic deviation.
+  double systematic_negative{statistics::unknown};     ///< E↓: unidirectional systematic deviation.
+  double systematic{statistics::unknown};              ///< E: bidirectional systematic deviation.
+  double mean_bidirectional{statistics::unknown};  ///< M: range of the mean bidirectional deviations x̄i.
+  double accuracy_positive{statistics::unknown};   ///< A↑: unidirectional accuracy of positioning.
+  double accuracy_negative{statistics::unknown};   ///< A↓: unidirectional accuracy of positioning.
+  double accuracy{statistics::unknown};            ///< A: bidirectional accuracy of positioning.
 };
 
 struct Repeatability {
   AxisRepeatability axis;
-  std::vector<TargetRepeatability> targets;  ///< [target] Quantities of the target.
+  std::vector<TargetRepeatability> targets;  ///< [target] Quantities of ISO 230-2 for each target position.
 };
 
-/// The values of one run of the test, by the formulas above. Equal deviations at a target that are whole
-/// numbers, such as counts, give an si of exactly 0.
+/// The quantities of ISO 230-2 for one run of the test. @param targets [target] deviations at each target.
+/// Equal deviations at a target that are whole numbers, such as counts, give a standard deviation si of
+/// exactly 0.
 Repeatability repeatability_of(std::span<const TargetDeviations> targets);
 
 /// Numbers of targets and approaches in a sequence of moves.
 struct SequenceShape {
-  std::int64_t targets{0};  ///< Number of targets in the list of the sequence.
-  /// Smallest number of approaches of a target from any side from which targets are approached.
+  std::int64_t targets{0};  ///< Number of target positions in the list of the sequence.
+  /// Smallest number of approaches of any target from one side; only sides from which targets are approached
+  /// count.
   std::int64_t cycles{0};
-  bool positive{false};  ///< True if there are approaches from below.
-  bool negative{false};  ///< True if there are approaches from above.
+  bool positive{false};  ///< True if there are approaches in positive direction (from below the target).
+  bool negative{false};  ///< True if there are approaches in negative direction (from above the target).
 };
 
 SequenceShape shape_of(std::span<const study::SequenceMove> sequence);
@@ -105,21 +113,23 @@ SequenceShape shape_of(std::span<const study::SequenceMove> sequence);
 /// the loop: from the middle of the target's count. By the encoder it is its fine count at the last sample
 /// less p, in counts.
 struct TrialRepeatability {
-  /// Values from the true position of the mass whose encoder closes the loop, rad.
+  /// Quantities from the true position of the mass whose encoder closes the loop, rad.
   Repeatability from_position;
-  Repeatability from_encoder;  ///< Values from the encoder, counts.
-  Repeatability of_motor;      ///< Values from the true position of the motor, rad.
-  /// Values from the true position of the load, rad; of the motor if there is one mass.
+  Repeatability from_encoder;  ///< Quantities from the encoder, counts.
+  Repeatability of_motor;      ///< Quantities from the true position of the motor, rad.
+  /// Quantities from the true position of the load, rad; if there is one mass, the same as those of the
+  /// motor.
   Repeatability of_load;
 };
 
-/// The targets of a trial in the order of their list, counts.
+/// Target positions of a trial, in the order of the sequence's list of targets, counts.
 std::vector<double> listed_targets(std::span<const study::SequenceMove> sequence,
                                    const trial::TrialParameters& parameters);
 
-/// The repeatability of one trial. Every move to a target counts as it ended, whether it arrived or not.
-/// Nothing if the motion became non-finite in any move.
-/// @throws Failure (bad_data) if the numbers of moves and of elements of the sequence differ.
+/// The ISO 230-2 quantities of one trial, which is one run of the test. Every move to a target counts with
+/// its final position, whether it arrived or not. Null if the motion became non-finite in any move.
+/// @param moves outcomes of the moves, in the order of `sequence`
+/// @throws Failure (bad_data) if the number of moves differs from the length of the sequence.
 std::optional<TrialRepeatability> trial_repeatability(std::span<const study::SequenceMove> sequence,
                                                       const trial::TrialParameters& parameters,
                                                       std::span<const trial::MoveOutcome> moves);

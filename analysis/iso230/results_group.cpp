@@ -24,7 +24,7 @@ namespace {
 
 using OutcomeFields = std::vector<layout::RecordField<trial::MoveOutcome>>;
 
-/// The columns of the outcomes that are read.
+/// The columns of the moves' outcomes that must be read from the file to compute the ISO 230-2 quantities.
 OutcomeFields measured_fields(const study::StudyFeatures& features) {
   constexpr std::array<std::string_view, 5> read{"outcome", "final_position", "final_error", "true_error",
                                                  "load_true_error"};
@@ -42,8 +42,8 @@ layout::TableReader open_outcomes(const hdf5::Group& root, const OutcomeFields& 
   return layout::TableReader::open(root, table);
 }
 
-/// The sources of the study that the file has: earlier builds have none of a mass that does not close the
-/// loop.
+/// The kinds of deviation of the study for which the file has values. Files of earlier builds have none for a
+/// mass whose encoder does not close the loop.
 const DeviationSources& stored_sources(const hdf5::Group& root, const study::StudyFeatures& features) {
   const DeviationSources& sources = deviation_sources(features);
   const hdf5::Group trials = root.open_group("repeatability").open_group("trial");
@@ -52,7 +52,8 @@ const DeviationSources& stored_sources(const hdf5::Group& root, const study::Stu
   return has_all ? sources : deviation_sources({});
 }
 
-/// Finds the masses of the trials of a point, which differ by settings only.
+/// Finds whether the trials of a design point have a second mass, and which mass closes the loop. Trials of a
+/// point differ in this only between settings. @param number index of the point
 void find_masses(const study::Study& study, std::int64_t number, PointRepeatability& point) {
   bool differ = false;
   for (std::int64_t setting = 0; setting < study.settings.total(); ++setting) {
@@ -70,7 +71,7 @@ void require_rows(const auto& io, std::int64_t rows) {
   if (io.rows() != rows) io.row_scale().fail("it does not hold all trials of the study");
 }
 
-/// The trials of these rows.
+/// The ISO 230-2 quantities of the trials in the rows from `first` to `first + count − 1` of the file.
 std::vector<SequenceTrial> evaluate(const study::Study& study, const hdf5::Group& root, const auto& outcomes,
                                     const OutcomeFields& fields, std::int64_t first, std::int64_t count) {
   std::vector<SequenceTrial> trials;
@@ -91,7 +92,7 @@ std::vector<SequenceTrial> evaluate(const study::Study& study, const hdf5::Group
   return trials;
 }
 
-/// Writes the rows from row `first` on.
+/// Writes rows of a table to the file, the first one as row `first`.
 template <typename Row>
 void write_rows(layout::TableIo& io, const RepeatabilityTable<Row>& table, std::int64_t first,
                 const std::vector<Row>& rows) {
@@ -146,7 +147,8 @@ void write_points(hdf5::File& file, const study::Study& study, const Repeatabili
   write(point_target_table(*summary.sources), summary.shape.targets);
 }
 
-/// Rows [first, first + rows) of a column of numbers or flags, [row][second] flattened.
+/// Values of the rows [first, first + rows) of a column of numbers or flags, as [row][second index]
+/// flattened.
 std::vector<double> read_values(const layout::TableIo& io, std::size_t column, std::int64_t first,
                                 std::int64_t rows) {
   const auto size = static_cast<std::size_t>(rows * io.width());
@@ -190,13 +192,13 @@ reading::ExportedTable exported(const char* name, layout::Table table) {
           }};
 }
 
-/// A table of trials, those of one point.
+/// The rows of one design point in a table of trials of the results file.
 struct TrialsOfPoint {
   const layout::TableIo& table;
-  std::int64_t first;  ///< row
+  std::int64_t first;  ///< Index of the first row of the design point in the table.
   std::int64_t trials;
 
-  /// [target][trial]; the table of the axis has one target.
+  /// [target][trial] Values of the column with this index. A table of the axis has a single target.
   std::vector<std::vector<double>> column(std::size_t index) const {
     const auto width = static_cast<std::size_t>(table.width());
     std::vector<std::vector<double>> targets(width);
@@ -205,7 +207,8 @@ struct TrialsOfPoint {
     return targets;
   }
 
-  /// [target][field], of the `fields` values of a source. The first column of a table is none of them.
+  /// [target][field] Statistics of the `fields` quantities that are computed from one kind of deviation.
+  /// @param source index of the kind of deviation. The first column of a table is not one of the quantities.
   std::vector<std::vector<ValueStatistics>> statistics(std::size_t source, std::size_t fields,
                                                        double confidence) const {
     std::vector<std::vector<ValueStatistics>> targets(static_cast<std::size_t>(table.width()));
@@ -218,7 +221,7 @@ struct TrialsOfPoint {
   }
 };
 
-/// The axis value whose zeros are counted: R, or that of the only direction.
+/// Index of the axis quantity whose zeros are counted: R, or with approaches from one side only R↑ or R↓.
 std::size_t overall_repeatability(const SequenceShape& shape) {
   const auto wanted = shape.positive && shape.negative ? &AxisRepeatability::repeatability
                       : shape.positive                 ? &AxisRepeatability::repeatability_positive

@@ -39,7 +39,8 @@ std::string why_not(const trial::TrialParameters& parameters) {
   return {};
 }
 
-/// The time (s) after `state` at which a jerk begins; infinite if there is none.
+/// Predicted time from `state` to the beginning of a jerk, s, by the closed form of creep; infinite if no
+/// jerk is predicted.
 double time_to_edge(const trial::TrialParameters& parameters, const trial::SampleRecord& state) {
   constexpr double never = std::numeric_limits<double>::infinity();
   const friction::FrictionParameters& friction = parameters.friction.uniform;
@@ -52,7 +53,8 @@ double time_to_edge(const trial::TrialParameters& parameters, const trial::Sampl
   return distance < room ? -std::log1p(-distance / room) / friction.alpha : never;
 }
 
-/// Collects the waits of a trial, sample by sample.
+/// Collects the waits of one trial from its samples: intervals of zero error after arrival, up to the next
+/// jerk or the end of the move.
 class WaitFollower {
  public:
   WaitFollower(const trial::TrialParameters& parameters, std::int64_t trial, CreepComparison& comparison)
@@ -84,7 +86,7 @@ class WaitFollower {
     if (state_ && !constant) steady_ = false;
   }
 
-  /// Ends the current move with the last sample.
+  /// Ends the current move; the sample taken last is its last one.
   void finish() {
     if (arrived_) close(last_ + 1 - move_start_, false);
   }
@@ -99,7 +101,8 @@ class WaitFollower {
     arrived_ = false;
   }
 
-  /// Ends the current wait, if there is one, at sample k of the move.
+  /// Ends the current wait, if there is one, at sample `k` of the move. @param by_jerk true if a jerk ended
+  /// it, false if the move did
   void close(std::int64_t k, bool by_jerk) {
     if (zeros_ > 0 && !state_) ++comparison_.too_short;
     if (state_ && !steady_) ++comparison_.unsteady;

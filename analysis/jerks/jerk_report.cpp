@@ -13,7 +13,10 @@
 namespace zerocount::jerks {
 namespace {
 
-/// @param file of the trials in the setting
+/// The reported jerk data of a design point in one setting.
+/// @param file the trials in this setting
+/// @param creep_trials number of trials that are simulated again for the comparison with the closed form of
+/// creep
 PointJerks jerks_at(const reading::AllTrialsFile& file, const measures::PointInSetting& place,
                     double confidence, std::int64_t creep_trials) {
   const study::Study& study = file.study();
@@ -30,7 +33,8 @@ using document::bounded;
 using document::Description;
 using document::everywhere;
 
-/// A value that people see by its meaning.
+/// An item of the answer that is a single value. People see its meaning in place of a heading. @param key
+/// name in JSON
 document::Item fact(const char* key, const char* meaning, const char* unit = "") {
   return everywhere(key, meaning, meaning, unit);
 }

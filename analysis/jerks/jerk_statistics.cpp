@@ -30,7 +30,8 @@ namespace {
   throw Failure(ExitCode::bad_data, fmt::format("{}: trial {}: {}", file.path().string(), row, what));
 }
 
-/// Whether the timing parameters differ between trials. Where they do not, they are drawn once.
+/// Whether parameters of the timing (sample rate, hold, arrival dwell) are drawn for each trial. If not, all
+/// trials have the same timing.
 bool have_own_timing(const study::Study& study) {
   return std::ranges::any_of(study.columns.inputs, [](const study::InputColumn& input) {
     return input.name == parameter::controller::sample_rate || input.name == parameter::command::hold ||
@@ -38,7 +39,9 @@ bool have_own_timing(const study::Study& study) {
   });
 }
 
-/// A move that was stopped early had diverged: it counts as a jerk that lasted to the end.
+/// Number of observed samples of a move, from its arrival to its end. A move that was stopped early had
+/// diverged: it counts as a jerk that lasted to the end of the observation. @param samples planned number of
+/// samples of the move
 std::int64_t observed_end(const ObservedMove& observed, const trial::MoveOutcome& move,
                           std::int64_t samples) {
   if (!move.stopped || observed.jerks.empty()) return samples - move.arrival;
@@ -76,7 +79,7 @@ double range_begin(std::int64_t j) {
   return std::pow(10.0, static_cast<double>(j) / per_decade);
 }
 
-/// The first sample in range j.
+/// Index of the first sample in range `j` of the time since arrival; the range begins at 10^(j/5) s.
 std::int64_t first_sample(std::int64_t j, double sample_time) {
   constexpr double rounding = 1e-12;
   return static_cast<std::int64_t>(std::ceil(range_begin(j) / sample_time * (1.0 - rounding)));
@@ -84,12 +87,12 @@ std::int64_t first_sample(std::int64_t j, double sample_time) {
 
 constexpr std::size_t magnitude_classes = 3;  // one count, two, and more
 
-/// Time of these samples, s, rounded to 1 ps, so that equal numbers of samples give equal times.
+/// Duration of this number of samples, s, rounded to 1 ps, so that equal numbers of samples give equal times.
 double time_of(std::int64_t samples, const ObservedMove& move) {
   return std::round(static_cast<double>(samples) * move.sample_time * 1e12) / 1e12;
 }
 
-/// Samples between the onsets of successive jerks.
+/// Numbers of samples between the onsets of successive jerks of a move.
 std::vector<std::int64_t> intervals_of(const ObservedMove& move) {
   std::vector<std::int64_t> intervals;
   for (std::size_t i = 1; i < move.jerks.size(); ++i)
@@ -97,7 +100,8 @@ std::vector<std::int64_t> intervals_of(const ObservedMove& move) {
   return intervals;
 }
 
-/// The jerks of a cluster.
+/// Numbers of jerks of one cluster of dependent moves (a trial or a machine): all, those in the direction of
+/// the holding torque, and those of one count.
 struct JerkCounts {
   std::int64_t jerks{0}, agreeing{0}, of_one_count{0};
 };
@@ -110,7 +114,7 @@ JerkIntervals interval_statistics(const statistics::ClusteredSample& sample, dou
   return intervals;
 }
 
-/// Collects the moves of a point.
+/// Collects the moves of a design point, and computes the statistics of their jerks.
 class JerkCollector {
  public:
   JerkCollector(double confidence, std::int64_t machines)

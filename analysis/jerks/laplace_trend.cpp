@@ -25,7 +25,8 @@ constexpr std::size_t moves_tested_at_once = 512;
 constexpr random::RandomKey move_key{0x6a65726b, 1};
 constexpr random::RandomKey study_key{0x6a65726b, 2};
 
-/// ΣT_j, exact in whole samples.
+/// Laplace's statistic ΣT_j of the intervals between jerks, exact in whole samples; T_j is the sum of the
+/// first j intervals.
 std::int64_t laplace_sum(std::span<const std::int64_t> intervals) {
   std::int64_t sum = 0;
   std::int64_t time = 0;
@@ -33,7 +34,8 @@ std::int64_t laplace_sum(std::span<const std::int64_t> intervals) {
   return sum;
 }
 
-/// Puts the intervals into a random order (Fisher and Yates); a function of the stream and the round.
+/// Puts the intervals into a random order (Fisher and Yates). The order depends only on the stream of random
+/// numbers and on `round`, the number of the permutation.
 void shuffle(std::vector<std::int64_t>& intervals, const random::RandomStream& stream, std::uint64_t round) {
   for (std::size_t remaining = intervals.size(); remaining > 1; --remaining) {
     const std::uint64_t bits =
@@ -42,7 +44,8 @@ void shuffle(std::vector<std::int64_t>& intervals, const random::RandomStream& s
   }
 }
 
-/// Number of orders with a sum as small as the observed one, and of orders with a sum as large.
+/// Counts of the orders of a move's intervals whose Laplace statistic is at most, and at least, the observed
+/// one.
 struct OrderCount {
   std::int64_t orders{0}, small{0}, large{0};
 
@@ -77,7 +80,8 @@ OrderCount random_orders(std::span<const std::int64_t> intervals, std::int64_t o
   return count;
 }
 
-/// Proportion of random orders of the intervals of all moves with a sum as small as that observed.
+/// One-sided p-value of the trend of all moves together: the proportion of random orders of the intervals of
+/// all moves whose summed statistic is at most the observed one. @param moves [move] intervals, samples
 double permuted_p(const std::vector<std::vector<std::int64_t>>& moves) {
   std::int64_t observed = 0;
   for (const std::vector<std::int64_t>& intervals : moves) observed += laplace_sum(intervals);

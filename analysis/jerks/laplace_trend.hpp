@@ -27,51 +27,62 @@
 /// (Lewis and Robinson, in Reliability and Biometry, SIAM 1974, 163).
 namespace zerocount::jerks {
 
-/// Laplace's statistic of the intervals of one move.
+/// Laplace's statistic of the intervals between the jerks of one move, with its mean and variance over all
+/// orders of the intervals.
 struct TrendTerm {
-  std::int64_t intervals{0};  ///< m
-  /// ΣT_j minus the mean over all orders, in units of the intervals. Negative if the intervals grow.
+  std::int64_t intervals{0};  ///< Number m of intervals between the jerks of the move.
+  /// Laplace's statistic ΣT_j minus its mean over all orders of the intervals, in the unit of the intervals.
+  /// Negative if the intervals grow, that is, if jerks slow down.
   double excess{0.0};
-  double variance{0.0};  ///< Variance of the excess over all orders of the intervals.
+  /// Variance of the excess over all orders of the intervals, in the squared unit of the intervals.
+  double variance{0.0};
 };
 
-/// @param intervals in the order of time, whole samples.
+/// Computes Laplace's statistic of one move. @param intervals intervals between its jerks in the order of
+/// time, whole samples
 TrendTerm trend_term(std::span<const std::int64_t> intervals);
 
-/// excess/√variance: mean 0 and standard deviation 1 without a trend; NaN with fewer than two intervals or if
-/// all are equal.
+/// Standardised statistic excess/√variance: mean 0 and standard deviation 1 without a trend, negative if the
+/// intervals grow; NaN with fewer than two intervals or if all are equal.
 double trend_score(const TrendTerm& term);
 
-/// One-sided p-values of a move: the proportion of orders of its intervals with a statistic as small, and as
-/// large, as that observed.
+/// One-sided p-values of a trend within one move: the proportions of orders of its intervals whose statistic
+/// is at most, and at least, the observed one.
 struct TrendProbability {
   double slowing{1.0};
   double quickening{1.0};
 };
 
-/// Computes the one-sided p-values of one move. For up to 7 intervals all orders are counted, otherwise 999
-/// random orders and the observed one.
-/// @param move number of the move, on which the random orders depend.
+/// Computes the one-sided p-values of a trend within one move. For up to 7 intervals all orders are counted,
+/// otherwise 999 random orders and the observed one. @param intervals intervals between its jerks in the
+/// order of time, samples @param move number of the move, on which the random orders depend
 TrendProbability trend_probability(std::span<const std::int64_t> intervals, std::uint32_t move);
 
-/// Test whether jerks slow down, per move and for all moves together.
+/// Result of the test whether jerks slow down, for single moves and for all moves together.
 struct TrendSummary {
-  std::int64_t moves{0};   ///< moves with at least two intervals that differ
-  std::int64_t tested{0};  ///< Number of these moves with min_trend_intervals or more intervals.
-  /// Number of tested moves that slow down with the stated confidence (one-sided).
+  std::int64_t moves{0};  ///< Number of moves that have at least two different intervals.
+  /// Number of these moves with at least min_trend_intervals intervals, which are tested one by one.
+  std::int64_t tested{0};
+  /// Number of tested moves whose jerks slow down (intervals grow), each with the stated confidence
+  /// (one-sided).
   std::int64_t slowing{0};
-  /// Number of tested moves that speed up with the stated confidence (one-sided).
+  /// Number of tested moves whose jerks speed up (intervals shrink), each with the stated confidence
+  /// (one-sided).
   std::int64_t quickening{0};
-  /// Σ excess/√(Σ variance) of all moves: mean 0 and standard deviation 1 without a trend, negative if jerks
-  /// slow down.
+  /// Standardised trend of all moves: Σ excess/√(Σ variance). Mean 0 and standard deviation 1 without a
+  /// trend, negative if jerks slow down.
   double summed{statistics::unknown};
-  double stouffer{statistics::unknown};   ///< Σ score/√moves: all moves have the same weight
-  double p_slowing{statistics::unknown};  ///< One-sided p-value of `summed`; small if jerks slow down.
+  /// Stouffer's combination Σ score/√moves, in which all moves have the same weight; negative if jerks slow
+  /// down.
+  double stouffer{statistics::unknown};
+  /// One-sided p-value of `summed` for the hypothesis of no trend; small if jerks slow down.
+  double p_slowing{statistics::unknown};
   /// Number of permutations behind p_slowing; 0: p_slowing comes from the normal limit of `summed`.
   std::int64_t permutations{0};
 };
 
-/// Smallest number of intervals for which an order can be significant at 5 %: four intervals have 24 orders.
+/// Smallest number of intervals with which a single move is tested: with four intervals there are 24 orders,
+/// so that one can be significant at 5 %.
 inline constexpr std::int64_t min_trend_intervals = 4;
 
 /// Number of random orders for the intervals of all moves together. The smallest possible p_slowing is
@@ -82,14 +93,14 @@ inline constexpr std::int64_t trend_permutations = 9999;
 /// is approximately normal (combinatorial central limit theorem of Hoeffding).
 inline constexpr std::int64_t max_permuted_intervals = 20000;
 
-/// Collects the moves of a design point.
+/// Collects the intervals of the moves of a design point, and tests them for a trend.
 class TrendSum {
  public:
-  /// @param confidence of the one-sided tests of single moves.
+  /// Creates an empty collection. @param confidence confidence of the one-sided tests of single moves
   explicit TrendSum(double confidence);
-  /// @param intervals of one move, in the order of time, whole samples.
+  /// Adds one move. @param intervals intervals between its jerks in the order of time, whole samples
   void add(std::span<const std::int64_t> intervals);
-  /// Deterministic; does not depend on the number of threads.
+  /// Tests the moves added so far. The result is deterministic and does not depend on the number of threads.
   TrendSummary summary();
 
  private:
@@ -97,16 +108,16 @@ class TrendSum {
     std::uint32_t number;
     std::vector<std::int64_t> intervals;
   };
-  /// Tests the moves in `untested_`, in parallel.
+  /// Tests each move in `untested_` for a trend, in parallel.
   void test_moves();
 
-  double level_{0.0};  ///< p below which a single move has a trend
+  double level_{0.0};  ///< p-value below which a single move has a trend (1 − confidence).
   TrendSummary counted_;
   double excess_{0.0};
   double variance_{0.0};
   double scores_{0.0};
   std::int64_t intervals_{0};
-  /// [move] Intervals of each move, while there are few enough to permute.
+  /// [move] Intervals between the jerks of each move, kept as long as there are few enough for permutations.
   std::vector<std::vector<std::int64_t>> kept_;
   std::vector<Move> untested_;
 };

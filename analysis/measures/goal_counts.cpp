@@ -20,7 +20,7 @@
 namespace zerocount::measures {
 namespace {
 
-/// Index of a value in a list; empty if the list lacks it.
+/// Index of a value in a list; null if the list lacks it.
 template <class Value>
 std::optional<std::size_t> slot_of(std::span<const Value> values, Value value) {
   const auto place = std::ranges::find(values, value);
@@ -160,7 +160,7 @@ std::vector<SettlingTimes> GoalSettling::statistics(double confidence) const {
 
 namespace {
 
-/// Whether large values are the event, not small ones.
+/// Whether the event means that the value is above its limit (true) or below (false).
 bool is_above(const MoveEvent& event) {
   return event.sign == text::Sign::above || event.sign == text::Sign::at_least;
 }
@@ -177,14 +177,14 @@ double value_of(const layout::Measure& measure, const trial::MoveOutcome& move) 
   return ranked_value(measure, move).value_or(statistics::unknown);
 }
 
-/// Whether the goals of the event may allow moves different times.
+/// Whether the goals of the event may allow different times for different moves.
 bool allows_several_times(const MoveEvent& event) {
   return event.goals.size() > 1 || event.goals.front().within.after_profile;
 }
 
-/// How late a move settles. If the event has one goal with the same allowed time for all moves, the settling
-/// time, s. Otherwise the settling time divided by the allowed time, the largest of all goals. NaN if the
-/// move does not settle for one of the goals.
+/// Number that ranks moves by how late they settle. If the event has one goal with the same allowed time for
+/// all moves: the settling time, s. Otherwise the settling time divided by the allowed time, the largest over
+/// all goals. NaN if the move does not settle for one of the goals.
 double lateness_of(const MoveEvent& event, const trial::MoveOutcome& move) {
   const bool by_ratio = allows_several_times(event);
   double latest = event.goals.size() > 1 ? 0.0 : statistics::unknown;

@@ -19,8 +19,8 @@
 namespace zerocount::measures {
 namespace {
 
-/// Added to values, it turns −0 into 0. The two are equal, so which of them represents both in a histogram
-/// must not depend on their order.
+/// Zero that is added to values before they are counted, so that −0 becomes 0. The two are equal, so which of
+/// them represents both in a histogram must not depend on their order.
 constexpr double positive_zero = 0.0;
 
 bool needs_every_value(const layout::Measure& measure, const layout::ReportedStatistics& reported) {
@@ -28,7 +28,7 @@ bool needs_every_value(const layout::Measure& measure, const layout::ReportedSta
          reports(reported, layout::Statistic::p95);
 }
 
-/// Adds counts element by element; missing ones are zero.
+/// Adds the elements of `added` to those of `counts`, and makes `counts` longer if necessary.
 void add_counts(std::vector<std::int64_t>& counts, const std::vector<std::int64_t>& added) {
   if (counts.size() < added.size()) counts.resize(added.size());
   std::transform(added.begin(), added.end(), counts.begin(), counts.begin(), std::plus{});
@@ -119,8 +119,8 @@ void MeasureAccumulator::add_values(const MovesOfTrials& some) {
                          measure_->values.missing == layout::Missing::late);
 }
 
-/// Adds values_, [trial, value], to the totals of the clusters. @param trial index of the first trial
-/// @param of_trial number of values of a trial
+/// Adds the values of several trials, values_ as [trial][value], to the totals of their clusters (machines).
+/// @param trial index of the first trial @param of_trial number of values of a trial
 void MeasureAccumulator::add_totals(std::int64_t trial, std::size_t of_trial) {
   if (!has_mean_bounds_) return;
   std::vector<double> known;

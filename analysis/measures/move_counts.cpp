@@ -22,7 +22,8 @@ std::int64_t CellCounts::cells_of_setting() const {
   return shape_.machines > 0 ? shape_.machines : static_cast<std::int64_t>(worlds());
 }
 
-/// Index of a cell. @param within index of the machine; without machines, of the world
+/// Index of a cell: a machine in a setting or, without machines, a world in a setting. @param within index of
+/// the machine; without machines, of the world
 std::int64_t CellCounts::cell_of(std::size_t setting, std::size_t within) const {
   return static_cast<std::int64_t>(setting) * cells_of_setting() + static_cast<std::int64_t>(within);
 }
@@ -115,7 +116,8 @@ bool CellCounts::is_valid(std::int64_t trials, std::int64_t moves_of_trial) cons
          });
 }
 
-/// [world] the sums in the form of files: empty with machines, and if nothing was counted.
+/// [world] Sums over the moves in each world, in the form in which files store them. Empty if the study has
+/// machines, and if nothing was counted.
 std::vector<statistics::ClusterSums> CellCounts::sums_of_worlds(Setting setting) const {
   std::vector<statistics::ClusterSums> sums;
   for (const MoveCounts& world : by_world(setting)) sums.push_back(world.of_trials);
@@ -124,7 +126,8 @@ std::vector<statistics::ClusterSums> CellCounts::sums_of_worlds(Setting setting)
   return sums;
 }
 
-/// Whether the part that was read is possible. The limits ensure that sums of cells do not overflow.
+/// Whether the counts that were read from a file are possible. The limits ensure that sums of cells do not
+/// overflow.
 bool CellCounts::can_be(const Part& part) const {
   constexpr std::int64_t most_moves = std::int64_t{1} << 53;
   const std::int64_t most = most_moves / cells_of_setting() / static_cast<std::int64_t>(settings());

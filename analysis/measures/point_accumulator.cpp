@@ -15,14 +15,15 @@
 namespace zerocount::measures {
 namespace {
 
-/// The interval rounded to 1 ps. Onsets are whole multiples of the sample time; without rounding, the
-/// rounding errors of their differences would make equal intervals differ.
+/// The interval between two jerks, rounded to 1 ps. Onsets are whole multiples of the sample time; without
+/// rounding, the rounding errors of their differences would make equal intervals differ.
 double rounded_interval(double seconds) {
   return std::round(seconds * 1e12) / 1e12;
 }
 
-/// Upper tolerance limits of the times, one for each of statistics::tolerance_contents. The limits stay unset
-/// if the outcomes decided the number of trials, because they need a fixed number, and if there are no times.
+/// Upper tolerance limits of the settling times of trials, one for each of statistics::tolerance_contents.
+/// The limits stay unset if there are no times, or if the outcomes decided the number of trials, because the
+/// limits need a fixed number.
 auto tolerance_limits(const statistics::ClusteredSample& times, const StatisticsOptions& options) {
   std::array<statistics::ToleranceLimit, std::size(statistics::tolerance_contents)> limits{};
   for (std::size_t i = 0; i < limits.size(); ++i) {
@@ -40,7 +41,8 @@ void require_move_count(std::size_t moves, std::int64_t trials, std::size_t expe
                             trials == 0 ? "at least one" : fmt::format("{} as before", expected)));
 }
 
-/// @throws Failure (bad_data) for a judged move in an open-loop study, or a torque level in another study.
+/// Requires that the move is of the kind of the study. @throws Failure (bad_data) if the move has a target in
+/// an open-loop study, or a torque level in another study
 void require_kind(const trial::MoveOutcome& move, bool open_loop) {
   if (move.outcome == trial::Outcome::nonfinite || (move.outcome == trial::Outcome::open_loop) == open_loop)
     return;
@@ -209,8 +211,8 @@ void PointAccumulator::add_to_machine(std::span<const trial::MoveOutcome> moves)
   machines_.add((first_trial_ + counted_.trials) % kind_.shape.machines, trial);
 }
 
-/// Adds the settling times of trials. A trial has the arrival time of its slowest move. The time is censored
-/// if a move did not arrive, or was not run because an earlier move diverged.
+/// Adds the settling times of trials. The settling time of a trial is the arrival time of its slowest move.
+/// It is censored if a move did not arrive, or was not run because an earlier move diverged.
 void PointAccumulator::add_trial_settling_times(const MovesOfTrials& some) {
   values_.clear();
   for (std::size_t first = 0; first < some.moves.size(); first += some.of_trial) {

@@ -18,47 +18,48 @@
 
 namespace zerocount::measures {
 
-/// The moves of successive trials of a design point.
+/// The outcomes of the moves of successive trials of a design point.
 struct MovesOfTrials {
-  std::int64_t first_trial{0};                       ///< Index of the first trial at the point.
-  std::size_t of_trial{1};                           ///< Number of moves of a trial.
-  std::span<const trial::MoveOutcome* const> moves;  ///< [trial, move]
+  std::int64_t first_trial{0};  ///< Index at the design point of the first of these trials.
+  std::size_t of_trial{1};      ///< Number of moves of each trial.
+  std::span<const trial::MoveOutcome* const> moves;  ///< [trial][move], flattened: outcomes of the moves.
 
   std::int64_t trials() const { return std::ssize(moves) / static_cast<std::int64_t>(of_trial); }
 };
 
 /// Properties that all moves of a study share.
 struct MoveKind {
-  bool open_loop{false};  ///< torque levels in place of targets
+  bool open_loop{false};  ///< True: the moves are torque levels of an open-loop study and have no targets.
   Shape shape{};
   std::vector<CountedGoal> goals{};
-  /// [goal] the criterion for the load, if the goal has study::Goal::beside_load. The vector is empty if no
-  /// goal has it.
+  /// [goal] The same criterion applied to the load instead of the motor, if the goal has
+  /// study::Goal::beside_load; otherwise null. The vector is empty if no goal has it.
   std::vector<std::optional<CountedGoal>> for_the_load{};
 
   bool has_observed_counts{false};  ///< Whether the study is compared with counts observed on a real machine.
 
-  /// Whether trials are counted as well as their moves (PointSummary::trials_of_groups).
+  /// Whether whole trials are counted in addition to their moves (PointSummary::trials_of_groups).
   bool counts_trials() const {
     return shape.worlds > 0 || shape.settings > 0 || (has_observed_counts && !goals.empty());
   }
 };
 
-/// The properties of the moves of a study.
+/// The properties that all moves of this study share.
 MoveKind move_kind(const study::Study& study);
 
-/// Source of the random numbers for the resampling (bootstrap) of a design point.
+/// Source of the random numbers for the resampling (bootstrap) of a design point's trials.
 struct BootstrapDraws {
   std::uint64_t seed{0};    ///< Seed of the study.
-  std::uint32_t stream{0};  ///< Number of the design point.
+  std::uint32_t stream{0};  ///< Number of the design point, which selects the stream of random numbers.
 };
 
-/// Settings of the statistics of a design point.
+/// Options for the statistics of a design point.
 struct StatisticsOptions {
   double confidence{statistics::summary_confidence};
-  std::optional<BootstrapDraws> bootstrap{};  ///< Empty: the bounds of means are not computed.
-  /// Whether the outcomes decided the number of trials. The bounds of claims about all machines must then
-  /// hold at any stopping time.
+  /// Random numbers of the bootstrap, which gives the bounds of means. Null: these bounds are not computed.
+  std::optional<BootstrapDraws> bootstrap{};
+  /// Whether the outcomes of the trials decided when the study stopped. The bounds of claims about all
+  /// machines must then hold at any stopping time.
   bool stopped_by_outcomes{false};
 };
 
@@ -69,8 +70,9 @@ struct StatisticsOptions {
 /// grows with the number of distinct values, not with the number of trials.
 class MeasureAccumulator {
  public:
-  /// @param measure must outlive this object. @param reported the statistics that are reported of the measure
-  /// at a point, or at a level.
+  /// Creates an empty accumulator. @param measure must outlive this object @param reported the statistics of
+  /// the measure that are reported at a design point, or at a torque level @param kind properties of the
+  /// moves
   MeasureAccumulator(const layout::Measure& measure, const layout::ReportedStatistics& reported,
                      const MoveKind& kind);
 
@@ -85,7 +87,8 @@ class MeasureAccumulator {
             self.hits_);
     if (self.counts_moves_) archive(self.of_moves_);
   }
-  /// Whether the restored sums are possible for this measure. @param moves number of moves of each trial
+  /// Whether the sums that were read from a file are possible for this measure. @param trials number of
+  /// trials @param moves number of moves of each trial
   bool is_valid(std::int64_t trials, std::int64_t moves) const;
 
  private:
@@ -102,18 +105,23 @@ class MeasureAccumulator {
   const layout::Measure* measure_;
   const layout::ReportedStatistics* reported_;
   MoveKind kind_;
-  bool in_clusters_;      ///< whether values are kept in clusters; otherwise only their moments
-  bool has_mean_bounds_;  ///< whether bootstrap bounds of the mean are reported
-  bool counts_moves_;     ///< whether the proportion of moves is reported
+  /// Whether values are kept by cluster of dependent values (trial or machine); otherwise only their moments
+  /// are.
+  bool in_clusters_;
+  bool has_mean_bounds_;  ///< Whether bootstrap bounds of the mean are reported.
+  bool counts_moves_;     ///< Whether the proportion of moves with the quality is reported.
   std::int64_t trials_{0};
   statistics::MomentSums moments_;
   statistics::TrialClusters clusters_;
   statistics::ClusterTotals totals_;
-  std::vector<std::int64_t> by_move_;  ///< [move] trials whose move has the quality; empty without trials
-  statistics::ByCluster<> judged_;  ///< [machine] number of trials; without machines all count as machine 0
-  statistics::ByCluster<> hits_;    ///< [machine] number of trials with the quality; indexed like judged_
-  CellCounts of_moves_;             ///< Counts of the moves with the quality, if counts_moves_.
-  std::vector<double> values_;      ///< Values of the trials that are being added.
+  /// [move] Number of trials in which this move has the quality; empty as long as there are no trials.
+  std::vector<std::int64_t> by_move_;
+  /// [machine] Number of trials on the machine; without machines all count as machine 0.
+  statistics::ByCluster<> judged_;
+  /// [machine] Number of trials on the machine that have the quality; indexed like judged_.
+  statistics::ByCluster<> hits_;
+  CellCounts of_moves_;         ///< Counts of the moves that have the quality; used only if counts_moves_.
+  std::vector<double> values_;  ///< Values of the trials that are being added; working memory.
 };
 
 /// Collects the trials of one design point and computes its statistics. The trials of one machine and the
@@ -124,8 +132,8 @@ class MeasureAccumulator {
 /// samples of a move and the maximum error in counts.
 class PointAccumulator {
  public:
-  /// @param table the measures; must outlive this object. @param first_trial index of the first trial that
-  /// is added
+  /// Creates an accumulator without trials. @param kind properties of the moves @param table the measures;
+  /// must outlive this object @param first_trial index of the first trial that will be added
   explicit PointAccumulator(const MoveKind& kind = {},
                             const layout::MeasureTable& table = layout::measure_table(),
                             std::int64_t first_trial = 0);
@@ -136,21 +144,23 @@ class PointAccumulator {
   /// kind.
   void add(const trial::TrialOutcome& trial, std::span<const trial::Jerk> jerks);
 
-  /// First part of add(), for many trials at once: adds their measures, column by column. add_counts() must
-  /// be called for each of these trials too.
-  /// @param moves [trial, move] @param moves_of_trial number of moves of each trial
+  /// First part of add(), for many trials at once: adds the measures of their moves, column by column.
+  /// add_counts() must then be called for each of these trials.
+  /// @param moves [trial][move], flattened
+  /// @param moves_of_trial number of moves of each trial
   void add_measures(std::span<const trial::MoveOutcome* const> moves, std::size_t moves_of_trial);
-  /// Second part of add(), for one trial: adds all but the measures.
+  /// Second part of add(), for one trial: adds everything except the measures. @param jerks jerks of the
+  /// trial in order of move and onset
   void add_counts(std::span<const trial::MoveOutcome> moves, std::span<const trial::Jerk> jerks);
 
-  /// Adds the trials of the same point that follow those of this object. The statistics do not depend on how
-  /// the trials of a point were divided.
+  /// Adds the trials of another accumulator for the same design point; they must follow the trials of this
+  /// object. The statistics do not depend on how the trials of a point were divided.
   PointAccumulator& operator+=(const PointAccumulator& next);
 
   std::int64_t trials() const { return counted_.trials; }
   std::int64_t failures() const { return counted_.trials - counted_.outcomes.zero_count; }
 
-  /// The sums of the trials added so far, for files.
+  /// The sums of the trials added so far, in the form in which files store them.
   statistics::State state() const;
   /// Replaces the trials added so far by the trials that these sums (state()) describe.
   /// @param moves number of moves of each trial
@@ -180,25 +190,33 @@ class PointAccumulator {
   statistics::SuccessClaim claim(const PointSummary& point, const StatisticsOptions& options) const;
 
   MoveKind kind_;
-  std::int64_t first_trial_;  ///< index of the first trial
-  std::int64_t measured_{0};  ///< trials whose measures are added
+  std::int64_t first_trial_;  ///< Index at the design point of the first trial.
+  std::int64_t measured_{0};  ///< Number of trials whose measures have been added (add_measures()).
   const layout::MeasureTable* table_;
   PointCounts counted_;
-  std::vector<MeasureAccumulator> measures_;             ///< [row of the table]
-  std::vector<std::vector<MeasureAccumulator>> levels_;  ///< [move][row of the table]
-  std::vector<std::int64_t> lost_in_levels_;             ///< [move] trials whose motion was lost
+  /// [row of the table] Accumulator of the measure, over all moves.
+  std::vector<MeasureAccumulator> measures_;
+  /// [torque level][row of the table] Accumulator of the measure at this level; empty unless the study is
+  /// open-loop.
+  std::vector<std::vector<MeasureAccumulator>> levels_;
+  /// [torque level] Number of trials whose motion was lost (became non-finite) at this level or before.
+  std::vector<std::int64_t> lost_in_levels_;
   statistics::ByCluster<statistics::MachineTrials> machines_;
-  std::vector<CellCounts> goals_;                   ///< [goal]
-  std::vector<CellCounts> for_the_load_;            ///< [goal] counts for MoveKind::for_the_load
-  std::vector<GoalSettling> goal_settling_;         ///< [goal] Settling times of the moves that it judges.
-  GroupTrials groups_;                              ///< Trials of groups, if MoveKind::counts_trials().
-  statistics::TrialClusters trial_settling_times_;  ///< Arrival time of each trial's slowest move, s.
+  /// [goal] Counts of the moves that the goal judges and of those that meet it.
+  std::vector<CellCounts> goals_;
+  /// [goal] Counts of the moves in which the load meets the goal (MoveKind::for_the_load).
+  std::vector<CellCounts> for_the_load_;
+  std::vector<GoalSettling> goal_settling_;  ///< [goal] Settling times of the moves that the goal judges.
+  GroupTrials groups_;  ///< Counts of whole trials; used only if MoveKind::counts_trials().
+  /// Settling time of each trial: the arrival time of its slowest move, s.
+  statistics::TrialClusters trial_settling_times_;
   std::int64_t jerks_{0};
   statistics::Histogram<double> jerk_intervals_;
-  JerkSlowing jerk_slowing_;  ///< counts only; `proportion` and `tau` are not set
+  /// Counts of the moves whose jerks slow down or speed up; its members `proportion` and `tau` are not set.
+  JerkSlowing jerk_slowing_;
   statistics::RankTrend interval_trend_;
   std::int64_t one_count_jerks_{0};
-  std::vector<double> values_;  ///< Values of the current trial or move.
+  std::vector<double> values_;  ///< Values of the trial or move that is being added; working memory.
 };
 
 }  // namespace zerocount::measures

@@ -28,8 +28,9 @@ const layout::PointColumn& find_column(std::span<const layout::PointColumn> colu
   return *found;
 }
 
-/// Number of trials in the numerator of a proportion of `trials` trials.
-/// @throws Failure (bad_data) if the value is not a proportion
+/// Converts a proportion of trials back to their number. @param trials number of all trials @param name name
+/// of the column, for the message @throws Failure (bad_data) if the value is not the proportion of a whole
+/// number of trials
 std::int64_t trials_of_proportion(double proportion, std::int64_t trials, std::string_view name,
                                   const std::filesystem::path& file) {
   if (!(proportion >= 0.0 && proportion <= 1.0))
@@ -127,7 +128,7 @@ std::vector<StatisticField> outcome_count_fields() {
   };
 }
 
-/// Statistics of the jerks themselves, not of a measure of a move.
+/// The reported statistics of the jerks themselves, as opposed to measures of a move.
 std::vector<StatisticField> jerk_statistic_fields() {
   return {
       {"jerk_interval", "n", "1", "intervals between the onsets of successive jerks of a move", true,
@@ -177,7 +178,7 @@ std::vector<StatisticField> machine_fields() {
   };
 }
 
-/// Appends the fields of those statistics of a measure that `wanted` selects.
+/// Appends a reported number for each statistic of a measure that `wanted` selects.
 template <class Subject, class Wanted>
 void add_measure(std::vector<text::ReportField<Subject>>& fields, const layout::MeasureTable& measures,
                  const layout::Measure& measure, const layout::ReportedStatistics& reported,

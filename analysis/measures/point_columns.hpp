@@ -32,22 +32,24 @@ std::vector<layout::PointColumn> point_columns(
     std::span<const PointSummary> points, const study::StudyFeatures& features = {},
     const layout::MeasureTable& measures = layout::measure_table());
 
-/// The torque levels of all points of an open-loop study, as the group /level of the results file: one column
-/// for each of level_fields(), named by flat_name().
+/// The statistics of the torque levels of all points of an open-loop study, as the table of the group /level
+/// of the results file: one column for each of level_fields(), named by flat_name().
 layout::StatisticTable level_table(std::span<const PointSummary> points,
                                    const layout::MeasureTable& measures = layout::measure_table());
 
-/// A proportion of trials with a certain prediction by the paper's criteria.
+/// A reported proportion of trials for which the analytical criteria of the paper predict something.
 struct PredictionField {
-  std::string_view name;                          ///< Name in the CSV summary and in the results file.
-  std::string_view long_name;                     ///< Meaning, including the denominator.
-  std::int64_t theory::PointPrediction::*trials;  ///< the trials in the numerator
+  std::string_view name;       ///< Name of the proportion in the CSV summary and in the results file.
+  std::string_view long_name;  ///< Meaning of the proportion, including its denominator.
+  std::int64_t theory::PointPrediction::*trials;  ///< Member that counts the trials in the numerator.
 };
 
-/// The two reported proportions: of trials in which criterion (6) holds, and in which (7) is exceeded.
+/// The two reported proportions: of trials in which the paper's stability criterion (6) holds, and of trials
+/// in which its criterion (7) is exceeded.
 std::span<const PredictionField> prediction_fields();
 
-/// The proportions of prediction_fields() as columns of /point; NaN if the criteria apply to no trial.
+/// The two proportions of prediction_fields() for all design points, as columns of the group /point of the
+/// results file; NaN if the paper's criteria apply to no trial.
 std::vector<layout::PointColumn> prediction_columns(std::span<const theory::PointPrediction> predictions);
 
 /// [point] the predictions behind the columns that prediction_columns() wrote (its inverse), for points with
@@ -57,28 +59,31 @@ std::vector<layout::PointColumn> prediction_columns(std::span<const theory::Poin
 std::vector<theory::PointPrediction> predictions_of(std::span<const layout::PointColumn> columns,
                                                     std::int64_t trials, const std::filesystem::path& file);
 
-/// One reported number of PointSummary.
+/// One reported number of a design point, such as its success rate.
 using StatisticField = text::ReportField<PointSummary>;
 
-/// The fields of a study with these features, in the order of the report. Fields that only some studies have
-/// come last.
+/// The reported numbers of a design point for a study with these features, in the order of the report.
+/// Numbers that only some studies have come last.
 std::vector<StatisticField> statistic_fields(const study::StudyFeatures& features = {},
                                              const layout::MeasureTable& measures = layout::measure_table());
 
-/// The bounds of means. Only summaries have them; the results file does not.
+/// The bounds of means as reported numbers of a design point. Only summaries have them; the results file does
+/// not.
 std::vector<StatisticField> mean_bound_fields(const study::StudyFeatures& features,
                                               const layout::MeasureTable& measures = layout::measure_table());
 
-/// One reported statistic of a torque level.
+/// One reported statistic of a torque level of an open-loop study.
 using LevelField = text::ReportField<LevelStatistics>;
-/// The statistics reported of a torque level, in the order of the report.
+/// The reported statistics of a torque level of an open-loop study, in the order of the report.
 std::vector<LevelField> level_fields(const layout::MeasureTable& measures = layout::measure_table());
 
-/// The qualities by which trials are counted in a study with these features, in the order of the report.
+/// The qualities, such as success, by which trials are counted in a study with these features, in the order
+/// of the report.
 std::vector<const layout::Measure*> counted_qualities(const study::StudyFeatures& features,
                                                       const layout::MeasureTable& measures);
 
-/// Adds one field as a value. @param subject_of function that returns the subject of a row by reference
+/// Adds one reported number to the description of an answer as a value. @param subject_of function that
+/// returns a reference to the subject (such as a PointSummary) of a row
 template <class Row, class Subject, class Get>
 void add_field(document::Description<Row>& description, const text::ReportField<Subject>& field,
                const std::string& key, parameters::AxisKind axis, document::Visibility shown,
@@ -100,7 +105,9 @@ void add_field(document::Description<Row>& description, const text::ReportField<
                     });
 }
 
-/// Adds the fields. The fields of a group form an object, so that their names in CSV equal flat_name().
+/// Adds reported numbers to the description of an answer. The numbers of a group form an object, so that
+/// their names in CSV equal flat_name(). @param subject_of function that returns a reference to the subject
+/// of a row
 template <class Row, class Subject, class Get>
 void add_fields(document::Description<Row>& description,
                 const std::vector<text::ReportField<Subject>>& fields, parameters::AxisKind axis,
@@ -128,17 +135,17 @@ void add_fields(document::Description<Row>& description,
   }
 }
 
-/// One row of a LimitList: a subject and one of its error bands or tolerances.
+/// One row of a LimitList: a subject (such as a PointSummary) and one of its error bands or tolerances.
 template <class Subject>
 struct LimitEntry {
   const Subject& subject;
-  std::size_t limit;  ///< Index of the band or tolerance, in rising order of their sizes.
+  std::size_t limit;  ///< Index of the error band or tolerance, in rising order of their sizes.
 };
 
-/// The items of a list with a row for each error band, or each tolerance.
+/// The items that describe a list in an answer with one row for each error band, or each tolerance.
 struct LimitList {
-  document::Item list;   ///< The list: "bands".
-  document::Item limit;  ///< Item of a row with the size of the band or tolerance: "band".
+  document::Item list;   ///< Item of the list itself: "bands".
+  document::Item limit;  ///< Item for the size of the band or tolerance in each row of the list: "band".
 };
 
 inline LimitList list_of_bands() {
@@ -154,7 +161,8 @@ inline LimitList list_of_tolerances(parameters::AxisKind axis) {
            .unit = parameters::unit_on(axis, "rad")}};
 }
 
-/// Adds the fields of error bands, or of tolerances: a list in JSON, columns named by flat_name() in CSV.
+/// Adds the reported numbers of error bands, or of tolerances, to the description of an answer: a list in
+/// JSON, columns named by flat_name() in CSV.
 template <class Row, class Subject, class Get>
 void add_by_limit(document::Description<Row>& description,
                   const std::vector<text::ReportField<Subject>>& fields, LimitList list,

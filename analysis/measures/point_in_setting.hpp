@@ -17,14 +17,14 @@
 
 namespace zerocount::measures {
 
-/// A design point in one setting; without settings, just a design point.
+/// A design point in one setting (a condition at an age); if the study has no settings, just a design point.
 struct PointInSetting {
-  std::int64_t point{0};                 ///< number of the design point
-  std::string label;                     ///< Label of the point, with the setting if there is one.
-  std::optional<std::string> setting{};  ///< Setting of the trials; empty without settings.
+  std::int64_t point{0};                 ///< Index of the design point.
+  std::string label;                     ///< Label of the design point, with the setting if there is one.
+  std::optional<std::string> setting{};  ///< Label of the setting; null if the study has no settings.
 };
 
-/// The items that name a PointInSetting in data: point, label and setting.
+/// The items that identify a PointInSetting in JSON and CSV: index of the point, label and setting.
 inline document::Description<PointInSetting> name_of_point() {
   return document::Description<PointInSetting>()
       .value(document::in_data("point", "number of the design point"), &PointInSetting::point)
@@ -37,8 +37,8 @@ inline document::Description<PointInSetting> name_of_point() {
              &PointInSetting::setting);
 }
 
-/// The results of `make(file, place)` for each point in each setting, ordered by point, then by
-/// setting. `place` is a PointInSetting. @param points numbers of the points; empty: all points
+/// Calls `make(file, place)` for each design point in each setting, and returns the results ordered by point,
+/// then by setting. `place` is a PointInSetting. @param points indices of the points; empty: all points
 /// @tparam Part type of the results; has the members of PointInSetting
 /// @throws Failure (bad_input) for a point that does not exist
 template <class Part, class Make>

@@ -24,7 +24,8 @@ struct OutcomeCounts {
   std::int64_t off_target{0};
   std::int64_t oscillating{0};
   std::int64_t nonfinite{0};
-  std::int64_t open_loop{0};  ///< torque levels, which are not judged
+  /// Number of torque levels of an open-loop study, which have no target and are not judged.
+  std::int64_t open_loop{0};
 
   std::int64_t total() const;
   OutcomeCounts& operator+=(const OutcomeCounts& other);
@@ -36,34 +37,37 @@ struct OutcomeCounts {
   }
 };
 
-/// The counter of each outcome, indexed by the number that the outcome has in files.
+/// The counter for each outcome, in the order of the numbers that the outcomes have in files.
 inline constexpr std::array outcome_counters{&OutcomeCounts::zero_count,  &OutcomeCounts::one_count,
                                              &OutcomeCounts::oscillating, &OutcomeCounts::nonfinite,
                                              &OutcomeCounts::open_loop,   &OutcomeCounts::off_target};
 
-/// The counter of an outcome.
-/// @throws Failure (bad_data) for a value that is not an outcome: the file is damaged.
+/// The member of OutcomeCounts that counts an outcome. @throws Failure (bad_data) for a value that is not an
+/// outcome: the file is damaged
 std::int64_t OutcomeCounts::*counter_of(trial::Outcome outcome);
 
-/// Time between the onsets of successive jerks of a move, s.
+/// Statistics of the time between the onsets of successive jerks of a move, s.
 struct JerkIntervalStatistics {
-  std::int64_t n{0};  ///< intervals: jerks − 1 for each move with jerks
+  std::int64_t n{0};  ///< Number of intervals: (number of jerks − 1), summed over the moves with jerks.
   double mean{statistics::unknown};
   double median{statistics::unknown};
 };
 
-/// Whether jerks slow down, as the paper's Fig. 8 shows: whether the intervals of a move grow in their order.
+/// Counts that show whether jerks slow down, as the paper's Fig. 8 shows: whether the intervals between the
+/// jerks of a move grow in their order.
 ///
-/// Judged for each move with 3 jerks or more by the Mann–Kendall statistic S of its intervals (rank_trend):
+/// Each move with 3 jerks or more is judged by the Mann–Kendall statistic S of its intervals (rank_trend):
 /// the move slows down if S > 0, speeds up if S < 0. Jerks at random times would make both equally frequent,
 /// whatever the distribution of the intervals, and τ zero on average.
 struct JerkSlowing {
-  std::int64_t moves{0};                   ///< moves with 3 jerks or more
-  std::int64_t slowing{0};                 ///< moves with 3 jerks or more and S > 0
-  std::int64_t quickening{0};              ///< moves with 3 jerks or more and S < 0
-  double proportion{statistics::unknown};  ///< slowing / moves
-  double tau{statistics::unknown};         ///< Kendall's τ_a over the pairs of intervals within
-                                           ///< a move, all moves pooled
+  std::int64_t moves{0};       ///< Number of moves with 3 jerks or more, which are judged.
+  std::int64_t slowing{0};     ///< Number of moves whose jerks slow down: 3 jerks or more and S > 0.
+  std::int64_t quickening{0};  ///< Number of moves whose jerks speed up: 3 jerks or more and S < 0.
+  /// Proportion of these moves whose jerks slow down: slowing / moves.
+  double proportion{statistics::unknown};
+  /// Kendall's τ_a over the pairs of intervals within a move, pooled over all moves; positive if jerks slow
+  /// down.
+  double tau{statistics::unknown};
 
   template <class Self, class Archive>
   static void transfer(Self& self, Archive& archive) {
@@ -74,16 +78,20 @@ struct JerkSlowing {
 /// Statistics of one torque level of an open-loop study over the trials of a point. All values are taken at
 /// the end of the level. Trials whose motion was lost at this level or before are only counted.
 struct LevelStatistics : StatisticsOfMeasures {
-  std::int64_t nonfinite{0};  ///< trials whose motion was lost
+  /// Number of trials whose motion was lost (became non-finite) at this level or before.
+  std::int64_t nonfinite{0};
 };
 
-/// Plain counts of the trials of a design point.
+/// Counts of the trials, moves and jerks of a design point, without bounds.
 struct PointCounts {
   std::int64_t trials{0};
-  std::int64_t moves{0};               ///< moves of all trials
-  OutcomeCounts outcomes;              ///< trials by the worst of their moves
-  std::vector<OutcomeCounts> by_move;  ///< [move] trials by the outcome of this move; every trial has it
-  std::int64_t jerks_agreeing{0};      ///< jerks whose direction is the sign of their move's holding torque
+  std::int64_t moves{0};  ///< Number of moves of all trials.
+  /// Number of trials with each outcome; the outcome of a trial is that of its worst move.
+  OutcomeCounts outcomes;
+  /// [move] Number of trials in which this move has each outcome; every trial has the move.
+  std::vector<OutcomeCounts> by_move;
+  /// Number of jerks whose direction is the sign of their move's holding torque.
+  std::int64_t jerks_agreeing{0};
 
   PointCounts& operator+=(const PointCounts& other);
 
@@ -93,10 +101,11 @@ struct PointCounts {
   }
 };
 
-/// Counts of the trials of a design point; each trial counts like one move.
+/// Counts of the trials of a design point by machine, world and setting; a whole trial is counted like one
+/// move.
 struct GroupTrials {
-  CellCounts succeeded;  ///< Met: trials all of whose moves ended at zero error.
-  /// Met: trials all of whose moves meet the goals that judge them; empty without a goal.
+  CellCounts succeeded;  ///< Counts of successful trials: all moves ended at zero error.
+  /// Counts of trials that meet the goals: all moves meet the goals that judge them. Empty without a goal.
   CellCounts meeting;
 
   template <class Self, class Archive>
@@ -107,32 +116,40 @@ struct GroupTrials {
 
 /// All statistics of a design point.
 struct PointSummary : StatisticsOfMeasures, PointCounts {
-  double hold{statistics::unknown};  ///< Hold of a move, s; set in summaries only. NaN if trials differ.
+  /// Time for which the target of a move is held, s; NaN if it differs between trials. Set in summaries only.
+  double hold{statistics::unknown};
 
-  std::int64_t judged{0};                  ///< trials with targets: all, or none in an open-loop study
-  statistics::SuccessClaim claim;          ///< Claim from zero_count of judged trials; none for an open loop.
-  statistics::MachineStatistics machines;  ///< Differences between machines, in a study with machines.
-  /// Upper tolerance limits of a trial's settling time, which is the arrival time of its slowest move, for
-  /// the contents statistics::tolerance_contents. A trial with a move that never arrives is above every
-  /// limit.
+  /// Number of trials whose moves have targets: all trials, or 0 in an open-loop study.
+  std::int64_t judged{0};
+  /// Tolerance statement about the success of all machines, from the trials that succeeded (zero_count) among
+  /// `judged`; none for an open loop.
+  statistics::SuccessClaim claim;
+  /// Statistics of the differences between machines, in a study with machines.
+  statistics::MachineStatistics machines;
+  /// Upper tolerance limits of a trial's settling time, which is the arrival time of its slowest move, s; one
+  /// for each of statistics::tolerance_contents. A trial with a move that never arrives is above every limit.
   std::array<statistics::ToleranceLimit, std::size(statistics::tolerance_contents)> settles_within{};
   JerkIntervalStatistics jerk_interval;
   JerkSlowing jerk_slowing;
-  double jerk_agreement{statistics::unknown};        ///< jerks_agreeing / jerks
-  double jerk_one_count_share{statistics::unknown};  ///< jerks of magnitude 1 / jerks
-  UndecidedMoves undecided;       ///< Undecided moves; without the study only off_target is known.
-  std::vector<CellCounts> goals;  ///< [goal] counts of the moves that meet the goal
+  /// Proportion of jerks whose direction is the sign of their move's holding torque: jerks_agreeing / jerks.
+  double jerk_agreement{statistics::unknown};
+  double jerk_one_count_share{statistics::unknown};  ///< Proportion of jerks with a magnitude of one count.
+  /// Counts of the moves that ended off target and are neither stable nor shown unstable. If the study is not
+  /// at hand, only `off_target` is known.
+  UndecidedMoves undecided;
+  std::vector<CellCounts> goals;  ///< [goal] Counts of the moves that meet the goal.
   /// [goal] counts of the moves in which the load meets the goal (MoveKind::for_the_load); empty if no goal
   /// is counted for the load.
   std::vector<CellCounts> for_the_load;
   /// [goal][setting, or 0 without settings] settling times of the moves that the goal judges. Empty for a
   /// goal on all moves of a study without settings: its times are then those of the measure of its band.
   std::vector<std::vector<SettlingTimes>> goal_settling;
-  /// Counts of trials. Empty unless MoveKind::counts_trials() and the moves have targets.
+  /// Counts of whole trials; null unless MoveKind::counts_trials() and the moves have targets.
   std::optional<GroupTrials> trials_of_groups;
-  std::vector<LevelStatistics> levels;  ///< [move] in an open-loop study, otherwise empty
+  /// [torque level] Statistics of each level of an open-loop study; otherwise empty.
+  std::vector<LevelStatistics> levels;
 
-  /// The proportion of trials all of whose moves ended at zero error.
+  /// Success rate: the proportion of trials all of whose moves ended at zero error, with its bounds.
   const RateWithBounds& success_rate() const { return of(&trial::MoveOutcome::outcome).rate; }
 };
 

@@ -4,8 +4,8 @@
 
 namespace zerocount::measures {
 
-/// Name of a measure within the names of random streams. A measure that is renamed keeps it, because a stream
-/// of another name has other random numbers, and every bound by resampling would change.
+/// Name of a measure within the names of random streams. A measure that was renamed keeps its old name here:
+/// a stream with another name has other random numbers, and every bound by resampling would change.
 constexpr std::string_view stream_name(std::string_view measure) {
   return measure == "arrival_time" ? "settling_time" : measure;
 }

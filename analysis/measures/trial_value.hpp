@@ -17,8 +17,8 @@
 
 namespace zerocount::measures {
 
-/// The value of a move for the statistics; NaN if the move has none. @param value value of the measure's
-/// field
+/// The value of a move for the statistics of a measure; NaN if the move has none. @param value value of the
+/// measure's member of MoveOutcome
 inline double counted_value(const layout::Measure& measure, const trial::MoveOutcome& move, double value) {
   const bool is_lost = measure.values.needs_motion && move.outcome == trial::Outcome::nonfinite;
   if (is_lost || !trial::was_run(move)) return statistics::unknown;
@@ -26,19 +26,22 @@ inline double counted_value(const layout::Measure& measure, const trial::MoveOut
 }
 double counted_value(const layout::Measure& measure, const trial::MoveOutcome& move);
 
-/// A value for comparison with limits and for rankings: infinite if the event never came, empty if there is
-/// nothing to measure (layout::Missing). @param value value of the measure's field
+/// The value of a measure for comparison with limits and for rankings: infinite, with the sign of the worse
+/// direction, if the event never came; null if there is nothing to measure (layout::Missing). @param value
+/// value of the measure's member of MoveOutcome
 std::optional<double> ranked_value(const layout::CountedValues& values, double value);
-/// The ranked value of a move. If a value is missing because the move was stopped or its motion was lost, it
-/// is infinite for any measure. A move that was not run has only times, and these count as never reached.
+/// The value of a measure of a move for comparison with limits and for rankings. If a value is missing
+/// because the move was stopped or its motion was lost, it is infinite for any measure. A move that was not
+/// run has only times, and these count as never reached.
 std::optional<double> ranked_value(const layout::Measure& measure, const trial::MoveOutcome& move);
-/// Whether the magnitude of a ranked value is at most `largest`. An empty value meets every limit.
+/// Whether the magnitude of a value of ranked_value() is at most `largest`. A null value (nothing to measure)
+/// meets every limit.
 bool is_within(std::optional<double> value, double largest);
 
-/// Whether the moves have targets, or the measure needs none.
+/// Whether the measure applies to these moves: they have targets, or the measure needs none.
 bool has_targets(const layout::Measure& measure, std::span<const trial::MoveOutcome> moves);
 
-/// Number of moves of a trial that must have a quality for the trial to have it.
+/// Number of moves of a trial that must have the quality so that the trial counts as having it.
 std::int64_t wanted_moves(const layout::Measure& quality, std::int64_t moves_of_trial);
 
 /// The value of a trial for a measure that is summed over its moves. @param value function that returns the
@@ -50,22 +53,23 @@ double sum_of_moves(const Moves& moves, const Value& value = {}) {
   return sum;
 }
 
-/// The value of a trial, combined from the values of its moves by Measure::reduction; 1 or 0 for a quality.
-/// The settling time of a trial is that of its slowest move.
-/// @param late returns the value used for a time that was not reached; without it the trial's value is NaN.
+/// The value of a measure for a trial, combined from the values of its moves by Measure::reduction; 1 or 0
+/// for a quality. The settling time of a trial is that of its slowest move. @param late function that returns
+/// the value for a time that was not reached; without it the trial's value is NaN
 double value_of_trial(const layout::Measure& measure, std::span<const trial::MoveOutcome> moves,
                       const std::function<double()>& late = {});
 
-/// The first of these global rows, up to the end of the chunk of the file's outcomes that holds the first
-/// one.
+/// The first part of these global rows (rows of trials over all design points): up to the end of the chunk of
+/// the file's outcomes that holds the first row.
 inline layout::RowRange rows_of_first_chunk(const reading::AllTrialsFile& file, layout::RowRange rows) {
   const std::int64_t chunk = layout::chunk_rows(file.moves());
   const std::int64_t in_chunk = (rows.first - file.rows().first) % chunk;
   return {rows.first, std::min(chunk - in_chunk, rows.count)};
 }
 
-/// Calls visit(block, outcomes) for the trials of these global rows in order. Each block ends at the end of a
-/// chunk of the file. `outcomes` is a span of the outcomes of the block's moves, [trial, move].
+/// Calls visit(block, outcomes) for successive blocks of trials, given by their global rows (over all design
+/// points), in order. Each block ends at the end of a chunk of the file. `outcomes` is a span of the outcomes
+/// of the block's moves, [trial][move].
 template <class Visit>
 void visit_blocks(const reading::AllTrialsFile& file, layout::RowRange rows, const Visit& visit) {
   for (layout::RowRange block; rows.count > 0; rows = {block.end(), rows.count - block.count}) {
@@ -75,8 +79,8 @@ void visit_blocks(const reading::AllTrialsFile& file, layout::RowRange rows, con
   }
 }
 
-/// Calls visit(row, moves) for the trials of these global rows in order, reading the file in blocks. `moves`
-/// is a span of the outcomes of the trial's moves.
+/// Calls visit(row, moves) for each trial of these global rows (over all design points) in order, reading the
+/// file in blocks. `moves` is a span of the outcomes of the trial's moves.
 template <class Visit>
 void visit_trials(const reading::AllTrialsFile& file, layout::RowRange rows, const Visit& visit) {
   const auto moves = static_cast<std::size_t>(file.moves());

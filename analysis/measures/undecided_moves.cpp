@@ -20,20 +20,21 @@ bool falls(const trial::MoveOutcome& move) {
   return std::abs(move.final_error) < std::abs(move.midway_error);
 }
 
-/// Whether the count went towards its target throughout the last half of the hold, except for a ripple of one
-/// count to either side. The last error is 2 counts or more, so the error has kept its sign.
+/// Whether the encoder count went towards the target throughout the last half of the hold, except for a
+/// ripple of one count to either side. The last error is 2 counts or more, so the error has kept its sign.
 bool falls_with_ripple(const trial::MoveOutcome& move) {
   const auto fallen = static_cast<double>(std::abs(move.midway_error) - std::abs(move.final_error));
   return falls(move) && std::abs(move.final_error) >= 2 && 2.0 * move.oscillation_amplitude <= fallen + 2.0;
 }
 
-/// Whether the error fell to within one count in the last half of the hold, too late to arrive. False if the
-/// error was within one count throughout the last half: such a move hunts.
+/// Whether the error fell to within one count in the last half of the hold, but too late for an arrival.
+/// False if the error was within one count throughout the last half: such a move oscillates about the target
+/// (hunting).
 bool is_about_to_arrive(const trial::MoveOutcome& move) {
   return !move.arrived && std::abs(move.midway_error) >= 2 && falls(move);
 }
 
-/// The count to which a move with a falling error belongs; null for any other move.
+/// The member of UndecidedMoves that counts a move with a falling error; null for any other move.
 std::int64_t UndecidedMoves::*falling_count(const trial::MoveOutcome& move) {
   switch (move.outcome) {
     case trial::Outcome::off_target:
@@ -97,10 +98,10 @@ std::string undecided_sentence(const UndecidedMoves& moves) {
 
 namespace {
 
-/// Proportion of the moves still falling for which the advised hold is long enough.
+/// Proportion of the moves whose error was still falling for which the advised hold is long enough.
 constexpr double advised_proportion = 0.9;
 
-/// The value rounded up to two significant digits, as the double nearest to the decimal number.
+/// The value rounded up to two significant digits, as the double nearest to this decimal number.
 double rounded_up(double value) {
   const double decimals = 1.0 - std::floor(std::log10(value));
   const double scale = std::pow(10.0, std::abs(decimals));
@@ -108,7 +109,8 @@ double rounded_up(double value) {
   return std::ceil(value * scale - 1e-9) / scale;
 }
 
-/// Time constant τ from the errors recorded in the middle and at the end of the hold, s; see time_to_zero().
+/// Time constant τ of the decay of the error, s, from the errors recorded in the middle and at the end of the
+/// hold; see time_to_zero().
 double decay_time_constant(std::int64_t midway_error, std::int64_t final_error, std::int64_t samples,
                            double sample_time) {
   const double elapsed = static_cast<double>(samples - 1 - trial::first_of_last_half(samples)) * sample_time;
@@ -116,9 +118,10 @@ double decay_time_constant(std::int64_t midway_error, std::int64_t final_error, 
          std::log(static_cast<double>(std::abs(midway_error)) / static_cast<double>(std::abs(final_error)));
 }
 
-/// ln(step / initial error) of a move, at least 0. With a longer hold the move before it arrives too, so this
-/// move then starts with its whole step as error. 0 for the first move, and under a profiled reference, where
-/// the error does not start with the step.
+/// Logarithm ln(step / initial error) of a move, at least 0. With a longer hold the preceding move arrives
+/// too, so that this move starts with its whole step as error. 0 for the first move, and under a profiled
+/// reference, where the error does not start with the step. @param number number of the move in the trial
+/// @param error_before last error of the preceding move, counts
 double log_of_longer_way(const trial::TrialParameters& parameters, std::size_t number,
                          std::int64_t error_before) {
   const std::vector<std::int64_t>& targets = parameters.command.targets;
@@ -129,8 +132,8 @@ double log_of_longer_way(const trial::TrialParameters& parameters, std::size_t n
   return std::max(0.0, std::log(std::abs(static_cast<double>(step) / static_cast<double>(start))));
 }
 
-/// Hold that the move is expected to need, s.
-/// @param error_before last error of the previous move
+/// Hold (time until the next move) that the move is expected to need to arrive, s. @param number number of
+/// the move in the trial @param error_before last error of the preceding move, counts
 double needed_hold(const trial::MoveOutcome& move, std::size_t number, std::int64_t error_before,
                    const trial::TrialParameters& p) {
   const std::int64_t samples = trial::samples_of_move(p, number);

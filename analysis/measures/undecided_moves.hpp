@@ -12,19 +12,21 @@
 
 namespace zerocount::measures {
 
-/// Moves that are off target: stalled, or still on their way when their hold ended. They are undecided,
-/// neither stable nor shown unstable.
+/// Counts of the moves that ended off target: stalled, or still on their way when their hold ended. They are
+/// undecided, neither stable nor shown unstable.
 struct UndecidedMoves {
-  std::int64_t moves{0};          ///< Number of moves of all trials.
-  std::int64_t off_target{0};     ///< Moves that ended off target: undecided.
-  std::int64_t still_falling{0};  ///< Off-target moves whose error fell in the last half of the hold.
-  /// Moves that count as oscillating although their error fell and kept its sign, with a ripple of one count:
-  /// a proportional gain makes the count chatter on the edges that it passes.
+  std::int64_t moves{0};       ///< Number of moves of all trials.
+  std::int64_t off_target{0};  ///< Number of moves that ended off target and are therefore undecided.
+  /// Number of off-target moves whose error fell in the last half of the hold.
+  std::int64_t still_falling{0};
+  /// Number of moves that count as oscillating although their error fell and kept its sign, with a ripple of
+  /// one count: a proportional gain makes the count chatter on the edges that it passes.
   std::int64_t falling_with_ripple{0};
-  /// Moves whose error fell to within one count in the last half of the hold, but that had not arrived.
+  /// Number of moves whose error fell to within one count in the last half of the hold, but that had not
+  /// arrived.
   std::int64_t about_to_arrive{0};
-  /// Hold that most of the moves with a falling error are expected to need, s. NaN if there are no such
-  /// moves, or if nothing in their control brings the error to zero.
+  /// Advised hold (time until the next move), s: long enough for most of the moves with a falling error. NaN
+  /// if there are no such moves, or if nothing in their control brings the error to zero.
   double advised_hold{statistics::unknown};
 
   template <class Self, class Archive>
@@ -33,11 +35,11 @@ struct UndecidedMoves {
   }
 };
 
-/// Names of one of the counts of UndecidedMoves in summaries and comparisons.
+/// Names under which one of the counts of UndecidedMoves is reported in summaries and comparisons.
 struct UndecidedCount {
   const char* name;       ///< Name in JSON.
   const char* column;     ///< Name in CSV.
-  const char* long_name;  ///< meaning of the count
+  const char* long_name;  ///< Meaning of the count.
   std::int64_t UndecidedMoves::*count;
 };
 inline constexpr UndecidedCount undecided_counts[] = {
@@ -56,13 +58,13 @@ inline constexpr UndecidedCount undecided_counts[] = {
 /// of its hold.
 bool is_still_falling(const trial::MoveOutcome& move);
 
-/// Counts a move.
+/// Adds a move to the counts that apply to it.
 void add_move(UndecidedMoves& counts, const trial::MoveOutcome& move);
 
-/// The sums of the counts of both, without an advised hold.
+/// The sums of two sets of counts; the advised hold is left unknown.
 UndecidedMoves sum_of(const UndecidedMoves& one, const UndecidedMoves& other);
 
-/// Whether any move is undecided, falling with ripple or about to arrive.
+/// Whether any move ended off target, falls with ripple or is about to arrive.
 bool any_undecided(const UndecidedMoves& moves);
 
 /// A sentence on the undecided moves: "…; the error was still falling in 2700 of 3000 moves at the end of the
@@ -90,11 +92,12 @@ double time_to_zero(std::int64_t midway_error, std::int64_t final_error, std::in
 
 /// Sums over the undecided moves of a design point.
 struct UndecidedSums {
-  UndecidedMoves counts;  ///< the counts, without the advised hold
-  /// Holds that the moves with a falling error are expected to need, s, rounded up to two digits.
+  UndecidedMoves counts;  ///< The counts; `advised_hold` is not set.
+  /// Histogram of the holds that the moves with a falling error are expected to need, s, rounded up to two
+  /// digits.
   statistics::Histogram<double> needed_holds;
 
-  /// Adds a trial. @param row global row of the trial in the study
+  /// Adds the moves of a trial. @param row row of the trial in the study, counted over all design points
   void add(const study::Study& study, std::int64_t row, std::span<const trial::MoveOutcome> moves);
   UndecidedSums& operator+=(const UndecidedSums& other);
   UndecidedMoves moves() const;

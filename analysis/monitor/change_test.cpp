@@ -17,28 +17,33 @@ namespace {
 constexpr std::size_t sizes_of_change = 6;
 constexpr double largest_change = 2.0;          // size of a bet at its stake
 constexpr double smallest_change = 1.0 / 32.0;  // below all sizes at a stake
-/// The first kind of bets has no step.
+/// [kind of bet] Proportion q of p-values below which a bet on a step pays. Kind 0 bets on normal scores, so
+/// its 0 is not used.
 constexpr std::array steps{0.0, 1.0 / 64, 1.0 / 32, 1.0 / 16,  1.0 / 8,   1.0 / 4,
                            0.5, 3.0 / 4,  7.0 / 8,  15.0 / 16, 31.0 / 32, 63.0 / 64};
 constexpr double max_loss = 0.9;       // of a bet by a step
 constexpr double max_capital = 1e200;  // the most that a bet can have, so that sums stay finite
 
-/// 1/log2(t + 1), of which the differences are the stakes: they sum to 1.
+/// Proportion r_{t−1} = 1/log2(t + 1) of the initial capital that is not yet staked before value number t,
+/// from 1. The decreases of this proportion are the stakes of new bets; all together they sum to 1.
 double kept_before(std::int64_t t) {
   return numerics::log(2.0) / numerics::log(static_cast<double>(t) + 1.0);
 }
 
-/// log2 of the largest bet at the value that follows `before` values.
+/// The largest integer k with 2^k/before ≤ 2: binary logarithm of the size of the largest bet, before
+/// division by the number `before` of all values (baseline included) that precede the current one.
 int highest_exponent(std::int64_t before) {
   return static_cast<int>(std::bit_width(static_cast<std::uint64_t>(before)));
 }
 
-/// Proportion of a stake in each direction that is bet in this kind.
+/// Proportion of each stake that is bet on one direction (higher or lower values) with the kind `kind`: 0 for
+/// normal scores, otherwise a step. Over all kinds and both directions it sums to 1.
 double weight_of(std::size_t kind) {
   return 0.5 * (kind == 0 ? 0.5 : 0.5 / static_cast<double>(steps.size() - 1));
 }
 
-/// Score of a p-value for the bet on a step at q. For uniform p it has mean 0 and variance 1.
+/// Score of a p-value for a bet that at least the expected proportion q of p-values lies below q: positive if
+/// p < q, negative otherwise. For uniform p it has mean 0 and variance 1.
 double score(double p, double q) {
   return p < q ? std::sqrt((1.0 - q) / q) : -std::sqrt(q / (1.0 - q));
 }
@@ -47,7 +52,8 @@ double limited_size(double size, double q) {
   return std::min(size, max_loss * std::sqrt((1.0 - q) / q));
 }
 
-/// p of a bet in the direction.
+/// The p-value for a bet in the direction: p for higher values, 1 − p for lower ones, so that a small result
+/// always supports the bet.
 double towards(Direction direction, double p) {
   return direction == Direction::higher ? p : 1.0 - p;
 }
@@ -86,7 +92,8 @@ std::vector<std::vector<std::size_t>> places_of(std::span<const std::size_t> cla
   return places;
 }
 
-/// Appends T_b for each window b.
+/// Appends to `sums_of_squares`, for each window length b, the sum over all runs of b consecutive values of
+/// (sum of the run)².
 void add_windows(const std::vector<double>& x, std::span<const std::size_t> windows,
                  std::vector<double>& sums_of_squares) {
   std::vector<double> sums(x.size() + 1, 0.0);
@@ -101,7 +108,10 @@ void add_windows(const std::vector<double>& x, std::span<const std::size_t> wind
   }
 }
 
-/// @param t [order][window] T_b, the order observed first
+/// Result of dependence_of() from its statistics T_b (sums of squared window sums).
+/// @param t order-major [order][window] T_b; order 0 is the observed order of the values, the others are
+/// random orders
+/// @param windows window lengths b, in values
 Dependence judged(std::vector<double> t, std::span<const std::size_t> windows) {
   const std::size_t width = windows.size();
   const std::size_t orders = t.size() / width;

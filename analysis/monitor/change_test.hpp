@@ -40,15 +40,17 @@ class ChangeMartingale {
   /// @param baseline number n of values in the baseline, at least 1
   explicit ChangeMartingale(std::int64_t baseline);
 
-  /// Adds the next value. @param p p-value of its rank among all values before it, in (0, 1)
+  /// Adds the next value. @param p p-value of this value: its rank, as a proportion, among all values before
+  /// it and the baseline, in (0, 1); small for a large value
   void update(double p);
 
-  std::int64_t values() const { return values_; }  ///< Number t of values so far.
+  std::int64_t values() const { return values_; }  ///< Number t of values so far, without the baseline.
   double capital() const;
-  /// The direction on which the capital depends most.
+  /// Direction (higher or lower values) on whose bets most of the capital rests at present.
   Direction direction() const;
-  /// The most likely time of the change in that direction, from 1, by the bet that gained most.
-  /// @param p all p-values until now
+  /// Estimated number of the first value after the change, from 1 for the first value after the baseline. It
+  /// comes from the bet in direction() that gained most.
+  /// @param p p-values of all values until now, in their order
   std::int64_t since(std::span<const double> p) const;
 
  private:
@@ -59,9 +61,11 @@ class ChangeMartingale {
 
   std::int64_t baseline_;
   std::int64_t values_{0};
-  int lowest_;                                             ///< Exponent k of the first size.
-  std::size_t sizes_;                                      ///< Number of sizes in use.
-  std::array<std::array<Capitals, kinds>, 2> capitals_{};  ///< [direction][kind][size] Capital.
+  /// Smallest exponent k of the bet sizes 2^k/(number of values so far); index 0 of a kind's capitals.
+  int lowest_;
+  std::size_t sizes_;  ///< Number of bet sizes 2^k/(number of values so far) in use.
+  /// [direction][kind of bet][size] Capital of the bets.
+  std::array<std::array<Capitals, kinds>, 2> capitals_{};
 };
 
 /// A growing multiset of values, none of them NaN, in which new values are ranked. Insertion takes amortised
@@ -71,7 +75,7 @@ class RankedBag {
   explicit RankedBag(std::vector<double> values);
 
   struct Place {
-    std::int64_t above{0};  ///< Number of larger values.
+    std::int64_t above{0};  ///< Number of values in the bag that are larger than the new value.
     std::int64_t equal{0};
   };
   Place place_of(double value) const;
@@ -99,25 +103,30 @@ class RankedBag {
 /// w(s, i) the random bits of the key with the stream s and the index i.
 class ChangeTest {
  public:
-  /// @param baseline [class] values
+  /// @param baseline [class of similar moves] values of the measure before the log begins @param ties random
+  /// key for the numbers that break ties
   ChangeTest(std::vector<std::vector<double>> baseline, const random::RandomKey& ties);
 
-  /// @param value not NaN. @returns its p-value
+  /// @param value next value of the measure, not NaN @param of_class index of the class of similar moves to
+  /// which it belongs @returns its p-value: the smoothed proportion of values of its class, itself included,
+  /// that are larger
   double update(double value, std::size_t of_class = 0);
 
   const ChangeMartingale& martingale() const { return martingale_; }
 
  private:
-  std::vector<RankedBag> bags_;  ///< [class] Values so far, including the baseline.
+  std::vector<RankedBag> bags_;  ///< [class of values] Sorted values so far, including the baseline.
   ChangeMartingale martingale_;
   random::RandomKey ties_;
-  std::uint64_t history_;  ///< State h of the numbers u.
+  /// State h of the generator of the numbers u that break ties; it depends on the ranks so far.
+  std::uint64_t history_;
 };
 
 /// Evidence in the order of values against their exchangeability.
 struct Dependence {
-  double p{1.0};         ///< Probability of as much dependence in a random order.
-  std::int64_t over{0};  ///< Number of consecutive values over which the dependence is clearest.
+  double p{1.0};  ///< Probability that a random order of the values shows at least as much dependence.
+  /// Number of consecutive values (window length) at which the dependence is clearest; 0 if not tested.
+  std::int64_t over{0};
   /// True if consecutive values differ more than in a random order, so that `over` of them average out.
   bool alternates{false};
 };
@@ -133,7 +142,7 @@ struct Dependence {
 /// statistic is the largest |z_b| of T_b, z_b by its mean and standard deviation over random orders of
 /// the values of each class; p is its rank among those of the random orders. So p is valid for any
 /// distribution. The first 100 000 values are tested; fewer than eight are not.
-/// @param classes [value]
+/// @param classes [value] index of the class to which each value belongs
 Dependence dependence_of(std::span<const double> values, std::span<const std::size_t> classes,
                          const random::RandomKey& key);
 
@@ -143,8 +152,10 @@ double mid_rank(std::span<const double> sorted, double value);
 /// [value] Rank of each value within its class, as a proportion in (0, 1). Equal values have equal ranks.
 std::vector<double> ranks_within(std::span<const double> values, std::span<const std::size_t> classes);
 
-/// Proportion of the variance of the ranks of all values that lies between the classes. Two normal classes of
-/// equal size and width have two peaks from a distance of 2σ on, at which the proportion is one half.
+/// Proportion of the variance of the ranks of all values that is due to differences between the classes, in
+/// [0, 1]. For example, two classes of equal size with normal values of the same standard deviation σ give
+/// one half when their means are 2σ apart; from there on their joint distribution has two peaks.
+/// @param classes [value] index of the class to which each value belongs
 double part_between(std::span<const double> values, std::span<const std::size_t> classes);
 
 }  // namespace zerocount::monitor

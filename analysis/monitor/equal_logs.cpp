@@ -7,11 +7,11 @@
 namespace zerocount::monitor {
 namespace {
 
-/// Number of different rows from which on two logs are unlikely to agree by chance. Ten different rows have
-/// 10! orders, of which another log has one.
+/// Smallest number of different rows at which equal logs are taken as copies. Ten different rows have 10!
+/// orders, so two logs with them are unlikely to agree by chance.
 constexpr std::size_t enough_rows = 10;
 
-/// Columns of the same measure in two logs, with the signs that the numbers have in the logs.
+/// A measure that two logs have in common: its values in each log, with their signs as written there.
 struct SharedColumn {
   std::span<const double> one;
   std::span<const double> other;
@@ -43,7 +43,8 @@ bool begin_equal(std::span<const SharedColumn> columns, std::size_t moves) {
   return true;
 }
 
-/// Whether the first moves have at least enough_rows different rows.
+/// Whether the first `moves` moves have at least enough_rows different rows, in the columns that both logs
+/// share.
 bool have_many_rows(std::span<const SharedColumn> columns, std::size_t moves) {
   std::set<std::vector<double>> rows;
   for (std::size_t move = 0; move < moves && rows.size() < enough_rows; ++move) {

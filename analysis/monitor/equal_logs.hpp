@@ -11,8 +11,8 @@
 
 namespace zerocount::monitor {
 
-/// Number of equal moves with which both sequences begin. It is the length of the shorter sequence if the
-/// other one begins with the same moves, and otherwise 0.
+/// Number of equal moves at the beginning of the two sequences. It is the length of the shorter sequence if
+/// the longer one begins with the same moves (or is the same), and otherwise 0.
 ///
 /// Two moves are equal if all measures that both sides have agree to nine digits. Units, the order of columns
 /// and the notation of numbers therefore make no difference. If the lengths differ, the equal moves must have
@@ -20,7 +20,7 @@ namespace zerocount::monitor {
 /// have no measure in common.
 std::int64_t equal_moves(const Moves& one, const Moves& other);
 
-/// Logs with the same moves in the same order.
+/// A set of logs that have the same moves in the same order, at least at their beginning.
 struct EqualLogs {
   std::vector<std::size_t> logs;  ///< Indices of the logs, ascending, at least two.
   std::int64_t moves;             ///< Number of equal moves at the beginning of these logs.
@@ -28,7 +28,8 @@ struct EqualLogs {
   bool few_values;  ///< True if there are fewer than ten different rows: the logs may agree by chance.
 };
 
-/// The first log that equals later ones, together with these; nothing if all logs differ.
+/// Among the logs, the first one that equals any later log, together with all later logs that equal it.
+/// Nothing if all logs differ.
 std::optional<EqualLogs> equal_logs(std::span<const MoveLog> logs);
 
 }  // namespace zerocount::monitor

@@ -44,10 +44,11 @@ bool can_be(const MonitoredMeasure& measure, double value) {
   return value >= range.low && value <= range.high;
 }
 
-/// Change to be seen in one class of values.
+/// Change of a measure that the monitor must be able to see, for the values of one class of similar moves.
 struct ChangeOfClass {
   double size{0.0};
-  std::vector<Direction> directions{};  ///< Possible directions; empty: the class has no scale.
+  /// Directions in which the measure can change by `size`; empty: no change can be stated for the class.
+  std::vector<Direction> directions{};
 };
 
 ChangeOfClass change_of_class(const MonitoredMeasure& measure, std::span<const double> baseline,
@@ -80,7 +81,8 @@ auto value_from(const Values& values, random::NumberSource& numbers) {
   return values[std::min(place, values.size() - 1)];
 }
 
-/// Draws values of one class of the changed machine: values of the baseline, with the change.
+/// Draws random values of one class of similar moves as a changed machine would have them: values resampled
+/// from the baseline, with the assumed change.
 class ChangedValue {
  public:
   ChangedValue(const DelayQuestion& question, std::size_t of_class)
@@ -122,13 +124,15 @@ class ChangedValue {
  private:
   Scale scale_;
   std::span<const double> baseline_;
-  double lowest_;  ///< Smallest value that the measure can have.
+  double lowest_;  ///< Smallest value that the measure can have, such as 0 for a time; −∞ without a limit.
   double size_;
   double sign_;
   bool is_binary_;
-  /// For values 0 and 1: probability that a value flips if it can change in the direction.
+  /// For a measure that is only 0 or 1: probability that a drawn value flips to the other number, if the flip
+  /// has the direction of the change.
   double flipped_{0.0};
-  std::optional<double> factor_{};  ///< Factor of ChangeForm::factor; nothing for a shift.
+  /// Number by which each value is multiplied if the change is a factor; nothing for a shift.
+  std::optional<double> factor_{};
 };
 
 std::string_view word_of(ChangeForm form) {
@@ -150,13 +154,14 @@ std::vector<std::vector<double>> resample(std::span<const std::vector<double>> c
 constexpr std::int64_t max_simulated = 100'000;  // values of a simulated sequence
 constexpr std::int64_t min_simulated = 64;
 
-/// Smallest proportion of the variance of a measure's ranks between classes of moves (part_between()) at
-/// which the classes have medians of their own in place of a common one.
+/// Smallest proportion of the variance of a measure's ranks that lies between classes of similar moves
+/// (part_between()) for medians per class. At a smaller proportion one median for all moves is reported.
 constexpr double most_between_likes = 0.5;
 constexpr double dependent_p = 0.01;      // significance level for one measure
 constexpr double any_dependent_p = 0.05;  // for all measures together, used if it allows more
 
-/// [value] One past the last move of the value in the baseline. An incomplete last block is not used.
+/// [value] Index one past the last move of each value, in the moves of the baseline. A value comes from one
+/// move, a block of consecutive moves or a group of moves. An incomplete last block is not used.
 std::vector<std::size_t> ends_of(const Baseline& baseline, const MonitorSettings& settings) {
   std::vector<std::size_t> ends;
   const auto moves = static_cast<std::size_t>(baseline.moves);
@@ -191,7 +196,8 @@ bool is_wanted(const MonitorSettings& settings, const MonitoredMeasure& measure)
   return std::ranges::find(settings.measures, measure.name) != settings.measures.end();
 }
 
-/// Heads of the columns of one side that are not watched.
+/// Columns of one side (baseline or log) that are not watched: heads of the columns that are not measures,
+/// then the names of the measures that are not in `watched`.
 std::vector<std::string> unread_columns(const Moves& side, const std::vector<std::string>& watched) {
   std::vector<std::string> heads = side.other_columns;
   for (const Moves::Column& column : side.columns)
@@ -200,7 +206,7 @@ std::vector<std::string> unread_columns(const Moves& side, const std::vector<std
   return heads;
 }
 
-/// Measures of one side that the other one lacks.
+/// Names of the measures that `other` has and `side` lacks. One of them is the baseline, the other the log.
 std::vector<std::string> missing_measures(const Moves& side, const Moves& other) {
   std::vector<std::string> missing;
   for (const Moves::Column& column : side.columns)
@@ -208,14 +214,14 @@ std::vector<std::string> missing_measures(const Moves& side, const Moves& other)
   return missing;
 }
 
-/// Hint at a column of this side with a resembling name, for a message: "; its column 'Arrival_Time' looks
-/// like it". Empty if there is none.
+/// Hint, for a message, at a column of this side (baseline or log) whose name resembles the missing measure:
+/// "; its column 'Arrival_Time' looks like it". Empty if there is none.
 std::string near_text(const Moves& side, const std::string& measure) {
   const std::optional<std::string> near = resembling_column(measure, unread_columns(side, {}));
   return near ? fmt::format("; its column '{}' looks like it", text::printable(*near)) : "";
 }
 
-/// Names of the measures of one side, for a message: "arrival_time, overshoot and 30 more".
+/// Names of the measures of one side (baseline or log), for a message: "arrival_time, overshoot and 30 more".
 std::string names_of(const Moves& side) {
   constexpr std::size_t max_shown = 8;
   std::vector<std::string> names;
@@ -225,8 +231,9 @@ std::string names_of(const Moves& side) {
   return fmt::format("{}{}", fmt::join(names, ", "), more > 0 ? fmt::format(" and {} more", more) : "");
 }
 
-/// The label if only one side has it. Beside a simulated study, only if the log has the column in another
-/// letter case.
+/// Tells that a label of moves (`move` or `target`) is not used, because only the baseline or only the log
+/// has it; nothing if both or neither have it. If the baseline is a simulated study, which always has labels,
+/// it tells so only if the log has the column in another letter case.
 std::optional<UnwatchedMeasure> unused_label(const Baseline& baseline, const MoveLog& log,
                                              const std::string& label, bool MoveLabels::*has) {
   if (baseline.labels.*has == log.labels.*has) return std::nullopt;
@@ -472,8 +479,8 @@ void MachineMonitor::update_measure(std::size_t number, std::size_t of_class, do
   watched.p_values = {};
 }
 
-/// Adds a move to the current value. A block is complete with its last move. A group is complete only when
-/// the first move of the next group arrives.
+/// Adds a move of the log to the current value (a value is one move, a block or a group of moves). A block is
+/// complete with its last move. A group is complete only when the first move of the next group arrives.
 void MachineMonitor::take_move(const MoveLog& log, const Columns& columns, std::size_t move) {
   const std::optional<std::size_t> like = likes_.of(log.labels.of(move));
   like_at_.push_back(like);
@@ -525,8 +532,8 @@ void MachineMonitor::update(const MoveLog& log) {
   for (MeasureState& state : states_) update_median(state, log);
 }
 
-/// Updates the medians of a measure: of the moves since the change or, without an alarm, of all moves. Moves
-/// that are not compared are left out.
+/// Updates the medians of a measure in the log: of the moves since the change if there is an alarm, otherwise
+/// of all moves. Moves without a similar move in the baseline are left out.
 void MachineMonitor::update_median(MeasureState& state, const MoveLog& log) {
   const std::vector<double>& moves = log.find(state.measure.name)->values;
   std::vector<std::vector<double>> by_like(likes_.count());
@@ -543,8 +550,9 @@ void MachineMonitor::update_median(MeasureState& state, const MoveLog& log) {
   if (state.by_like.empty() && !all.empty()) state.median = typical_value(state.measure, std::move(all));
 }
 
-/// Simulates the changes of all measures in parallel, in all directions and forms. The limit of the number of
-/// values is a power of two, so that the simulations are seldom repeated while the log grows.
+/// For all measures in parallel, simulates how many values it takes until a change of each direction and form
+/// would be seen. The limit of the number of values is a power of two, at least `values`, so that the
+/// simulations are seldom repeated while the log grows.
 void MachineMonitor::simulate_changes(std::int64_t values) {
   const auto limit = std::min(
       max_simulated,

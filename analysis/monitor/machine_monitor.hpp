@@ -19,9 +19,10 @@ namespace zerocount::monitor {
 /// Change of a measure that must be excluded before the machine counts as unchanged. It is excluded when a
 /// change of this size would have given an alarm with a probability of 90 %.
 struct ChangeToSee {
-  /// [class] Size of the change in the unit of the values; 0 if the class has no scale (change_to_see()).
+  /// [class of similar moves] Size of the change in the unit of the values; 0 if no change can be stated for
+  /// the class, such as with a median of 0 (see change_to_see()).
   std::vector<double> sizes{};
-  /// Directions in which all classes with a scale can change so much; empty: the measure is not judged.
+  /// Directions in which every class with a size above 0 can change by it; empty: the measure is not judged.
   std::vector<Direction> directions{};
 };
 
@@ -32,27 +33,33 @@ struct ChangeToSee {
 /// A class has no scale if its median is infinite, or if no direction is possible. If the measure is not a
 /// proportion, a class also has no scale if its median is 0, or if its values have both signs. The measure is
 /// judged by the classes that have a scale.
-/// @param baseline [class] Values of the baseline.
+/// @param baseline [class of similar moves] values of the measure in the baseline
+/// @param change relative size of the change, for a proportion its amount; nothing: the default
 ChangeToSee change_to_see(const MonitoredMeasure& measure, std::span<const std::vector<double>> baseline,
                           std::optional<double> change);
 
 /// How a change of the machine acts on the values of a measure.
 enum class ChangeForm {
-  shift,  ///< The size is added to each value.
-  factor  ///< Each value is multiplied by the number that changes the median of its class by the size.
+  shift,  ///< The size of the change is added to each value, or subtracted for a change to lower values.
+  /// Each value is multiplied by one number per class, which moves the median of the class by the size of the
+  /// change.
+  factor
 };
 
 /// Forms of change that are simulated for the measure: both, or only the shift for a proportion.
 std::span<const ChangeForm> forms_of(const MonitoredMeasure& measure);
 
-/// Arguments of values_to_see().
+/// The question for values_to_see(): after how many values is a change of a measure seen?
 struct DelayQuestion {
   const MonitoredMeasure& measure;
-  std::span<const std::vector<double>> baseline;  ///< [class] Values of the baseline, sorted.
+  /// [class of similar moves] Values of the measure in the baseline, sorted.
+  std::span<const std::vector<double>> baseline;
   Direction direction;
   ChangeForm form;
-  std::span<const double> sizes;  ///< [class] Size of the change, which is present from the first value on.
-  double alarm;                   ///< Capital at which the change counts as seen.
+  /// [class of similar moves] Size of the change in the unit of the values. The change is present from the
+  /// first value on.
+  std::span<const double> sizes;
+  double alarm;  ///< Capital of the change test (ChangeMartingale) at which the change counts as seen.
   std::int64_t max_values;
   std::uint64_t seed;
 };
@@ -71,62 +78,73 @@ struct MonitorSettings {
   double alarm{0.001};  ///< Largest probability of a false alarm within any number of moves.
   /// Size of the change to be seen before the machine is `unchanged`; nothing: default of change_to_see().
   std::optional<double> change{};
-  std::int64_t block{1};  ///< Number of consecutive moves that make one value.
-  std::string group{};    ///< Column of the groups of moves, each of which makes one value; empty: none.
+  /// Number of consecutive moves that are combined to one value of a measure, which the change test ranks.
+  std::int64_t block{1};
+  /// Name of the column whose equal successive cells form a group of moves; each group makes one value.
+  /// Empty: no groups.
+  std::string group{};
   std::uint64_t seed{1};  ///< Seed for ties, simulated changes and random orders.
-  /// Names of the measures to watch; empty: all that both sides have and that do not accumulate.
+  /// Names of the measures to watch; empty: all measures that the baseline and the log have, except those
+  /// that grow from move to move.
   std::vector<std::string> measures{};
 };
 
 enum class MachineStatus { changed, unchanged, undecided };
 
-/// Medians of a measure for one class of similar moves.
+/// Medians of a measure for one class of similar moves, in the baseline and in the log.
 struct LikeValue {
   std::string measure;
-  std::string like;                ///< Name of the class: "move 3", "target 20 count upwards".
-  double baseline{0.0};            ///< Median of the class in the baseline; infinite: never.
+  std::string like;  ///< Name of the class of similar moves: "move 3", "target 20 count upwards".
+  /// Median of the class in the baseline; infinite: in most moves the event never came.
+  double baseline{0.0};
   std::int64_t baseline_moves{0};  ///< Number of moves of the class in the baseline.
   /// Median of the class in the log, since the change if there is an alarm; nothing if it has no such moves.
   std::optional<double> median{};
   std::int64_t moves{0};  ///< Number of moves of the class in the log, since the change if there is an alarm.
 };
 
-/// State of one watched measure.
+/// Result of monitoring one measure: evidence, alarm, medians and the tests of the assumptions.
 struct MeasureState {
   MonitoredMeasure measure;
   std::string unit;
-  double evidence{1.0};                    ///< Largest capital so far, divided by the number of measures.
+  /// Largest capital of the measure's change test so far, divided by the number of measures.
+  double evidence{1.0};
   std::optional<Direction> direction{};    ///< Direction of the change; nothing without an alarm.
   std::optional<std::int64_t> alarm_at{};  ///< Move that gave the alarm, from 1; nothing without an alarm.
   /// Estimated first move of the change, from 1; nothing without an alarm.
   std::optional<std::int64_t> since{};
-  /// Median of the baseline; for a quality, the proportion of moves that have it. Infinite: never. Nothing if
-  /// the distribution has several peaks, one for each class of moves; `by_like` then has the medians.
+  /// Median of the measure in the baseline; for a yes-or-no measure, the proportion of moves with a yes.
+  /// Infinite: in most moves the event never came. Nothing if the classes of similar moves differ so much
+  /// that the distribution has several peaks; `by_like` then has the medians.
   std::optional<double> baseline_median{};
-  /// Median of the log; for a quality, the proportion of moves that have it. It covers the moves from `since`
-  /// on, or all moves without an alarm. Nothing without such moves, or if `by_like` has the medians.
+  /// Median of the measure in the log; for a yes-or-no measure, the proportion of moves with a yes. It covers
+  /// the moves from `since` on, or all moves without an alarm. Nothing without such moves, or if `by_like`
+  /// has the medians.
   std::optional<double> median{};
-  /// Medians of the classes of moves. Empty for a quality, and if the classes explain less than half of the
-  /// variance of the ranks.
+  /// Medians for each class of similar moves. Empty for a yes-or-no measure, and if the differences between
+  /// classes explain less than half of the variance of the values' ranks.
   std::vector<LikeValue> by_like{};
   /// serial_correlation() of the values of a measured baseline. With several classes, each value counts by
   /// its rank within its class. Nothing for a simulated baseline.
   std::optional<double> correlation{};
-  Dependence dependence{};  ///< Test of the values of a measured baseline for exchangeability.
+  /// Test whether the values of a measured baseline are exchangeable, as the change test assumes.
+  Dependence dependence{};
   ChangeToSee to_see{};
-  /// Number of moves after which the change `to_see` would have been seen with a probability of 90 %, in each
-  /// of its directions and forms. Nothing if there are not yet as many moves, or if this was not asked.
+  /// Number of moves after which the change `to_see` would have been seen with a probability of 90 %, in the
+  /// slowest of its directions and forms. Nothing if the log does not have as many moves yet, or if the
+  /// status was not asked for.
   std::optional<std::int64_t> seen_after{};
 };
 
 /// Reason why a measure of the baseline or of the log is not watched, or why a label is not used.
 enum class WhyUnwatched {
-  missing,          ///< The log has no such column.
-  not_in_baseline,  ///< The baseline has no such column.
-  accumulates       ///< The measure grows from move to move, and the settings do not name it.
+  missing,          ///< The log of the machine lacks a column that the baseline has.
+  not_in_baseline,  ///< The baseline lacks a column that the log of the machine has.
+  /// The value grows from move to move (state of the friction), and the settings do not name the measure.
+  accumulates
 };
 
-/// A measure that is not watched, or a label that is not used.
+/// A measure that is not watched, or a label column (`move`, `target`) that is not used, with the reason.
 struct UnwatchedMeasure {
   std::string measure;
   WhyUnwatched why;
@@ -137,7 +155,9 @@ struct UnwatchedMeasure {
 struct MonitorState {
   MachineStatus status{MachineStatus::undecided};
   const MeasureState* alarm{nullptr};  ///< Measure that gave the first alarm; null without an alarm.
-  double evidence{0.0};   ///< Largest evidence of all measures; 1/MonitorSettings::alarm gives an alarm.
+  /// Largest evidence of all measures (MeasureState::evidence); at 1/MonitorSettings::alarm there is an
+  /// alarm.
+  double evidence{0.0};
   std::int64_t moves{0};  ///< Number of moves taken from the log.
 };
 
@@ -174,20 +194,24 @@ class MachineMonitor {
   /// is 0.01 or, if that is larger, 0.05/K.
   std::vector<const MeasureState*> dependent() const;
   const Likes& likes() const { return likes_; }
-  /// Number of values of the log that were compared.
+  /// Number of values of the log that were compared. A value is one move, a block of moves or a group of
+  /// moves.
   std::int64_t values() const { return std::ssize(units_); }
   std::int64_t baseline_values() const { return std::ssize(baseline_ends_); }
-  /// Number of moves that are not compared because the baseline has no moves like them.
+  /// Number of moves of the log that are not compared because the baseline has no moves with the same label.
   std::int64_t unlike() const { return unlike_; }
-  /// Name of the class of the first move that unlike() counts, such as "move 3"; empty if there is none.
+  /// Name of the class of similar moves of the first move counted by unlike(), such as "move 3"; empty if
+  /// none is.
   const std::string& first_unlike() const { return first_unlike_; }
   /// Number of moves that are not compared because they continue the last group of the baseline.
   std::int64_t continued() const { return continued_; }
   const MonitorSettings& settings() const { return settings_; }
-  /// Columns of the log that are neither watched, nor labels (`move`, `target`) by which moves are compared,
-  /// nor the group. If the settings name measures, the other measures that both sides have are not listed.
+  /// Heads of the columns of the log that have no use: they are not watched, not a label (`move`, `target`)
+  /// by which moves are compared, and not the group. If the settings name measures, the other measures that
+  /// both the baseline and the log have are not listed.
   const std::vector<std::string>& unused() const { return unused_; }
-  /// Measures of either side that are not watched; empty if the settings name measures.
+  /// Measures that only the baseline or only the log has, or that accumulate, so that they are not watched;
+  /// empty if the settings name measures.
   const std::vector<UnwatchedMeasure>& unwatched() const { return unwatched_; }
   /// The label columns `move` and `target` if only one side has them. Moves are then compared without this
   /// label. A simulated study has both labels; beside it, a label is listed only if the log has the column in
@@ -195,14 +219,19 @@ class MachineMonitor {
   const std::vector<UnwatchedMeasure>& unused_labels() const { return unused_labels_; }
 
  private:
-  /// Test of one watched measure.
+  /// A watched measure with its change test, and what the test has shown so far.
   struct Watched {
     ChangeTest test;
-    std::vector<double> p_values{};             ///< p-values of the values until the alarm; empty after it.
-    std::vector<std::vector<double>> baseline;  ///< [class of values] Values of the baseline, sorted.
-    /// Results of values_to_see() for each change; nothing: not seen within `seen_limit` values.
+    /// p-values of the log's values until the alarm, in their order; empty after the alarm.
+    std::vector<double> p_values{};
+    /// [class of similar moves] Values of the measure in the baseline, sorted.
+    std::vector<std::vector<double>> baseline;
+    /// [direction, form] Number of values after which such a change would be seen (values_to_see()); nothing:
+    /// more than `seen_limit`.
     std::map<std::pair<Direction, ChangeForm>, std::optional<std::int64_t>> seen{};
-    std::int64_t seen_limit{0};  ///< Largest `max_values` with which changes were simulated; 0: none were.
+    /// Largest number of values with which changes were simulated (`max_values` of values_to_see()); 0: none
+    /// were.
+    std::int64_t seen_limit{0};
   };
   /// First and last move of one value, as indices in the log.
   struct Unit {
@@ -210,18 +239,22 @@ class MachineMonitor {
     std::int64_t last;
   };
 
-  /// Columns of a measure in the baseline and in the log.
+  /// Columns of one measure: first in the baseline, second in the log.
   using Pair = std::pair<const MoveLog::Column*, const MoveLog::Column*>;
-  /// Columns of the measures that are watched. Notes the other measures of the log in `unused_`.
+  /// Pairs of columns, in the baseline and in the log, of the measures to watch. Also stores the heads of the
+  /// log's other measures in `unused_`.
   std::vector<Pair> common_columns(const Baseline& baseline, const MoveLog& log);
-  /// Fills `unwatched_`. @param common columns of the measures that are watched
+  /// Fills `unwatched_`: the measures that are not watched, each with the reason.
+  /// @param common columns of the measures that are watched
   void note_unwatched(const Baseline& baseline, const MoveLog& log, const std::vector<Pair>& common);
   /// Begins to watch a measure. @param before column of the baseline @param column column of the log
-  /// @returns the values of the baseline, in their order
+  /// @returns the values of the baseline (one for each move, block or group), in their order
   std::vector<double> add(const MoveLog::Column& before, const MoveLog::Column& column);
-  /// Tests the values of a measured baseline for exchangeability. @param values [measure][value]
+  /// Tests whether the values of a measured baseline are exchangeable, for each measure.
+  /// @param values [measure][value]
   void test_dependence(const std::vector<std::vector<double>>& values);
-  using Columns = std::vector<const std::vector<double>*>;  ///< [measure][move of the log] Values.
+  /// [measure][move of the log] Values of the watched measures, by pointers to the columns of the log.
+  using Columns = std::vector<const std::vector<double>*>;
   void take_move(const MoveLog& log, const Columns& columns, std::size_t move);
   void finish_unit(const Columns& columns);
   void update_measure(std::size_t number, std::size_t of_class, double value);
@@ -234,18 +267,25 @@ class MachineMonitor {
   std::vector<std::string> unused_{};
   std::vector<UnwatchedMeasure> unwatched_{};
   std::vector<UnwatchedMeasure> unused_labels_{};
-  std::vector<std::size_t> baseline_ends_;  ///< [value of the baseline] One past the last move of the value.
+  /// [value of the baseline] Index one past the last move of the value. A value is one move, a block or a
+  /// group.
+  std::vector<std::size_t> baseline_ends_;
   Likes likes_;
-  /// Classes of values. The key is the set of classes of the value's moves (set_of()).
+  /// Indices of the classes of values. A value of several moves belongs to the class given by the key: the
+  /// sorted, distinct classes of similar moves among its moves (set_of()).
   std::map<std::vector<std::size_t>, std::size_t> classes_{};
   std::vector<std::size_t> baseline_classes_{};  ///< [value of the baseline] Class of the value.
   std::string last_group_{};                     ///< Last group of the baseline; empty without groups.
   std::vector<MeasureState> states_{};
-  std::vector<Watched> watched_{};   ///< [measure] The tests that watch the measure, and their state.
-  std::vector<Unit> units_{};        ///< [value of the log] Moves of the values that were compared.
-  std::vector<std::size_t> open_{};  ///< Moves of the value that is not complete yet, as indices in the log.
-  std::vector<std::size_t> open_likes_{};  ///< [move of open_] Class of the move.
-  /// [move of the log] Class of the move; nothing if the move is not compared.
+  /// [watched measure] The change test that watches this measure, and its state.
+  std::vector<Watched> watched_{};
+  std::vector<Unit> units_{};  ///< [value of the log] First and last move of each value that was compared.
+  /// Moves collected for the value that is not complete yet, as indices in the log.
+  std::vector<std::size_t> open_{};
+  /// [move of open_] Index of the class of similar moves to which the move belongs.
+  std::vector<std::size_t> open_likes_{};
+  /// [move of the log] Index of the class of similar moves; nothing if the baseline has no move like it, so
+  /// that it is not compared.
   std::vector<std::optional<std::size_t>> like_at_{};
   bool continues_baseline_{true};  ///< With groups: true while the log continues the baseline's last group.
   std::string first_unlike_{};
@@ -259,16 +299,19 @@ struct MonitorResult {
   const MachineMonitor& monitor;
   const Baseline& baseline;
   MonitorState state;
-  std::string log{};  ///< Name of the file with the moves.
-  /// Explanation of an alarm by changed parameters of the simulated study; null if there is none.
+  std::string log{};  ///< Name of the file with the moves of the monitored machine.
+  /// Explanation of the alarm: the parameters of the simulated study that may have changed. Null if none was
+  /// computed.
   const ChangeExplanation* explanation{nullptr};
-  /// Number of moves with which both the log and a measured baseline begin (equal_moves()).
+  /// Number of moves at the beginning of the log that equal the measured baseline's first moves, so that the
+  /// log probably contains the baseline (equal_moves()).
   std::int64_t repeated{0};
 };
 
 document::AnswerDescription<MonitorResult> monitor_answer();
 
-/// Exit code of a status: regression if changed, success if unchanged, inconclusive if undecided.
+/// Exit code of a status: ExitCode::regression for changed, success for unchanged, inconclusive for
+/// undecided.
 ExitCode exit_code_of(MachineStatus status);
 
 }  // namespace zerocount::monitor

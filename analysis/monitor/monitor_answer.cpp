@@ -37,15 +37,17 @@ std::string with_unit(std::string number, const std::string& unit) {
   return unit.empty() || unit == "1" ? number : number + " " + unit;
 }
 
-/// A value of typical_value() as text: "0.04 s", "never" or "none"; for a quality its proportion in percent.
+/// A typical value of a measure (median, or proportion of a yes-or-no measure) as text: "0.04 s", "never"
+/// (infinite) or "none" (nothing to measure); a proportion in percent.
 std::string typical_text(const MeasureState& state, double value) {
   if (state.measure.quality) return text::percent_near(value);
   if (is_nothing(state.measure, value)) return "none";
   return std::isinf(value) ? "never" : with_unit(text::short_number(value), state.unit);
 }
 
-/// Medians of the moves and of the baseline as text: "0.04 s; baseline 0.05 s". If the classes of moves have
-/// medians of their own, those of the first three: "move 0: 0.04 s, baseline 0.05 s; …".
+/// Typical values of a measure as text, of the log's moves and of the baseline: "0.04 s; baseline 0.05 s". If
+/// classes of similar moves have medians of their own, those of the first three: "move 0: 0.04 s, baseline
+/// 0.05 s; …".
 std::string medians_text(const MeasureState& state) {
   constexpr std::size_t max_shown = 3;
   if (state.by_like.empty())
@@ -63,7 +65,7 @@ std::string medians_text(const MeasureState& state) {
   return fmt::format("{}", fmt::join(texts, "; "));
 }
 
-/// Names of the measures for which is_named(state) is true, separated by commas.
+/// Names, separated by commas, of the watched measures whose state `is_named` accepts.
 template <class IsNamed>
 std::string names_of(const MonitorResult& r, IsNamed is_named) {
   std::vector<std::string> names;
@@ -84,8 +86,8 @@ struct NotJudged {
   std::optional<std::string> near{};
 };
 
-/// The measures that are not watched. Without an alarm, also the watched measures without a change to be
-/// seen.
+/// The measures about which the status `unchanged` says nothing: those not watched and, if there is no alarm,
+/// also watched measures for which no change to be seen could be stated.
 std::vector<NotJudged> not_judged(const MonitorResult& r) {
   std::vector<NotJudged> all;
   for (const UnwatchedMeasure& one : r.monitor.unwatched())
@@ -107,8 +109,8 @@ std::string names_not_judged(const MonitorResult& r, WhyUnwatched why) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// Names of the baseline's measures that are not judged, for the headline: "; not judged: jerk_count,
-/// overshoot and 3 more". Empty if all are judged.
+/// Names of the baseline's measures about which the status `unchanged` says nothing, for the headline: "; not
+/// judged: jerk_count, overshoot and 3 more". Empty if all are judged.
 std::string not_judged_text(const MonitorResult& r) {
   constexpr std::size_t max_shown = 3;
   std::vector<std::string> names;
@@ -121,8 +123,8 @@ std::string not_judged_text(const MonitorResult& r) {
                      more > 0 ? fmt::format(" and {} more", more) : "");
 }
 
-/// Columns of the log that are not measures and are not used. A column that seems to mean a measure is
-/// followed by the name of this measure.
+/// Heads of the log's columns that are not measures and not used, separated by commas. A column whose name
+/// resembles a measure is followed by the name of this measure.
 std::string unused_columns(const MonitorResult& r) {
   std::vector<std::string> columns;
   for (const std::string& column : r.monitor.unused()) {
@@ -194,8 +196,9 @@ std::string change_text(const ParameterChange& change) {
                      with_unit(beyond ? "at least " + least : least + " to " + most, unit));
 }
 
-/// Parameters that the budget did not allow to try, as text: "; the budget ended before a, b and 20 more were
-/// tried: all parameters take at most 20000 trials, …". Empty if all were tried.
+/// Parameters that were not tried as explanation because the budget of trials was used up, as text: "; the
+/// budget ended before a, b and 20 more were tried: all parameters take at most 20000 trials, …". Empty if
+/// all were tried.
 std::string untried_text(const ChangeExplanation& explanation) {
   if (explanation.untried.empty()) return "";
   constexpr std::size_t max_shown = 3;
@@ -434,7 +437,8 @@ std::vector<LikeValue> like_values(const MonitorResult& r) {
   return all;
 }
 
-/// Items that describe the first alarm: its measure, the direction and time of the change, and its own time.
+/// Output items (for text and JSON) that describe the first alarm: its measure, the direction and estimated
+/// time of the change, and the move at which the alarm came.
 Description<MeasureState> alarm_description() {
   using State = const MeasureState&;
   return Description<MeasureState>()
@@ -448,7 +452,8 @@ Description<MeasureState> alarm_description() {
              [](State s) { return *s.alarm_at; });
 }
 
-/// Items that say what is known of the parameters of the model that may have changed.
+/// Output items (for text and JSON) on the parameters of the simulated study whose change may explain the
+/// alarm.
 Description<ChangeExplanation> explanation_description() {
   return Description<ChangeExplanation>()
       .value(

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::int64_t trials_at_a_time = 4096;
 
-/// Whether all trials of the study go to the same targets.
+/// Whether all trials of the study go to the same targets: no random input belongs to the command.
 bool has_fixed_targets(const study::Study& study) {
   return std::ranges::none_of(study.columns.inputs, [](const study::InputColumn& column) {
     return column.name.starts_with("command.");
@@ -29,7 +29,8 @@ bool has_fixed_targets(const study::Study& study) {
 
 constexpr std::int64_t no_number = std::numeric_limits<std::int64_t>::min();
 
-/// A number rounded to nine digits, so that a target stays equal to itself after conversion of its unit.
+/// The number rounded to 30 significant bits (about nine digits), so that a target stays equal to itself
+/// after conversion of its unit.
 double rounded(double value) {
   constexpr int bits = 30;
   int exponent = 0;
@@ -41,7 +42,8 @@ std::string_view text_of(int direction) {
   return direction > 0 ? " upwards" : direction < 0 ? " downwards" : "";
 }
 
-/// Whether targets of these units can be the same.
+/// Whether targets of the baseline and of the later moves can be compared: their units have the same
+/// dimension, or the later ones are in SI units and the size of the baseline's count is known.
 bool are_comparable(const MoveLabels& baseline, const MoveLabels& later) {
   return have_same_dimension(baseline.target_unit, later.target_unit) ||
          (baseline.count > 0.0 && have_same_dimension(baseline.si_unit, later.target_unit));
@@ -52,7 +54,9 @@ bool has_several_numbers(const MoveLabels& labels) {
       labels.moves, [&](const MoveLabel& label) { return label.number != labels.moves.front().number; });
 }
 
-/// Whether most values of the baseline have others like them.
+/// Whether at least 90 % of the baseline's values have at least four others of the same class (all others, in
+/// a baseline of fewer than five values).
+/// @param ends [value] index one past its last move
 bool values_repeat(const Likes& likes, std::span<const std::size_t> ends) {
   constexpr std::size_t enough_alike = 5;
   std::map<std::vector<std::size_t>, std::size_t> sizes;

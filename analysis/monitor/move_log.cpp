@@ -26,7 +26,8 @@
 namespace zerocount::monitor {
 namespace {
 
-/// Name of a measure, divided at its brackets: "band_settling_time" and 1 for "band_settling_time[1]".
+/// Name of a measure, divided at its brackets: stem "band_settling_time" and index 1 for
+/// "band_settling_time[1]".
 struct Indexed {
   std::string_view stem;
   std::optional<double> index{};
@@ -45,7 +46,8 @@ Indexed indexed(std::string_view name) {
           text::parse_number<double>(name.substr(bracket + 1, name.size() - bracket - 2))};
 }
 
-/// Table of measures with error bands and a tolerance. Their rows represent all bands and tolerances.
+/// Table of the measures of a study with error bands and one tolerance. In it one row stands for all error
+/// bands, and one for all tolerances.
 const layout::MeasureTable& table_with_both() {
   study::StudyFeatures features;
   features.tolerances.limits[0] = 1.0;
@@ -53,8 +55,9 @@ const layout::MeasureTable& table_with_both() {
   return layout::measure_table(features);
 }
 
-/// Name of the measure of a row for the error band or the tolerance `index`; nothing if no band or tolerance
-/// has this number.
+/// Name of a measure for the error band or the tolerance given by `index`, such as "band_settling_time[1]";
+/// nothing if `index` cannot be one.
+/// @param row measure in table_with_both() @param stem its name without brackets
 std::optional<std::string> name_with_index(const layout::Measure& row, std::string_view stem, double index) {
   constexpr double largest = 1e15;  // below which all whole numbers are exact
   if (!(std::abs(index) < largest)) return std::nullopt;
@@ -91,13 +94,13 @@ std::string letters_of(std::string_view name) {
   return letters;
 }
 
-/// Whether the name `whole` contains the name `part`. A short part does not count.
+/// Whether the name `whole` contains the name `part`; false if `part` has fewer than five characters.
 bool is_within(std::string_view part, std::string_view whole) {
   constexpr std::size_t shortest = 5;  // shorter ones are parts of words by chance
   return part.size() >= shortest && whole.find(part) != std::string_view::npos;
 }
 
-/// Hint at the first column that is a misspelt measure, for a message: "; 'Arrival_Time' looks like
+/// Hint, for a message, at the first head that is a misspelt name of a measure: "; 'Arrival_Time' looks like
 /// arrival_time". Empty if there is none.
 std::string misspelling_in(std::span<const std::string> heads) {
   for (const std::string& head : heads)
@@ -106,8 +109,8 @@ std::string misspelling_in(std::span<const std::string> heads) {
   return "";
 }
 
-/// The number in a cell; nothing if the cell has no number. A comma may be the decimal mark, unless it
-/// separates cells.
+/// The number in a cell of a log; nothing if the cell is not a number. A comma is read as the decimal mark,
+/// unless commas separate the cells.
 std::optional<double> number_in(std::string_view cell, Separator separator) {
   if (cell.starts_with('+')) cell.remove_prefix(1);
   std::string text = lower_case(cell);
@@ -116,8 +119,9 @@ std::optional<double> number_in(std::string_view cell, Separator separator) {
   return text::parse_number<double>(text);
 }
 
-/// The value of the measure in a cell, as a number or as a word such as "true" or the name of an outcome. NaN
-/// if the cell is empty or says that there is no value; nothing if it cannot be read.
+/// The value of the measure in a cell of a log, written as a number or as a word such as "true" or the name
+/// of an outcome. NaN if the cell is empty or a word for no value ("na", "null", "none"); nothing if the cell
+/// cannot be read.
 std::optional<double> value_in(std::string_view cell, Separator separator, const MonitoredMeasure& measure) {
   const std::string text = lower_case(cell);
   if (text.empty() || text == "na" || text == "null" || text == "none") return never;
@@ -130,7 +134,8 @@ std::optional<double> value_in(std::string_view cell, Separator separator, const
   return number_in(cell, separator);
 }
 
-/// Whether the measure can have the value. Counts in a log need not be whole numbers.
+/// Whether the measure can have the value. A measure that counts may have a value that is not a whole number
+/// here, because a log may have averages.
 bool is_possible(double value, const MonitoredMeasure& measure) {
   if (std::isnan(value)) return !measure.quality;
   if (measure.quality && measure.name != "outcome") return value == 0.0 || value == 1.0;
@@ -152,7 +157,8 @@ std::string expected_of(const MonitoredMeasure& measure) {
   return expected.empty() ? "a number, or nothing" : std::string(expected);
 }
 
-/// Name of the SI unit in which a log keeps values of this unit: "m" for "mm". Units without one stay.
+/// Name of the SI unit to which values in `unit` are converted when a log is read: "m" for "mm". A unit that
+/// the program does not know stays.
 std::string_view si_name(std::string_view unit) {
   using enum text::Dimension;
   const std::optional<text::Unit> known = text::unit_named(unit);

@@ -15,17 +15,19 @@ namespace zerocount::monitor {
 
 /// Label of a move, by which similar moves are found (Likes).
 struct MoveLabel {
-  std::optional<std::int64_t> number{};  ///< Number of the move in the sequence of its trial.
-  std::optional<double> target{};        ///< Target in counts or in SI units.
-  int direction{0};  ///< Sign of the target minus the target before; 0 also if it is not known.
+  /// Number of the move in the sequence of its trial; nothing if not known.
+  std::optional<std::int64_t> number{};
+  std::optional<double> target{};  ///< Target position in counts or in SI units; nothing if not known.
+  /// Sign of the target minus the preceding target: +1 upwards, −1 downwards; 0 also if it is not known.
+  int direction{0};
 };
 
 /// The labels of the moves of a log, or of a simulated study.
 struct MoveLabels {
-  bool numbered{false};            ///< Whether moves have numbers.
-  bool targeted{false};            ///< Whether moves have targets.
+  bool numbered{false};            ///< True if moves have their number in a sequence (MoveLabel::number).
+  bool targeted{false};            ///< True if moves have targets (MoveLabel::target).
   std::string target_unit{};       ///< Unit of the targets, an SI unit or "count"; empty: not stated.
-  double count{0.0};               ///< Size of a count in `si_unit`; 0: not known, as for every log.
+  double count{0.0};               ///< Size of an encoder count in `si_unit`; 0: not known, as for every log.
   std::string si_unit{};           ///< SI unit of positions on the axis; empty unless `count` is known.
   std::vector<MoveLabel> moves{};  ///< [move] Labels; empty if moves have neither numbers nor targets.
 
@@ -36,17 +38,18 @@ struct MoveLabels {
 enum class Scale {
   proportion,  ///< Value in [0, 1]: a quality of moves, or a fraction.
   counts,      ///< Whole number, at least 0.
-  plain        ///< Any number.
+  plain        ///< Any number, such as a time or an error.
 };
 
 /// A measure of moves, found in the table of measures by the name of a column.
 struct MonitoredMeasure {
   std::string name;  ///< Name as the program writes it: "band_settling_time[1]".
   std::string unit;  ///< Unit in the table of measures: "s".
-  /// Row of the table of measures. The rows of one error band and of one tolerance serve for all of them.
+  /// Row of this measure in the table of measures. All error bands use one row, and all tolerances use
+  /// another.
   const layout::Measure* row{nullptr};
-  /// Whether the measure is 1 for moves that have a quality and 0 for the others. The quality of an `outcome`
-  /// is zero_count.
+  /// True for a yes-or-no measure: 1 for moves with the property, 0 for the others. For the measure
+  /// `outcome`, 1 means the outcome zero_count.
   bool quality{false};
   Scale scale{Scale::plain};
   /// True for states of the simulated friction that grow from move to move. Such a measure is watched only if
@@ -63,13 +66,13 @@ std::optional<MonitoredMeasure> measure_named(std::string_view name);
 /// "band_settling_time[1] [ms]". The unit stands in square or round brackets.
 struct ColumnHead {
   std::string name;
-  std::string unit;  ///< Unit; empty if the head has none.
+  std::string unit;  ///< Unit in the head of the column; empty if the head has none.
 };
 ColumnHead column_head(std::string_view text);
 
-/// Head of the column whose name resembles the name of the measure; nothing if none does. Names resemble each
-/// other if they have the same letters and digits in any case, if one contains the other, or if they differ
-/// in few letters.
+/// Among `heads`, the head of the column whose name resembles `measure`, for a hint at a misspelling; nothing
+/// if none does. Names resemble each other if they have the same letters and digits in any case, if one
+/// contains the other, or if they differ in few letters.
 /// @param heads heads of the columns, with their units
 std::optional<std::string> resembling_column(std::string_view measure, std::span<const std::string> heads);
 
@@ -78,14 +81,15 @@ std::optional<std::string> resembling_column(std::string_view measure, std::span
 /// Nothing if the column means no measure.
 std::optional<std::string> misspelt_measure(std::string_view head);
 
-/// Factor from the unit to SI units; 1 if the unit is empty or not known to the program.
+/// Factor that converts a number in the unit to SI units: 0.001 for "mm". It is 1 if the unit is empty or not
+/// known to the program.
 double si_factor(std::string_view unit);
 /// Whether numbers in these two units can be compared after conversion to SI units. An empty unit can be
 /// compared with any unit, and a unit that is not known to the program only with itself. Counts can be
 /// compared with proportions, because both are plain numbers.
 bool have_same_dimension(std::string_view one, std::string_view other);
 
-/// The unit of the measure on a linear axis.
+/// Unit of the measure on a linear axis, where lengths and forces take the place of angles and torques.
 std::string linear_unit(const MonitoredMeasure& measure);
 
 /// Whether a column of the measure can have this unit, on a rotary or a linear axis. An empty unit is always
@@ -93,33 +97,36 @@ std::string linear_unit(const MonitoredMeasure& measure);
 /// such as percent.
 bool can_be_in(const MonitoredMeasure& measure, std::string_view unit);
 
-/// Value by which a move is ranked, from the number in a results file or in a log. layout::Missing decides
-/// what NaN means: an event that never came, which is worse than any number, or nothing to measure, which is
-/// less than any number. Some measures are ranked by their magnitude. An `outcome` becomes 1 if it is
-/// zero_count, otherwise 0.
+/// Converts the number in a results file or in a log to the value by which moves are compared and ranked.
+/// layout::Missing decides what NaN becomes: an event that never came ranks above any number, and nothing to
+/// measure ranks below any number. Some measures are ranked by their magnitude. An `outcome` becomes 1 if it
+/// is zero_count, otherwise 0.
 double ranked_value(const MonitoredMeasure& measure, double number);
-/// Whether a value of ranked_value() means that there was nothing to measure.
+/// Whether a value of ranked_value() means that the move had nothing to measure.
 bool is_nothing(const MonitoredMeasure& measure, double ranked);
 
-/// Rank correlation of successive values: 1 − V/2 with the rank version of von Neumann's ratio
-/// V = Σ(r_t − r_{t+1})²/Σ(r_t − r̄)² (Bartels, J. Amer. Statist. Assoc. 77 (1982) 40). It is 0 if all values
-/// are equal. Its standard deviation for n independent values is about 1/√n.
+/// Rank correlation of successive values, in the order of the values: 1 − V/2 with the rank version of von
+/// Neumann's ratio V = Σ(r_t − r_{t+1})²/Σ(r_t − r̄)² (Bartels, J. Amer. Statist. Assoc. 77 (1982) 40). It is
+/// 0 if all values are equal. Its standard deviation for n independent values is about 1/√n.
 double serial_correlation(std::span<const double> values);
 
-/// Typical value of several moves: the upper median or, for a quality, the proportion of moves that have it.
+/// Typical value of several moves: the upper median or, for a yes-or-no measure, the proportion of moves with
+/// a yes.
 double typical_value(const MonitoredMeasure& measure, std::vector<double> values);
 
 /// Moves of a machine, or of a simulated study, in their order.
 struct Moves {
   struct Column {
     MonitoredMeasure measure;
-    std::string unit;              ///< Unit in the header; empty: none.
-    std::vector<double> values{};  ///< [move] Values of ranked_value(), in SI units if the column has a unit.
-    /// [move] Values of the column final_error of a log with their signs; empty for all other columns.
+    std::string unit;  ///< Unit in the header; empty: none.
+    /// [move] Values after ranked_value(), in SI units if the column has a unit.
+    std::vector<double> values{};
+    /// [move] Values as written in the log, with their signs, for the column final_error only; empty for all
+    /// others.
     std::vector<double> written{};
   };
 
-  std::string name{};  ///< Name of the file.
+  std::string name{};  ///< Name of the file that the moves come from.
   std::vector<Column> columns{};
   std::int64_t moves{0};
   /// Labels of the moves. In a log they are read from the columns `move` and `target`. The direction of a
@@ -175,22 +182,26 @@ class MoveLog : public Moves {
   void read_header(std::string_view line);
   [[noreturn]] void refuse_twice(std::string_view column) const;
   void read_row(std::string_view line);
-  /// Notes the place of a column that is not a measure, if it is one of the labels move, target and trial.
+  /// If the column is one of the labels move, target and trial, stores the index of its cell in label_cells_.
+  /// @param cell index of the column
   void note_label(std::size_t cell, const ColumnHead& head);
   void read_labels(const std::vector<std::string_view>& cells);
 
-  /// Indices of the cells of a row that have labels or the group; nothing if the log lacks the column.
+  /// Index of the cell, in each row of a log, that has the label (move, target, trial) or the group; nothing
+  /// if the log lacks this column.
   struct LabelCells {
     std::optional<std::size_t> move{}, target{}, trial{}, group{};
   };
 
   std::string group_;
   tables::Separator separator_{tables::Separator::comma};
-  std::vector<std::string> heads_;      ///< Heads of all columns; empty before the header has been read.
-  std::vector<std::size_t> column_at_;  ///< [cell] Index in `columns`; npos if the cell is not a measure.
+  /// Heads of all columns of the log; empty before the header has been read.
+  std::vector<std::string> heads_;
+  /// [cell of a row] Index of the cell's measure in `columns`; npos if the column is not a measure.
+  std::vector<std::size_t> column_at_;
   LabelCells label_cells_{};
   double target_factor_{1.0};  ///< Factor from the targets of the log to SI units or counts.
-  std::string trial_;          ///< Cell of the column `trial` in the last row.
+  std::string trial_;  ///< Cell of the column `trial` in the row read last; a change begins a new trial.
   std::int64_t line_{0};
 };
 

@@ -22,7 +22,8 @@ constexpr double max_excess = 9.2;                // of a misfit over the least:
 using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
 
-/// Coordinate of a change for interpolation: the logarithm of a factor, or the amount itself.
+/// Coordinate for interpolation between changes of a parameter: the logarithm if the change is a factor, the
+/// change itself if it is an amount.
 double place_of(ChangeKind kind, double change) {
   return kind == ChangeKind::factor ? std::log(change) : change;
 }
@@ -31,7 +32,7 @@ double change_at(ChangeKind kind, double place) {
   return kind == ChangeKind::factor ? std::exp(place) : place;
 }
 
-/// Aspect of the distribution of a measure's ranks that a feature describes.
+/// Aspect of the distribution of a measure's ranks that a feature describes: its location or its width.
 enum class Aspect { place, width };
 
 struct Feature {
@@ -44,7 +45,8 @@ double value_of(Aspect aspect, double rank) {
   return std::sqrt(5.0) * (6.0 * rank * (rank - 1.0) + 1.0);
 }
 
-/// Features of moves, by their ranks among the values of the unchanged machines.
+/// Computes features of moves (normal scores and second-order Legendre polynomials of ranks), ranking each
+/// value among those of the unchanged simulated machines.
 class Features {
  public:
   Features(const std::vector<MoveValues>& machines, std::size_t measures) : sorted_(measures) {
@@ -53,7 +55,7 @@ class Features {
     for (std::vector<double>& values : sorted_) std::ranges::sort(values);
   }
 
-  /// [feature, move] Features of the moves.
+  /// Features of the moves, as a matrix with a row for each feature and a column for each move.
   Matrix of(const MoveValues& moves, const std::vector<Feature>& features) const {
     const std::size_t measures = sorted_.size();
     const std::size_t count = moves.size() / measures;
@@ -75,13 +77,13 @@ class Features {
   std::vector<std::vector<double>> sorted_;
 };
 
-/// Mean of machines, and the covariances between and within them.
+/// Mean over machines of the features of moves, and their covariance between and within machines.
 struct Spread {
   Vector mean;
   /// Covariance of the machines' means, without the contribution of their finite numbers of moves.
   Matrix between;
-  Matrix within;   ///< Covariance of the moves of one machine.
-  double freedom;  ///< degrees of freedom of `within`
+  Matrix within;   ///< Covariance of the moves of one machine about the machine's mean.
+  double freedom;  ///< Degrees of freedom of the estimate `within`.
 };
 
 Matrix covariance_about(const Matrix& values, const Vector& mean) {
@@ -89,7 +91,7 @@ Matrix covariance_about(const Matrix& values, const Vector& mean) {
   return centred * centred.transpose();
 }
 
-/// @param machines features of the moves of each
+/// Mean and covariances of the features of several machines. @param machines [machine] matrix [feature, move]
 Spread spread_of(const std::vector<Matrix>& machines) {
   const Eigen::Index measures = machines.front().rows();
   Matrix means(measures, static_cast<Eigen::Index>(machines.size()));
@@ -127,18 +129,19 @@ Spread spread_of(const std::vector<Matrix>& machines) {
   return spread;
 }
 
-/// Distribution of the statistic at one change.
+/// Expected distribution (mean and covariance) of the features' means, if a parameter has changed by one
+/// certain amount or factor.
 struct Expected {
-  double place;  ///< place_of() the change
+  double place;  ///< Coordinate of the change, see place_of().
   Vector mean;
   Matrix covariance;
-  double freedom;  ///< degrees of freedom of the covariance
+  double freedom;  ///< Degrees of freedom of the estimated covariance.
 };
 
 struct Distance {
-  double misfit;             ///< Q
-  double log_of_distance;    ///< factor of the likelihood by Q, logarithm
-  double log_of_covariance;  ///< factor by |C|, logarithm
+  double misfit;             ///< Squared Mahalanobis distance Q between observed and expected features.
+  double log_of_distance;    ///< Natural logarithm of the likelihood's factor (1 + Q/ν)^(−(ν + 1)/2).
+  double log_of_covariance;  ///< Natural logarithm of the likelihood's factor |C|^(−1/2), C the covariance.
 };
 
 Distance distance_of(const Vector& observed, const Vector& mean, const Matrix& covariance, double freedom) {
@@ -150,8 +153,9 @@ Distance distance_of(const Vector& observed, const Vector& mean, const Matrix& c
           -factor.diagonal().array().log().sum()};
 }
 
-/// [feature] Factor (1 + ρ)/(1 − ρ) on the variance of the feature's mean, because of the serial correlation
-/// ρ of the moves.
+/// [feature] Factor (1 + ρ)/(1 − ρ) by which the variance of the feature's mean is larger than that of
+/// independent moves, because successive moves have the serial correlation ρ.
+/// @param values [feature, move]
 Vector inflation_of(const Matrix& values) {
   constexpr double most = 0.95;
   Vector inflation = Vector::Ones(values.rows());
@@ -171,7 +175,9 @@ Matrix inflated(const Matrix& covariance, const Vector& inflation) {
   return root.asDiagonal() * covariance * root.asDiagonal();
 }
 
-/// Number of moves before the change; 0 if they show none.
+/// Number of moves before the change, by the split at which the mean scores differ most; 0 if the difference
+/// is not significant.
+/// @param scores [feature, move] @param within covariance of the features of one machine's moves
 Eigen::Index moves_before_change(const Matrix& scores, const Matrix& within) {
   const Eigen::Index moves = scores.cols();
   const auto first = static_cast<Eigen::Index>(min_moves_before);
@@ -206,9 +212,11 @@ Eigen::Index moves_before_change(const Matrix& scores, const Matrix& within) {
 
 struct Statistic {
   Vector observed;
-  double before;     ///< number of moves before the change
-  double after;      ///< Number of moves after the change.
-  Vector inflation;  ///< inflation_of() the moves after the change.
+  double before;  ///< Number of observed moves before the change; 0: none are used.
+  double after;   ///< Number of observed moves after the change.
+  /// [feature] Factor on the variance of the mean after the change for serial correlation, see
+  /// inflation_of().
+  Vector inflation;
 };
 
 std::vector<Matrix> features_of(const Features& features, const std::vector<Feature>& wanted,
@@ -250,20 +258,25 @@ Expected expected_at(double place, const std::vector<Matrix>& changed, const std
   return expected;
 }
 
-/// Quantile of Q for the right parameter: of Hotelling's T², to the first order in 1/ν.
+/// Largest squared Mahalanobis distance Q that is accepted: its 99 % quantile if the parameter is the right
+/// one. The quantile is that of Hotelling's T², to the first order in 1/ν.
+/// @param features number of features @param freedom degrees of freedom ν of the covariance
 double max_misfit(Eigen::Index features, double freedom) {
   const auto count = static_cast<double>(features);
   const double x = statistics::chi_squared_quantile(count, 1.0 - misfit_of_the_right_one);
   return x + x * (x + count) / (2.0 * freedom);
 }
 
-/// The change of one parameter, and the logarithm of its evidence.
+/// The most likely change of one parameter, and the logarithm of the parameter's evidence (its likelihood
+/// averaged over all simulated changes).
 struct Fit {
   ParameterChange change;
   double log_evidence;
 };
 
-/// @param freedom degrees of freedom of all likelihoods, so that they compare
+/// Fits the change of one parameter to the observed features, interpolating between the simulated changes.
+/// @param freedom degrees of freedom of all likelihoods; the same for all parameters, so that their
+/// likelihoods can be compared
 Fit fit_of(const ChangeCandidate& candidate, const std::vector<Expected>& expected, const Vector& observed,
            double freedom) {
   constexpr int parts = 20;  // between two changes
@@ -319,7 +332,7 @@ const SimulatedChange& unchanged_of(const ChangeCandidate& candidate) {
   return *std::ranges::find(candidate.changes, unchanged_by(candidate.kind), &SimulatedChange::change);
 }
 
-/// Proportion of a row that has its most frequent value.
+/// Proportion of the row's elements that have its most frequent value.
 double part_tied(const Eigen::MatrixXd::ConstRowXpr& row) {
   std::vector<double> values(row.begin(), row.end());
   std::ranges::sort(values);
@@ -331,12 +344,15 @@ double part_tied(const Eigen::MatrixXd::ConstRowXpr& row) {
   return static_cast<double>(most) / static_cast<double>(values.size());
 }
 
-/// Number of machines whose differences the unchanged moves show; 0 if all moves belong to one machine.
+/// Number of simulated machines that can show differences between machines; 0 if all moves belong to one
+/// machine.
 std::size_t differing_machines(const std::vector<MoveValues>& unchanged) {
   return unchanged.size() < 2 ? 0 : unchanged.size();
 }
 
-/// The features that are used; those of the most informative measures come first.
+/// Chooses the features by which moves are compared: features that vary and that the chosen ones do not
+/// already determine. Measures with smaller indices, which are the more informative ones, are preferred.
+/// @param unchanged [machine] moves of the unchanged machines @param measures number of measures per move
 std::vector<Feature> telling_features(const std::vector<MoveValues>& unchanged, std::size_t measures) {
   constexpr std::size_t most = 16;
   constexpr std::size_t most_measures = 8;
@@ -373,8 +389,8 @@ std::vector<Feature> telling_features(const std::vector<MoveValues>& unchanged, 
   return found;
 }
 
-/// Sets the probabilities of the parameters that explain the moves, or of all parameters if none does. Sorts
-/// the most likely first.
+/// Sets the probabilities of the parameters that explain the moves or, if none does, of all parameters, so
+/// that they sum to 1. Sorts the fits by probability, the most likely first.
 void set_probabilities(std::vector<Fit>& fits) {
   double least = std::numeric_limits<double>::max();
   for (const Fit& fit : fits)
@@ -395,7 +411,7 @@ void set_probabilities(std::vector<Fit>& fits) {
   });
 }
 
-/// Whether the moves `these` are the first moves of `those`.
+/// Whether each machine's moves in `these` are the first moves of the same machine in `those`.
 bool is_beginning_of(const std::vector<MoveValues>& these, const std::vector<MoveValues>& those) {
   if (these.size() > those.size()) return false;
   return std::ranges::equal(

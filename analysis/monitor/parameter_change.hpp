@@ -8,28 +8,30 @@
 /// Identifies the parameter of a simulated study that has changed, from the moves of a machine that changed.
 namespace zerocount::monitor {
 
-/// Moves of one machine: the values of `measures` measures, move after move.
+/// Moves of one machine: the measures of the first move, then those of the next, and so on. The number of
+/// measures per move is given separately.
 using MoveValues = std::vector<double>;
 
 /// Kind of a parameter's change.
 enum class ChangeKind {
-  factor,  ///< The value is multiplied by a factor.
-  amount   ///< An amount is added to the value, which may be 0.
+  factor,  ///< The parameter's value is multiplied by a factor.
+  amount   ///< An amount is added to the parameter's value. This kind is used if the value may be 0.
 };
 
 /// The moves of simulated machines with a changed parameter. The machines are the same for every change. A
 /// change may contain only the first moves of each.
 struct SimulatedChange {
-  double change{1.0};  ///< Factor, or amount in the unit of the parameter.
+  double change{1.0};  ///< Factor on the parameter, or amount added to it in its unit.
   std::vector<MoveValues> machines;
 };
 
 /// A parameter that may have changed.
 struct ChangeCandidate {
-  std::string parameter;                 ///< Dotted path of the parameter.
-  std::vector<SimulatedChange> changes;  ///< Changes in rising order; unchanged_by(kind) is among them.
+  std::string parameter;  ///< Dotted path of the parameter, such as friction.k1.
+  /// Simulated changes in rising order; the unchanged parameter (unchanged_by(kind)) is among them.
+  std::vector<SimulatedChange> changes;
   ChangeKind kind{ChangeKind::factor};
-  std::string unit{};  ///< Unit of an amount.
+  std::string unit{};  ///< Unit of the change if it is an amount; empty for a factor.
 };
 
 constexpr double unchanged_by(ChangeKind kind) {
@@ -40,12 +42,14 @@ constexpr double unchanged_by(ChangeKind kind) {
 struct ParameterChange {
   std::string parameter;
   ChangeKind kind{ChangeKind::factor};
-  std::string unit{};  ///< unit of an amount
-  double change{1.0};  ///< Most likely factor, or amount.
+  std::string unit{};  ///< Unit of the change if it is an amount; empty for a factor.
+  double change{1.0};  ///< Most likely change: factor, or amount in `unit`.
   /// Low end of the 95 % likelihood interval of the change; the end of the simulated range if the interval
   /// continues beyond it.
   double low{1.0};
-  double high{1.0};  ///< High end of that interval or range.
+  /// High end of the 95 % likelihood interval of the change, or of the simulated range if the interval
+  /// continues beyond it.
+  double high{1.0};
   /// Probability that this parameter changed, given that one of the explaining parameters did and that all
   /// had the same prior probability.
   double probability{0.0};
@@ -54,8 +58,10 @@ struct ParameterChange {
   double max_misfit{0.0};  ///< Misfit that the right parameter exceeds with the probability 0.01.
   /// True if the parameter explains the moves in the sense of explain_change().
   bool explains{false};
-  bool beyond_low{false};   ///< The interval reaches the lowest simulated change.
-  bool beyond_high{false};  ///< The interval reaches the highest simulated change.
+  /// True if the 95 % interval reaches the lowest simulated change, so that the change may be lower still.
+  bool beyond_low{false};
+  /// True if the 95 % interval reaches the highest simulated change, so that the change may be higher still.
+  bool beyond_high{false};
 
   bool fits() const { return misfit <= max_misfit; }
 };
@@ -73,15 +79,17 @@ struct ChangeExplanation {
   std::vector<ParameterChange> parameters{};  ///< Parameters that explain the moves, most likely first.
   /// All parameters that act on the measures, most likely first.
   std::vector<ParameterChange> ranked{};
-  /// First move of the change, from 1; 1: the machine is from its first move on unlike those simulated.
+  /// First move of the observed machine after the change, from 1. If it is 1, the machine differs from the
+  /// simulated ones from its first move on.
   std::int64_t since{1};
-  double misfit{0.0};                ///< Smallest misfit of all parameters.
-  double max_misfit{0.0};            ///< Limit of that misfit, see ParameterChange::max_misfit.
-  std::string reason{};              ///< Reason for ExplanationKind::unknown.
-  std::vector<std::string> tried{};  ///< Names of the parameters that act on the measures.
-  /// Names of the parameters for which the budget did not suffice.
+  double misfit{0.0};      ///< Smallest ParameterChange::misfit of all parameters.
+  double max_misfit{0.0};  ///< Largest misfit that still explains the moves, see ParameterChange::max_misfit.
+  /// Reason why nothing is known, as text, if the kind is ExplanationKind::unknown; otherwise empty.
+  std::string reason{};
+  std::vector<std::string> tried{};  ///< Names of the parameters that were tried and act on the measures.
+  /// Names of the parameters that were not tried because the budget of trials was used up.
   std::vector<std::string> untried{};
-  /// Largest number of trials that all parameters together need; 0: not known.
+  /// Largest number of trials that it takes to try all parameters; 0: not known.
   std::int64_t max_trials{0};
 };
 

@@ -13,10 +13,12 @@
 namespace zerocount::parallel {
 namespace {
 
-/// The timeline of what this thread does; null: none. A loop passes it on to the threads of its calls.
+/// The timeline that records what this thread does; null: nothing is recorded. A parallel loop passes it on
+/// to the threads on which its calls run.
 thread_local timeline::Timeline* recorded = nullptr;
 
-/// Makes this thread record there during its lifetime.
+/// Makes this thread record into the given timeline during the lifetime of the object; afterwards into the
+/// one before.
 class RecordedThere {
  public:
   explicit RecordedThere(timeline::Timeline* there) : before_(std::exchange(recorded, there)) {}

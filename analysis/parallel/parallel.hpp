@@ -9,18 +9,20 @@ namespace zerocount::timeline {
 class Timeline;
 }
 
-/// Work on all cores, without the headers of the library that does it.
+/// Parallel loops on all processor cores, behind an interface that does not include the headers of the
+/// library (oneTBB).
 namespace zerocount::parallel {
 
-/// Largest number of threads that work in parallel.
+/// Largest number of threads that may work in parallel here: a limit by ThreadLimit, or the cores.
 int threads();
 
-/// Calls `work` for each index below `count`, in parallel. @param name of each call in a timeline, a literal
+/// Calls `work` for each index from 0 to count − 1, in parallel, and returns when all calls have ended.
+/// @param name name of each call in a timeline; a string literal, because it is not copied
 void for_each_index(std::size_t count, const std::function<void(std::size_t)>& work,
                     std::string_view name = "task");
 
-/// Whether `holds` is true for all indices below `count`. Once it is false for one, further indices may be
-/// skipped.
+/// Whether `holds` is true for all indices from 0 to count − 1, tested in parallel. Once it is false for one,
+/// further indices may be skipped.
 bool holds_for_all(std::size_t count, const std::function<bool(std::size_t)>& holds, std::string_view name);
 
 /// Records the work of this thread during the lifetime of the object in a timeline: one span for the whole, a
@@ -28,10 +30,10 @@ bool holds_for_all(std::size_t count, const std::function<bool(std::size_t)>& ho
 /// work for one thread.
 class Recording {
  public:
-  /// @param timeline null: nothing is recorded
-  /// @param name name of the whole span, a literal
+  /// @param timeline records the work; null: nothing is recorded
+  /// @param name name of the span for the whole work; a string literal
   Recording(timeline::Timeline* timeline, std::string_view name);
-  /// Records a part of the work as a span of its own, in the timeline to which this thread records.
+  /// Records a part of the work as a span of its own, in the timeline to which this thread already records.
   explicit Recording(std::string_view name);
   Recording(const Recording&) = delete;
   Recording& operator=(const Recording&) = delete;

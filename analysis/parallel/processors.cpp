@@ -16,8 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Processors that a quota allows: quota/period, both in the same unit. Nothing if either is not a positive
-/// number; the quotas "max" and -1 mean that there is no quota.
+/// Number of processors that a quota of processor time allows: quota/period, both in the same unit. Nothing
+/// if either is not a positive number; the quotas "max" and -1 mean that there is no quota.
 std::optional<double> ratio(const std::string& quota, const std::string& period) {
   const auto time = text::parse_number<double>(quota);
   const auto of = text::parse_number<double>(period);
@@ -25,7 +25,7 @@ std::optional<double> ratio(const std::string& quota, const std::string& period)
   return *time / *of;
 }
 
-/// The words of a file; the second is empty where there is one.
+/// The first two words of a file; empty where there is none.
 std::pair<std::string, std::string> two_words(const fs::path& path) {
   std::ifstream file(path);
   std::pair<std::string, std::string> words;
@@ -33,8 +33,8 @@ std::pair<std::string, std::string> two_words(const fs::path& path) {
   return words;
 }
 
-/// Quota of one control group, processor time per second; nothing without a quota. A folder of version 2
-/// contains no file of version 1, and the other way round.
+/// Processor time per second of real time that one control group (Linux cgroup) allows; nothing without a
+/// quota. The files of versions 1 and 2 are tried: a folder has those of one version only.
 std::optional<double> quota_of_group(const fs::path& folder) {
   const auto [quota, period] = two_words(folder / "cpu.max");
   if (!quota.empty()) return ratio(quota, period);

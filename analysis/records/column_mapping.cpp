@@ -29,7 +29,8 @@ constexpr std::array<QuantityRow, 8> quantity_rows{{{"time", text::Dimension::ti
                                                     {"position", text::Dimension::length},
                                                     {"repetition", std::nullopt}}};
 
-/// The product of "*NUMBER" and "/NUMBER", one after the other; none if the text is something else.
+/// The product of factors written as "*NUMBER" and "/NUMBER", one after the other; nothing if the text has
+/// anything else.
 std::optional<double> product_of(std::string_view text) {
   double product = 1.0;
   while (!text.empty()) {

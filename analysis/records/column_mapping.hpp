@@ -8,16 +8,16 @@
 
 namespace zerocount::records {
 
-/// The quantities to which `--column` can assign a column.
+/// The quantities to which the command-line option `--column` can assign a column of a measured file.
 enum class Quantity {
   time,
   torque,        ///< Commanded torque of a rotary axis.
-  drive_torque,  ///< Motor torque at the sample.
+  drive_torque,  ///< Motor torque at the instant of the sample, rotary axis.
   angle,
   force,        ///< Commanded force of a linear axis.
-  drive_force,  ///< Motor force at the sample.
+  drive_force,  ///< Motor force at the instant of the sample, linear axis.
   position,
-  /// Number of the repetition: a new repetition of the test begins when the value changes.
+  /// Number of the repetition of the test: when the value changes, a new repetition begins.
   repetition
 };
 
@@ -30,13 +30,13 @@ bool is_linear(Quantity quantity);  ///< True if only linear axes have the quant
 /// SI unit of the quantity's values. Must not be called for the repetition.
 text::Unit si_unit(Quantity quantity);
 
-/// The source of the values of a quantity: `torque=current[A]*0.87`.
+/// The user's statement which column of a file holds a quantity, and in which unit: `torque=current[A]*0.87`.
 ///
 ///     QUANTITY=COLUMN  or  QUANTITY=COLUMN[UNIT]FACTORS,  FACTORS any number of *NUMBER and /NUMBER
 ///
 /// The factors make the quantity from numbers in UNIT. With a UNIT of the quantity's own dimension they apply
-/// beside its conversion to SI units (a gear ratio; most need none). A UNIT of another dimension needs them:
-/// their product is the quantity in its SI unit for one UNIT, 0.87 N m/A here.
+/// beside its conversion to SI units (as a gear ratio does; most columns need none). A UNIT of another
+/// dimension needs them: their product is the quantity in its SI unit for one UNIT, 0.87 N m/A here.
 struct ColumnMapping {
   Quantity quantity{Quantity::time};
   std::string column;                ///< Column: name in the header, #NUMBER from 1, or path of a dataset.
@@ -44,7 +44,7 @@ struct ColumnMapping {
   std::optional<double> factor{};    ///< Product of the factors; nothing if there are none.
 };
 
-/// A mapping, or the reason why the text is not a mapping.
+/// The column mapping that a text states, or the reason why the text is not a mapping.
 struct ParsedMapping {
   ColumnMapping mapping;
   std::string fault{};  ///< Reason why the text is not a mapping; empty if it is one.

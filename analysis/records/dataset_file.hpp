@@ -30,12 +30,12 @@ class DatasetFile : public tables::ColumnSource {
   std::vector<std::size_t> lines() const override { return {}; }
 
  private:
-  /// Elements first, first + stride, … of a dataset.
+  /// Elements of a dataset that make one column: indices first, first + stride, … of the dataset.
   struct Vector {
     std::string path;
     std::size_t first{0};
     std::size_t stride{1};
-    std::size_t count{0};  ///< 0: there is no such vector
+    std::size_t count{0};  ///< Number of elements; 0: the file has no such column.
   };
   Vector find(std::string_view column) const;
   std::optional<std::vector<hdf5::Size>> lengths_of(const std::string& path) const;

@@ -9,7 +9,8 @@ namespace {
 
 constexpr double rounding = 1e-9;
 
-/// Whether the first values, less the first one and times their unit, are equal.
+/// Whether two sequences agree as far as the shorter one goes: differences from the first element, times the
+/// unit, are equal within 10⁻⁹ of the largest.
 bool begin_equal(std::span<const double> one, double unit, std::span<const double> other, double other_unit) {
   const std::size_t count = std::min(one.size(), other.size());
   double largest = 0.0;

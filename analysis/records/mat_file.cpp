@@ -21,7 +21,8 @@ constexpr std::string_view beginning = "MATLAB 5.0 MAT-file";
 constexpr std::size_t header_size = 128;
 constexpr std::size_t tag_size = 8;
 
-/// Whether libmatio has reported an error: its functions return null for an error and at the end of a file.
+/// Set to true when libmatio reports an error. Its functions return null both for an error and at the end of
+/// a file; this flag tells the two apart.
 thread_local bool complains = false;
 
 void note_complaint(int, char*) {
@@ -35,8 +36,9 @@ std::uint32_t word_at(std::string_view bytes, std::size_t place, bool big_endian
   return word;
 }
 
-/// Offsets of the variables: each has a tag with its type and its size.
-/// @throws Failure (bad_data) if the last one is cut off.
+/// Byte offsets of the variables in a MAT file of version 5. Each variable begins with a tag that holds its
+/// type and its size.
+/// @throws Failure (bad_data) if the last variable is cut off.
 std::vector<std::size_t> variables_of(const std::filesystem::path& path) {
   const std::size_t size = std::filesystem::file_size(path);
   const bool big_endian = storage::bytes_at(path, header_size - 2, 2) == "MI";
@@ -58,7 +60,7 @@ std::vector<double> values_as(const matvar_t& variable) {
   return {first, first + variable.nbytes / sizeof(Number)};
 }
 
-/// Empty if they are not numbers.
+/// All elements of a variable as numbers; empty if it does not hold numbers.
 std::vector<double> values_of(const matvar_t& variable) {
   switch (variable.class_type) {
     case MAT_C_DOUBLE:

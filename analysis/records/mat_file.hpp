@@ -15,20 +15,21 @@ namespace zerocount::records {
 /// True if the file begins as MAT files of version 5 do (MATLAB 5 to 7, `scipy.io.savemat`).
 bool is_mat_file(const std::filesystem::path& path);
 
-/// The arrays of real numbers of a MAT file of version 5, with the paths and the lengths that they have in
-/// one of version 7.3: "/machine/current" is the field `current` of the structure `machine`, and the last
-/// dimension comes first. Other variables (text, cells, complex and sparse numbers, arrays of structures) are
-/// left out.
+/// The arrays of real numbers in a MAT file of version 5, with the paths and lengths that they would have in
+/// a file of version 7.3: "/machine/current" is the field `current` of the structure `machine`, and the order
+/// of the dimensions is reversed (the last dimension of MATLAB comes first). Other variables (text, cells,
+/// complex and sparse numbers, arrays of structures) are left out.
 class MatFile {
  public:
   /// @throws Failure: bad_data if the file is damaged; machine_failed if it cannot be read.
   explicit MatFile(const std::filesystem::path& path);
 
-  /// The paths of all arrays, in alphabetic order.
+  /// The paths of all arrays in the file, in alphabetic order.
   std::vector<std::string> arrays() const;
-  /// Lengths along the dimensions; none if there is no such array.
+  /// Lengths of an array along its dimensions, the last dimension of MATLAB first; nothing if the file has no
+  /// such array.
   std::optional<std::vector<hdf5::Size>> lengths(const std::string& path) const;
-  /// All elements, the last dimension fastest.
+  /// All elements of an array; the index of the last dimension in lengths() varies fastest.
   std::vector<double> values(const std::string& path) const;
 
  private:

@@ -38,7 +38,7 @@ const ColumnMapping* mapping_of(const SeriesChoice& choice, std::initializer_lis
   throw Failure(ExitCode::bad_input, fmt::format("{}: {}", source.name(), reason));
 }
 
-/// The unit that the file says; `usual` if it says none.
+/// The unit of a column as the file states it; `usual` if the file states none.
 text::Unit unit_in_file(const tables::ColumnSource& source, const std::string& column,
                         const text::Unit& usual) {
   const std::string name = source.unit(column);
@@ -50,8 +50,9 @@ text::Unit unit_in_file(const tables::ColumnSource& source, const std::string& c
                             text::printable(column), text::printable(name), text::unit_names()));
 }
 
-/// Finishes the column: a unit of another dimension needs factors. An encoder's counts need none, because the
-/// size of a count may be given.
+/// Sets the conversion factor of the column. A column whose unit has another dimension than the quantity
+/// needs the user's factors. An encoder's counts need none, because the size of a count may be given
+/// separately.
 FoundColumn finished(const tables::ColumnSource& source, FoundColumn found, std::optional<double> factor) {
   const text::Dimension dimension = dimension_of(found.quantity).value();
   const bool own = found.unit.dimension == dimension;
@@ -70,7 +71,8 @@ FoundColumn finished(const tables::ColumnSource& source, FoundColumn found, std:
   return found;
 }
 
-/// True if the name of a column seems to have a factor, *… or /NUMBER. Paths of datasets begin with /.
+/// True if the name of a column ends like a factor that the user meant, *… or /NUMBER. Paths of datasets,
+/// which begin with /, do not count.
 bool seems_to_have_factor(const std::string& column) {
   const std::string name = column.substr(0, column.find('['));
   if (name.find('*') != std::string::npos) return true;
@@ -79,7 +81,7 @@ bool seems_to_have_factor(const std::string& column) {
          name.find_first_not_of("0123456789.eE+- ", slash + 1) == std::string::npos;
 }
 
-/// The option for the size of a count.
+/// Name of the command-line option that gives the size of an encoder count.
 std::string_view count_size_option(bool linear) {
   return linear ? "--resolution" : "--counts-per-revolution";
 }
@@ -100,7 +102,7 @@ FoundColumn mapped_column(const tables::ColumnSource& source, const ColumnMappin
   return finished(source, found, mapping.factor);
 }
 
-/// The first of the names that the source has, or the chosen one.
+/// The column of a quantity: the `chosen` name, or else the first of `names` that the source has.
 FoundColumn usual_column(const tables::ColumnSource& source, Quantity quantity,
                          const std::optional<std::string>& chosen, const std::vector<std::string>& names) {
   const std::vector<std::string> candidates = chosen ? std::vector{*chosen} : names;
@@ -126,8 +128,9 @@ std::vector<double> scaled_numbers(const tables::ColumnSource& source, const Fou
   return values;
 }
 
-/// The unit of the readings where neither the mapping nor the file says one. Whole numbers are counts if
-/// their size is given, and nothing without: an angle in rad, or a position in m, has decimals.
+/// The unit of the encoder's readings if neither the mapping nor the file states one. Whole numbers are
+/// counts if the size of a count is given. If it is not given, whole numbers are refused, because an angle in
+/// rad, or a position in m, has decimals.
 text::Unit unit_of_readings(const tables::ColumnSource& source, const ColumnMapping& mapping,
                             const SeriesChoice& choice) {
   const std::vector<double> values = source.numbers(mapping.column);
@@ -151,7 +154,8 @@ text::Unit unit_of_readings(const tables::ColumnSource& source, const ColumnMapp
                                           as_column, usual.name));
 }
 
-/// The column of the encoder's readings.
+/// The column with the encoder's readings (angle or position), as the user chose it or as the file names it.
+/// @throws Failure (bad_input) if there is none
 FoundColumn angle_column(const tables::ColumnSource& source, const SeriesChoice& choice, bool linear) {
   if (const ColumnMapping* mapping = mapping_of(choice, {Quantity::angle, Quantity::position})) {
     require_column(source, mapping->column);
@@ -214,7 +218,7 @@ void read_angle(const tables::ColumnSource& source, const SeriesChoice& choice, 
   series.angle = scaled_numbers(source, column);
 }
 
-/// True if the columns are those of a linear axis.
+/// True if the file's columns are those of a linear axis (force, position), false for a rotary axis.
 bool is_linear(const tables::ColumnSource& source, const SeriesChoice& choice) {
   using enum Quantity;
   if (choice.linear || mapping_of(choice, {force, drive_force, position}) != nullptr) return true;
@@ -240,8 +244,9 @@ std::vector<Value> part_of(const std::vector<Value>& values, std::size_t first, 
           values.begin() + static_cast<std::ptrdiff_t>(end)};
 }
 
-/// First samples of the repetitions. The time restarts if it falls back to within a hundredth of the duration
-/// so far from its first value. A smaller step back is an error of the time.
+/// Indices of the samples with which repetitions of a test begin. The time restarts if it falls back to
+/// within a hundredth of the duration so far from its first value. A smaller step back is an error of the
+/// time.
 std::vector<std::size_t> repetition_starts(const RawSeries& series, const std::vector<double>& repetition) {
   std::vector<std::size_t> starts{0};
   const std::vector<double>& time = series.time;
@@ -277,7 +282,7 @@ std::vector<RawSeries> split(const RawSeries& series, std::vector<std::size_t> s
   return parts;
 }
 
-/// Reverses rows that begin with the newest sample, so that they are in order of time.
+/// Reverses the samples if the file begins with the newest one, so that they are in order of time.
 void put_oldest_first(RawSeries& series, std::vector<double>& repetition) {
   const auto not_before = [](double time, double next) { return !(next < time); };
   if (series.time.size() < 2 || std::ranges::adjacent_find(series.time, not_before) != series.time.end())
@@ -289,7 +294,8 @@ void put_oldest_first(RawSeries& series, std::vector<double>& repetition) {
   series.notes.emplace_back("the rows have the newest first; they are read from the last one on");
 }
 
-/// The flags of the column `mode` of a trace. Other files may have another column of that name.
+/// [sample] Whether the axis slides, from the column `mode` of a trace (words "slide" and "stick"). Empty
+/// without this column, or if it has other words, as a column of that name in another file may.
 std::vector<bool> sliding_flags(const tables::ColumnSource& source) {
   if (!source.has("mode")) return {};
   std::vector<bool> slides = source.equals("mode", "slide");
@@ -396,7 +402,8 @@ namespace {
 constexpr std::size_t neighbourhood = 10;  // samples to both sides
 constexpr double like_neighbours = 3.0;    // of the longest step among them
 
-/// Steps by which the angle may wrap, in its own unit.
+/// Jumps of the angle with which the encoder's reading may wrap, in the unit of RawSeries::angle (counts, rad
+/// or m).
 std::vector<double> possible_wraps(const RawSeries& series) {
   std::vector<double> wraps;
   const bool counted = series.count_size > 0.0;
@@ -409,7 +416,8 @@ double step_to(const RawSeries& series, std::size_t k) {
   return series.angle[k] - series.angle[k - 1];
 }
 
-/// Longest step about sample k, without those at which the angle wraps.
+/// Longest step of the angle between neighbouring samples near sample k, in the unit of RawSeries::angle;
+/// steps of a quarter of `wrap` or more are left out.
 double longest_about(const RawSeries& series, std::size_t k, double wrap) {
   double longest = 0.0;
   const std::size_t first = k > neighbourhood ? k - neighbourhood : 1;
@@ -420,7 +428,8 @@ double longest_about(const RawSeries& series, std::size_t k, double wrap) {
   return longest;
 }
 
-/// Samples at which the angle wraps by `wrap`; none if some step is neither a wrap nor a motion.
+/// Indices of the samples at which the angle wraps by `wrap`; empty if any long step is neither a wrap nor a
+/// plausible motion.
 std::vector<std::size_t> wrapped_samples(const RawSeries& series, double wrap) {
   std::vector<std::size_t> wrapped;
   const double rounding = series.count_size > 0.0 ? 1.0 : 1e-4 * wrap;

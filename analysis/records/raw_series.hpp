@@ -13,15 +13,15 @@
 
 namespace zerocount::records {
 
-/// Meaning of the torque of a series.
+/// Meaning of the torque values in a recorded series.
 enum class TorqueKind {
-  commanded,  ///< Command to the amplifier at t_k, held until t_{k+1}.
-  motor       ///< Motor torque at t_k.
+  commanded,  ///< Torque commanded to the amplifier at sampling instant t_k, held until t_{k+1}.
+  motor       ///< Torque that the motor exerts at sampling instant t_k.
 };
 
-/// A test as it was read, before any check.
+/// Torque and encoder readings of a test as read from a file, before any check.
 struct RawSeries {
-  std::string name;  ///< Name in messages.
+  std::string name;  ///< Name of the series in messages.
   /// Name of the file if the series is one of several repetitions in it; otherwise empty.
   std::string file{};
   std::vector<std::size_t> lines;  ///< [sample] Line in the file; empty for a file without lines.
@@ -35,18 +35,20 @@ struct RawSeries {
   double count_size{0.0};  ///< Size of a count, rad or m; 0 if the angle is in rad or m.
   /// True for a linear axis. Units are then N in place of N m and m in place of rad.
   bool linear{false};
-  std::vector<double> code;    ///< [sample] DAC code; empty if unknown.
-  int dac_bits{0};             ///< Number of bits of the DAC; 0 if unknown.
-  std::vector<bool> sliding;   ///< [sample] Whether the hook slid; empty if unknown.
-  std::vector<bool> excluded;  ///< [sample] Whether the reading is masked; empty: none is.
-  motion::PlantStart start;    ///< Initial state of the contact.
+  /// [sample] Code sent to the digital-to-analogue converter (DAC); empty if unknown.
+  std::vector<double> code;
+  int dac_bits{0};             ///< Number of bits of the digital-to-analogue converter (DAC); 0 if unknown.
+  std::vector<bool> sliding;   ///< [sample] Whether the axis was sliding (not sticking); empty if unknown.
+  std::vector<bool> excluded;  ///< [sample] Whether the encoder reading is not used; empty: all are used.
+  motion::PlantStart start;    ///< State of the friction contact at the first sample.
   /// True if the units are certainly SI units, because this program wrote the file.
   bool units_known{false};
-  /// Sentences for the user on changes made while reading, without the name of the series.
+  /// Notes for the user on what was changed while the series was read, a sentence each, without the name of
+  /// the series.
   std::vector<std::string> notes{};
 };
 
-/// "NAME:LINE", or "NAME, sample K".
+/// Place of a sample, for messages: "NAME:LINE", or "NAME, sample K" for a file without lines.
 std::string place_of(const RawSeries& series, std::size_t sample);
 
 /// An interval of time whose readings are not used, s. The torque in it still acts on the axis.
@@ -55,25 +57,33 @@ struct ExcludedTime {
   double to{0.0};
 };
 
-/// Masks the samples in the interval, limits included. @return whether there are any.
+/// Excludes the readings of the samples in the time interval, its ends included. @return whether the interval
+/// contains any sample.
 bool exclude(RawSeries& series, const ExcludedTime& interval);
 
 /// The user's choices for the interpretation of a file.
 struct SeriesChoice {
-  std::vector<ColumnMapping> columns{};          ///< Column mappings, at most one for each quantity.
-  std::optional<tables::Separator> separator{};  ///< Separator of the columns of a text.
+  /// Which column holds which quantity, at most one statement for each quantity.
+  std::vector<ColumnMapping> columns{};
+  /// Character that separates the columns of a text file; nothing: found from the file.
+  std::optional<tables::Separator> separator{};
   /// Sampling interval T of a file without times, s: sample k is at k·T.
   std::optional<double> sample_time{};
-  std::optional<std::string> torque;  ///< Column of the torque: torque or drive_torque.
-  std::optional<std::string> angle;   ///< Column of the angle: count or theta.
-  std::optional<double> count_size;   ///< Size of a count, rad; m for a linear axis.
-  bool linear{false};                 ///< True if the default columns are those of a linear axis.
-  bool rotary{false};                 ///< True if the default columns are those of a rotary axis.
-  std::optional<double> bandwidth;    ///< Bandwidth of the amplifier, Hz.
-  std::optional<double> delay;        ///< Delay of the commanded torque, samples.
+  /// Name of the column of the torque: torque or drive_torque; nothing: found from the file.
+  std::optional<std::string> torque;
+  /// Name of the column of the angle: count or theta; nothing: found from the file.
+  std::optional<std::string> angle;
+  /// Size of an encoder count, rad; m for a linear axis; nothing: not given.
+  std::optional<double> count_size;
+  bool linear{false};               ///< True if the default columns are those of a linear axis.
+  bool rotary{false};               ///< True if the default columns are those of a rotary axis.
+  std::optional<double> bandwidth;  ///< Bandwidth of the amplifier, Hz; nothing: not chosen.
+  std::optional<double> delay;      ///< Delay of the commanded torque, samples; nothing: not chosen.
   std::optional<int> dac_bits;
-  std::optional<double> preload;    ///< Preload of the contact at the start, N m.
-  std::optional<double> hardening;  ///< Hardening of the contact at the start, rad.
+  /// Preload of the friction contact (spring torque) at the start, N m; nothing: not chosen.
+  std::optional<double> preload;
+  /// Hardening state of the friction contact at the start, rad; nothing: not chosen.
+  std::optional<double> hardening;
 };
 
 /// The reason why the choices contradict each other; empty if they do not.
@@ -92,14 +102,15 @@ double delay_of(const RawSeries& series, const SeriesChoice& choice, double othe
 /// The file has several repetitions if the mapped column of the repetition changes, or if the time returns to
 /// the first one. Each becomes a series, and begins with the initial state of the contact.
 ///
-/// Rows with the newest first are reversed, and a counter that wraps is continued: see unwrap().
+/// Rows with the newest first are put in order of time, and an encoder reading that wraps is continued: see
+/// unwrap().
 /// @throws Failure: bad_input if columns are missing or their units do not fit, or if a delay is chosen for
 /// the motor torque; and the failures of the source.
 std::vector<RawSeries> read_columns(const tables::ColumnSource& source, const SeriesChoice& choice);
 
-/// Continues the angle across the steps with which a counter or a single-turn encoder wraps: by a revolution
-/// of a rotary axis, or by 2¹⁶ or 2³² counts. They are longer than a quarter of that, and less it they are
-/// like their neighbours. A note of the series says so.
+/// Makes the angle continuous where the reading of a counter or a single-turn encoder wraps: by a revolution
+/// of a rotary axis, or by 2¹⁶ or 2³² counts. A step is taken as a wrap if it is longer than a quarter of
+/// that jump and, without the jump, resembles its neighbours. A note is added to the series.
 void unwrap(RawSeries& series);
 
 /// Reads the trace of a trial from a results file. The initial state of the contact, the encoder's
@@ -113,12 +124,13 @@ RawSeries read_study_series(const std::filesystem::path& path, std::int64_t poin
 /// The points of a results file that keep the trace of one trial, all of the same axis.
 struct TracedPoints {
   std::vector<std::int64_t> points;
-  /// Points that keep the trace too, but whose plant or friction has other values: "point 3 (k1=80)".
+  /// Other points that keep the trace, but whose plant or friction has other values than the first: "point 3
+  /// (k1=80)".
   std::vector<std::string> left_out;
 };
 
-/// The points that keep the trace of trial `index`, and have the plant and the friction of the first of them;
-/// point 0 if none keeps it.
+/// Among the points that keep the trace of trial `index`, those with the same plant and friction values as
+/// the first of them. If no point keeps it, point 0 alone.
 TracedPoints traced_points(const std::filesystem::path& path, std::int64_t index);
 
 }  // namespace zerocount::records

@@ -34,7 +34,8 @@ motion::PlantStart start_of(const trial::TrialParameters& trial, const SeriesCho
   return start;
 }
 
-/// The values of plant and friction of a trial that differ between trials or points.
+/// The random or varied input values of one trial that belong to the plant or the friction, in the order of
+/// the study's inputs.
 std::vector<double> axis_inputs(const study::Study& study, std::int64_t point, std::int64_t index) {
   const std::vector<double> inputs = study::study_trial(study, point, index).inputs;
   std::vector<double> own;

@@ -35,8 +35,8 @@ constexpr std::string_view without_scripts =
     "of "
     "each stand below it.</p></noscript>";
 
-/// The scripts of a page with figures, in the order in which they run, and the sources that its
-/// Content-Security-Policy (level 2) allows: their hashes.
+/// The scripts of a page with figures, in the order in which they run, and their hashes for the page's
+/// Content-Security-Policy (level 2), which allows no other scripts.
 struct Scripts {
   std::string elements{};
   std::string hashes{"'none'"};
@@ -55,10 +55,11 @@ Scripts scripts_of_figures() {
   return scripts;
 }
 
-/// The mark of an unfinished page, in its head.
+/// HTML in the head of a page that marks the page as unfinished.
 constexpr std::string_view unfinished_mark = "<meta name=\"zerocount\" content=\"unfinished\">\n";
 
-/// The element that names what a page was made from.
+/// HTML element in the head of a page that names the source (such as a results file) it was made from; empty
+/// without a source.
 std::string source_element(const std::string& source) {
   if (source.empty()) return "";
   return fmt::format("<meta name=\"zerocount-source\" content=\"{}\">\n", document::markup(source));
@@ -78,9 +79,9 @@ std::string cell_text(const ordered_json& value) {
   return value.is_number_float() ? fmt::format("{:.5g}", value.get<double>()) : value.dump();
 }
 
-/// The table behind a figure, which stands without scripts too. There can be thousands of cells: they do not
-/// repeat the heads of their columns, as those of document::html() do, and have no end tags, which HTML
-/// allows.
+/// HTML table of the data behind a figure, which can be read without scripts too. It can have thousands of
+/// cells, so it omits end tags, which HTML allows, and does not repeat the column heads in the cells as
+/// document::html() does.
 std::string data_table(const FigureData& data) {
   std::string html = "<table><thead><tr>";
   const auto style = [&](std::size_t i) { return data.columns[i].unit.empty() ? " class=text" : ""; };
@@ -113,11 +114,12 @@ std::string figure_html(const Figure& figure) {
       data_table(figure.data.front()));
 }
 
-/// The figures of a page within its limits. A reader looks at some dozen, and a browser draws some twenty a
-/// second.
+/// Collects the figures that a page shows, up to a limit of number and size. A reader looks at some dozens,
+/// and a browser draws about twenty a second.
 class FiguresInPage {
  public:
-  /// Takes the figure with its element in the page. @returns whether there is room for it
+  /// Takes the figure into the page if there is room for it. @param element HTML element in which it is drawn
+  /// @returns whether there was room
   bool take(const Figure& figure, const std::string& element) {
     constexpr std::size_t max_figures = 48;
     constexpr std::size_t max_bytes = std::size_t{5} << 19;
@@ -129,7 +131,7 @@ class FiguresInPage {
     return true;
   }
 
-  /// The data of the figures that were taken.
+  /// The data of the taken figures, as a JSON array for the drawing script.
   ordered_json& json() { return json_; }
 
  private:
@@ -137,7 +139,8 @@ class FiguresInPage {
   std::size_t bytes_{0};
 };
 
-/// The command that draws a figure that is not in the page.
+/// Sentence part that says how to see the figures that a page leaves out. @param kind command that wrote the
+/// page
 std::string where_others_are(const std::string& kind) {
   if (kind == "report")
     return "'zerocount plot FILE' lists all names, and with --figure NAME it draws one of them";
@@ -171,7 +174,7 @@ std::string section_html(const PageSection& section, const std::string& kind, Fi
   return text + section.html_after + "</section>\n";
 }
 
-/// The links to the sections, of a page with several.
+/// HTML list of links to the sections of a page; empty for a page with one section.
 std::string contents_html(const ReportPage& page) {
   if (page.sections.size() < 2) return "";
   std::string text;
@@ -183,7 +186,7 @@ std::string contents_html(const ReportPage& page) {
   return text;
 }
 
-/// Replaces each {{name}} of the template in one pass; inserted texts are not expanded again.
+/// The template with each {{name}} replaced by its value. Inserted texts are not searched for further names.
 std::string filled(std::string_view pattern, const std::map<std::string_view, std::string>& values) {
   std::string text;
   while (true) {
@@ -196,7 +199,7 @@ std::string filled(std::string_view pattern, const std::map<std::string_view, st
   }
 }
 
-/// The first bytes of a page, among them the elements that describe it.
+/// The first bytes of a page, which include the HTML head with its descriptive elements.
 std::string head_of(const std::filesystem::path& path) {
   std::string head(1000, '\0');
   std::ifstream file(path, std::ios::binary);

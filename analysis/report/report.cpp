@@ -9,9 +9,9 @@
 namespace zerocount::report {
 namespace {
 
-constexpr std::size_t max_history_figures = 12;  ///< Largest number of history figures in a report.
+constexpr std::size_t max_history_figures = 12;  ///< Largest number of history figures that a report shows.
 
-/// Simulates trials again, and collects their differences from the file.
+/// Simulates trials again for figures, and collects warnings where they differ from the results file.
 struct Replays {
   const ReportedStudy& reported;
   const ReportOptions& options;
@@ -42,7 +42,8 @@ void add(ReportPage& page, PageSection section) {
   if (!section.html.empty() || !section.figures.empty()) page.sections.push_back(std::move(section));
 }
 
-/// Whether the first screen has the only verdict, so that the tables of the points tell of zero counts alone.
+/// Whether the only verdict is that on the first screen: the study has a goal and one design point. The
+/// tables of points then describe only zero counts.
 bool has_one_verdict(const ReportedStudy& reported) {
   return reported.summary.points.size() == 1 && question_of(reported).claim();
 }
@@ -61,13 +62,14 @@ PageSection success_section(const ReportedStudy& reported) {
   return section;
 }
 
-/// Says in the captions of figures of worst_of_settings() which setting that is.
+/// The figures with captions that begin with the name of the setting that worst_of_settings() chose.
 std::vector<Figure> under_worst_setting(const ReportedStudy& reported, std::vector<Figure> figures) {
   for (Figure& figure : figures) figure.caption = worst_setting_phrase(reported) + figure.caption;
   return figures;
 }
 
-/// Zero counts, of a study that is judged by a goal.
+/// Section on zero counts (moves that end at zero error), for a study that is judged by a goal; empty without
+/// a goal.
 PageSection zero_count_section(const ReportedStudy& reported) {
   PageSection section{"zero-counts", "Zero counts", "", {}};
   if (!question_of(reported).claim()) return section;
@@ -76,8 +78,8 @@ PageSection zero_count_section(const ReportedStudy& reported) {
   return section;
 }
 
-/// Converts all figures from a rotary axis, for which they are written, and names the settings, which have
-/// the same colours in all.
+/// Converts titles and figures from a rotary axis, for which they are written, to the study's axis. Also
+/// stores the names of the settings in all figures, so that settings have the same colours everywhere.
 void put_on_axis(const study::Study& study, ReportPage& page) {
   for (PageSection& section : page.sections) {
     section.title = parameters::text_on(study.units.axis, section.title);
@@ -88,7 +90,7 @@ void put_on_axis(const study::Study& study, ReportPage& page) {
   }
 }
 
-/// Why the report of a study with a plugin shows no trial sample by sample.
+/// HTML paragraph that tells why the report of a study with a controller plugin cannot show trials over time.
 std::string without_traces_html(const plugin::ControllerPlugin& plugin) {
   return fmt::format(
       "<p>The trials cannot be run again for this page: the controller is the plugin {} {}, and only the "
@@ -96,7 +98,8 @@ std::string without_traces_html(const plugin::ControllerPlugin& plugin) {
       document::markup(plugin.description.name), document::markup(plugin.description.version));
 }
 
-/// Marks the bounds that assume independent trials: all except those of the sensitivity indices.
+/// Marks, on the page of a study with dependent trials, all bounds that assume independent trials: all except
+/// those of the sensitivity indices.
 void qualify_bounds(const ReportedStudy& reported, ReportPage& page) {
   if (!reported.summary.features.dependent_trials) return;
   for (PageSection& section : page.sections) {

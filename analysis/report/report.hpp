@@ -13,24 +13,28 @@
 #include "analysis/report/page.hpp"
 #include "results/reading/all_trials_file.hpp"
 
-/// The report on a results file, and its single figures.
+/// The report on a results file as a page, and its single figures.
 namespace zerocount::report {
 
-/// The parts of a page that come from a tuning.
+/// Parts of a page that come from tuning the controller.
 struct TuningPart {
   FirstScreenParts first_screen{};
-  std::vector<PageSection> sections{};  ///< Sections that follow the first screen.
+  std::vector<PageSection> sections{};  ///< Sections on the tuning; they follow the first screen.
 };
 
 /// Options of a report.
 struct ReportOptions {
   std::optional<TuningPart> tuning{};
-  std::optional<comparison::StudyComparison> comparison{};  ///< Comparison with a baseline.
-  std::optional<history::History> history{};                ///< Earlier runs of this study.
-  std::optional<std::int64_t> point{};  ///< Design point that the page describes; default: the best.
+  /// Comparison of the study with a baseline study; nothing: none is shown.
+  std::optional<comparison::StudyComparison> comparison{};
+  /// Results of earlier runs of this study; nothing: none are shown.
+  std::optional<history::History> history{};
+  /// Index of the design point that the page describes; nothing: the best point.
+  std::optional<std::int64_t> point{};
   /// Whether to include the figures of jerks. Their trend test takes most of the time of a report.
   bool jerks{true};
-  /// Compares a repeated trial with its record; returns the differences, one line each.
+  /// Compares a trial that was simulated again with its record in the file; returns the differences, one line
+  /// each. May be empty.
   std::function<std::vector<std::string>(const ReplayedTrial&)> check{};
 };
 

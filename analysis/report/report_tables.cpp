@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t max_rows = 400;
 
-/// The points that fit into the table.
+/// Indices of the design points that fit into the table: the first ones.
 std::vector<std::int64_t> first_points(const ReportedStudy& reported) {
   const std::size_t rows_of_point =
       reported.study.open_loop ? std::max<std::size_t>(1, static_cast<std::size_t>(reported.file.moves()))
@@ -51,7 +51,7 @@ std::string points_html(const ReportedStudy& reported) {
 
 namespace {
 
-/// The sweep: the range of each number of the grid, and the cases.
+/// Facts about the parameter sweep: the range of each swept number, and the cases.
 std::vector<document::Fact> sweep_facts(const ReportedStudy& reported) {
   std::vector<document::Fact> facts;
   for (const std::size_t i : numeric_axes(reported, 2)) {
@@ -73,7 +73,7 @@ std::vector<document::Fact> sweep_facts(const ReportedStudy& reported) {
   return facts;
 }
 
-/// Commands that make the study again, and that check the file.
+/// Commands by which the reader can run the study again, and check the file, as text.
 std::string commands_text(const ReportedStudy& reported) {
   const std::string file = text::shell_path(reported.file.path().filename());
   return fmt::format("zerocount run {0} -o again.h5; zerocount verify {0}", file);

@@ -17,7 +17,7 @@
 namespace zerocount::report {
 namespace {
 
-/// The file with what its summary says, but for the point that the page speaks of.
+/// The results file with its summary; which design point the page describes is not chosen yet.
 ReportedStudy summarised(const reading::AllTrialsFile& file) {
   ReportedStudy reported{file, file.study(), summary::summarise(file)};
   reported.names = summary::short_labels(reported.summary.labels, reported.summary.axes);

@@ -18,14 +18,15 @@
 namespace zerocount::report {
 namespace {
 
-/// The number of points that the bounds of a point account for: those that it was chosen from.
+/// The number of design points from which a point was chosen, for which its bounds are corrected: those of
+/// the choice for the chosen point, otherwise all.
 std::size_t chosen_from(const ReportedStudy& reported, std::int64_t point) {
   return point == reported.chosen.point ? static_cast<std::size_t>(reported.chosen.chosen_from)
                                         : reported.summary.points.size();
 }
 
-/// " (95 % bounds a to b)" of the rate of the chosen or the worst point, which account for its choice among
-/// all points; empty if the trials are not independent.
+/// Bounds of the rate at the chosen or the worst design point as text: " (95 % bounds a to b)". They are
+/// corrected for the choice of the point among all points. Empty if the trials are not independent.
 std::string bounds_text(const ReportedStudy& reported, const goal::Question& question, std::int64_t point) {
   if (reported.summary.features.dependent_trials) return "";
   const std::size_t points = chosen_from(reported, point);
@@ -37,7 +38,7 @@ std::string bounds_text(const ReportedStudy& reported, const goal::Question& que
                      points == 1 ? "" : fmt::format(", corrected for the choice among {} points", points));
 }
 
-/// Success, which is a question of its own where the study has a goal.
+/// The question whether trials succeed (all moves end at zero error), also if the study is judged by a goal.
 goal::Question success_of(const ReportedStudy& reported) {
   return goal::success(question_of(reported));
 }
@@ -46,7 +47,7 @@ std::string of_all(std::int64_t successes, std::int64_t trials) {
   return fmt::format("{} of {} trials", successes, trials);
 }
 
-/// Conclusion from trials without a failure.
+/// Sentence on the failure probability if no trial failed.
 std::string flawless_text(const ReportedStudy& reported, const statistics::SuccessClaim& claim) {
   if (reported.summary.features.dependent_trials) {
     return fmt::format(
@@ -67,14 +68,14 @@ std::string capitalised(std::string line) {
   return line;
 }
 
-/// The headline of `summary`; of a study with one point without its name.
+/// The headline of the command `summary`. For a study with one design point, its name is left out.
 std::string headline(const ReportedStudy& reported, const std::optional<summary::JudgedPoint>& judged) {
   const std::string text = judged ? summary::judgement_headline(reported.summary, *judged)
                                   : summary::claim_of_chosen_point(reported.summary, reported.chosen);
   return capitalised(reported.summary.points.size() == 1 ? text.substr(text.find(": ") + 2) : text);
 }
 
-/// A line per line of the text, as a sentence.
+/// Appends each line of the text to `lines`, as a sentence.
 void add_sentences(std::vector<std::string>& lines, const std::string& text) {
   std::istringstream stream(text);
   for (std::string line; std::getline(stream, line);) {
@@ -83,7 +84,7 @@ void add_sentences(std::vector<std::string>& lines, const std::string& text) {
   }
 }
 
-/// Conclusions on the goals that the table of requirements does not contain.
+/// Appends conclusions on the goals that the table of requirements does not contain.
 void add_goal(std::vector<std::string>& lines, const ReportedStudy& reported,
               const summary::JudgedPoint& judged) {
   const goal::Question& question = reported.summary.question;
@@ -142,7 +143,8 @@ void add_spread(std::vector<std::string>& lines, const ReportedStudy& reported, 
                               worst->events, words.events, bounds_text(reported, question_of(reported), at)));
 }
 
-/// The points at which a criterion decides every trial.
+/// Design points at which a theoretical stability criterion gives the same prediction for every trial, with
+/// counts of their trials and outcomes.
 struct DecidedPoints {
   std::int64_t points{0}, trials{0}, stable{0}, undecided{0};
 
@@ -152,7 +154,7 @@ struct DecidedPoints {
     stable += point.of(&trial::MoveOutcome::stable).trials;
     undecided += point.outcomes.off_target;
   }
-  /// @param statement "Criterion (7) is exceeded"
+  /// @param statement beginning of the sentence, such as "Criterion (7) is exceeded"
   void add_to(std::vector<std::string>& lines, std::string_view statement) const {
     if (points == 0) return;
     lines.push_back(fmt::format("{} in every trial of {} point{}; {} there were stable{}.", statement, points,

@@ -10,15 +10,16 @@
 
 namespace zerocount::sensitivity {
 
-/// The columns of a matrix x that are not linear combinations of the columns before them.
+/// The linearly independent columns of a matrix x: those that are not linear combinations of columns further
+/// left, and nothing else.
 struct IndependentColumns {
   /// Standardised columns: minus their means, over their standard deviations (divisor n).
   Eigen::MatrixXd values;
-  std::vector<std::size_t> places;  ///< [column] Index of the column in x.
+  std::vector<std::size_t> places;  ///< [column of `values`] Index of the same column in x.
 };
 
-/// The independent columns of x. A column is independent if the residual of its regression on the columns
-/// before has at least 10⁻⁸ of its variance.
+/// Selects the linearly independent columns of x. A column is independent if at least 10⁻⁸ of its variance
+/// remains after its regression on the columns further left.
 /// @param x none of its columns is constant.
 IndependentColumns independent_columns(const Eigen::MatrixXd& x);
 
@@ -59,7 +60,7 @@ bool is_constant(std::span<const double> values);
 std::vector<BoundedNumber> partial_rank_correlations(const Eigen::MatrixXd& x, std::span<const double> y,
                                                      double confidence);
 
-/// A logistic regression of a yes or no on factors.
+/// Result of a logistic regression: how the probability of a yes depends on the factors.
 struct LogisticFit {
   enum class Status {
     fitted,

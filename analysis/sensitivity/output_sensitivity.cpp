@@ -19,14 +19,17 @@ namespace {
 constexpr std::size_t min_rows = 10;
 constexpr std::int64_t min_of_a_kind = 10;
 
-/// The trials of a point from which the sensitivity of an output is estimated: trials that have a value. In a
-/// saltelli design every trial of the row must have one.
+/// Indices of the trials of a design point from which the sensitivity of an output is estimated. Only trials
+/// with a value of the output are used; in a saltelli design, only rows in which all trials have one.
 struct UsedTrials {
-  /// Index of the first trial of each used row of a saltelli design.
+  /// Index of the first trial of each used row of a saltelli design (a row has one trial of A, one of B and
+  /// one for each factor).
   std::vector<std::size_t> row_starts;
-  /// Indices of the independent trials: all, or the trials of A and B in a saltelli design.
+  /// Indices of the independent trials: all trials, or those of the matrices A and B in a saltelli design.
   std::vector<std::size_t> independent;
-  std::int64_t left_out{0};  ///< Number of trials without a value, or in a row with such a trial.
+  /// Number of trials left out because they, or another trial in their row of a saltelli design, have no
+  /// value.
+  std::int64_t left_out{0};
   /// Number of trials that are not used because an earlier trial ran on the same machine.
   std::int64_t of_machines{0};
 };
@@ -67,7 +70,7 @@ std::vector<double> picked(const std::vector<double>& values, const std::vector<
   return result;
 }
 
-/// The used rows of a saltelli design as a sample.
+/// The outputs of the used rows of a saltelli design, sorted by matrix (A, B and one for each factor).
 SaltelliSample saltelli_sample(const PointInputs& point, const std::vector<double>& values,
                                const UsedTrials& used) {
   SaltelliSample sample;

@@ -27,15 +27,15 @@
 namespace zerocount::sensitivity {
 namespace {
 
-/// Whether every move ran to its end and its motion is known. Qualities do not need this, nor do times that
-/// may be later than any.
+/// Whether every move of a trial ran to its end and stayed finite. Outputs that are yes or no do not need
+/// this, nor do times for which "later than any" is a possible value.
 bool is_whole(std::span<const trial::MoveOutcome> moves) {
   return std::all_of(moves.begin(), moves.end(), [](const trial::MoveOutcome& move) {
     return !move.stopped && move.outcome != trial::Outcome::nonfinite;
   });
 }
 
-/// Duration of a move of this trial, a whole number of samples, s; of a closed loop.
+/// Duration of a move of a trial in a closed loop, s: the hold time of the command, rounded to whole samples.
 double move_duration(const trial::TrialParameters& trial) {
   const double rate = trial.controller.sample_rate;
   return std::round(trial.command.hold * rate) / rate;
@@ -55,8 +55,8 @@ SensitivityOutput output_of(const layout::Measure& measure) {
           }};
 }
 
-/// Whether all moves meet the goals, and the time that takes. @param name of one of several goals, in
-/// brackets; empty of all
+/// The two outputs of a goal: whether all judged moves meet it, and the time that this takes.
+/// @param name name of the goal in brackets, such as [large], if there are several; empty for all goals
 std::vector<SensitivityOutput> outputs_of(const goal::Question& question, const std::string& name) {
   const bool several = has_several(question);
   const std::string which = several ? "all goals" : name.empty() ? "the goal" : "this goal";
@@ -86,7 +86,8 @@ std::vector<SensitivityOutput> outputs_of(const goal::Question& question, const 
        }}};
 }
 
-/// The outputs by which a study with a goal is judged.
+/// The sensitivity outputs that belong to a study's goals: those of all goals together, then those of each
+/// named goal.
 std::vector<SensitivityOutput> goal_outputs(const goal::Question& question) {
   std::vector<SensitivityOutput> outputs = outputs_of(question, "");
   for (const goal::JudgedPart& part : question.parts) {
@@ -119,8 +120,8 @@ void check_confidence(double confidence) {
                 fmt::format("a confidence of {}; expected one above 0 and at most {}", confidence, highest));
 }
 
-/// The number of trials of a point that are read, its first ones. A saltelli design is read as a whole: its
-/// rows are what was paid for.
+/// Number of trials of a design point that are read, from the first on. A saltelli design is always read as a
+/// whole, because its indices need all rows.
 std::int64_t trials_read(const study::Study& study, const SensitivityQuestion& question) {
   if (study.design == study::Design::saltelli) return study.trials;
   return std::min(study.trials, std::max(question.max_trials, study.machines));
@@ -148,7 +149,8 @@ PointInputs point_inputs(const reading::AllTrialsFile& file, std::int64_t point,
   return inputs;
 }
 
-/// The values of the worlds in place of trials.
+/// Inputs for a sensitivity analysis between worlds (a world is one draw of what all machines share and
+/// nobody knows): one value per world in place of one per trial.
 PointInputs inputs_of_worlds(const study::Study& study, std::int64_t point) {
   PointInputs inputs{.design = study::Design::latin_hypercube,
                      .factors = {},
@@ -160,14 +162,16 @@ PointInputs inputs_of_worlds(const study::Study& study, std::int64_t point) {
   return inputs;
 }
 
-/// Means of the worlds, and the proportion of the variance of the trials that is between worlds.
+/// Mean output of each world (one draw of what all machines share), and the proportion of the trials'
+/// variance that lies between worlds.
 struct WorldMeans {
-  TrialOutputs means;  ///< Mean output of each world.
+  TrialOutputs means;  ///< [world] Mean output over the trials of the world; NaN if none has a value.
   double between{statistics::unknown};
 };
 
-/// The proportion is that of a random effect: σ²_b/(σ²_b + σ²_w) with σ²_b = (MS_b − MS_w)/n, which is not
-/// below 0 (Searle, Casella and McCulloch, Variance Components, 1992, section 3.6).
+/// Mean output of each world, and the proportion σ²_b/(σ²_b + σ²_w) of the trials' variance that lies between
+/// worlds, as for a random effect: σ²_b = (MS_b − MS_w)/n, at least 0, is the variance between the worlds,
+/// σ²_w that within them (Searle, Casella and McCulloch, Variance Components, 1992, section 3.6).
 WorldMeans means_of_worlds(const study::Study& study, const TrialOutputs& trials) {
   std::vector<statistics::Moments> worlds(static_cast<std::size_t>(study.worlds));
   for (std::size_t i = 0; i < trials.values.size(); ++i) {
@@ -198,7 +202,8 @@ WorldMeans means_of_worlds(const study::Study& study, const TrialOutputs& trials
   return result;
 }
 
-/// Sensitivity of the means of the worlds to what differs between them.
+/// Sensitivity of each world's mean output to the parameters that differ between worlds (draws of what all
+/// machines share and nobody knows).
 OutputSensitivity between_worlds(const study::Study& study, const PointInputs& worlds,
                                  const SensitivityOutput& output, const TrialOutputs& trials,
                                  double confidence, const random::RandomStream& bootstrap) {
@@ -214,16 +219,20 @@ OutputSensitivity between_worlds(const study::Study& study, const PointInputs& w
   return result;
 }
 
-/// The question that is asked of the points of a study.
+/// What is computed for every design point of a study: the outputs, their random stream and the user's
+/// question.
 struct PointQuestion {
   const SensitivityQuestion& question;
   std::vector<SensitivityOutput> outputs;
-  /// Random stream for resampling, the same for all outputs and points, because the trials are the same.
+  /// Random stream that selects the resampled trials, the same for all outputs and points, because their
+  /// trials are the same.
   random::RandomStream bootstrap;
-  std::function<void()> done;  ///< Called after each output of each point.
+  std::function<void()> done;  ///< Called after each output of each point, to report progress.
 };
 
-/// @param file of the trials in the setting
+/// Sensitivity of all requested outputs at one design point, in one setting (a condition at an age) if there
+/// are any.
+/// @param file results of the trials in this setting
 PointSensitivity sensitivity_at(const reading::AllTrialsFile& file, const measures::PointInSetting& place,
                                 const PointQuestion& asked) {
   const study::Study& study = file.study();

@@ -18,7 +18,7 @@ std::string joined(const std::vector<std::string>& words) {
   return fmt::format("{} and {}", fmt::join(first, ", "), words.back());
 }
 
-/// "friction.k1 (23 %, at least 17.2 %)".
+/// Name and Sobol' index of a factor, with the lower bound, as text: "friction.k1 (23 %, at least 17.2 %)".
 std::string influential_text(const std::string& name, const BoundedNumber& index) {
   return fmt::format("{} ({:.0f} %, at least {})", name, 100.0 * index.value,
                      text::percent_at_least(index.low));
@@ -126,7 +126,7 @@ Description<PointSensitivity> point_description() {
                 &PointSensitivity::outputs);
 }
 
-/// "success at low: friction.k1; …": the factors that matter, of each output at each point.
+/// For each output at each point, the factors that matter to it, as text: "success at low: friction.k1; …".
 std::vector<std::string> influences(const StudySensitivity& sensitivity) {
   std::vector<std::string> found;
   for (const PointSensitivity& point : sensitivity.points) {

@@ -23,7 +23,7 @@ struct Trial {
   double y;
 };
 
-/// Trials in the order of x.
+/// Pairs (factor x, output y) of all trials, sorted by x.
 std::vector<Trial> by_factor(std::span<const double> x, std::span<const double> y) {
   std::vector<Trial> trials;
   trials.reserve(x.size());
@@ -33,7 +33,8 @@ std::vector<Trial> by_factor(std::span<const double> x, std::span<const double> 
   return trials;
 }
 
-/// Neighbours in x. @param lines whether a class has several values of x, and a line in place of a mean
+/// Classes of trials that are neighbours in the factor x. `lines` is true if a class has several values of x,
+/// so that a line is fitted in it, and false if it has one value and takes the mean.
 struct Classes {
   std::vector<std::span<const Trial>> parts;
   bool lines{false};
@@ -58,14 +59,16 @@ Classes classes_of(std::span<const Trial> trials) {
   return classes;
 }
 
-/// The squares of the trials about m, by the divisors of their classes, [trial], and the coefficients of m.
+/// [trial] Squared deviation of the output from the fit m in the trial's class, corrected for the class's
+/// degrees of freedom. Also their mean, and the number of fitted coefficients of m.
 struct Noise {
   std::vector<double> squares;
   double mean{0.0};
   double coefficients{0.0};
 };
 
-/// Appends the squares of a class. @returns its coefficients
+/// Fits a mean or, if `line`, a line to the trials of a class, and appends the squared deviations, corrected
+/// for the degrees of freedom (NaN without any). @returns number of coefficients of the fit
 double add_squares(std::span<const Trial> part, bool line, std::vector<double>& squares) {
   const auto n = static_cast<double>(part.size());
   double x = 0.0;
@@ -100,7 +103,8 @@ Noise noise_of(const Classes& classes) {
   return noise;
 }
 
-/// ln(E/V), its standard error and the degrees of freedom of that.
+/// Estimate of ln(E/V) (E the residual variance of an output given a factor, V its variance), with its
+/// standard error and the degrees of freedom of the error.
 struct Logarithm {
   double value{0.0};
   double error{0.0};
@@ -124,7 +128,8 @@ Logarithm logarithm_of(const Noise& noise, std::span<const Trial> trials, const 
           std::max(0.5 * carrying - 1.0, 0.5)};
 }
 
-/// The upper bound of an index that is hardly above 0.
+/// Upper confidence bound of a first-order Sobol' index whose estimate is close to 0.
+/// @param coefficients number p of fitted coefficients @param n number of trials
 double bound_near_zero(double index, double coefficients, double n, double confidence) {
   const double z2 = std::pow(statistics::two_sided_normal_quantile(confidence), 2);
   const double a = 1.0 + 4.0 * z2 / n;
@@ -200,8 +205,8 @@ double control_coefficient(const SaltelliSample& sample, std::size_t factor, dou
   return squares > 0.0 ? (influence * about_mean).sum() / squares : 0.0;
 }
 
-/// The influence of each row on the indices of a factor: by how much an index changes with its weight, times
-/// the number of rows.
+/// [row of a saltelli design] Influence function of the rows on the two Sobol' indices of a factor:
+/// derivative of the index with respect to the weight of the row, times the number of rows.
 struct Influences {
   Eigen::ArrayXd first_order;
   Eigen::ArrayXd total;

@@ -13,22 +13,22 @@
 
 namespace zerocount::sensitivity {
 
-/// A number with its confidence bounds; NaN if there is no number or bound.
+/// A number with its confidence bounds; NaN where the number or a bound is not known.
 struct BoundedNumber {
   double value{statistics::unknown};
   double low{statistics::unknown};
   double high{statistics::unknown};
 };
 
-/// Whether all numbers from −limit to limit are outside the bounds; false for a number without bounds.
+/// Whether the bounds exclude all numbers from −limit to limit; false if the number has no bounds.
 inline bool excludes_up_to(double limit, const BoundedNumber& number) {
   return number.low > limit || number.high < -limit;
 }
 
-/// A proportion of which an estimate and bounds are given, held in [0, 1]. Where the estimate is outside, it
-/// becomes 0 or 1 and the bound on the other side moves with it (below 0 by as much, above 1 in proportion).
-/// So bounds never exclude all that is possible nor shrink to a point, and cover no less often than those
-/// given.
+/// Limits the estimate of a proportion, such as a Sobol' index, and its bounds to [0, 1]. If the estimate is
+/// outside, it becomes 0 or 1, and the bound on the other side moves with it (by the same amount if the
+/// estimate is below 0, in proportion if it is above 1). So the bounds never exclude all possible values nor
+/// shrink to a point, and cover the true value at least as often as those given.
 inline BoundedNumber clamped_index(BoundedNumber number) {
   if (std::isnan(number.value)) return {};
   number.low = std::min(number.low, number.value);
@@ -44,7 +44,7 @@ inline BoundedNumber clamped_index(BoundedNumber number) {
 // C_j, and D of B and C_j is 1 less the first-order index without a control variate. Dimensionless; all
 // bounds are NaN where V is 0.
 
-/// Numbers of pairs of yes-or-no values (1 or 0), by the two values.
+/// Numbers of pairs of yes-or-no values, by agreement: both yes, different, both no.
 struct AnswerPairs {
   std::int64_t both_yes{0};
   std::int64_t different{0};
@@ -65,17 +65,19 @@ inline AnswerPairs answer_pairs(std::span<const double> x, std::span<const doubl
   return pairs;
 }
 
-/// D of answers that are yes or no. With u the proportion of different pairs among those with a yes in them
-/// and v among those with a no,
+/// Estimates D = 1 − r from pairs of yes-or-no answers of a saltelli design, r the correlation within the
+/// pairs; D and 1 − D give its Sobol' indices. With u the proportion of different pairs among those with a
+/// yes in them and v among those with a no,
 ///
 ///   D = u/(2 − u) + v/(2 − v),
 ///
-/// and u and v are proportions of independent pairs with bounds of Clopper and Pearson. Those of the sum come
-/// from those of its parts by the method of variance estimates recovery (Zou & Donner, Stat. Med. 27, 2008),
-/// with the correlation √((1 − u)(1 − v)) of the logits of u and v. 1 − D is the intraclass kappa of two
-/// raters (Donner & Eliasziw, Stat. Med. 11, 1992).
+/// where u and v are proportions of independent pairs with bounds of Clopper and Pearson. The bounds of the
+/// sum follow from those of its terms by the method of variance estimates recovery (Zou & Donner, Stat. Med.
+/// 27, 2008), with the correlation √((1 − u)(1 − v)) of the logits of u and v. 1 − D is the intraclass kappa
+/// of two raters (Donner & Eliasziw, Stat. Med. 11, 1992).
 ///
-/// Without a different pair low is 0 and high of the order of 3.7/(2N V) (95 %); with one, low is above 0.
+/// Without a different pair, the lower bound is 0 and the upper one about 3.7/(2N V) at 95 %. With one, the
+/// lower bound is above 0.
 inline BoundedNumber yes_no_difference(const AnswerPairs& pairs, double confidence) {
   const std::int64_t with_yes = pairs.both_yes + pairs.different;
   const std::int64_t with_no = pairs.both_no + pairs.different;
@@ -98,11 +100,12 @@ inline BoundedNumber yes_no_difference(const AnswerPairs& pairs, double confiden
   return {value, std::max(low, part(of_u.low) + part(of_v.low)), high};
 }
 
-/// Upper bound of the proportion of the variance that may come from events too rare to be among the rows. An
-/// event that was not seen in N rows has at most the probability −ln(δ)/N with the confidence 1 − δ, δ = (1 −
-/// confidence)/2 (Poisson; at 95 % 3.7/N). It is taken to change the output as much as independent trials
-/// that differ do on average. Such trials have the mean square difference 2V, so the proportion is −ln(δ)/m,
-/// where m is the number of rows in which A and B differ; at most 1.
+/// Upper bound of the proportion of an output's variance that may come from events too rare to occur among
+/// the rows of a saltelli design. An event that was not seen in N rows has at most the probability −ln(δ)/N
+/// with the confidence 1 − δ, δ = (1 − confidence)/2 (Poisson; at 95 % 3.7/N). It is taken to change the
+/// output as much as independent trials that differ do on average. Such trials have the mean square
+/// difference 2V, so the proportion is −ln(δ)/m, where m is the number of rows in which A and B differ; at
+/// most 1.
 inline double unseen_index(std::span<const double> a, std::span<const double> b, double confidence) {
   double different = 0.0;
   for (std::size_t r = 0; r < a.size(); ++r) different += a[r] != b[r] ? 1.0 : 0.0;
@@ -149,12 +152,13 @@ inline BoundedNumber with_unseen(const BoundedNumber& resampled, double unseen) 
 /// 20 trials. x and y have the same length.
 BoundedNumber given_data_first_order(std::span<const double> x, std::span<const double> y, double confidence);
 
-/// The output of the trials of a saltelli design with k factors and N rows, finite (see
+/// Outputs of the trials of a saltelli design with k factors and N rows; all are finite (see
 /// experiments/designs/designs.hpp).
 struct SaltelliSample {
-  std::vector<double> a;  ///< [row] Output for row r of the matrix A.
-  std::vector<double> b;  ///< [row] Output for row r of the matrix B.
-  /// [factor][row] Output for row r of A with this factor taken from B.
+  std::vector<double> a;  ///< [row] Output of the trial whose factors are row r of the matrix A.
+  /// [row] Output of the trial whose factors are row r of the matrix B, independent of A.
+  std::vector<double> b;
+  /// [factor][row] Output for row r of A with this factor's value taken from B.
   std::vector<std::vector<double>> c;
 };
 
@@ -169,8 +173,8 @@ struct SobolIndices {
 /// @param values finite
 double values_behind_variance(std::span<const double> values);
 
-/// Number of bootstrap replicates for bounds of this confidence: enough that 25 lie beyond each bound, and at
-/// least 1000.
+/// Number of bootstrap replicates (resampled data sets) for bounds of this confidence: enough that 25 lie
+/// beyond each bound, and at least 1000.
 std::int64_t bootstrap_replicates(double confidence);
 
 /// First-order and total Sobol' indices, [factor]. With m and V the mean and the variance (divisor 2N) of the
@@ -200,7 +204,7 @@ std::int64_t bootstrap_replicates(double confidence);
 /// where A and B have no variance or there are fewer than two rows, and for a factor where A and C_j have
 /// none. An output that is not a yes or no has no bounds where its variance comes from fewer than ten trials
 /// of A and B: (Σ (y − m)²)²/Σ (y − m)⁴ < 20.
-/// @param randomness the rows are drawn from: the same gives the same bounds.
+/// @param randomness random stream that selects the resampled rows; the same stream gives the same bounds.
 std::vector<SobolIndices> saltelli_indices(const SaltelliSample& sample, double confidence,
                                            const random::RandomStream& randomness);
 

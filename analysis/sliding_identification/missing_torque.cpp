@@ -16,17 +16,18 @@
 namespace zerocount::sliding_identification {
 namespace {
 
-/// The motion in an interval between two samples, by the fit.
+/// The motion between two successive samples, according to the fit.
 struct Instant {
   double direction;
   double velocity;
   double speed;          ///< |velocity|, rad/s or m/s.
   double place;          ///< Position, scaled to −1 to 1 over the record.
-  double moment;         ///< Time, scaled to −1 to 1 over the record.
-  double torque;         ///< Torque u of the drive, N m or N.
-  double torque_before;  ///< Torque u in the interval before, N m or N.
-  double carried;        ///< Carried torque u + u0 + p, N m or N.
-  double net;            ///< Accelerating torque: u − u0 − p minus the friction, N m or N.
+  double moment;         ///< Time, scaled linearly so that the record lasts from −1 to 1.
+  double torque;         ///< Torque u of the drive in this interval, N m or N.
+  double torque_before;  ///< Torque u of the drive in the preceding interval, N m or N.
+  /// Torque u + u0 + p that the axis carries: drive torque, offset and position-dependent torque, N m or N.
+  double carried;
+  double net;  ///< Accelerating torque: u − u0 − p minus the friction, N m or N.
 };
 
 struct TriedTorque {
@@ -90,7 +91,7 @@ double scaled_to_range(double value, double low, double high) {
 constexpr std::array<std::string_view, 6> cause_labels{"lag",  "speed",    "direction",
                                                        "load", "position", "time"};
 
-/// Ranges of a record.
+/// Ranges of a record: of its positions (low, high; rad or m) and of its time (start, end; s).
 struct Extent {
   double low;
   double high;
@@ -115,7 +116,8 @@ double friction_at(const SlidingPoint& point, double direction, double speed) {
                       point[viscous_damping] * speed);
 }
 
-/// [interval] Motion in the intervals of a window.
+/// [interval] Motion between successive samples of a window (a piece of a record simulated from its own
+/// initial state).
 std::vector<Instant> instants_of(const FittedWindow& fitted, const SlidingPoint& point,
                                  const Eigen::VectorXd& residual, const Extent& extent) {
   const SlidingRecord& record = *fitted.record;
@@ -170,9 +172,9 @@ constexpr double tiny_variance = std::numeric_limits<double>::min();
 /// others. Forces that the law lacks may depend on each other from one short window to the next.
 constexpr std::size_t min_block_samples = 64;
 
-/// Columns of a window after regression on its initial state: the derivatives with respect to the free
-/// parameters, the tried columns, and the negative residuals, so that the coefficients of the columns
-/// compensate for them.
+/// Matrix with a column for each regressor of a window, each column after regression on the window's initial
+/// state: the derivatives with respect to the free parameters, then the responses to the tried torques, then
+/// the negative residuals. The sign makes the coefficients of the tried torques compensate for the residuals.
 Eigen::MatrixXd columns_of(const FittedWindow& fitted, const SlidingFit& fit, const Extent& extent,
                            std::span<const TriedTorque> tried) {
   const WindowSlopes slopes = slopes_of(fitted, fit.point);
@@ -188,10 +190,10 @@ Eigen::MatrixXd columns_of(const FittedWindow& fitted, const SlidingFit& fit, co
   return without(slopes.by_start, columns);
 }
 
-/// Products of columns_of() with each other.
+/// Matrix of the inner products of the columns of columns_of() with each other.
 using Products = Eigen::MatrixXd;
 
-/// Adds products to the last part, or begins another one with them.
+/// Adds the products of a window to the last part of the samples, or begins a new part with them.
 void add_to(std::vector<Products>& parts, const Products& products, bool new_part) {
   if (new_part)
     parts.push_back(products);
@@ -211,12 +213,14 @@ Extent extent_of(const SlidingRecord& record) {
   return {low, high, record.time.front(), record.time.back()};
 }
 
-/// Products over the parts of the strokes, and over the strokes.
+/// Sums of the inner products of columns_of(): over blocks of successive samples within strokes, and over
+/// whole strokes.
 struct Parts {
   std::vector<Products> blocks;
   std::vector<Products> strokes;
-  Eigen::Index parameters{0};  ///< Number of free parameters.
-  double freedom{0.0};         ///< Samples less parameters and initial states.
+  Eigen::Index parameters{0};  ///< Number of free parameters of the fit.
+  /// Degrees of freedom: number of samples minus the numbers of parameters and initial states.
+  double freedom{0.0};
 };
 
 Parts parts_of(const SlidingFit& fit, std::span<const TriedTorque> tried) {
@@ -251,14 +255,14 @@ AddedColumn column_of(const std::vector<Products>& parts, const Parts& all, std:
   return added_column(equations, all.freedom);
 }
 
-/// Degrees of freedom of the jackknife's error. With fewer than the least the error alone would decide
-/// nothing; the error by the residuals' own correlation decides as well.
+/// Degrees of freedom of the jackknife's standard error, at least 10. With fewer, this error alone would
+/// never show significance; the standard error from the residuals' autocorrelation is used beside it.
 double freedom_of(const AddedColumn& column) {
   constexpr double least = 10.0;
   return std::max(least, column.clusters - 1.0);
 }
 
-/// Largest change of a free parameter, in its standard errors.
+/// Largest change of a free parameter when the column is added, in standard errors of this parameter.
 double shift_in_errors(const AddedColumn& column, const SlidingFit& fit) {
   double largest = 0.0;
   Eigen::Index place = 0;
@@ -270,16 +274,16 @@ double shift_in_errors(const AddedColumn& column, const SlidingFit& fit) {
   return largest;
 }
 
-/// Σ of the products of values that are `lag` apart.
+/// Sum of the products of elements of `values` whose indices differ by `lag`.
 double products_apart(const Eigen::VectorXd& values, Eigen::Index lag) {
   const Eigen::Index count = values.size() - lag;
   return count > 0 ? values.head(count).dot(values.tail(count)) : 0.0;
 }
 
-/// Variance of a coefficient over that by independent residuals, because residuals of a window depend on each
-/// other: 1 + 2·Σ r(l)·c(l)·(1 − l/L), with the autocorrelations r of the residuals and c of the column, both
-/// without what the other terms explain of them, and L the samples of the longest window (Newey and West,
-/// Econometrica 55 (1987) 703). At least 1.
+/// Factor on the variance of a coefficient because the residuals of a window depend on each other, relative
+/// to independent residuals: 1 + 2·Σ r(l)·c(l)·(1 − l/L), with the autocorrelations r of the residuals and c
+/// of the column, both without what the other terms explain of them, and L the samples of the longest window
+/// (Newey and West, Econometrica 55 (1987) 703). At least 1.
 double variance_factor(const SlidingFit& fit, const TriedTorque& tried, const AddedColumn& column,
                        const Parts& parts, std::size_t number) {
   const Eigen::Index free = parts.parameters;
@@ -320,7 +324,7 @@ double variance_factor(const SlidingFit& fit, const TriedTorque& tried, const Ad
 
 /// Mean squares of torques over all strokes, (N m)².
 struct MeanSquares {
-  double drive{0.0};          ///< Mean square of u.
+  double drive{0.0};          ///< Mean square of the drive torque u, (N m)² or N².
   std::vector<double> tried;  ///< [tried torque] Mean square with the coefficient 1.
 };
 

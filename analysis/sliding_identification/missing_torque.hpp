@@ -13,10 +13,10 @@ enum class TorqueCause { lag, speed, direction, load, position, time };
 
 std::string_view to_string(TorqueCause cause);
 
-/// The words of all causes, in the order of TorqueCause.
+/// The words for all causes ("lag", "speed", …), in the order of TorqueCause.
 std::vector<std::string> cause_words();
 
-/// A torque against the drive that the law lacks, and that the residuals show.
+/// A torque against the drive that the identified sliding law lacks and that the residuals of the fit show.
 ///
 /// For each window the response of the position to a unit of the torque is added to the fit as a column
 /// (added_column()). The tried torques are, with d = ±1 the direction, v the velocity, x and t the position
@@ -37,14 +37,17 @@ struct MissingTorque {
   TorqueCause cause{};
   std::string name{};       ///< Name, such as "drag that grows with the square of the speed".
   double coefficient{0.0};  ///< Coefficient of the tried torque, in units of the torque.
-  double visibility{0.0};   ///< Ratio of the coefficient to its error over the limit of chance.
+  /// Ratio of the coefficient to its standard error, divided by the ratio that chance reaches once in 1000
+  /// records. From 1 on the torque is significant.
+  double visibility{0.0};
   /// Proportion of the sum of squares of the residuals that the torque explains.
   double explained{0.0};
-  /// Largest change of a parameter when the torque is added to the fit, in standard errors.
+  /// Largest change of a fitted parameter when the torque is added to the fit, in its standard errors.
   double shift{0.0};
 };
 
-/// The tried torques, the one that the residuals show best first.
+/// All torques that were tried in addition to the law, in order of MissingTorque::visibility, the most
+/// visible first.
 std::vector<MissingTorque> tried_torques(const SlidingFit& fit);
 
 }  // namespace zerocount::sliding_identification

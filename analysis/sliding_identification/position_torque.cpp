@@ -17,14 +17,17 @@ namespace {
 constexpr int most_periods = 1000;
 constexpr Eigen::Index wave_terms = 2;  // sine and cosine
 
-/// The quantities of a window that its torque may depend on.
+/// Means over a window (a piece of a record) of the quantities on which its torque may depend.
 struct WindowTerms {
-  Eigen::VectorXd known;           ///< Acceleration, direction, velocity, 1, and the terms of known waves.
-  std::array<double, 5> position;  ///< Positions over the length of the window, rad or m.
-  double torque;                   ///< Unexplained torque, N m or N.
+  /// Regressors that the law already has: acceleration, direction, velocity, 1, and the terms of the waves
+  /// already fitted.
+  Eigen::VectorXd known;
+  std::array<double, 5> position;  ///< Five positions spread over the window, rad or m.
+  double torque;                   ///< Mean torque that the law leaves unexplained in the window, N m or N.
 };
 
-/// Means of the wave's sine and cosine over the window; the mean position for a slope.
+/// Means over the window of sin(κ·x) and cos(κ·x) of a position-dependent torque; for a torque proportional
+/// to the position, the mean position.
 Eigen::VectorXd wave_means(const WindowTerms& window, const PositionWave& wave) {
   Eigen::VectorXd means = Eigen::VectorXd::Zero(wave_terms);
   for (const double x : window.position) {
@@ -59,14 +62,15 @@ std::vector<WindowTerms> windows_of(const SlidingFit& fit, std::span<const Posit
   return found;
 }
 
-/// Position in the middle between a sample and the next, by the cubic through four samples; at the ends of
-/// the record the mean of both.
+/// Position half-way between sample k and the next, by the cubic through four samples; at the ends of the
+/// record the mean of the two samples. Same unit as `position`.
 double position_between(const std::vector<double>& position, std::size_t k) {
   if (k == 0 || k + 2 >= position.size()) return 0.5 * (position[k] + position[k + 1]);
   return (9.0 * (position[k] + position[k + 1]) - position[k - 1] - position[k + 2]) / 16.0;
 }
 
-/// Residual sum of squares of a regression with or without one more wave.
+/// Residual sum of squares of the regression of the windows' torques on known terms. @param wave wave that is
+/// added to the terms; null: none
 double squares_left(const std::vector<WindowTerms>& windows, const PositionWave* wave) {
   const Eigen::Index known = windows.front().known.size();
   const Eigen::Index all = known + (wave == nullptr ? 0 : wave_terms);
@@ -89,7 +93,7 @@ PositionWave wave_of(double periods, double pitch) {
   return {periods, 2.0 * std::numbers::pi * periods / pitch};
 }
 
-/// The waves to try, a usual one first.
+/// The position-dependent torques (waves) to try, except those already in the fit; the usual ones come first.
 std::vector<PositionWave> candidates(const SlidingFit& fit) {
   const SlidingRecord& record = *fit.windows.front().record;
   std::vector<PositionWave> waves = usual_waves(record);

@@ -15,7 +15,8 @@ constexpr std::size_t far_level = 40;
 constexpr std::size_t max_gap = 64;  // samples between strokes about a reversal
 constexpr double turned = 0.9;
 
-/// Friction torque at a sample, as the remainder u − u0 − p(x) − J·a − cs·v.
+/// Friction torque near sample k, N m or N, as the remainder u − u0 − p(x) − J·a − cs·v of the torque
+/// balance.
 double friction_near(const SlidingRecord& record, const SlidingPoint& point, std::size_t k) {
   double of_position = 0.0;
   for (std::size_t j = 0; j < position_terms && record.waves > 0; ++j)
@@ -53,7 +54,8 @@ double median_friction(const SlidingRecord& record, const SlidingPoint& point, s
   return statistics::upper_median(std::move(values));
 }
 
-/// Whether the axis rests about a reversal: it has more samples there than a motion that only reverses.
+/// Whether the axis rests at the reversal about sample k: it has more samples near there than a motion that
+/// only reverses.
 bool rests_at(const SlidingRecord& record, std::size_t k) {
   constexpr std::size_t reach = 5;
   const double about = std::abs(record.position[k + reach] - record.position[k]) +

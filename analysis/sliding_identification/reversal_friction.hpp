@@ -9,20 +9,20 @@ struct SlidingFit;
 
 /// A reversal without a standstill: how the friction turns over, from one direction's level to the other's.
 struct Reversal {
-  double time{0.0};  ///< Time of the reversal, s.
-  /// Sum of the friction levels of both directions near the reversal, N m or N.
+  double time{0.0};  ///< Time of the reversal in the record, s.
+  /// Change of the friction torque by the reversal: sum of its magnitudes before and after, N m or N.
   double swing{0.0};
   /// Travel after the reversal in which the friction completes nine tenths of the swing, rad or m.
   double travel{0.0};
-  std::size_t samples{0};  ///< Number of samples within `travel`.
+  std::size_t samples{0};  ///< Number of samples within `travel` after the reversal.
 };
 
-/// The friction before sliding, by the reversals of all records.
+/// Friction before sliding (presliding), estimated from the reversals of all records.
 struct ReversalFriction {
   std::vector<Reversal> reversals{};
-  double swing{0.0};  ///< Median of Reversal::swing, N m or N.
+  double swing{0.0};  ///< Median of Reversal::swing over all reversals, N m or N.
   double travel{0.0};
-  double stiffness{0.0};  ///< Stiffness of the secant, 0.9·swing/travel, N m/rad or N/m.
+  double stiffness{0.0};  ///< Secant stiffness of the presliding friction, 0.9·swing/travel, N m/rad or N/m.
   std::size_t samples{0};
   double min_travel{0.0};
   double max_travel{0.0};

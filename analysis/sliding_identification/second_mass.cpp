@@ -19,15 +19,15 @@
 namespace zerocount::sliding_identification {
 namespace {
 
-/// A window of a fit, linearised about the fit.
+/// A window (piece of a record) of a fit, linearised about the fitted parameters and initial state.
 struct LinearWindow {
   /// Derivatives of the residuals with respect to the initial position and velocity.
   Eigen::MatrixXd by_start;
-  /// Derivatives with respect to the free parameters, and the residuals in the last column, after regression
-  /// on `by_start`.
+  /// Derivatives of the residuals with respect to the free parameters, and the residuals in the last column,
+  /// all after regression on `by_start`.
   Eigen::MatrixXd known;
-  std::vector<double> interval;     ///< Sampling intervals, s.
-  std::vector<double> per_inertia;  ///< [interval] Acceleration u/J, steps of the readings/s².
+  std::vector<double> interval;     ///< [interval] Sampling intervals, s.
+  std::vector<double> per_inertia;  ///< [interval] Acceleration u/J by the drive torque, in encoder steps/s².
 };
 
 LinearWindow linear_window(const FittedWindow& fitted, const SlidingFit& fit) {
@@ -49,7 +49,9 @@ LinearWindow linear_window(const FittedWindow& fitted, const SlidingFit& fit) {
   return linear;
 }
 
-/// Responses in a window: q from rest under the drive torque, and two free oscillations.
+/// Responses of an oscillator in a window, one column each: its deflection q from rest under the drive
+/// torque, and two free oscillations.
+/// @param pole complex pole of the oscillator, 1/s
 Eigen::MatrixXd oscillations(const LinearWindow& window, std::complex<double> pole) {
   Eigen::MatrixXd columns(window.known.rows(), 3);
   std::complex<double> driven = -window.per_inertia.front() / pole;
@@ -76,7 +78,7 @@ Equations equations_of(const LinearWindow& window, std::complex<double> pole) {
   return {products.topLeftCorner(size, size), products.topRightCorner(size, 1), products(size, size)};
 }
 
-/// A fit of the amplitude A at one frequency.
+/// Fit of the amplitude A of a second mass's oscillation at one frequency (omega, rad/s).
 struct Amplitude {
   double omega{0.0};
   AddedColumn column{};
@@ -96,13 +98,15 @@ Amplitude amplitude_at(const std::vector<LinearWindow>& windows, double omega, d
   return {omega, added_column(parts, freedom)};
 }
 
-/// Variance of independent residuals that would give A its standard error.
+/// Variance that independent residuals would need to give A its standard error: the larger one of their own
+/// variance and that of the jackknife.
 double variance_of(const AddedColumn& column) {
   return std::max({column.white, column.clustered, std::numeric_limits<double>::min()});
 }
 
-/// Smallest significant ratio of A to its standard error: chance exceeds it in one of 1000 records, at any of
-/// the tried places.
+/// Smallest ratio of A to its standard error that is significant: chance exceeds it in one of 1000 records,
+/// at any of 100 tried combinations of frequency and damping.
+/// @param windows number of windows
 double least_ratio(std::size_t windows) {
   constexpr double places = 100.0;
   constexpr double chance = 1e-3 / places;
@@ -120,7 +124,8 @@ std::vector<Amplitude> amplitudes_of(const std::vector<LinearWindow>& windows, d
   return amplitudes;
 }
 
-/// The best frequency, Hz, if only neighbouring frequencies explain nearly as much; otherwise 0.
+/// Frequency of the best fit, Hz, if only neighbouring frequencies explain nearly as much; 0 if others do
+/// too.
 double well_known_frequency(const std::vector<Amplitude>& amplitudes, const Amplitude& best) {
   double low = best.omega;
   double high = best.omega;

@@ -8,7 +8,7 @@ namespace zerocount::sliding_identification {
 struct SlidingFit;
 struct SlidingRecord;
 
-/// A second mass on a spring, found in the residuals of a fit with one mass.
+/// A second mass coupled by a spring, found in the residuals of a fit with one rigid mass.
 struct SecondMass {
   /// Proportion of the sum of squares of the residuals that the second mass explains.
   double explained{0.0};
@@ -16,7 +16,7 @@ struct SecondMass {
   double frequency{0.0};
 };
 
-/// The second mass that the records show; nothing if chance may explain the residuals of one mass.
+/// The second mass that the records show; nothing if chance may explain the residuals of a single mass.
 ///
 /// Masses J1 and J2 on a spring that a torque u on J1 moves are together one mass and an oscillator:
 ///

@@ -91,7 +91,8 @@ std::string reversal_sentence(const SlidingIdentification& i) {
       r.samples, r.stiffness, parameters::unit_on(i.axis, "N m/rad"));
 }
 
-/// The torques that depend on the position, a sentence each, and whether the position explains more.
+/// Sentences on the position-dependent torques of the fit, one each, and on whether the position explains
+/// more of the unexplained torque.
 std::string position_text(const SlidingIdentification& i) {
   const std::string torque = parameters::text_on(i.axis, "$torque");
   std::string text;

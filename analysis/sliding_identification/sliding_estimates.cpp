@@ -21,25 +21,27 @@ using fit::ParameterEstimate;
 
 enum class Scale { linear, positive, logarithmic };
 
-/// A reported parameter: a function of the fitted point.
+/// A reported parameter as a function of the fitted parameters.
 struct Quantity {
   std::string name;
-  std::string_view key;    ///< Manifest key of the parameter.
-  const char* unit;        ///< Unit on a rotary axis.
-  std::size_t coordinate;  ///< Coordinate that must be free in the fit.
-  double value;            ///< Value of the parameter; its logarithm if the scale is logarithmic.
-  SlidingPoint gradient;   ///< Gradient of `value` with respect to the point.
+  std::string_view key;  ///< Manifest key of the parameter; empty if the manifest has none.
+  const char* unit;      ///< Unit of the parameter on a rotary axis; it is converted for a linear one.
+  /// Index of the fitted parameter that must be free, so that this one can be reported.
+  std::size_t coordinate;
+  double value;           ///< Value of the parameter; its logarithm if the scale is logarithmic.
+  SlidingPoint gradient;  ///< Gradient of `value` with respect to the point.
   Scale scale;
-  /// Reason why the parameter is not identifiable if its interval is too wide. {0} is the upper end of the
-  /// interval, {1} the unit.
+  /// Text for the user if the interval of the parameter is too wide to identify it. Placeholder {0} is the
+  /// upper end of the interval, {1} the unit.
   const char* vague;
-  std::string alike{};  ///< Name of a torque that cannot be distinguished from this one.
-  /// True if motion in one direction cannot distinguish the parameter from the offset.
+  /// Name of a position-dependent torque that the records cannot distinguish from this one; empty: none.
+  std::string alike{};
+  /// True if motion in one direction only cannot separate the parameter from the constant offset torque.
   bool with_offset{false};
 };
 
-/// Allowed range of a quantity. The range of the Coulomb level is that of a breakaway torque, because the
-/// level is a breakaway torque times a ratio.
+/// Allowed range of a reported parameter. The range of the Coulomb level is that of a breakaway torque,
+/// because the level is a breakaway torque times a ratio.
 numerics::Interval range_of(const Quantity& quantity) {
   const std::string_view key =
       quantity.name == "coulomb_level" ? parameter::friction::breakaway.path : quantity.key;
@@ -47,7 +49,9 @@ numerics::Interval range_of(const Quantity& quantity) {
   return row ? parameters::parameter_table()[*row].range : numerics::all_numbers();
 }
 
-/// Amplitude and phase of the torque A·sin(κ·x + phase) that acts on the axis; or its slope.
+/// Appends the amplitude and phase of the position-dependent torque A·sin(κ·x + phase), or its slope, to the
+/// reported parameters.
+/// @param number index of the torque in SlidingFit::waves
 void add_wave(const SlidingFit& fit, std::size_t number, std::vector<Quantity>& quantities) {
   const PositionWave& wave = fit.waves[number];
   const auto first = static_cast<Eigen::Index>(position_amplitudes + 2 * number);
@@ -109,7 +113,7 @@ std::vector<Quantity> quantities_of(const SlidingFit& fit) {
   return quantities;
 }
 
-/// Whether the interval of the quantity spans at most a factor of about 2 to each side.
+/// Whether the confidence interval of the parameter spans at most a factor of about 2 to each side.
 bool is_narrow(const ParameterEstimate& estimate, Scale scale) {
   switch (scale) {
     case Scale::positive:
@@ -122,7 +126,7 @@ bool is_narrow(const ParameterEstimate& estimate, Scale scale) {
   return true;
 }
 
-/// An estimate whose interval spans the given number of standard errors to each side.
+/// The estimate of a reported parameter, with an interval that spans `quantile` standard errors to each side.
 ParameterEstimate estimate_within(const Quantity& quantity, const SlidingFit& fit, double quantile) {
   ParameterEstimate estimate;
   estimate.value = quantity.value;
@@ -138,7 +142,8 @@ double quantile_of(const SlidingFit& fit, double probability) {
   return statistics::student_t_quantile(freedom, probability);
 }
 
-/// Whether no allowed value is within the errors of the fit, which chance causes once in 1000 records.
+/// Whether the wide interval of the parameter (missed by chance once in 1000 records) contains no allowed
+/// value.
 bool is_impossible(const Quantity& quantity, const SlidingFit& fit) {
   if (!fit.free[quantity.coordinate] || quantity.scale == Scale::logarithmic) return false;
   if (quantity.with_offset && !fit.free[offset_torque]) return false;
@@ -231,7 +236,7 @@ std::string normal_text(const ParameterEstimate& estimate, double mean) {
                      fit::manifest_number(estimate.standard_error, 0.1));
 }
 
-/// The lines below `disturbance:`, of the estimated offset and ripples.
+/// Lines for the manifest's section `disturbance:` with the estimated offset torque and torque ripples.
 std::string disturbance_lines(const SlidingIdentification& identification) {
   const auto parameter = [&](const std::string& name) -> const ParameterEstimate& {
     return *std::ranges::find(identification.parameters, name, &ParameterEstimate::name);

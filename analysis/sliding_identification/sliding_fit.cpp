@@ -28,7 +28,8 @@ std::vector<FittedWindow> windows_of(std::span<const SlidingRecord> records) {
   return windows;
 }
 
-/// Moves the point and the windows' initial states to the least sum of squares. @returns the sum.
+/// Minimises the sum of squares of the residuals over the parameters and the windows' initial states, and
+/// stores both in the fit. @returns the minimum
 double solve(SlidingFit& fit) {
   ceres::Problem problem;
   for (FittedWindow& fitted : fit.windows) {
@@ -56,7 +57,8 @@ double solve(SlidingFit& fit) {
   return found.squares;
 }
 
-/// Contribution of a window, or of several, to the estimating equations, the initial states eliminated.
+/// Contribution of one or more windows to the estimating equations (information matrix and score), after
+/// elimination of the windows' initial states.
 struct Score {
   SlidingMatrix information{SlidingMatrix::Zero()};
   SlidingPoint score{SlidingPoint::Zero()};
@@ -77,7 +79,8 @@ Score score_of(const FittedWindow& fitted, const SlidingPoint& point) {
   return score;
 }
 
-/// Scale of each free parameter that makes them comparable: 1/√information; 0 for the others.
+/// [parameter] Scale 1/√information of each free parameter, which makes them comparable; 0 for parameters
+/// that are not free.
 SlidingPoint scale_of(const Score& total, const FreeParameters& free) {
   SlidingPoint scale = total.information.diagonal().cwiseMax(tiny).cwiseSqrt().cwiseInverse();
   for (std::size_t j = 0; j < sliding_dimension; ++j) {
@@ -90,7 +93,8 @@ SlidingMatrix scaled(const SlidingPoint& scale, const SlidingMatrix& matrix) {
   return scale.asDiagonal() * matrix * scale.asDiagonal();
 }
 
-/// Scaled variance of the fits without one cluster each: (G − 1)/G·Σδ_g·δ_gᵀ with δ_g = (B − B_g)⁻¹·s_g.
+/// Jackknife covariance of the scaled parameters from fits that each leave out one cluster of samples: (G −
+/// 1)/G·Σδ_g·δ_gᵀ with δ_g = (B − B_g)⁻¹·s_g and G clusters.
 SlidingMatrix jackknife(const SlidingPoint& scale, const Score& total, const std::vector<Score>& clusters) {
   const auto groups = static_cast<double>(clusters.size());
   SlidingMatrix sum = SlidingMatrix::Zero();
@@ -102,7 +106,8 @@ SlidingMatrix jackknife(const SlidingPoint& scale, const Score& total, const std
   return (groups - 1.0) / groups * sum;
 }
 
-/// Enlarges a covariance to the larger variance of each parameter; correlations stay.
+/// Enlarges the variance of each parameter in `covariance` to that in `other` if this is larger; the
+/// correlations stay.
 SlidingMatrix enlarged(const SlidingMatrix& covariance, const SlidingMatrix& other) {
   const SlidingPoint ratio = other.diagonal().cwiseQuotient(covariance.diagonal().cwiseMax(tiny));
   return scaled(ratio.cwiseMax(1.0).cwiseSqrt(), covariance);

@@ -14,35 +14,38 @@ namespace zerocount::sliding_identification {
 using FreeParameters = std::array<bool, sliding_dimension>;
 using SlidingMatrix = Eigen::Matrix<double, sliding_dimension, sliding_dimension>;
 
-/// A window of a record, and its initial position and velocity.
+/// A window (piece of a stroke that is simulated by itself) with its fitted initial position and velocity,
+/// rad and rad/s or m and m/s.
 struct FittedWindow {
   const SlidingRecord* record;
   const Window* window;
   std::array<double, 2> start;
 };
 
-/// Result of a fit of the sliding law to all windows of records, which must outlive it uncut.
+/// Result of a fit of the sliding law to all windows of some records. The records must outlive it, and must
+/// not be cut into other windows.
 struct SlidingFit {
   SlidingPoint point{SlidingPoint::Zero()};
   FreeParameters free{};
-  std::vector<PositionWave> waves{};  ///< Waves whose amplitudes are fitted.
+  std::vector<PositionWave> waves{};  ///< Position-dependent torques (waves) whose amplitudes are fitted.
   std::vector<FittedWindow> windows;
   std::size_t samples{0};
   double misfit{0.0};  ///< Root mean square of the residuals, in steps of the readings.
-  /// Covariance of the point; zero for parameters that are not free. See fit_sliding().
+  /// Covariance of the fitted parameters; zero for parameters that are not free. See fit_sliding().
   SlidingMatrix covariance{SlidingMatrix::Zero()};
   /// [window] Mean torque against the drive that the model lacks, N m or N.
   std::vector<double> unexplained;
   double unexplained_torque{0.0};  ///< Root mean square of `unexplained`, N m or N.
 };
 
-/// Smallest number of strokes from which the variance between strokes is used. With fewer it is known too
-/// badly.
+/// Smallest number of strokes (motions in one direction) from which the variance between strokes is used.
+/// With fewer it is known too poorly.
 constexpr std::size_t min_independent_strokes = 12;
 
-/// The starting point: least squares of the torque on acceleration, direction, velocity, 1 and a torque that
-/// repeats with the pitch (the inverse dynamics), over all samples of the strokes. Its derivatives are
-/// differences of the readings over a few samples, whose errors bias it; the fit does not use them.
+/// The starting point of the fit: least squares of the torque on acceleration, direction, velocity, 1 and a
+/// torque that repeats with the pitch (the inverse dynamics), over all samples of the strokes. Its
+/// derivatives are differences of the readings over a few samples, whose errors bias it; the fit does not use
+/// them.
 /// @throws Failure (bad_data) if the axis accelerates against the torque.
 SlidingPoint starting_point(std::span<const SlidingRecord> records, bool both_directions);
 
@@ -72,8 +75,8 @@ struct WindowSlopes {
 
 WindowSlopes slopes_of(const FittedWindow& fitted, const SlidingPoint& point);
 
-/// Decrease of the sum of squares by a Stribeck excess with this velocity (rad/s or m/s), from one
-/// Gauss–Newton step after a fit without it.
+/// Decrease of the sum of squares of the residuals when a Stribeck excess with this velocity (rad/s or m/s)
+/// is added, estimated by one Gauss–Newton step from a fit without it.
 double stribeck_gain(const SlidingFit& fit, double velocity);
 
 /// Smallest ratio of the Stribeck excess to its standard error at which the excess is significant.
@@ -84,8 +87,9 @@ constexpr double min_excess_ratio = 3.5;
 /// Intervals end where that range ends.
 std::vector<fit::ParameterEstimate> estimates_of(const SlidingFit& fit, parameters::AxisKind axis);
 
-/// A sentence on a parameter for which no allowed value lies within the errors of the fit; empty if there is
-/// none. Chance causes it in one of 1000 records of an axis at the end of the range.
+/// A sentence on a fitted parameter if no allowed value lies within the errors of the fit; empty if there is
+/// no such parameter. For a true value at the end of the allowed range, chance causes it in one of 1000
+/// records.
 std::string impossible_parameter(const SlidingFit& fit, parameters::AxisKind axis);
 
 }  // namespace zerocount::sliding_identification

@@ -38,8 +38,9 @@ double torque_rms(std::span<const SlidingRecord> records) {
   return std::sqrt(squares / static_cast<double>(samples));
 }
 
-/// The Stribeck velocity that explains most, among 12 velocities in equal ratios between the slowest velocity
-/// and half of the fastest. Nothing if none explains more than independent residuals do by chance.
+/// The Stribeck velocity (rad/s or m/s) that explains most of the residuals, among 12 velocities in equal
+/// ratios between the slowest velocity and half of the fastest. Nothing if none explains more than chance
+/// does with independent residuals.
 std::optional<double> visible_stribeck_velocity(std::span<const SlidingRecord> records,
                                                 const SlidingFit& without) {
   double slowest = records.front().min_velocity;
@@ -74,7 +75,7 @@ FreeParameters parameters_without_stribeck(std::span<const SlidingRecord> record
   return free;
 }
 
-/// The fit, with the Stribeck curve if it is asked for and the records show one.
+/// The fit, with a Stribeck curve if `with_stribeck` is true and the records show one.
 SlidingFit best_fit(std::span<const SlidingRecord> records, const std::vector<PositionWave>& waves,
                     bool with_stribeck) {
   FreeParameters free = parameters_without_stribeck(records, waves);
@@ -99,7 +100,8 @@ SlidingFit best_fit(std::span<const SlidingRecord> records, const std::vector<Po
   }
 }
 
-/// The fit in the longest windows in which the law explains the motion to a step of the readings.
+/// The fit with the longest windows (simulated pieces of the records) in which the law explains the motion to
+/// within a step of the readings.
 SlidingFit fit_in_windows(std::vector<SlidingRecord>& records, const std::vector<PositionWave>& waves,
                           bool with_stribeck) {
   set_position_waves(records, waves);
@@ -113,7 +115,8 @@ SlidingFit fit_in_windows(std::vector<SlidingRecord>& records, const std::vector
   return fit;
 }
 
-/// The fit with only the waves that are significant. The others are removed, the least visible one first.
+/// The fit with only those position-dependent torques (waves) that are significant. The others are removed
+/// one by one, the least visible first.
 SlidingFit fit_of_shown(std::vector<SlidingRecord>& records, std::vector<PositionWave> waves,
                         bool with_stribeck) {
   for (;;) {
@@ -126,8 +129,8 @@ SlidingFit fit_of_shown(std::vector<SlidingRecord>& records, std::vector<Positio
   }
 }
 
-/// The fit with one more wave if the records show one: the wave that the residuals show best, or else the
-/// usual wave, which another may have hidden.
+/// The fit with one more position-dependent torque (wave), if the records show one: the wave that the
+/// residuals show best, or else the usual wave, which another may have hidden.
 std::optional<SlidingFit> with_another_wave(std::vector<SlidingRecord>& records, const SlidingFit& fit,
                                             bool with_stribeck) {
   if (fit.waves.size() == max_position_waves) return std::nullopt;
@@ -153,10 +156,10 @@ std::optional<SlidingFit> with_another_wave(std::vector<SlidingRecord>& records,
   return std::nullopt;
 }
 
-/// The fit with the torques of the position that the records show: the usual one from the start, since
-/// nothing else fits where it is missing, then others one after the other. A Stribeck curve comes last,
-/// because it would follow what is missing. A wave that stood for another, or for the curve, goes when that
-/// is found.
+/// The fit with the position-dependent torques that the records show. The usual one (gravity or slope) is in
+/// from the start, since nothing else fits where it is missing, then others one after the other. A Stribeck
+/// curve comes last, because it would follow what is missing. A wave that stood for another, or for the
+/// curve, goes when that is found.
 SlidingFit fit_with_position(std::vector<SlidingRecord>& records) {
   SlidingFit fit = fit_of_shown(records, usual_waves(records.front()), false);
   constexpr int rounds = 2 * max_position_waves;
@@ -174,7 +177,8 @@ SlidingFit fit_with_position(std::vector<SlidingRecord>& records) {
   return fit;
 }
 
-/// Whether a torque of two periods in place of gravity explains the records as well.
+/// Whether a torque with two periods per revolution, in place of gravity with one, explains the records as
+/// well.
 bool looks_like_two_periods(std::vector<SlidingRecord>& records, const SlidingFit& fit) {
   std::vector<PositionWave> waves = fit.waves;
   const auto gravity = std::ranges::find(waves, 1.0, &PositionWave::periods);
@@ -209,15 +213,16 @@ void set_correlation(const SlidingFit& fit, SlidingIdentification& result) {
   }
 }
 
-/// Whether windows of the usual length show forces that the law lacks.
+/// Whether the windows had to be shortened below the usual length, because forces that the law lacks add up
+/// in them.
 bool is_cut(const SlidingIdentification& identification) {
   return std::ranges::any_of(identification.records, [](const SlidingRecord& record) {
     return record.window_samples < max_window_samples;
   });
 }
 
-/// Proportion of the variance of the unexplained torque that ten classes of so many windows predict by
-/// chance: three standard deviations.
+/// Proportion of the variance of the unexplained torque that a division of the windows into ten classes
+/// predicts by chance alone: three standard deviations above 0.
 double predicted_by_chance(const SlidingIdentification& identification) {
   double windows = 0.0;
   for (const SlidingRecord& record : identification.records)
@@ -234,8 +239,8 @@ double least_explained(const SlidingIdentification& identification) {
   return std::max(tolerated, predicted_by_chance(identification));
 }
 
-/// The quantity that predicts most of the unexplained torque. Null unless it predicts at least half of its
-/// variance and more than chance does.
+/// The quantity (position, speed, …) that predicts most of the unexplained torque. Null unless it predicts at
+/// least half of its variance and more than chance does.
 const RepeatingForce* main_part(const SlidingIdentification& identification) {
   constexpr double most_of_it = 0.5;
   const auto most = std::ranges::max_element(identification.forces, {}, &RepeatingForce::predicted);
@@ -245,7 +250,7 @@ const RepeatingForce* main_part(const SlidingIdentification& identification) {
              : nullptr;
 }
 
-/// The torques of the position that the fit has tried.
+/// Names of the position-dependent torques that the fit has tried, as text.
 std::string tried_text(const SlidingIdentification& identification) {
   if (identification.waves.size() == max_position_waves)
     return fmt::format("{} torques that depend on it are found, and more is not tried", max_position_waves);
@@ -262,7 +267,8 @@ std::string advice_on_lag(double lag, double delay) {
   return fmt::format("--delay {:.0f} says so, or record torque and position of the same instant", better);
 }
 
-/// Advice against a torque that varies with the cause of `torque`.
+/// Advice for the user on how to avoid the missing torque, depending on its cause. @param delay delay of the
+/// torque assumed so far, samples
 std::string advice_on(const MissingTorque& torque, double delay) {
   switch (torque.cause) {
     case TorqueCause::lag:
@@ -281,7 +287,8 @@ std::string advice_on(const MissingTorque& torque, double delay) {
   return "";
 }
 
-/// The torque that the residuals show best, and others of another cause that explain nearly as much.
+/// Text on the torque beyond the law that the residuals show best, and on others of another cause that
+/// explain nearly as much.
 std::string missing_text(const SlidingIdentification& identification) {
   const MissingTorque& best = identification.missing.front();
   std::string others;
@@ -316,8 +323,8 @@ std::string second_mass_text(const SecondMass& mass) {
       percent, advice);
 }
 
-/// Whether a second mass is searched for. Other forces that the law lacks would look like a second mass, and
-/// a second mass looks like a lag.
+/// Whether the fit is clean enough to search for a second mass: other forces that the law lacks would look
+/// like one, and a second mass looks like a lag of the torque.
 bool may_have_second_mass(const SlidingIdentification& identification) {
   return identification.missing.empty()
              ? reason_of_distrust(identification).empty() || identification.one_direction ||
@@ -325,8 +332,8 @@ bool may_have_second_mass(const SlidingIdentification& identification) {
              : identification.missing.front().cause == TorqueCause::lag;
 }
 
-/// Whether the second mass is reported rather than a lag: a window of the usual length contains a period of
-/// its resonance.
+/// Whether the second mass is reported, rather than a lag of the torque that would explain the same
+/// residuals: a window of the usual length contains a period of its resonance.
 bool is_better(const SecondMass& mass, const SlidingIdentification& identification) {
   const std::vector<double>& time = identification.records.front().time;
   const double rate = static_cast<double>(time.size() - 1) / time.back();

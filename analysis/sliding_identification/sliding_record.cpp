@@ -26,7 +26,8 @@ constexpr double min_steps_per_span = 3.0;
 constexpr double min_window_steps = 50.0;
 constexpr std::size_t min_stroke_samples = 20;
 
-/// Smallest difference of the readings that is not 0: the step of an encoder.
+/// Smallest difference of two readings that is not 0: the step of the encoder, rad or m.
+/// @param position [sample] readings
 double min_step(const std::vector<double>& position) {
   double least = 0.0;
   double largest = 0.0;
@@ -39,8 +40,9 @@ double min_step(const std::vector<double>& position) {
   return least > rounding * largest ? least : 0.0;
 }
 
-/// Standard deviation of readings with independent errors, from third differences, which smooth motion hardly
-/// contributes to (the sum of their squared weights is 20); by the median, which single jerks do not move.
+/// Standard deviation of the errors of the readings, if these are independent, rad or m. It comes from third
+/// differences, which smooth motion hardly contributes to (the sum of their squared weights is 20); by the
+/// median, which single jerks do not move.
 double noise_of(const std::vector<double>& position) {
   std::vector<double> differences;
   for (std::size_t k = 3; k < position.size(); ++k) {
@@ -51,8 +53,8 @@ double noise_of(const std::vector<double>& position) {
   return statistics::upper_median(std::move(differences)) / (median_of_normal * std::sqrt(20.0));
 }
 
-/// True if the axis stops within the samples about `k`, in which it moves by `moved`: between its neighbours
-/// it moves by less than half of the mean velocity.
+/// True if the axis stops within the samples around `k`, in which it moves by `moved` (rad or m): between
+/// neighbours it moves by less than half of the mean velocity.
 bool stops_at(const SlidingRecord& record, std::size_t k, double moved) {
   constexpr double visible = 10.0;  // steps: where there are fewer, readings that stay are none of a stop
   constexpr double slow = 0.1;      // of what it moves over ten samples, in two
@@ -64,8 +66,8 @@ double travel_of(const SlidingRecord& record, const Window& part) {
   return std::abs(record.position[part.last] - record.position[part.first]);
 }
 
-/// Direction of the motion at each sample: −1, 1, or 0 where it rests, is too slow to tell, sticks or is
-/// masked.
+/// [sample] Direction of the motion: −1 or 1; 0 where the axis rests, is too slow to tell, sticks, or the
+/// reading is masked.
 std::vector<int> directions_of(const SlidingRecord& record, const records::RawSeries& series) {
   std::vector<int> direction(record.position.size(), 0);
   const std::size_t h = record.smoothing;
@@ -80,7 +82,7 @@ std::vector<int> directions_of(const SlidingRecord& record, const records::RawSe
   return direction;
 }
 
-/// The motions in one direction, from a standstill or a reversal to the next.
+/// The motions in one direction (runs of samples), each from a standstill or a reversal to the next.
 std::vector<Window> runs_of(const std::vector<int>& direction) {
   std::vector<Window> runs;
   for (std::size_t from = 0, end = 0; from < direction.size(); from = end) {
@@ -204,7 +206,8 @@ double value_of(const ceres::Jet<double, N>& number) {
   return number.a;
 }
 
-/// A sliding axis. Number is double, or ceres::Jet to carry derivatives.
+/// Simulates a sliding axis (inertia, damping, Coulomb and Stribeck friction). Number is double, or
+/// ceres::Jet to carry derivatives.
 template <class Number>
 class SlidingAxis {
  public:
@@ -222,9 +225,10 @@ class SlidingAxis {
 
   const Number& position() const { return position_; }
 
-  /// @param of_position torques against the drive that depend on the position, at the begin, in the middle
-  /// and at the end: a parabola, because a straight line leaves a force that follows the torque as a second
-  /// mass does where cogging is passed in a few samples.
+  /// Advances the motion by `duration`, s. @param course drive torque during this time @param of_position
+  /// position-dependent torques against the drive, at the beginning, in the middle and at the end. They are
+  /// interpolated by a parabola, because a straight line would leave an error that looks like a second mass
+  /// where cogging passes within a few samples.
   void advance(const motion::TorqueCourse& course, double duration,
                const std::array<Number, 3>& of_position) {
     const double rate = std::max(friction_rate_, motion::is_constant(course) ? 0.0 : course.rate);
@@ -258,9 +262,9 @@ class SlidingAxis {
   Number position_;
   Number velocity_;
   friction::StribeckCurveOf<Number> curve_;
-  Number damping_;      ///< Damping cs.
-  Number offset_;       ///< Offset u0.
-  Number per_inertia_;  ///< Reciprocal inertia 1/J.
+  Number damping_;      ///< Viscous damping cs, N m s/rad or N s/m.
+  Number offset_;       ///< Constant offset torque u0, N m or N.
+  Number per_inertia_;  ///< Reciprocal inertia 1/J, 1/(kg m²), or reciprocal mass, 1/kg.
   double direction_;
   double friction_rate_;  ///< Largest rate at which the friction can change the velocity, 1/s.
 };
@@ -321,7 +325,8 @@ constexpr double visible_deficit = 0.05;  // of the sliding level
 constexpr double standard_errors = 3.0;
 constexpr double margin = 4.0;
 
-/// Normal equations of the torque balance with a level of friction of its own in each band.
+/// Least-squares equations of the torque balance in which each band of the travel since standstill or
+/// reversal has its own friction level.
 class LevelsByTravel {
  public:
   LevelsByTravel(double longest, double shortest, std::size_t correlated)
@@ -350,8 +355,8 @@ class LevelsByTravel {
     samples_[static_cast<std::size_t>(band)] += 1.0;
   }
 
-  /// Whether the friction in `band` is lower than the common level of the bands above it, and on average as
-  /// low or lower in the bands below it.
+  /// Whether the friction in `band` is significantly below the common level of the bands with longer travel,
+  /// and the bands with shorter travel are on average as low or lower.
   bool is_lower(int band) const {
     std::vector<Eigen::Index> used;
     for (Eigen::Index i = 0; i < balance_terms; ++i) used.push_back(i);
@@ -387,7 +392,7 @@ class LevelsByTravel {
   }
 
   double longest_;
-  double correlated_;  ///< Number of successive samples whose errors depend on each other.
+  double correlated_;  ///< Number of successive samples whose errors are correlated because of smoothing.
   int bands_;
   Eigen::MatrixXd normal_;
   Eigen::VectorXd right_;

@@ -8,7 +8,7 @@
 namespace zerocount::sliding_identification {
 namespace {
 
-/// Approximate mean torque over the interval from sample k to the next.
+/// Approximate mean drive torque over the interval from sample k to the next, N m or N.
 double torque_after(const SlidingRecord& record, std::size_t k) {
   return motion::course_after(record.torque[k], 0.5 * (record.time[k + 1] - record.time[k])).now;
 }

@@ -29,7 +29,8 @@ plant::Plant axis_of(const SlidingPoint& point, double velocity, double resoluti
   return {axis, friction, {.velocity = velocity}, {part_of_a_step * resolution}};
 }
 
-/// The torques of the waves as a disturbance; x is the position at θ = 0.
+/// The fitted position-dependent torques as a disturbance of the simulation. @param x record's position at
+/// the simulation's θ = 0, rad or m
 motion::Disturbance position_torque(const SlidingFit& fit, double x, double travel) {
   motion::Disturbance disturbance;
   for (std::size_t i = 0; i < fit.waves.size(); ++i) {
@@ -95,7 +96,8 @@ struct Sum {
   double windows{0.0};
 };
 
-/// The unexplained torque of a window, its stroke, and the quantities that the torque may depend on.
+/// The torque of a window that the law leaves unexplained, its stroke (motion in one direction), and the
+/// quantities on which the torque may depend.
 struct Residual {
   double torque;
   std::pair<const SlidingRecord*, std::size_t> stroke;
@@ -123,8 +125,8 @@ std::vector<Residual> residuals_of(const SlidingFit& fit) {
 
 using WindowQuantity = std::function<double(const Residual&)>;
 
-/// [residual] Class of the residual: a tenth of the range of the quantity, for each direction separately or
-/// not.
+/// [residual] Index of the class: one of ten equal parts of the quantity's range. If `by_direction` is true,
+/// the two directions of motion have separate classes.
 std::vector<int> classes_of(const std::vector<Residual>& residuals, const WindowQuantity& quantity,
                             bool by_direction) {
   double low = std::numeric_limits<double>::infinity();

@@ -15,7 +15,8 @@ namespace zerocount::statistics {
 
 namespace {
 
-/// Counts of values by rank; the number below a rank takes O(log n) (binary indexed tree, Fenwick 1994).
+/// Counts values by rank, so that the number of counted values below a rank takes O(log n) (binary indexed
+/// tree, Fenwick 1994).
 class RankCounter {
  public:
   explicit RankCounter(std::size_t ranks) : sums_(ranks + 1, 0) {}
@@ -73,7 +74,7 @@ double kendall_tau(const RankTrend& trend) {
 
 namespace {
 
-/// Siegmund's correction for the excess of a random walk over a boundary.
+/// Siegmund's factor ν(x), which corrects for the overshoot of a random walk over a boundary.
 double overshoot_factor(double x) {
   if (x < 1.0e-6) return 1.0;
   const double half = 0.5 * x;
@@ -93,7 +94,8 @@ double false_alarm_probability(double threshold) {
   return threshold * std::exp(-0.5 * threshold * threshold) / std::sqrt(2.0 * std::numbers::pi) * integral;
 }
 
-/// The measurements on one side of a division, by the random numbers that they were made with.
+/// The measurements before or after an assumed change, grouped by the random numbers that they were made
+/// with. A group counts as one measurement, their average.
 class Side {
  public:
   explicit Side(std::size_t draws) : groups_(draws) {}
@@ -102,14 +104,14 @@ class Side {
   void remove(const Measurement& one) { change(one, -1.0); }
 
   double size() const { return size_; }
-  double sum() const { return sum_; }  ///< size times mean
+  double sum() const { return sum_; }  ///< Sum of size times mean over the groups.
   double mean() const { return sum_ / size_; }
 
  private:
   struct Group {
     double count{0.0};
-    double sizes{0.0};  ///< sum
-    double sums{0.0};   ///< sum of sizes times values
+    double sizes{0.0};  ///< Sum of the measurements' sizes.
+    double sums{0.0};   ///< Sum of size times value over the measurements.
 
     double size() const { return count > 0.0 ? sizes / count : 0.0; }
     double sum() const { return count > 0.0 ? sums / count : 0.0; }
@@ -131,13 +133,14 @@ class Side {
   double sum_{0.0};
 };
 
-/// n·(m·ln(m/p) + (1 − m)·ln((1 − m)/(1 − p)))
+/// Divergence of a binomial proportion m of n trials from p: n·(m·ln(m/p) + (1 − m)·ln((1 − m)/(1 − p))).
 double binomial_divergence(double n, double m, double p) {
   const auto term = [](double x, double y) { return x > 0.0 ? x * std::log(x / y) : 0.0; };
   return n * (term(m, p) + term(1.0 - m, 1.0 - p));
 }
 
-/// The likelihood ratio statistic of two levels against one, for a dispersion of 1.
+/// Likelihood ratio statistic Z² of two different levels, before and after a change, against one common
+/// level, for a dispersion of 1.
 double likelihood_ratio(MeasurementKind kind, const Side& before, const Side& after) {
   if (kind == MeasurementKind::mean)
     return std::pow(after.mean() - before.mean(), 2) / (1.0 / before.size() + 1.0 / after.size());
@@ -148,7 +151,9 @@ double likelihood_ratio(MeasurementKind kind, const Side& before, const Side& af
                 binomial_divergence(after.size(), proportion(after.mean()), common));
 }
 
-/// The division of the measurements `start` … `last` with the largest |Z|.
+/// The change that is most significant, with the largest |Z|, among all divisions of the measurements `start`
+/// … `last` into earlier and later ones.
+/// @param draws number of different Measurement::draws
 LevelChange strongest_division(MeasurementKind kind, std::span<const Measurement> all, std::size_t draws,
                                std::size_t start, std::size_t last) {
   Side before(draws);

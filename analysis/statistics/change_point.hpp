@@ -12,11 +12,11 @@
 /// Changes of the level of a sequence of measurements that comes one by one.
 namespace zerocount::statistics {
 
-/// Numbers of rising, falling and equal pairs of a series.
+/// Numbers of pairs of a series whose later value is larger, smaller or equal.
 struct RankTrend {
-  std::int64_t rising{0};   ///< pairs whose later value is the larger
-  std::int64_t falling{0};  ///< pairs whose later value is the smaller
-  std::int64_t equal{0};    ///< pairs of equal values
+  std::int64_t rising{0};   ///< Number of pairs whose later value is larger.
+  std::int64_t falling{0};  ///< Number of pairs whose later value is smaller.
+  std::int64_t equal{0};    ///< Number of pairs of equal values.
 
   RankTrend& operator+=(const RankTrend& other);
 
@@ -45,19 +45,21 @@ enum class MeasurementKind {
 /// One measurement of a sequence, in the order of time.
 struct Measurement {
   double value{0.0};
-  double size{1.0};        ///< Number n > 0 of values or trials.
+  /// Number n > 0 of values (of a mean) or trials (of a proportion) behind the measurement.
+  double size{1.0};
   double dispersion{1.0};  ///< For a mean: variance of one value. For a proportion: design effect, ≥ 1.
-  /// Identifies the random numbers: measurements with the same value were made with the same random numbers.
+  /// Index of the set of random numbers with which the measurement was made. Measurements with the same index
+  /// used the same numbers, so their errors are correlated.
   std::size_t draws{0};
 };
 
-/// A change that became significant.
+/// A change of the level of a sequence of measurements that became significant.
 struct LevelChange {
-  std::size_t first{0};     ///< first measurement after the change, as estimated
-  std::size_t detected{0};  ///< measurement at which the change became significant
-  double before{unknown};   ///< Mean of the measurements before `first`.
+  std::size_t first{0};     ///< Index of the first measurement after the change, as estimated.
+  std::size_t detected{0};  ///< Index of the measurement at which the change became significant.
+  double before{unknown};   ///< Mean of the measurements before `first`, since the preceding change.
   double after{unknown};    ///< Mean of the measurements from `first` up to `detected`.
-  double z{0.0};            ///< signed root of the likelihood ratio statistic
+  double z{0.0};            ///< Signed root of the likelihood ratio statistic: positive if the level rose.
 };
 
 /// Converts a mean of n values with confidence bounds to a measurement. The bounds are taken as those of a
@@ -72,7 +74,7 @@ std::optional<Measurement> measured_mean(double value, double n, const Confidenc
 std::optional<Measurement> measured_proportion(double value, double n, const ConfidenceInterval& bounds,
                                                double confidence);
 
-/// The threshold h of level_changes() at which a sequence without a change gives a false alarm with this
+/// The threshold h of level_changes() with which a sequence without a change gives a false alarm with this
 /// probability at each further measurement:
 ///
 ///   p = h·e^(−h²/2)/√(2π)·∫₀ʰ x·ν(x)² dx,  ν(x) = (2/x)·(Φ(x/2) − ½)/((x/2)·Φ(x/2) + φ(x/2)).
@@ -82,7 +84,7 @@ std::optional<Measurement> measured_proportion(double value, double n, const Con
 /// @param probability in (0, 0.05].
 double change_threshold(double probability);
 
-/// The changes of a sequence, each found at the first measurement that shows it.
+/// The changes of the level of a sequence of measurements, each found at the first measurement that shows it.
 ///
 /// After each measurement, every division of all of them into n₀ values before and n₁ values from the k-th
 /// on, with means m₀, m₁ and m together and the average dispersion φ, gives the likelihood ratio statistic of
@@ -98,7 +100,7 @@ double change_threshold(double probability);
 /// favour the values on one side. Measurements on one side that were made with the same random numbers count
 /// as a single one, their average: what the errors of such measurements have in common is not evidence. As
 /// they are not correlated negatively, the variance of Z_k is then at most about 1.
-/// @param threshold h
+/// @param threshold h, see change_threshold()
 std::vector<LevelChange> level_changes(MeasurementKind kind, std::span<const Measurement> measurements,
                                        double threshold);
 

@@ -24,7 +24,7 @@ constexpr std::array<double, 12> lower_bets{0.001, 0.002, 0.004, 0.008, 0.016, 0
                                             0.06,  0.12,  0.23,  0.4,   0.65,  0.9};
 constexpr std::array<double, 8> upper_bets{0.03, 0.06, 0.12, 0.22, 0.36, 0.54, 0.75, 0.95};
 
-/// Logarithm of the mean of the capitals with these logarithms.
+/// Logarithm of the mean of several capitals, given their natural logarithms.
 double mean_capital(std::span<const double> logarithms) {
   const double largest = std::ranges::max(logarithms);
   double sum = 0.0;
@@ -32,7 +32,8 @@ double mean_capital(std::span<const double> logarithms) {
   return largest + numerics::log(sum / static_cast<double>(logarithms.size()));
 }
 
-/// Σ ln(1 + factor(x)), by the logarithms of products of a few factors. @param factor between −1 and 1e30
+/// Sum of ln(1 + factor(x)) over the values, computed from products of a few factors to save logarithms.
+/// @param factor function with values between −1 and 1e30
 template <class Factor>
 double sum_of_logarithms(std::span<const double> values, const Factor& factor) {
   constexpr std::size_t at_once = 8;
@@ -73,7 +74,8 @@ double capital_below(const Sample& sample, double mean) {
   return mean_capital(logarithms);
 }
 
-/// The place between `rejected` and `kept` where `is_rejected` changes, to 1e-6 of it. Both are positive.
+/// The number between `rejected` and `kept` at which `is_rejected` changes from true to false, to a relative
+/// precision of 1e-6. Both ends are positive.
 double boundary(double rejected, double kept, const std::function<bool(double)>& is_rejected) {
   const auto narrow = [](const numerics::Bracket& bracket) {
     return !(std::abs(bracket.fails - bracket.holds) > 1e-6 * bracket.fails);
@@ -114,12 +116,13 @@ double log_beta(double a, double b) {
   return lgamma(a) + lgamma(b) - lgamma(a + b);
 }
 
-/// k·log(p), and 0 for k = 0.
+/// The product k·ln(p), taken as 0 for k = 0 (also if p is 0).
 double times_log(double k, double p) {
   return k > 0.0 ? k * std::log(p) : 0.0;
 }
 
-/// Root of `excess` between `inside` and `outside`; returns the end of the final bracket nearer to `outside`.
+/// Root of the function `excess` between `inside` and `outside`; returns the end of the final bracket nearer
+/// to `outside`.
 template <class Excess>
 double crossing(Excess excess, double inside, double outside) {
   const double low = std::min(inside, outside);

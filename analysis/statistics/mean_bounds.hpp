@@ -21,8 +21,9 @@ namespace zerocount::statistics {
 ///
 /// `low` holds whatever the distribution. `high` is a bound of the mean of min(X, cap), and of μ where no X
 /// exceeds `cap`.
-/// @param positive the values above 0 @param n of all values, n ≥ positive.size()
-/// @param cap above 0 @param confidence of both bounds together
+/// @param positive the values above 0 @param n number of all values, including zeros, n ≥ positive.size()
+/// @param cap upper limit of the values for `high`, above 0 @param confidence confidence of both bounds
+/// together
 ConfidenceInterval betting_bounds(std::span<const double> positive, std::int64_t n, double cap,
                                   double confidence);
 

@@ -25,8 +25,8 @@ void require_proportion(std::int64_t successes, std::int64_t trials, double conf
   require_confidence(confidence);
 }
 
-/// The root of the rising function `excess` of the quantile p of Beta(a, b), where `inverse`, which Boost
-/// computes faster, does not end (from some 10¹¹ trials on).
+/// Quantile p of the distribution Beta(a, b). `inverse` computes it by Boost; if Boost's iteration does not
+/// end (from some 10¹¹ trials on), the root of the rising function `excess` is used.
 template <class Inverse, class Excess>
 double inverse_of_beta(const Inverse& inverse, double a, double b, const Excess& excess) {
   try {

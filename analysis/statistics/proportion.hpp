@@ -5,7 +5,7 @@
 
 namespace zerocount::statistics {
 
-/// A closed interval.
+/// A closed confidence interval [low, high].
 struct ConfidenceInterval {
   double low{0.0};
   double high{0.0};
@@ -13,29 +13,31 @@ struct ConfidenceInterval {
   double half_width() const { return 0.5 * (high - low); }
 };
 
-/// Confidence of the bounds of every answer that is not asked for another, and of all bounds in a results
-/// file.
+/// Default confidence level of bounds, used for every answer that is not asked for another, and for all
+/// bounds in a results file.
 inline constexpr double summary_confidence = 0.95;
 
-/// @throws Failure (bad_input) unless 0 < value < 1; `what` names it in the message.
+/// Checks that a probability lies between 0 and 1. @throws Failure (bad_input) unless 0 < value < 1; `what`
+/// names it in the message.
 void require_open_unit(const char* what, double value);
 inline void require_confidence(double confidence) {
   require_open_unit("confidence", confidence);
 }
 
-/// 1 − (1 − γ)/m: with this confidence of each of m statements, all of them hold with the confidence γ
-/// (Bonferroni).
+/// Confidence that each of m statements needs so that all of them hold together with the confidence γ: 1 − (1
+/// − γ)/m (Bonferroni).
 double confidence_of_each(double confidence, std::size_t statements);
 
-/// y·ln(y/q) + (1 − y)·ln((1 − y)/(1 − q)), the divergence KL(y‖q) of Bernoulli distributions.
+/// Divergence KL(y‖q) = y·ln(y/q) + (1 − y)·ln((1 − y)/(1 − q)) of two Bernoulli distributions.
 double bernoulli_divergence(double y, double q);
 
-/// successes/trials; NaN if trials is 0.
+/// Observed proportion successes/trials; NaN if trials is 0.
 double rate(std::int64_t successes, std::int64_t trials);
 
-/// The p for which `successes` or more of `trials` have the probability `tail`, and that for which they or
-/// fewer have it. Neither need be whole; 0 < successes for the lower bound, successes < trials for the upper.
-/// Up to 10¹³ trials accurate to a thousandth of the standard error.
+/// One-sided Clopper–Pearson bounds of a proportion. Lower: the p for which `successes` or more of `trials`
+/// have the probability `tail`. Upper (next function): the p for which `successes` or fewer have it. The
+/// numbers need not be whole; 0 < successes for the lower bound, successes < trials for the upper. Up to 10¹³
+/// trials accurate to a thousandth of the standard error.
 double lower_bound_on_p(double successes, double trials, double tail);
 double upper_bound_on_p(double successes, double trials, double tail);
 
@@ -68,8 +70,9 @@ double proportion_at_most(std::int64_t successes, std::int64_t trials, double co
 ConfidenceInterval wilson(std::int64_t successes, std::int64_t trials,
                           double confidence = summary_confidence);
 
-/// The Wilson score interval (see wilson()) for a proportion p of n independent events. n > 0 need not be
-/// whole.
+/// The Wilson score interval (see wilson()) for an observed proportion p of n independent events. n > 0 need
+/// not be whole.
+/// @param z normal quantile of (1 + confidence)/2
 ConfidenceInterval wilson_interval(double p, double n, double z);
 
 }  // namespace zerocount::statistics

@@ -26,8 +26,9 @@ void require_halfwidth(double halfwidth) {
                 fmt::format("a half-width of {}; expected a number between 0 and 0.5", halfwidth));
 }
 
-/// The smallest number from `low` on, up to `limit`, for which `holds`: false, then true.
-/// @throws Failure (bad_input) if there is none
+/// The smallest number from `low` up to `limit` for which `holds` is true; `holds` must change only once,
+/// from false to true.
+/// @throws Failure (bad_input) with the text `refusal` if there is none
 template <typename Predicate>
 std::int64_t least(std::int64_t low, std::int64_t limit, const std::string& refusal, const Predicate& holds) {
   const std::int64_t found = numerics::first_where_by_doubling(low, limit + 1, holds);
@@ -39,14 +40,17 @@ std::string too_many_trials(const char* what) {
   return fmt::format("{} would need more than {} trials", what, max_planned_trials);
 }
 
-/// Half the length of the Clopper–Pearson interval of n·rate successes of n, as a continuous function of n.
+/// Half the length of the Clopper–Pearson interval if n·rate of n trials succeed, as a continuous function of
+/// n.
 double halfwidth_of(double n, double rate, double confidence) {
   const double tail = 0.5 * (1.0 - confidence);
   const double successes = n * rate;
   return 0.5 * (upper_bound_on_p(successes, n, tail) - lower_bound_on_p(successes, n, tail));
 }
 
-/// Expected sums over machines whose success probabilities have the standard deviation `machine_sd`.
+/// Expected sums over machines as clusters, if the machines' success probabilities have the mean `rate` and
+/// the standard deviation `machine_sd`.
+/// @param trials number of trials of each machine
 ClusterSums expected_sums(double rate, double machine_sd, double machines, double trials) {
   const double of_trials = rate * (1.0 - rate) - machine_sd * machine_sd;
   const double variance =

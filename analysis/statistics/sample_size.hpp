@@ -32,17 +32,20 @@ ClaimPlan plan_with_power(double success, double confidence, double true_success
 /// @throws Failure (bad_input) for a half-width outside (0, ½), or a rate or confidence outside (0, 1).
 std::int64_t trials_for_halfwidth(double halfwidth, double confidence, double rate);
 
-/// Numbers of trials that give a success rate bounds of the same half-width and confidence: decided
-/// beforehand, and decided by the outcomes.
+/// Numbers of trials that give bounds of a success rate the same half-width and confidence, for two ways to
+/// fix the number: beforehand, or by looking at the outcomes.
 struct SequentialCost {
-  double rate{0.0};            ///< proportion of trials that succeed
-  std::int64_t fixed{0};       ///< decided beforehand: trials_for_halfwidth
-  std::int64_t sequential{0};  ///< decided by the outcomes: projected_trials of a confidence sequence
+  double rate{0.0};       ///< Assumed proportion of trials that succeed.
+  std::int64_t fixed{0};  ///< Number of trials if it is decided beforehand, see trials_for_halfwidth().
+  /// Expected number of trials if sampling stops by the outcomes (confidence sequence), see
+  /// projected_trials().
+  std::int64_t sequential{0};
 
   double ratio() const { return static_cast<double>(sequential) / static_cast<double>(fixed); }
 };
 
-/// @param block trials between two looks at the outcomes.
+/// Computes the numbers of trials for both ways to fix them. @param block number of trials between two looks
+/// at the outcomes
 /// @throws Failure as trials_for_halfwidth.
 SequentialCost sequential_cost(double halfwidth, double confidence, double rate, std::int64_t block = 1);
 

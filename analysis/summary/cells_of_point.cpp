@@ -19,7 +19,7 @@
 namespace zerocount::summary {
 namespace {
 
-/// A design point with its verdict and settling times, if the study has a goal.
+/// A design point with its statistics and, if the study has a goal, the verdict and the settling times.
 struct Point {
   const StudySummary& summary;
   const measures::PointSummary& statistics;
@@ -34,7 +34,8 @@ struct Point {
   }
 };
 
-/// The proportion of trials that succeed; with worlds, the lowest value and bounds over the worlds.
+/// The proportion of trials that succeed. If the study has worlds (draws of what all machines share), the
+/// lowest value and the lowest bounds over the worlds.
 goal::BoundedProportion success_of(const std::vector<measures::MoveCounts>& worlds, double confidence) {
   const double each = statistics::confidence_of_each(confidence, worlds.size());
   goal::BoundedProportion lowest;
@@ -48,8 +49,8 @@ goal::BoundedProportion success_of(const std::vector<measures::MoveCounts>& worl
   return lowest;
 }
 
-/// Whether one proportion of successful trials ranks below another. A proportion without trials is never the
-/// worse one.
+/// Whether one proportion of successful trials is worse than another. A proportion without trials is never
+/// the worse one.
 bool is_worse(const goal::BoundedProportion& one, const goal::BoundedProportion& other) {
   if (std::isnan(one.value) || std::isnan(other.value))
     return std::isnan(other.value) > std::isnan(one.value);
@@ -60,7 +61,7 @@ std::optional<double> known(double value) {
   return std::isnan(value) ? std::nullopt : std::optional(value);
 }
 
-/// Copies goal, proportions and status of a verdict into the cell.
+/// Copies the name of the goal, the proportions and the status of a verdict into the cell.
 void judge(CellOfPoint& cell, const goal::Question& question, const goal::ClaimVerdict& verdict) {
   const study::Goal& goal = *question.parts[verdict.goal].claim;
   if (!goal.name.empty()) cell.goal = goal.name;
@@ -70,8 +71,8 @@ void judge(CellOfPoint& cell, const goal::Question& question, const goal::ClaimV
   cell.status = verdict.status;
 }
 
-/// The cell of all trials in these settings. Proportions, verdict and settling time are those of the worst
-/// claim.
+/// The cell (table entry) of all trials in these settings (conditions at ages). Proportions, verdict and
+/// settling time are those of the worst claim: the goal and setting with the worst verdict.
 CellOfPoint cell_in(const Point& point, const std::vector<std::int64_t>& settings) {
   CellOfPoint cell;
   std::int64_t worst_setting = settings.front();
@@ -381,7 +382,8 @@ std::vector<double> rates_of(const worlds::PointWorlds& point) {
   return rates;
 }
 
-/// [world] the results of `value` for the verdicts on the worlds; empty without a goal.
+/// [world] The result of the function `value` for the verdict on each world (a draw of what all machines
+/// share); nothing without a goal.
 template <class Value>
 auto of_verdicts(const worlds::PointWorlds& point, Value value) {
   using Values = std::vector<std::invoke_result_t<Value, const goal::WorldVerdict&>>;
@@ -399,7 +401,8 @@ std::vector<std::size_t> bad_worlds_of(const worlds::PointWorlds& point) {
   return bad;
 }
 
-/// Adds, for people, the worst, the median and the best world by the rate that the study is judged by.
+/// Adds table columns for people: the rate by which the study is judged in the worst, the median and the best
+/// world (draw of what all machines share).
 void add_judged_rates(Description<WorldsAtPoint>& description, const goal::Question& question) {
   const auto column = [](std::string heading) {
     return document::Item{.heading = std::move(heading), .unit = "1", .notation = Notation::percent};
@@ -412,7 +415,8 @@ void add_judged_rates(Description<WorldsAtPoint>& description, const goal::Quest
              [](const WorldsAtPoint& r) { return r.point.asked.worlds[r.point.asked.best].value; });
 }
 
-/// Adds the number of worlds with this status. @param in_csv whether the CSV has a column for the number
+/// Adds an item with the number of worlds (draws of what all machines share) in which the goal has this
+/// status. @param in_csv whether the CSV has a column for the number
 void add_number_of_worlds(Description<WorldsAtPoint>& description, goal::Status status, bool in_csv) {
   const std::string word(goal::text_of(status));
   description.value({.key = word,
@@ -427,7 +431,8 @@ void add_number_of_worlds(Description<WorldsAtPoint>& description, goal::Status 
                     });
 }
 
-/// ", or where creep_rate > 2e-05 rad/s, which are the same worlds".
+/// Text on other conditions that separate the same worlds as the rule: ", or where creep_rate > 2e-05 rad/s,
+/// which are the same worlds". Empty if there are none.
 std::string same_text(const worlds::WorldRule& rule, const std::vector<worlds::WorldInput>& inputs) {
   std::vector<std::string> conditions;
   for (const worlds::Condition& one : rule.same) conditions.push_back(worlds::text_of(one, inputs));
@@ -435,7 +440,8 @@ std::string same_text(const worlds::WorldRule& rule, const std::vector<worlds::W
   return fmt::format(", or where {}, which are the same worlds", fmt::join(conditions, ", or "));
 }
 
-/// "; creep_rate: speed at which …" for each derived quantity in the rule.
+/// Explanations of the derived quantities in the rule: "; creep_rate: speed at which …" for each; empty
+/// without any.
 std::string meanings_text(const worlds::WorldRule& rule, const std::vector<worlds::WorldInput>& inputs) {
   std::string text;
   for (const std::vector<worlds::Condition>* conditions : {&rule.conditions, &rule.same}) {

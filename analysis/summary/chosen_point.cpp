@@ -28,7 +28,8 @@
 namespace zerocount::summary {
 namespace {
 
-/// Number of swept parameters of the point that differ from 0 or "none". A point with fewer is simpler.
+/// Number of swept parameters that differ from 0 or "none" at the design point. A point with fewer of them is
+/// simpler.
 std::int64_t parts_in_use(const StudySummary& summary, std::size_t point) {
   return std::ranges::count_if(summary.axes, [&](const study::SweepAxis& axis) {
     if (axis.kind != study::SweepAxis::Kind::number) return false;
@@ -38,7 +39,7 @@ std::int64_t parts_in_use(const StudySummary& summary, std::size_t point) {
   });
 }
 
-/// Criteria for the best point, the most important first. Larger values are better.
+/// Values by which design points are ranked, the most important first. Larger values are better.
 std::vector<double> merits_of(const StudySummary& summary, std::size_t index) {
   if (summary.features.open_loop) return {};
   std::vector<double> merits = goal::merits_of(summary.question, summary.points[index]);
@@ -50,8 +51,8 @@ const measures::PointSummary& point_of(const StudySummary& summary, std::int64_t
   return summary.points[static_cast<std::size_t>(point)];
 }
 
-/// [machine] contribution of the machine to the proportion by which points are compared: the proportion of
-/// its moves, or 1 or 0 if the goal is about machines. Empty without machines.
+/// [machine] The machine's contribution to the proportion by which design points are compared: the proportion
+/// of its moves that meet the goal or, if the goal is about machines, 1 or 0. Empty without machines.
 std::vector<double> rates_of_machines(const goal::Question& question, const measures::MoveCounts& counts) {
   std::vector<double> rates;
   for (const statistics::MachineMoves& machine : counts.machines) {
@@ -61,7 +62,8 @@ std::vector<double> rates_of_machines(const goal::Question& question, const meas
   return rates;
 }
 
-/// Whether the mean of `better` − `worse` is shown to be positive.
+/// Whether the mean of `better` − `worse` is shown to be positive. Both are [machine] contributions of two
+/// design points.
 bool differ(std::span<const double> better, std::span<const double> worse) {
   statistics::Moments differences;
   for (std::size_t i = 0; i < better.size(); ++i) differences.add(better[i] - worse[i]);
@@ -71,10 +73,11 @@ bool differ(std::span<const double> better, std::span<const double> worse) {
                                 differences.sd() / std::sqrt(machines);
 }
 
-/// A proportion of independent events, with one success and one failure added (Agresti and Caffo).
+/// Estimate of a proportion from independent events, to which one success and one failure were added (Agresti
+/// and Caffo).
 struct AdjustedRate {
   double value{0.5};
-  double variance{0.0};  ///< estimated variance of `value`
+  double variance{0.0};  ///< Estimated variance of `value`.
 
   explicit AdjustedRate(const statistics::ClusterSums& sums) {
     const double events = statistics::effective_events(sums) + 2.0;
@@ -83,7 +86,8 @@ struct AdjustedRate {
   }
 };
 
-/// Whether the bounds show that the worst world of `other` is worse than the worst world of `best`.
+/// Whether the bounds show that the worst world (draw of what all machines share) of the design point `other`
+/// is worse than that of `best`.
 bool has_worse_world(const goal::Question& question, const measures::PointSummary& best,
                      const measures::PointSummary& other) {
   const auto alone = [&](const measures::PointSummary& point) {
@@ -96,7 +100,8 @@ bool has_worse_world(const goal::Question& question, const measures::PointSummar
                                   : of_other.moves.high < of_best.moves.low;
 }
 
-/// Whether the trials show that `other` is worse than `best`.
+/// Whether the trials show, with 95 % confidence, that the design point `other_point` is worse than
+/// `best_point`.
 bool is_shown_worse(const goal::Question& question, const measures::PointSummary& best_point,
                     const measures::PointSummary& other_point) {
   if (is_of_worst_world(question)) return has_worse_world(question, best_point, other_point);
@@ -213,7 +218,7 @@ std::string competition_text(const StudySummary& summary, const ChosenPoint& cho
 
 namespace {
 
-/// Whether the values of any two points differ, or a point has a distribution (NaN).
+/// Whether a swept parameter differs between any two points, or has a distribution at a point (shown by NaN).
 bool varies(const study::SweepAxis& axis) {
   const auto differs = [](const auto& values) {
     return std::any_of(values.begin(), values.end(), [&](const auto& v) { return !(v == values.front()); });
@@ -282,7 +287,7 @@ const measures::PointSummary& statistics_of(const StudySummary& summary, std::in
   return summary.points[static_cast<std::size_t>(point)];
 }
 
-/// The goal of the worst claim.
+/// The goal that belongs to the worst claim of the verdict.
 const study::Goal& worst_goal(const StudySummary& summary, const goal::Verdict& verdict) {
   return *summary.question.parts[verdict.goal].claim;
 }

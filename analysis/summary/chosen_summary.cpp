@@ -15,7 +15,8 @@
 namespace zerocount::summary {
 namespace {
 
-/// The measures by which the points of a study are compared.
+/// Table of only those measures by which the design points of a study are compared: the settling times of the
+/// goals.
 std::shared_ptr<const layout::MeasureTable> compared_measures(const layout::MeasureTable& table,
                                                               const goal::Question& question) {
   auto compared = std::make_shared<layout::MeasureTable>();
@@ -26,7 +27,7 @@ std::shared_ptr<const layout::MeasureTable> compared_measures(const layout::Meas
   return compared;
 }
 
-/// The statistics of a point without those that no comparison of points uses.
+/// The statistics of a design point, reduced to the measures in `table`, by which points are compared.
 measures::PointSummary only_compared(measures::PointSummary&& point, const layout::MeasureTable& table) {
   std::vector<measures::MeasureStatistics> compared;
   for (const layout::Measure& measure : table) compared.push_back(named(point, measure.field.column.name));

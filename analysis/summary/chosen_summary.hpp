@@ -21,12 +21,13 @@ namespace zerocount::summary {
 struct ChosenSummary {
   StudySummary summary;  ///< Only the chosen point is complete (StudySummary::complete).
   ChosenPoint chosen;
-  /// The measures of the points that are not complete; the summary refers to them.
+  /// The few measures of the points that are not complete. It is kept here because the summary refers to it.
   std::shared_ptr<const layout::MeasureTable> measures{};
 };
 
-/// The summary of a complete results file, which may keep trials or only statistics, and the chosen point.
-/// @param point the point to report; empty: the best one
+/// Summary of a complete results file, which may keep trials or only statistics, with all statistics of the
+/// chosen design point.
+/// @param point index of the point to report; empty: the best one
 /// @throws Failure (bad_data) if the file is damaged
 ChosenSummary summarise_chosen(const std::filesystem::path& path, std::optional<std::int64_t> point = {});
 

@@ -19,7 +19,7 @@ UpperValues upper_values(const std::vector<double>& values) {
   return {statistics::sample_quantile(values, 0.95), std::ranges::max(values)};
 }
 
-/// The name of the goal; empty if it has no name.
+/// The name of the goal with this index; empty if it has no name.
 std::optional<std::string> name_of_goal(const study::Study& study, std::size_t goal) {
   if (study.goals.empty() || study.goals[goal].name.empty()) return std::nullopt;
   return study.goals[goal].name;

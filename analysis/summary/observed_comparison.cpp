@@ -12,10 +12,12 @@
 namespace zerocount::summary {
 namespace {
 
-/// The simulated trials of a point. Each counts as one move, which is met if the trial meets the question.
+/// The simulated trials of a design point. Each is counted as one move, which is met if the trial meets the
+/// question (the goals or, without a goal, zero error).
 struct AskedTrials {
   measures::MoveCounts all;
-  std::vector<measures::MoveCounts> worlds;  ///< [world] trials in the world; empty without worlds
+  /// [world] Trials in each world (a draw of what all machines share); empty without worlds.
+  std::vector<measures::MoveCounts> worlds;
 };
 
 AskedTrials asked_trials(const goal::Question& question, const measures::PointSummary& point) {
@@ -32,8 +34,9 @@ statistics::ObservedTest test_of(const statistics::Successes& observed, const me
   return statistics::machine_rank_test(observed, successes, trials.machines.front().trials);
 }
 
-/// The test in the world that is most like the real machine. The world of the real machine is unknown, so the
-/// machine differs from the simulation only if it differs from every world.
+/// Comparison with the world (draw of what all machines share) that is most like the real machine. The world
+/// of the real machine is unknown, so the machine differs from the simulation only if it differs from every
+/// world.
 ObservedComparison compare_with_worlds(ObservedComparison comparison, const statistics::Successes& observed,
                                        const std::vector<measures::MoveCounts>& worlds) {
   comparison.in_worlds = true;
@@ -46,7 +49,7 @@ ObservedComparison compare_with_worlds(ObservedComparison comparison, const stat
   return comparison;
 }
 
-/// Whether the real machine succeeded more often than the simulated trials.
+/// Whether the real machine succeeded in a larger proportion of trials than the simulated machines.
 bool is_better(const ObservedComparison& comparison) {
   return statistics::rate(comparison.counts.successes, comparison.counts.of) >
          statistics::rate(comparison.simulated.successes, comparison.simulated.trials);

@@ -16,10 +16,10 @@
 namespace zerocount::summary {
 namespace {
 
-/// Number of points that are held in memory with all their statistics.
+/// Number of design points that are held in memory at once with all their statistics.
 constexpr std::size_t points_at_once = 256;
 
-/// Appends the values of the next points to the columns.
+/// Appends the values of the next design points to the columns. The columns of both have the same order.
 void add_columns(std::vector<layout::PointColumn>& columns, std::vector<layout::PointColumn>&& next) {
   if (columns.empty()) columns.resize(next.size());
   for (std::size_t i = 0; i < next.size(); ++i) {
@@ -30,9 +30,10 @@ void add_columns(std::vector<layout::PointColumn>& columns, std::vector<layout::
   }
 }
 
-/// Adds the trials of a point to the rows of its groups: worlds, settings or ages. An open-loop study has
-/// no judged trials.
-/// @param groups member that returns the counts by world, or by setting
+/// Adds the numbers of trials of a design point to the stored rows of its groups: worlds (draws of what all
+/// machines share), settings or ages. Nothing for an open-loop study, which has no judged trials.
+/// @param rows number of rows for each point @param groups member that returns the counts by world, or by
+/// setting
 /// @param row_of returns the row to which a group is added
 void add_groups(layout::GroupCounts& stored, const measures::PointSummary& point, std::int64_t rows,
                 std::vector<measures::MoveCounts> (measures::CellCounts::*groups)() const,
@@ -51,7 +52,7 @@ void add_groups(layout::GroupCounts& stored, const measures::PointSummary& point
   if (!point.goals.empty()) stored.goal_met.push_back(numbers(&GroupTrials::meeting, &MoveCounts::met));
 }
 
-/// Adds the trials of a point on each machine.
+/// Adds the counts of a design point for each machine.
 void add_machines(layout::GroupCounts& stored, const measures::PointSummary& point,
                   const study::Study& study) {
   const auto machines = static_cast<std::size_t>(study.machines);
@@ -60,7 +61,8 @@ void add_machines(layout::GroupCounts& stored, const measures::PointSummary& poi
   stored.success.back().resize(machines);  // empty in an open loop
 }
 
-/// Adds the proportion of machines of a point that meet the goal at each age, and the life of each machine.
+/// Adds the proportion of machines of a design point that meet the goal at each age, and the life of each
+/// machine (the age up to which it does).
 /// @param study study with a claim
 void add_lives(layout::GroupCounts& ages, layout::GroupCounts& machines, const measures::PointSummary& point,
                const study::Study& study) {
@@ -89,7 +91,7 @@ void add_lives(layout::GroupCounts& ages, layout::GroupCounts& machines, const m
     machines.statistics[0].values.push_back(life);
 }
 
-/// Adds the counts of a point by machine, world, setting and age.
+/// Adds the counts of a design point by machine, world (draw of what all machines share), setting and age.
 void add_counts(layout::StoredStatistics& stored, const measures::PointSummary& point,
                 const study::Study& study) {
   using measures::CellCounts;
@@ -108,7 +110,7 @@ void add_counts(layout::StoredStatistics& stored, const measures::PointSummary& 
   if (!study.goals.empty()) add_lives(stored.groups["age"], stored.groups["machine"], point, study);
 }
 
-/// Adds the statistics of the next points. @param first number of the first of these points
+/// Adds the statistics of the next design points. @param first index of the first of these points
 void add_points(layout::StoredStatistics& stored, std::span<const measures::PointSummary> points,
                 const study::Study& study, std::span<const theory::PointPrediction> predictions,
                 const layout::MeasureTable& table, std::int64_t first) {

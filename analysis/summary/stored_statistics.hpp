@@ -15,8 +15,9 @@
 /// The statistics that a results file stores.
 namespace zerocount::summary {
 
-/// The stored statistics of consecutive points: point_columns, prediction_columns, the levels of an open-loop
-/// study, and the counts of machines and worlds. All bounds have the confidence 95 %.
+/// The statistics of consecutive design points as a results file stores them: point_columns,
+/// prediction_columns, the levels of an open-loop study, and the counts of machines and worlds. All bounds
+/// have the confidence 95 %.
 /// @param points, predictions [point] statistics and predictions over all trials of the point
 layout::StoredStatistics stored_statistics(std::span<const measures::PointSummary> points,
                                            const study::Study& study,
@@ -29,8 +30,8 @@ struct StatisticsWork {
   std::stop_token stop{};                 ///< Interrupts the work.
 };
 
-/// Passes the stored statistics of all points of a file to `take`, in blocks that fill a chunk of the file.
-/// The memory does not grow with the number of points.
+/// Computes the stored statistics of all design points of a file and passes them to `take`, in blocks that
+/// fill a chunk of the file. The memory does not grow with the number of points.
 /// @param file holds all trials of `study`. @param predictions see theory::study_predictions
 /// @throws Failure (interrupted) if `work.stop` requests it
 void take_stored_statistics(const reading::AllTrialsFile& file, const study::Study& study,

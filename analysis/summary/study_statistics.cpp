@@ -34,7 +34,7 @@ bool is_possible(const theory::PointPrediction& prediction) {
                                 prediction.trials);
 }
 
-/// Whether the counts are possible for this number of moves.
+/// Whether these counts of undecided moves are possible for this number of moves.
 bool is_possible(const measures::UndecidedSums& sums, std::int64_t moves) {
   return sums.counts.moves == moves && sums.needed_holds.size <= moves &&
          std::ranges::all_of(measures::undecided_counts, [&](const measures::UndecidedCount& each) {
@@ -121,8 +121,8 @@ constexpr std::int64_t points_of_block = 32;  // whose sums take 30 kB each
   throw Failure(ExitCode::bad_data, fmt::format("{}: {}", file.path().string(), what));
 }
 
-/// The jerks of some trials of a file, in their order. They are read in blocks of fixed size, because a trial
-/// that never comes to rest may have thousands.
+/// Reads the jerks (excursions of the error from 0 after arrival) of some trials of a file, in their order.
+/// They are read in blocks of fixed size, because a trial that never comes to rest may have thousands.
 class JerkStream {
  public:
   JerkStream(const reading::AllTrialsFile& file, layout::RowRange rows)
@@ -158,14 +158,14 @@ class JerkStream {
   }
 
   const reading::AllTrialsFile& file_;
-  std::int64_t end_;   ///< index, in the table of jerks, after the last jerk of the trials
-  std::int64_t read_;  ///< index of the first jerk that is not in the block
+  std::int64_t end_;   ///< Index, in the file's table of jerks, one past the last jerk of the trials.
+  std::int64_t read_;  ///< Index, in the file's table of jerks, of the first jerk that was not read yet.
   std::vector<layout::JerkRecord> block_;
   std::size_t next_{0};
   std::vector<trial::Jerk> taken_;
 };
 
-/// The measures of the file that are summed.
+/// The measures of the file that are summed: those of Wanted::measures, or all.
 const layout::MeasureTable& measures_in(const reading::AllTrialsFile& file, const Wanted& wanted) {
   return wanted.measures != nullptr ? *wanted.measures : file.table();
 }
@@ -176,7 +176,7 @@ std::int64_t jerks_of(std::span<const trial::MoveOutcome> moves) {
   return count;
 }
 
-/// The trials in one chunk of a file. Blocks in the same chunk share this object.
+/// The trials in one chunk (compressed unit) of a file. All blocks in the same chunk share this object.
 struct Chunk {
   reading::StoredOutcomes stored;
   std::once_flag once;
@@ -187,11 +187,13 @@ struct Chunk {
 struct Block {
   layout::RowRange rows;
   std::shared_ptr<Chunk> chunk;
-  std::vector<std::int64_t> jerk_counts;  ///< [trial] number of jerks
-  std::vector<trial::Jerk> jerks;         ///< jerks of the trials, kept until they are summed
-  std::vector<SummedPoint> sums;          ///< [i] sums of the i-th point from that of the first trial on
+  std::vector<std::int64_t> jerk_counts;  ///< [trial] Number of jerks.
+  std::vector<trial::Jerk> jerks;         ///< Jerks of the trials, kept until they are summed.
+  /// [i] Sums of the i-th design point that has trials in the block, counted from the point of the first
+  /// trial.
+  std::vector<SummedPoint> sums;
   bool is_summed{false};
-  std::exception_ptr failure;  ///< the failure that prevented the sums; otherwise null
+  std::exception_ptr failure;  ///< Exception that prevented the sums; otherwise null.
 };
 
 /// The sums of the trials `rows` of a file, in blocks that pass through the stages one after the other:
@@ -212,7 +214,7 @@ class BlockStages {
               layout::RowRange rows)
       : file_(file), study_(study), wanted_(wanted), rows_(rows), end_(rows.end()), jerks_(file, rows) {}
 
-  /// The next block; null after the last block, or after a failure.
+  /// The next block of trials; null after the last block, or after a failure.
   std::shared_ptr<Block> fetch() {
     if (rows_.count == 0 || has_failed_ || wanted_.stop.stop_requested()) return nullptr;
     if (chunk_rows_.count == 0) {
@@ -296,7 +298,8 @@ class BlockStages {
       fail(file_, "jerks are recorded beyond those that the trials counted");
   }
 
-  /// Adds some trials of a block to its sums, in pieces whose outcomes stay in the cache.
+  /// Adds some trials of a block to its sums, in pieces so small that their outcomes stay in the processor's
+  /// cache.
   void sum(Block& block, layout::RowRange rows, std::span<const trial::Jerk> jerks) const {
     constexpr std::int64_t trials_of_piece = 512;
     for (layout::RowRange piece{rows.first, 0}; piece.first < rows.end(); piece.first = piece.end()) {
@@ -333,33 +336,33 @@ class BlockStages {
   const reading::AllTrialsFile& file_;
   const study::Study& study_;
   const Wanted& wanted_;
-  layout::RowRange rows_;        ///< rows that are not in a block yet
-  std::int64_t end_;             ///< end of all rows
-  layout::RowRange chunk_rows_;  ///< rows of chunk_ that are not in a block yet
+  layout::RowRange rows_;        ///< Rows of the file that are not in a block yet.
+  std::int64_t end_;             ///< One past the last row to be summed.
+  layout::RowRange chunk_rows_;  ///< Rows of chunk_ that are not in a block yet.
   std::shared_ptr<Chunk> chunk_;
   JerkStream jerks_;
   std::mutex library_;  ///< Guards the library that reads files; two stages call it.
   std::atomic<bool> has_failed_{false};
 };
 
-/// Number of blocks in the pipeline at once. Each may hold a decoded chunk, 6 MB with the usual measures.
-/// Threads beyond that number help to decode.
+/// Number of blocks of trials that the pipeline processes at once. Each may hold a decoded chunk, 6 MB with
+/// the usual measures. Threads beyond that number help to decode.
 std::size_t blocks_at_once(std::size_t threads) {
   return std::min(threads + 2, threads / 4 + 6);
 }
 
-/// @throws Failure (interrupted) if Wanted::stop requests it
+/// Checks that the work is to go on. @throws Failure (interrupted) if Wanted::stop requests an end
 void require_no_stop(const Wanted& wanted) {
   if (wanted.stop.stop_requested())
     throw Failure(ExitCode::interrupted,
                   "interrupted while the statistics were computed; the finished shards are kept");
 }
 
-/// Sums of consecutive trials.
+/// Sums of consecutive trials, one element for each design point.
 using Sums = std::vector<SummedPoint>;
 constexpr std::size_t sums_added_at_once = 8;
 
-/// The sums with consecutive elements of the same point added together.
+/// The sums, with consecutive elements of the same design point added together.
 Sums added(Sums&& sums) {
   Sums all;
   for (SummedPoint& next : sums) {

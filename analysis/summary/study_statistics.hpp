@@ -25,28 +25,30 @@ namespace zerocount::summary {
 /// the sums of the joint range, equal to the bit (docs/scaling.md: up to how many trials).
 class SummedPoint {
  public:
-  /// @param study, table must outlive this object. @param first_trial index at the point of the first trial
-  /// that is added
+  /// @param study, table must outlive this object. @param point index of the design point @param first_trial
+  /// index at the point of the first trial that is added
   SummedPoint(const study::Study& study, std::int64_t point, std::int64_t first_trial,
               const layout::MeasureTable& table);
-  /// A point whose trials have the measures of this program.
+  /// Sums for a design point without a given table: all measures of this program version are summed.
   SummedPoint(const study::Study& study, std::int64_t point, std::int64_t first_trial);
 
   std::int64_t point() const { return point_; }
 
-  /// Adds the next trials, without the predictions of the criteria.
+  /// Adds the next trials, without the predictions of the stability criteria.
   /// @throws Failure (bad_data) as PointAccumulator::add does
   void add(std::span<const shards::TrialResult> trials);
   void add(const theory::PointPrediction& prediction) { prediction_ = prediction_ + prediction; }
-  /// The accumulator of the trials, to add trials without their undecided moves; see add_undecided().
+  /// The accumulator of the trials; trials that are added through it are added without their undecided moves,
+  /// see add_undecided().
   measures::PointAccumulator& trials() { return trials_; }
-  /// Counts the undecided moves of trials. @param rows global rows of the trials in the study
+  /// Counts the undecided moves of trials (moves whose end within the hold does not tell success from
+  /// failure). @param rows global rows of the trials in the study
   /// @param moves [trial, move]
   void add_undecided(layout::RowRange rows, std::span<const trial::MoveOutcome> moves);
   SummedPoint& operator+=(const SummedPoint& next);
 
   layout::PointSums sums() const;
-  /// Replaces all sums. @throws Failure (bad_data) if the sums are impossible for this point
+  /// Replaces all sums by stored ones. @throws Failure (bad_data) if the sums are impossible for this point
   void restore(const layout::PointSums& sums);
 
   measures::PointSummary statistics(double confidence, bool bootstrap) const;
@@ -61,29 +63,32 @@ class SummedPoint {
   theory::PointPrediction prediction_;
 };
 
-/// The sums of a point of a file.
+/// The sums of a design point, read from a file that keeps sums.
 /// @throws Failure (bad_data), naming file and point, if the sums are impossible for the trials of the point
 SummedPoint restored_point(const reading::ResultsFile& file, const study::Study& study, std::int64_t point);
 
 /// The results that StudyAccumulator computes for each point.
 struct Wanted {
-  bool statistics{true};  ///< Statistics; false for a part of a study, where machines may lack trials.
-  bool sums{false};       ///< Sums, in the form in which files keep them.
+  /// Compute statistics; false for a part of a study, where machines may lack trials.
+  bool statistics{true};
+  bool sums{false};  ///< Return the sums too, in the form in which files keep them.
   bool undecided{
       false};  ///< PointSummary::undecided: why trials are undecided. Draws their parameters again.
-  bool predictions{false};  ///< Predictions of the criteria; the trials are drawn again for them.
+  /// Predict stability by the paper's criteria; the parameters of the trials are drawn again for it.
+  bool predictions{false};
   double confidence{statistics::summary_confidence};  ///< Confidence of all bounds.
-  /// Bounds of means by resampling, which is slow. The random numbers follow from the seed of the study.
+  /// Compute bounds of means by resampling, which is slow. The random numbers follow from the seed of the
+  /// study.
   bool bootstrap{false};
-  std::int64_t first_point{0};  ///< Number of the first point that may have trials.
+  std::int64_t first_point{0};  ///< Index of the first design point that may have trials.
   /// Measures that are summed from rows of outcomes; they outlive the results. Null: all measures of the
   /// file.
   const layout::MeasureTable* measures{nullptr};
   timeline::Timeline* timeline{nullptr};  ///< Receives spans of the stages; may be null.
-  std::stop_token stop{};                 ///< Interrupts the work.
+  std::stop_token stop{};                 ///< Interrupts the work when a stop is requested.
 };
 
-/// The results of a point after all its trials were added.
+/// The results of a design point, after all its trials were added.
 struct PointResults {
   measures::PointSummary statistics{};
   theory::PointPrediction prediction{};
@@ -113,9 +118,9 @@ class StudyAccumulator {
   /// Adds the trials of a point by their sums. The trials follow those added before.
   /// @throws Failure (bad_data) if the sums are impossible for the trials
   void add(const reading::ResultsFile& file, std::int64_t point);
-  void add(const reading::ResultsFile& file);  ///< Adds all points of the file by their sums.
+  void add(const reading::ResultsFile& file);  ///< Adds all points of a file that keeps sums.
 
-  /// Completes the last point that has trials.
+  /// Completes the last design point that has trials, and passes its results on.
   /// @throws Failure (bad_data) if the sums allow no statistics
   void finish();
 
@@ -128,10 +133,11 @@ class StudyAccumulator {
   Wanted wanted_;
   std::function<void(PointResults&&)> take_;
   std::int64_t next_point_;
-  std::optional<SummedPoint> point_;  ///< the incomplete point, whose number precedes next_point_
+  /// Sums of the point that is not complete yet; its index is next_point_ − 1. Empty: there is none.
+  std::optional<SummedPoint> point_;
 };
 
-/// @throws Failure (bad_data) unless the file holds all trials of its study
+/// Checks that a file is complete. @throws Failure (bad_data) unless it holds all trials of its study
 void require_all_trials(const reading::AllTrialsFile& file);
 
 /// The statistics of every design point of a complete results file, [point].

@@ -31,7 +31,8 @@
 namespace zerocount::summary {
 namespace {
 
-/// The hold of the moves at a point, s; NaN if the trials differ in it, or if the study is open-loop.
+/// The hold (duration of a move, from one target to the next) of the moves at a design point, s; NaN if the
+/// trials differ in it, or if the study is open-loop.
 double hold_of(const study::Study& study, std::int64_t point) {
   if (study.open_loop) return statistics::unknown;
   const bool recorded =
@@ -48,7 +49,8 @@ double hold_of(const study::Study& study, std::int64_t point) {
   return hold;
 }
 
-/// The unknown parameters of the worlds, and the quantities derived from those of the friction.
+/// The unknown parameters that differ between worlds (draws of what all machines share) at a design point,
+/// and the quantities derived from those of the friction.
 std::vector<worlds::WorldInput> inputs_of_worlds(const study::Study& study, std::int64_t point,
                                                  const measures::PointSummary& statistics) {
   std::vector<worlds::WorldInput> inputs = worlds::unknowns_of(study, point);
@@ -61,7 +63,7 @@ std::vector<worlds::WorldInput> inputs_of_worlds(const study::Study& study, std:
   return inputs;
 }
 
-/// Sets the hold of a point and, with worlds, StudySummary::world_inputs.
+/// Sets the hold time of a design point and, if the study has worlds, its StudySummary::world_inputs.
 void describe_point(StudySummary& summary, const study::Study& study, std::int64_t number) {
   const auto point = static_cast<std::size_t>(number);
   summary.points[point].hold = hold_of(study, number);
@@ -75,7 +77,7 @@ void describe_points(StudySummary& summary, const study::Study& study) {
     describe_point(summary, study, point);
 }
 
-/// Removes all but the first `points` points.
+/// Removes the labels and axis values of all but the first `points` design points.
 void shorten(StudySummary& summary, std::size_t points) {
   summary.labels.resize(points);
   for (study::SweepAxis& axis : summary.axes) {
@@ -84,7 +86,8 @@ void shorten(StudySummary& summary, std::size_t points) {
   }
 }
 
-/// Whether the statistics of a point need its trials from the first trial on, without gaps.
+/// Whether the statistics of a design point need its trials from the first one on, without gaps: with
+/// machines, worlds, or a design that is spread evenly.
 bool depend_on_order(const study::Study& study) {
   return study.machines > 0 || study.worlds > 0 || study.design != study::Design::monte_carlo;
 }
@@ -97,7 +100,7 @@ StudyAccumulator accumulator_of(const study::Study& study, StudySummary& summary
   });
 }
 
-/// The finished trials of a study, file after file in order of rows.
+/// Collects the finished trials of an unfinished study, file after file in order of rows.
 class TrialsSoFar {
  public:
   TrialsSoFar(const study::Study& study, double confidence, bool bootstrap)
@@ -122,7 +125,7 @@ class TrialsSoFar {
     }
   }
 
-  /// The summary of the trials; empty if no trial is finished.
+  /// The summary of the trials taken so far; empty if no trial is finished.
   std::optional<StudySummary> summary() {
     if (count_ == 0) return std::nullopt;
     accumulator_.finish();
@@ -136,7 +139,8 @@ class TrialsSoFar {
   /// Takes the trials of a file that were not taken before. If the statistics depend on the order of trials
   /// (depend_on_order()), only trials that continue those taken are used: machines then have equal numbers of
   /// trials, and a design is spread evenly.
-  /// @param divisible whether some trials of a point can be taken without the others
+  /// @param divisible whether some trials of a design point can be taken without its other trials @param take
+  /// adds trials to the sums
   template <class Take>
   void add(const reading::ResultsFile& file, bool divisible, const Take& take) {
     for (std::int64_t i = 0; i < file.points(); ++i) {
@@ -155,9 +159,9 @@ class TrialsSoFar {
 
   const study::Study& study_;
   bool in_order_;
-  std::vector<std::int64_t> counts_;  ///< [point]
+  std::vector<std::int64_t> counts_;  ///< [point] Number of trials taken.
   std::int64_t count_{0};
-  std::int64_t next_row_{0};  ///< global row after those that were taken
+  std::int64_t next_row_{0};  ///< Index of the study's row (trial) after those that were taken.
   StudySummary summary_;
   StudyAccumulator accumulator_;
 };

@@ -22,52 +22,63 @@ namespace zerocount::summary {
 
 /// Progress of a run that has not ended.
 struct UnfinishedStudy {
-  std::int64_t finished{0};  ///< Number of trials in the summary.
-  std::int64_t trials{0};    ///< Number of trials of the whole study; with `stop` the maximum number.
-  std::int64_t points{0};    ///< Number of points of the study, including those without trials.
+  std::int64_t finished{0};  ///< Number of finished trials, which the summary covers.
+  /// Number of trials of the whole study; if the study has a stopping rule (`stop`), the largest number.
+  std::int64_t trials{0};
+  std::int64_t points{0};  ///< Number of points of the study, including those without trials.
 };
 
 /// The summary of a study. Vectors by point have the length of `points`.
 struct StudySummary {
-  std::string name;                                    ///< Name of the study.
-  std::vector<std::string> labels;                     ///< [point]
-  std::vector<study::SweepAxis> axes;                  ///< each with a value per point
-  std::map<std::string, std::string> observed;         ///< {point label: observations on the real machine}
-  std::string design{"monte_carlo"};                   ///< Design of the study, as the manifest writes it.
-  double confidence{statistics::summary_confidence};   ///< Confidence of all bounds.
-  std::vector<measures::PointSummary> points;          ///< [point]
-  std::vector<theory::PointPrediction> predictions{};  ///< [point]; empty if not computed
-  study::StudyFeatures features{};                     ///< Features for which tables have columns.
-  goal::Question question{};                           ///< Criteria by which the study is judged.
-  /// [point] unknown and derived quantities of worlds; empty for a point that is not complete.
+  std::string name;  ///< Name of the study.
+  /// [point] Label of the design point, which names its swept values or its case.
+  std::vector<std::string> labels;
+  std::vector<study::SweepAxis> axes;  ///< Swept parameters, each with a value for every design point.
+  /// {label of the point: text on observations on the real machine}.
+  std::map<std::string, std::string> observed;
+  std::string design{"monte_carlo"};                  ///< Design of the study, as the manifest writes it.
+  double confidence{statistics::summary_confidence};  ///< Confidence of all bounds.
+  std::vector<measures::PointSummary> points;         ///< [point] Statistics of the design point.
+  /// [point] Predictions by the stability criteria; empty if not computed.
+  std::vector<theory::PointPrediction> predictions{};
+  study::StudyFeatures features{};  ///< Properties of the study that decide which columns tables have.
+  /// Criteria by which the study is judged: its goals or, without a goal, success.
+  goal::Question question{};
+  /// [point] Parameters that differ between worlds (draws of what all machines share), and derived
+  /// quantities; empty for a point that is not complete.
   std::vector<std::vector<worlds::WorldInput>> world_inputs{};
-  std::uint64_t seed{0};                                           ///< Seed of the study.
-  std::optional<UnfinishedStudy> unfinished{};                     ///< Set if the run has not ended.
-  std::map<std::string, study::ObservedCounts> observed_counts{};  ///< {point label: counts to be tested}
-  std::optional<study::StoppingRule> stop{};  ///< Set for a complete study that used the rule.
-  std::optional<iso230::RepeatabilitySummary> repeatability{};  ///< Set for a study with a sequence.
-  /// Points with all statistics, in their order; empty: every point. For the other points only the statistics
-  /// by which points are chosen are known (summarise_chosen(), summary_answer::summarise_selected()); tables
-  /// do not show them.
+  /// Seed of the study's random numbers.
+  std::uint64_t seed{0};
+  std::optional<UnfinishedStudy> unfinished{};  ///< Progress of the run; set if the run has not ended.
+  /// {label of the point: counts on the real machine that are compared with the simulation}.
+  std::map<std::string, study::ObservedCounts> observed_counts{};
+  /// Stopping rule; set for a complete study whose number of trials it decided.
+  std::optional<study::StoppingRule> stop{};
+  /// Repeatability by ISO 230-2; set for a study with a test sequence of targets.
+  std::optional<iso230::RepeatabilitySummary> repeatability{};
+  /// Indices of the design points with all statistics, in their order; empty: every point. For the other
+  /// points only the statistics by which points are chosen are known (summarise_chosen(),
+  /// summary_answer::summarise_selected()); tables do not show them.
   std::vector<std::int64_t> complete{};
 
-  /// The measures for which the points have statistics.
+  /// The table of the measures for which the design points have statistics.
   const layout::MeasureTable& table() const {
     if (points.empty()) return layout::measure_table(features);
     return *points[complete.empty() ? 0 : static_cast<std::size_t>(complete.front())].table;
   }
 };
 
-/// The numbers of the points with all statistics (StudySummary::complete, or every point).
+/// The indices of the design points with all statistics (StudySummary::complete, or every point).
 std::vector<std::int64_t> points_with_all_statistics(const StudySummary& summary);
 
-/// @throws Failure (bad_data) unless labels, axes, statistics and predictions have the same number of points
+/// Checks a summary. @throws Failure (bad_data) unless labels, axes, statistics and predictions have the same
+/// number of points
 void require_consistent(const StudySummary& summary);
 
-/// The observations on the real machine at `point`; empty if there are none.
+/// Text on the observations on the real machine at the design point; empty if there are none.
 std::string observed_at(const StudySummary& summary, std::int64_t point);
 
-/// The properties of a study as a whole.
+/// A summary that has only the properties of the study as a whole; its vectors by point are empty.
 StudySummary summary_without_points(const study::Study& study, double confidence);
 
 /// The summary of a complete results file. Observations come from the manifest of the file, predictions of
@@ -80,13 +91,14 @@ StudySummary summarise(const reading::AllTrialsFile& file, double confidence = s
 /// @throws Failure (bad_input) for a confidence outside (0, 1), (bad_data) if the file is damaged.
 StudySummary summarise(const reading::ResultsFile& file, double confidence = statistics::summary_confidence,
                        bool bootstrap = false);
-/// The summary of a file without its points and predictions.
+/// A summary that has only the properties of the file's study as a whole, without its points and predictions.
 /// @throws Failure (bad_data) if trials are missing or have another number of moves than the manifest gives
 StudySummary summary_without_points(const reading::AllTrialsFile& file, double confidence);
 StudySummary summary_without_points(const reading::ResultsFile& file, double confidence);
 
-/// Computes all statistics of these points of a summary that has points. They become StudySummary::complete.
-/// @param points numbers of points, rising @param bootstrap whether means get bounds by resampling
+/// Computes all statistics of some design points of a summary that has points already. They become
+/// StudySummary::complete.
+/// @param points indices of the points, rising @param bootstrap whether means get bounds by resampling
 void complete_points(StudySummary& summary, const reading::AllTrialsFile& file,
                      std::vector<std::int64_t> points, bool bootstrap);
 void complete_points(StudySummary& summary, const reading::ResultsFile& file,

@@ -16,19 +16,19 @@ using Level = const LevelAtPoint&;
 
 constexpr double micro = 1e6;
 
-/// Number of decimals that show two significant digits of an uncertainty, between 0 and 9.
+/// Number of decimals with which a number shows two significant digits of its uncertainty, between 0 and 9.
 int decimals_below(double uncertainty) {
   return std::clamp(1 - static_cast<int>(std::floor(std::log10(uncertainty))), 0, 9);
 }
 
-/// `value` with the decimals that its uncertainty justifies; with four digits if the uncertainty is unknown
-/// or 0.
+/// `value` as text with the decimals that its uncertainty justifies; with four significant digits if the
+/// uncertainty is unknown or 0.
 std::string bounded_number(double value, double uncertainty) {
   if (!(uncertainty > 0.0)) return text::short_number(value);
   return fmt::format("{:.{}f}", value, decimals_below(uncertainty));
 }
 
-/// The mean position with its bounds, scaled by `micro`.
+/// The mean position with its bounds as text, in millionths of its unit (µrad or µm).
 std::string position_text(const measures::MeasureStatistics& position) {
   const statistics::ConfidenceInterval& bounds = position.mean_bounds;
   const double uncertainty = 0.5 * micro * (bounds.high - bounds.low);

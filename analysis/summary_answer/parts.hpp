@@ -16,18 +16,19 @@
 #include "analysis/summary/summary.hpp"
 #include "analysis/worlds/world_statistics.hpp"
 
-/// The parts of which the description of a summary is composed. Each part adds what the study has of it:
-/// items to a point, and to the summary a table for people with sentences.
+/// The parts from which the answer on a summary is composed. Each part adds what it describes, if the study
+/// has it: items to a design point in data, and to the summary a table for people with sentences.
 namespace zerocount::summary_answer {
 
-/// A design point with the results that depend on it alone.
+/// A design point with the results that depend on this point alone.
 struct DescribedPoint {
   const summary::StudySummary& summary;
   std::int64_t point{0};
-  bool marked{false};                      ///< The point was chosen from several.
-  std::optional<goal::Verdict> verdict{};  ///< Empty without a goal, and for a point without trials.
+  bool marked{false};  ///< True if the point was chosen from several, so that tables mark it with a star.
+  /// Verdict on the goal at this point; empty without a goal, and for a point without trials.
+  std::optional<goal::Verdict> verdict{};
   std::optional<worlds::PointWorlds> worlds{};
-  /// Comparison with the counts on the real machine; empty without observed counts.
+  /// Comparison with the counts on the real machine; empty if no counts were observed.
   std::optional<summary::ObservedComparison> observed{};
 
   std::size_t index() const { return static_cast<std::size_t>(point); }
@@ -35,7 +36,7 @@ struct DescribedPoint {
   const measures::PointSummary& statistics() const { return summary.points[index()]; }
 };
 
-/// A torque level at a point of an open-loop study.
+/// A torque level at a design point of an open-loop study.
 struct LevelAtPoint {
   const DescribedPoint& point;
   std::size_t level{0};
@@ -43,28 +44,30 @@ struct LevelAtPoint {
   const measures::LevelStatistics& statistics() const { return point.statistics().levels[level]; }
 };
 
-/// A design point run again with a fresh seed.
+/// A design point that was run again with a fresh seed, to confirm its result.
 struct Confirmation {
   std::int64_t point{0};
   std::uint64_t seed{0};
   std::int64_t trials{0};
   std::int64_t machines{0};   ///< Number of machines on which the trials run; 0: no trials share one.
-  std::int64_t successes{0};  ///< trials all of whose moves ended at zero error
-  std::vector<measures::CellCounts> goals{};  ///< [goal] counts of the moves that meet the goal
+  std::int64_t successes{0};  ///< Number of trials in which all moves ended at zero error.
+  /// [goal] Counts of the judged moves and of those that meet the goal.
+  std::vector<measures::CellCounts> goals{};
 };
 
-/// Options for showing a summary.
+/// Options for showing a summary: which design points, and with which explanations.
 struct SummaryForm {
-  std::vector<std::int64_t> points{};    ///< Numbers of the points to show, in their order; empty: all.
-  std::optional<std::int64_t> chosen{};  ///< Point of the headline; empty: the best point.
-  bool legend{false};                    ///< Explain the columns of the tables.
+  std::vector<std::int64_t> points{};  ///< Indices of the design points to show, in their order; empty: all.
+  /// Index of the design point of the headline; empty: the best point.
+  std::optional<std::int64_t> chosen{};
+  bool legend{false};  ///< True if an explanation of the tables' columns is added.
 };
 
-/// A summary with all results that its answer needs.
+/// A summary of a study with all results that its answer needs.
 struct SummaryResults {
   const summary::StudySummary& summary;
   summary::ChosenPoint chosen;
-  std::vector<DescribedPoint> points;  ///< The points that are shown, in their order.
+  std::vector<DescribedPoint> points;  ///< The design points that are shown, in their order.
   bool legend{false};
   std::optional<Confirmation> confirmation{};
 
@@ -77,7 +80,7 @@ DescribedPoint read_point(const summary::StudySummary& summary, std::int64_t poi
 /// @throws Failure (bad_data) if the summary is inconsistent
 SummaryResults read_summary(const summary::StudySummary& summary, const SummaryForm& form = {});
 
-/// An item that is shown in JSON only.
+/// An output item that appears in JSON only, not in the text for people.
 inline document::Item in_json(std::string key, std::string meaning, std::string unit = {}) {
   return {.key = std::move(key),
           .meaning = std::move(meaning),
@@ -88,21 +91,20 @@ inline document::Item in_json(std::string key, std::string meaning, std::string 
 using PointDescription = document::Description<DescribedPoint>;
 using SummaryDescription = document::Description<SummaryResults>;
 
-/// The items of a design point: in data with the names of datasets.md, and as a row for people. A column for
-/// people has its line of the legend as Item::meaning, or no meaning.
+/// The output items of a design point: in data with the names of datasets.md, and as a table row for people.
+/// A column for people has its line of the legend as Item::meaning, or no meaning.
 /// @param summary summary of the study; its points decide which columns people are shown
 PointDescription point_description(const summary::StudySummary& summary);
 
-/// The items of a torque level: in data, and as a row for people.
+/// The output items of a torque level of an open-loop study: in data, and as a table row for people.
 document::Description<LevelAtPoint> level_description(const summary::StudySummary& summary);
 
-/// The legend: the meanings of the columns for people, one line each.
+/// The legend of a table: the meanings of the columns that people see, one line each.
 std::string legend_of(const std::vector<document::Item>& columns);
 
-/// Text of a quantile of the settling times of all moves of a point, or of a bound of it: four significant
-/// digits;
-/// "> 1 s" if the quantile is not reached within the hold, "> hold" if trials differ in their hold; "–" if no
-/// move has a target.
+/// A settling time as text, for a quantile over all moves of a design point or a bound of it: four
+/// significant digits; "> 1 s" if the quantile is not reached within the hold, "> hold" if trials differ in
+/// their hold; "–" if no move has a target.
 /// @param time the quantile, s; NaN if not reached
 std::string settling_text(const measures::PointSummary& point, double time);
 
@@ -115,10 +117,10 @@ AxisValue value_at(const study::SweepAxis& axis, const DescribedPoint& point);
 /// of the point instead. A star marks the chosen point among several.
 void add_axes(PointDescription& point, const summary::StudySummary& summary);
 
-/// "95 % bounds", with the confidence of the summary.
+/// Head of a column of bounds: "95 % bounds", with the confidence of the summary.
 std::string bounds_head(const summary::StudySummary& summary);
 
-/// The number of trials of every point; empty if the points have different numbers.
+/// The number of trials that every design point has; empty if the points have different numbers.
 std::optional<std::int64_t> trials_of_each(const summary::StudySummary& summary);
 
 /// Adds the columns for people of a study with targets, the most important ones first: the criteria by which
@@ -132,25 +134,27 @@ inline const char* zero_count_table(const summary::StudySummary& summary) {
   return summary.question.claim() ? "zero counts" : "";
 }
 
-/// A function that returns the short label of a point.
+/// A function that returns the short label of a design point.
 std::function<std::string(const DescribedPoint&)> short_label(const summary::StudySummary& summary);
 
 void add_goal(PointDescription& point, const summary::StudySummary& summary);
 document::Description<goal::ClaimVerdict> verdict_description(const goal::Question& question,
                                                               bool on_machines);
 
-/// Adds the undecided moves: their numbers, and the hold that would decide them.
+/// Adds to a design point the moves whose end does not decide their success: their numbers, and the hold time
+/// that would decide them.
 void add_undecided(PointDescription& point, const summary::StudySummary& summary);
 
-/// Adds whether the counts on the real machine are consistent with the simulated trials.
+/// Adds to a design point whether the counts on the real machine are consistent with the simulated trials.
 void add_observed(PointDescription& point, const summary::StudySummary& summary);
 
-/// Adds the proportions of the worlds with what the bad worlds have in common, the point in each setting
-/// and at each age, and, for a study with several claims, each goal in each setting.
+/// Adds to a design point the proportions by world (draw of what all machines share), what the bad worlds
+/// have in common, the results in each setting and at each age, and, for a study with several claims, each
+/// goal in each setting.
 void add_cells(PointDescription& point, const summary::StudySummary& summary);
 /// Whether the study has several claims: several goals, or a goal in several settings.
 bool has_several_claims(const summary::StudySummary& summary);
-/// Adds the claims on the chosen point, for people.
+/// Adds a table for people of the claims on the chosen design point: each goal in each setting.
 void add_claims(SummaryDescription& answer, const summary::StudySummary& summary);
 
 /// Adds bounds of the success rate that hold although the study looked at the outcomes after every block and
@@ -166,7 +170,7 @@ void add_stopping(PointDescription& point, const summary::StudySummary& summary)
 /// Adds tolerance statements: what the trials of a point show about all machines that the manifest describes.
 void add_assurance(PointDescription& point, const summary::StudySummary& summary);
 
-/// Adds the values of ISO 230-2 for a study with a sequence.
+/// Adds to a design point the repeatability by ISO 230-2, for a study with a test sequence of targets.
 void add_repeatability(PointDescription& point, const summary::StudySummary& summary);
 void add_repeatability(SummaryDescription& answer, const summary::StudySummary& summary);
 

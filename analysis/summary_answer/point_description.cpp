@@ -41,7 +41,8 @@ std::string shown_value(const study::SweepAxis& axis, Point p) {
   return fmt::format("{:.6g}", value);
 }
 
-/// Whether the labels name swept values, as those of a grid do: "fast, controller.kp=0.0003".
+/// Whether the labels of the design points name swept values, as those of a grid do: "fast,
+/// controller.kp=0.0003".
 bool labels_name_values(const summary::StudySummary& summary,
                         const std::vector<const study::SweepAxis*>& swept) {
   return std::ranges::any_of(swept, [&](const study::SweepAxis* axis) {
@@ -69,7 +70,7 @@ void add_statistics(PointDescription& point, const summary::StudySummary& summar
   measures::add_by_limit(point, of_tolerances, measures::list_of_tolerances(axis), axis, statistics_of);
 }
 
-/// A move, over all trials of a point.
+/// A move (the same number in the sequence of targets) over all trials of a design point.
 struct MoveAtPoint {
   const measures::PointSummary& point;
   std::size_t move;
@@ -108,14 +109,17 @@ theory::PointPrediction prediction_at(Point p) {
   return p.summary.predictions.empty() ? theory::PointPrediction{} : p.summary.predictions[p.index()];
 }
 
-/// A function that returns these trials as a proportion of the trials to which the criteria apply.
+/// A function that returns a count of PointPrediction as a proportion of the trials to which the stability
+/// criteria apply.
+/// @param trials member with the count
 auto proportion_of(std::int64_t theory::PointPrediction::*trials) {
   return [trials](const theory::PointPrediction& prediction) {
     return statistics::rate(prediction.*trials, theory::predicted_trials(prediction));
   };
 }
 
-/// Adds the predictions of the criteria; people see their columns if the criteria apply to some trial.
+/// Adds the predictions of the stability criteria to a design point; people see their columns if the criteria
+/// apply to some trial.
 void add_prediction(PointDescription& point, const summary::StudySummary& summary) {
   using P = theory::PointPrediction;
   const auto proportion = [](const char* heading, std::string_view column, const char* key,
@@ -156,7 +160,8 @@ std::optional<std::string> observed_on_machine(Point p) {
   return seen.empty() ? std::nullopt : std::optional(seen);
 }
 
-/// Appends the meanings of the columns for people, including the columns of objects, to the legend.
+/// Appends the meanings of the columns that people see to the legend, including the columns of nested
+/// objects.
 void add_legend(std::string& legend, const std::vector<document::Item>& columns) {
   for (const document::Item& column : columns) {
     if (!document::is_shown(column.shown, document::Audience::people)) continue;
@@ -252,7 +257,7 @@ using Point = const DescribedPoint&;
 using Statistics = const measures::PointSummary&;
 using summary::StudySummary;
 
-/// Whether `is` returns true for any point of the table.
+/// Whether the function `is` returns true for the statistics of any design point of the table.
 template <typename Is>
 bool any_point(const StudySummary& summary, Is is) {
   return std::ranges::any_of(summary::points_with_all_statistics(summary), [&](std::int64_t point) {
@@ -264,8 +269,9 @@ bool any_undecided(const StudySummary& summary) {
   return any_point(summary, [](Statistics point) { return point.outcomes.off_target > 0; });
 }
 
-/// An outcome of a trial (that of its worst move) that is not stable. Every trial is either stable, undecided
-/// (ended off target), or has one of these outcomes.
+/// An outcome of a trial (that of its worst move) that is not stable; stable means that the error stays
+/// within one count after arrival. Every trial is either stable, undecided (ended off target), or has one of
+/// these outcomes.
 struct NotStable {
   const char* head;
   std::int64_t (*trials)(Statistics point);
@@ -286,7 +292,8 @@ constexpr std::array<NotStable, 2> not_stable{
       "end, "
       "or that was lost"}}};
 
-/// Whether these trials are frequent enough at some point to have a column.
+/// Whether trials with this outcome are frequent enough (above 2 %) at some design point for a column of
+/// their own.
 bool is_shown(const StudySummary& summary, const NotStable& reason) {
   constexpr double min_proportion = 0.02;
   return any_point(summary, [&](Statistics point) {
@@ -294,15 +301,15 @@ bool is_shown(const StudySummary& summary, const NotStable& reason) {
   });
 }
 
-/// Whether machines have several trials at some point. With one trial per machine, a column for machines
-/// without a failure would repeat that of trials.
+/// Whether machines have several trials at some design point. With one trial per machine, a column for
+/// machines without a failure would repeat that of trials.
 bool has_several_trials_of_machines(const StudySummary& summary) {
   return any_point(summary,
                    [](Statistics point) { return point.machines.n > 0 && point.trials > point.machines.n; });
 }
 
-/// Adds a column of text made from the statistics of a point. @param table title of the table; empty: the
-/// table of points
+/// Adds a column of text, made from the statistics of each design point. @param cell returns the text @param
+/// table title of the table; empty: the table of points
 template <typename Cell>
 void add_text_column(PointDescription& point, const std::string& table, const std::string& heading,
                      const std::string& meaning, Cell cell) {
@@ -325,7 +332,8 @@ void add_success(PointDescription& point, const StudySummary& summary) {
       });
 }
 
-/// Percentage of machines without a failure; with a claim, of machines without a miss of the worst claim.
+/// Percentage of machines without a failed trial, as text; if the study has a goal, of machines whose moves
+/// all meet the worst claim (goal and setting).
 std::string faultless_machines(Point p, const goal::Question& question) {
   if (question.claim() && p.verdict)
     return text::percentage(p.verdict->machines_without_miss, p.statistics().machines.n);
@@ -364,7 +372,7 @@ void add_outcomes(PointDescription& point, const StudySummary& summary) {
   add_machines(point, table, summary, goal::success(summary.question));
 }
 
-/// Adds the column of the number of trials, if points differ in it.
+/// Adds a column with the number of trials, if design points differ in it.
 void add_trials(PointDescription& point, const StudySummary& summary) {
   if (trials_of_each(summary)) return;
   point.value({.heading = "trials"}, [](Point p) { return p.statistics().trials; });
@@ -397,7 +405,8 @@ std::string cell_text(layout::CellText text, Statistics point, double value) {
   return text::short_number(value);
 }
 
-/// " [low, high]", without percent signs, which the cell before has. Empty without bounds.
+/// Bounds of a statistic as text for a table cell: " [low, high]". Percent signs are left out, because the
+/// cell's value has one. Empty without bounds.
 std::string bounds_text(const layout::SummaryColumn& column, const measures::MeasureStatistics& statistics) {
   if (!column.bounds) return "";
   const double low = measures::value_of(column.bounds->low, statistics);
@@ -407,8 +416,8 @@ std::string bounds_text(const layout::SummaryColumn& column, const measures::Mea
   return fmt::format(" [{}, {}]", text::short_number(low), text::short_number(high));
 }
 
-/// The legend of a measure as one line. On an axis with two masses, "the rotor" is replaced by the mass whose
-/// encoder closes the loop.
+/// The explanation of a measure's column as one line. On an axis with two masses, "the rotor" is replaced by
+/// the mass whose encoder closes the loop.
 std::string legend_line(const StudySummary& summary, const layout::Measure& measure) {
   std::string legend = parameters::text_on(summary.features.axis, measure.summary.legend);
   std::string_view mass = summary.question.of_mass;
@@ -432,7 +441,8 @@ void add_measure(PointDescription& point, const std::string& table, const StudyS
   }
 }
 
-/// Whether the settling times of the goal are those of a measure over all moves.
+/// Whether the goal's settling times are simply those of a measure over all moves, so that the measure's
+/// statistics serve for the goal.
 bool asks_all_moves_alike(const goal::Question& question) {
   return !has_several(question) && question.settings.empty() && question.counted().on.empty();
 }

@@ -32,7 +32,7 @@ namespace {
 
 using summary::StudySummary;
 
-/// Name of the CSV column for the name of a value: "band_settling_time_p95[1]" for
+/// Name of the CSV column for the name of a statistic that the user gave: "band_settling_time_p95[1]" for
 /// "band_settling_time[1].p95".
 std::string column_name(std::string_view name) {
   std::string column(name);
@@ -61,7 +61,7 @@ std::string known_names(const StudySummary& summary) {
   return names + "label, point, success_rate, arrival_time_p95 and the other columns of --format csv";
 }
 
-/// [point] the numbers in a column of the CSV; empty if the CSV has no such column.
+/// [point] The numbers in a column of the CSV output; empty if the CSV has no such column.
 std::optional<std::vector<double>> csv_values(const StudySummary& summary, const std::string& name) {
   const document::Description<DescribedPoint> description = point_description(summary);
   const auto is_column = [&](const auto& cell) { return cell.first == name; };
@@ -83,7 +83,9 @@ std::optional<std::vector<double>> csv_values(const StudySummary& summary, const
 
 using KnownValues = std::map<std::string, std::vector<double>>;
 
-/// [point] the value with this name.
+/// [point] The values with this name: a swept parameter, a stored statistic or a column of the CSV. @param
+/// known values that the file stores
+/// @throws Failure (bad_input) for an unknown name
 std::vector<double> values_of(const StudySummary& summary, std::string_view name, const KnownValues& known) {
   const study::SweepAxis* const axis = find_axis(summary, name);
   if (axis != nullptr && axis->kind == study::SweepAxis::Kind::number) return axis->numbers;
@@ -97,15 +99,15 @@ std::vector<double> values_of(const StudySummary& summary, std::string_view name
                 fmt::format("unknown value '{}'; expected {}", name, known_names(summary)));
 }
 
-/// [point] the text with this name: the names of a swept choice, or the labels. Null if the name does not
-/// stand for texts.
+/// [point] The texts with this name: the words of a swept choice, or the labels of the points. Null if the
+/// name does not stand for texts.
 const std::vector<std::string>* texts_of(const StudySummary& summary, std::string_view name) {
   if (const study::SweepAxis* const axis = find_axis(summary, name))
     return axis->kind == study::SweepAxis::Kind::text ? &axis->texts : nullptr;
   return name == "label" ? &summary.labels : nullptr;
 }
 
-/// [point] rank of the text among all texts in alphabetical order.
+/// [point] Rank of the point's text among all texts in alphabetical order.
 std::vector<double> ranks_of(const std::vector<std::string>& texts) {
   std::vector<std::string> sorted = texts;
   std::ranges::sort(sorted);
@@ -136,7 +138,7 @@ std::string_view unquoted(std::string_view text) {
   return quoted ? text.substr(1, text.size() - 2) : text;
 }
 
-/// The first few distinct texts, in their order.
+/// The first few distinct texts, in their order, separated by commas for a message.
 std::string names_among(const std::vector<std::string>& texts) {
   constexpr std::size_t shown = 8;
   std::vector<std::string> names;
@@ -149,7 +151,7 @@ std::string names_among(const std::vector<std::string>& texts) {
   return fmt::format("{}{}", fmt::join(names, ", "), more ? ", …" : "");
 }
 
-/// [point] whether the condition on a text, = or !=, holds.
+/// [point] Whether the condition on a text (= or !=) holds.
 /// @throws Failure (bad_input) if no point has the text, or for another relation
 std::vector<bool> texts_hold(const std::vector<std::string>& texts, const text::Relation& condition) {
   const std::string_view wanted = unquoted(condition.limit);
@@ -169,7 +171,7 @@ std::vector<bool> texts_hold(const std::vector<std::string>& texts, const text::
   return holds;
 }
 
-/// [point] whether the condition holds.
+/// [point] Whether the condition `text`, such as "kp > 0", holds. @param known values that the file stores
 std::vector<bool> holds_at(const StudySummary& summary, const std::string& text, const KnownValues& known) {
   const text::Relation condition = parts_of_condition(text);
   if (const std::vector<std::string>* const texts = texts_of(summary, condition.name))
@@ -248,12 +250,12 @@ namespace {
 
 using summary::StudySummary;
 
-/// Largest number of points whose statistics are computed one by one. For more points it is quicker to read
-/// the file from end to end.
+/// Largest number of design points whose statistics are computed one by one. For more points it is quicker to
+/// read the file from end to end.
 constexpr std::size_t max_selected = 200;
 
-/// [point] a statistic that the file stores; "NAME[b]" for the statistic of an error band. Empty if the file
-/// does not store it.
+/// [point] A statistic that the file stores for every design point; "NAME[b]" for the statistic of an error
+/// band. Empty if the file does not store it.
 std::optional<std::vector<double>> stored_statistic(const reading::AllTrialsFile& file,
                                                     const std::string& name) {
   const std::size_t open = name.find('[');
@@ -281,7 +283,7 @@ std::optional<std::vector<double>> stored_statistic(const reading::AllTrialsFile
   return values;
 }
 
-/// A table with the only measure by which points are compared: settling_measure().
+/// A table with only the measure by which design points are compared: settling_measure().
 std::shared_ptr<const layout::MeasureTable> measures_of_merit(const reading::AllTrialsFile& file,
                                                               const goal::Question& question) {
   auto table = std::make_shared<layout::MeasureTable>();
@@ -292,7 +294,8 @@ std::shared_ptr<const layout::MeasureTable> measures_of_merit(const reading::All
   return table;
 }
 
-/// Counts the moves of every point that meet the goal.
+/// Counts, for every design point of the summary, the moves that meet the goal, from the stored settling
+/// times.
 void count_goal(StudySummary& summary, const reading::AllTrialsFile& file, const study::Study& study) {
   const measures::CountedGoal counted = summary.question.counted();
   const auto moves = static_cast<std::size_t>(file.moves());
@@ -312,13 +315,14 @@ void count_goal(StudySummary& summary, const reading::AllTrialsFile& file, const
   }
 }
 
-/// Whether the goal depends on more than the settling times of all moves in its band.
+/// Whether the goal cannot be judged from the settling times of all moves in its band alone: it has selected
+/// moves, further limits or a tolerance, or its time counts from the end of the motion profile.
 bool needs_outcomes(const measures::CountedGoal& goal) {
   return !goal.on.empty() || !goal.limits.empty() || goal.tolerance || goal.within.after_profile;
 }
 
-/// Reads the statistics of all points by which they are compared. Returns false if the file does not store
-/// them.
+/// Reads the statistics of all design points by which points are compared into the summary. Returns false if
+/// the file does not store them.
 bool outline_points(StudySummary& summary, const reading::AllTrialsFile& file, const study::Study& study,
                     const layout::MeasureTable& table) {
   if (has_several(summary.question) || needs_outcomes(summary.question.counted())) return false;
@@ -352,7 +356,8 @@ bool outline_points(StudySummary& summary, const reading::AllTrialsFile& file, c
   return true;
 }
 
-/// The predictions of all points, from the columns that the file stores.
+/// Reads the stability predictions of all design points from the columns that the file stores into the
+/// summary. Returns false if it has none.
 bool read_predictions(StudySummary& summary, const reading::AllTrialsFile& file) {
   std::vector<layout::PointColumn> columns;
   for (const measures::PredictionField& field : measures::prediction_fields()) {
@@ -364,7 +369,7 @@ bool read_predictions(StudySummary& summary, const reading::AllTrialsFile& file)
   return true;
 }
 
-/// The summary of the first point alone. Its axes are still those of all points.
+/// A summary of the first design point alone. Its axes still have the values of all points.
 StudySummary summary_of_first_point(const StudySummary& summary, const reading::AllTrialsFile& file) {
   StudySummary first = summary;
   first.labels.resize(1);

@@ -32,15 +32,16 @@ const PointRepeatability& repeatability_of(Point p) {
   return p.summary.repeatability->points[p.index()];
 }
 
-/// The repeatability values of a point, and of one of its targets, from one source of deviations.
+/// Repeatability values (ISO 230-2) of a design point, and of one of its targets, from one source of
+/// positions: an encoder's readings or the true position.
 struct SourceValues {
   const DescribedPoint& point;
   std::size_t source;
   std::size_t target{0};
 
   const DeviationSource& from() const { return (*point.summary.repeatability->sources)[source]; }
-  /// The mass to which the positions belong. Empty on an axis with one mass, and if trials of the point
-  /// differ.
+  /// The mass (motor or load) to which the positions belong. Empty on an axis with one mass, and if trials of
+  /// the point differ in it.
   std::optional<motion::EncoderPlace> mass() const {
     return from().other ? from().other : repeatability_of(point).closing;
   }
@@ -57,7 +58,7 @@ std::span<const ValueStatistics> of_target(Source s) {
   return s.values().targets[s.target];
 }
 
-/// Adds an object for each value, with the statistics of the value over the trials.
+/// Adds an output object for each repeatability value, with the statistics of the value over the trials.
 template <class Values>
 void add_values(SourceDescription& description, std::span<const RepeatabilityField<Values>> fields,
                 bool of_targets, std::span<const ValueStatistics> (*statistics)(Source)) {
@@ -144,7 +145,8 @@ void add_csv_columns(PointDescription& point, const iso230::RepeatabilitySummary
   }
 }
 
-/// The unit in which people see positions: seconds of arc, or µm, as is usual in the trade.
+/// The unit in which people see positions, as is usual in the trade: seconds of arc for a rotary axis, µm for
+/// a linear one.
 std::string shown_unit(const DeviationSource& source, parameters::AxisKind axis) {
   return source.unit == "rad" ? parameters::unit_on(axis, "arcsec") : source.unit;
 }
@@ -155,7 +157,7 @@ double in_shown_unit(const DeviationSource& source, parameters::AxisKind axis, d
   return value / (axis == parameters::AxisKind::linear ? micrometre : arcsec);
 }
 
-/// The value with three significant digits; larger values as whole numbers.
+/// The value as text with three significant digits; larger values as whole numbers.
 std::string three_digits(double value) {
   return std::abs(value) < 999.5 ? fmt::format("{:.3g}", value) : fmt::format("{:.0f}", value);
 }
@@ -167,16 +169,16 @@ std::string median_and_p95(const DeviationSource& source, parameters::AxisKind a
                      three_digits(in_shown_unit(source, axis, value.p95.value)));
 }
 
-/// Whether the source repeats another one at the point, because its mass closes the loop there or the axis
-/// has only one mass.
+/// Whether the true position of a mass repeats another source of positions at the point, because the encoder
+/// on this mass closes the loop or the axis has only one mass.
 bool is_repeated(const SourceValues& reading) {
   const std::optional<motion::EncoderPlace> other = reading.from().other;
   const PointRepeatability& point = repeatability_of(reading.point);
   return other && (!point.has_load || point.closing == other);
 }
 
-/// The readings of all points and sources, for each of the first `targets` targets. @param targets 1 for
-/// tables without targets
+/// Table rows of repeatability values: all design points and sources of positions, for each of the first
+/// `targets` targets. @param targets 1 for tables that do not distinguish targets
 std::vector<SourceValues> rows_of(const SummaryResults& s, std::size_t targets) {
   std::vector<SourceValues> rows;
   for (const DescribedPoint& point : s.points) {
@@ -200,7 +202,8 @@ void add_source(SourceDescription& columns, parameters::AxisKind axis) {
   });
 }
 
-/// The most informative of the values that the approach directions of a sequence define.
+/// The most informative repeatability values, which depend on the approach directions of the test sequence:
+/// both, positive only, or negative only.
 template <typename Values>
 struct ShownValues {
   std::vector<double Values::*> of_both, of_positive, of_negative;
@@ -226,8 +229,8 @@ void add_columns(SourceDescription& columns, std::span<const RepeatabilityField<
   }
 }
 
-/// The proportion of trials that repeat exactly, with bounds. Only for readings of the encoder; otherwise
-/// empty.
+/// The proportion of trials that repeat exactly (zero deviation), with bounds. Only for readings of the
+/// encoder; otherwise empty.
 std::optional<document::Bounded> zero_proportion(Source s) {
   const PointRepeatability& point = repeatability_of(s.point);
   if (s.from().unit != "count" || !point.zero_repeatability) return std::nullopt;
@@ -280,7 +283,8 @@ std::string title_of_repeatability(const SequenceShape& shape) {
                      text::counted(shape.targets, "target"), from, text::counted(shape.cycles, "cycle"));
 }
 
-/// A line for each point at which all trials repeat exactly, with the bound that this demonstrates.
+/// Text with a line for each design point at which all trials repeat exactly, with the bound of the failure
+/// proportion that this demonstrates.
 std::string exact_points(const SummaryResults& s) {
   const auto label = short_label(s.summary);
   const double confidence = s.summary.repeatability->confidence;

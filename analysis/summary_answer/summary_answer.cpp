@@ -28,14 +28,14 @@ const SummaryResults& same_summary(Summary s) {
   return s;
 }
 
-/// Number of machines with trials; in an unfinished run, at the point with the most machines.
+/// Number of machines with trials; for an unfinished run, at the design point with the most machines.
 std::int64_t machines_of(const StudySummary& summary) {
   std::int64_t machines = 0;
   for (const measures::PointSummary& point : summary.points) machines = std::max(machines, point.machines.n);
   return machines;
 }
 
-/// The size of the study: "paper-gains: 8 points × 2000 trials on 100 machines".
+/// The size of the study as text: "paper-gains: 8 points × 2000 trials on 100 machines".
 std::string size_line(const StudySummary& summary) {
   std::string line =
       fmt::format("{}: {}", text::printable(summary.name), text::counted(summary.points.size(), "point"));
@@ -52,7 +52,7 @@ std::string headline(Summary s) {
   return summary::claim_of_chosen_point(s.summary, s.chosen);
 }
 
-/// The reasons for the headline; empty for an open-loop study.
+/// Text with the reasons for the headline; empty for an open-loop study.
 std::string details(Summary s) {
   if (s.summary.features.open_loop) return {};
   if (s.summary.question.claim())
@@ -69,8 +69,8 @@ std::string study_lines(Summary s) {
          (unfinished.empty() ? "" : unfinished + "\n") + design_line(s.summary);
 }
 
-/// A line for every point with trials whose motion was lost. The reader must know of them because they count
-/// as failures.
+/// Text with a line for every design point with trials whose motion became non-finite. The reader must know
+/// of them because they count as failures.
 std::string nonfinite_lines(Summary s) {
   std::string lines;
   for (const DescribedPoint& point : s.points) {
@@ -133,12 +133,12 @@ SummaryDescription chosen_description() {
              ends, ends_of);
 }
 
-/// The new trials of --confirm.
+/// Results of the new trials that the option --confirm runs at the chosen point.
 struct ConfirmationResults {
   const StudySummary& summary;
   const Confirmation& confirmed;
 
-  /// A point summary with only the goal counts of the new trials.
+  /// A point summary that holds only the new trials' counts of moves that meet the goals.
   measures::PointSummary point() const {
     measures::PointSummary point;
     point.goals = confirmed.goals;
@@ -153,8 +153,8 @@ struct ConfirmationResults {
                                                      : fmt::format(" on {} machines", confirmed.machines),
                        summary.question.worlds > 0 ? ", on average over new worlds" : "");
   }
-  /// Clopper–Pearson bounds of the success rate. Empty if the trials are dependent: if several share a
-  /// machine, or the study has settings.
+  /// Clopper–Pearson bounds of the success rate of the new trials. Empty if the trials are dependent: if
+  /// several share a machine, or the study has settings.
   std::optional<statistics::ConfidenceInterval> bounds() const {
     if (confirmed.machines > 0 && !has_one_trial_per_machine()) return std::nullopt;
     if (!summary.question.settings.empty()) return std::nullopt;  // a machine has a trial under each
@@ -199,7 +199,7 @@ document::Description<ConfirmationResults> confirmation_description(const StudyS
   return description;
 }
 
-/// The items in JSON of two types of answers. Items that one of them lacks are optional.
+/// The JSON items of two types of answers in one list. Items that one of them lacks are optional.
 std::vector<document::Item> united(std::vector<document::Item> all, const std::vector<document::Item>& more) {
   const auto find = [](auto& items, const std::string& key) {
     return std::ranges::find(items, key, &document::Item::key);
@@ -222,7 +222,8 @@ std::vector<document::Item> united(std::vector<document::Item> all, const std::v
   return all;
 }
 
-/// A summary of a made-up study with all features except torque levels.
+/// A summary of a made-up study with all features except torque levels, from which the type of the answers is
+/// derived.
 StudySummary full_study() {
   StudySummary full;
   full.features.motion = full.features.steps = full.features.following = full.features.reversals = true;

@@ -14,8 +14,8 @@
 #include "analysis/summary_answer/parts.hpp"
 #include "analysis/text/text.hpp"
 
-/// Parts on the trials of a point beyond their statistics. Each part is an object of the point in data, and a
-/// table below that of the points for people.
+/// Parts of the summary on the trials of a design point beyond their statistics. Each part is an object of
+/// the point in data, and a table below that of the points for people.
 namespace zerocount::summary_answer {
 namespace {
 
@@ -26,8 +26,8 @@ const DescribedPoint& same_point(Point p) {
   return p;
 }
 
-/// The sentence on undecided moves, with a remark if the converter clipped, because clipping can also keep
-/// moves from their targets. Empty without undecided moves.
+/// The sentence on undecided moves, with a remark if the converter clipped the torque, because clipping can
+/// also keep moves from their targets. Empty without undecided moves.
 std::string undecided_text(Point p) {
   if (!measures::any_undecided(p.statistics().undecided)) return {};
   const std::int64_t clipped = p.statistics().of(&trial::MoveOutcome::saturated).trials;
@@ -55,7 +55,7 @@ statistics::ConfidenceInterval stopped_bounds(Point p, double confidence) {
   return statistics::confidence_sequence_bounds(point.outcomes.zero_count, point.judged, confidence);
 }
 
-/// Half the width of the bounds at the confidence of the stopping rule.
+/// Half the width of the success rate's bounds at the confidence of the stopping rule.
 double halfwidth(Point p) {
   const statistics::ConfidenceInterval judged = stopped_bounds(p, p.summary.stop->confidence);
   return 0.5 * (judged.high - judged.low);
@@ -79,8 +79,8 @@ std::string note_on_stopping(const summary::StudySummary& summary) {
                         machines));
 }
 
-/// Whether machines have several trials each. With one trial per machine, little is known of a single
-/// machine.
+/// Whether tables show results by machine: machines have several trials each. With one trial per machine,
+/// little is known of a single machine.
 bool shows_machines(const summary::StudySummary& summary) {
   return summary.features.machines && !summary.points.empty() &&
          summary.points.front().trials > summary.points.front().machines.n;
@@ -116,7 +116,8 @@ std::string note_on_assurance(const summary::StudySummary& summary) {
       shows_machines(summary) ? "; of machines: their moves that end at zero error" : "");
 }
 
-/// Key of a tolerance limit by its content: "settling_within_95", "settling_within_99_9".
+/// JSON key of a tolerance limit of the settling time, by its proportion of machines: "settling_within_95",
+/// "settling_within_99_9".
 std::string key_of_limit(double content) {
   std::string name = fmt::format("settling_within_{:.6g}", 100.0 * content);
   std::ranges::replace(name, '.', '_');

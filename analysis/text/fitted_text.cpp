@@ -24,7 +24,7 @@ std::vector<std::string_view> lines_of(std::string_view text) {
   return lines;
 }
 
-/// The first characters of a word that fit into the width.
+/// The first characters of a word that fit into `width` terminal columns, at least one.
 std::string_view fitting_part(std::string_view word, std::size_t width) {
   std::size_t bytes = 0;
   std::size_t used = 0;
@@ -37,7 +37,8 @@ std::string_view fitting_part(std::string_view word, std::size_t width) {
   return word.substr(0, bytes);
 }
 
-/// End of the word that begins at a position. A percent sign belongs to its number.
+/// Index one past the end of the word that begins at `begin`. A percent sign after a space belongs to its
+/// number.
 std::size_t end_of_word(std::string_view text, std::size_t begin) {
   constexpr std::string_view percent = " %";
   std::size_t end = std::min(text.find(' ', begin), text.size());
@@ -46,7 +47,8 @@ std::size_t end_of_word(std::string_view text, std::size_t begin) {
   return end;
 }
 
-/// Text in lines of at most `width`. Runs of spaces between words stay, unless a line ends there.
+/// Breaks the text into lines: the first of at most `width` terminal columns, the others of at most
+/// `later_width`. Runs of spaces between words stay, unless a line ends there.
 /// @param breaks_words whether words that are wider than a line are broken
 std::vector<std::string> wrapped(std::string_view text, std::size_t width, std::size_t later_width,
                                  bool breaks_words) {
@@ -75,8 +77,9 @@ void append_line(std::string& text, std::string line) {
   text += line + "\n";
 }
 
-/// Indent at which a line that is too long continues. If the text of the line follows a name and a gap, as in
-/// a list of options, it continues below the text, otherwise a little further in.
+/// Indent, in terminal columns, with which the continuation of a line that is too long begins. If the text of
+/// the line follows a name and a gap, as in a list of options, it continues below the text, otherwise a
+/// little further in.
 std::size_t hanging_indent(std::string_view line, std::size_t indent, std::size_t width) {
   std::size_t hanging = std::min(indent + gap, width / 2);
   for (std::size_t at = line.find("  ", indent); at != std::string_view::npos; at = line.find("  ", at)) {
@@ -99,11 +102,12 @@ void append_prose(std::string& text, std::string_view line, std::size_t width) {
 /// A column with its width in the table. It is narrower than its cells if they are wrapped.
 struct ShownColumn {
   const TextColumn* column;
-  std::size_t wide;   ///< Width of the widest cell.
-  std::size_t width;  ///< Width in the table.
+  std::size_t wide;   ///< Width of the widest cell, in terminal columns.
+  std::size_t width;  ///< Width that the column has in the table, in terminal columns.
 };
 
-/// Width of a column of text on a terminal without limits: a long cell is wrapped between its words.
+/// Width of a column of text if the terminal has no limit: long cells are wrapped between words, so that
+/// lines stay readable.
 std::size_t readable_width(const TextColumn& column, std::size_t wide) {
   if (column.numeric || wide <= width_of_prose) return wide;
   std::size_t width = std::max(width_of_prose, display_width(column.head));
@@ -115,7 +119,8 @@ std::size_t readable_width(const TextColumn& column, std::size_t wide) {
   return std::min(width, wide);
 }
 
-/// A row of a table: its cells side by side. @param row nothing: the heads
+/// Appends a row of a table to `text`: its cells side by side. @param row index of the row; nothing: the
+/// heads
 void append_row(std::string& text, const std::vector<ShownColumn>& columns, std::optional<std::size_t> row) {
   std::vector<std::vector<std::string>> cells;
   std::size_t height = 1;

@@ -15,13 +15,13 @@ namespace {
 constexpr double rounding = 1e-9;  // of the last digit: 99.9 % with a rounding error is shown as 99.9 %
 constexpr int max_decimals = 9;
 
-/// Number of decimals that shows two significant digits of `percent`; one decimal from 1 % on.
+/// Number of decimals with which a percentage shows two significant digits; one decimal from 1 % on.
 int percent_decimals(double percent) {
   if (!(percent > 0.0)) return 1;
   return std::clamp(1 - static_cast<int>(std::floor(std::log10(percent) + rounding)), 1, max_decimals);
 }
 
-/// A percentage with at most `decimals` decimals, without trailing zeros.
+/// A percentage as text with at most `decimals` decimals, without trailing zeros: "12.5 %".
 std::string percent_with(double percent, int decimals) {
   std::string number = fmt::format("{:.{}f}", percent, decimals);
   number.erase(number.find_last_not_of('0') + 1);
@@ -94,7 +94,8 @@ constexpr std::array small_prefixes{Prefix{1e-12, "p"}, Prefix{1e-9, "n"}, Prefi
                                     Prefix{1e-3, "m"}, Prefix{1.0, ""}};
 constexpr std::array large_prefixes{Prefix{1.0, ""}, Prefix{1e3, "k"}, Prefix{1e6, "M"}};
 
-/// The prefixes that are usual with a unit that begins with this one.
+/// The SI prefixes that are usual with a unit, by the part of the unit before '/' or '^': none, small ones
+/// (m, rad, s) or large ones (Hz).
 std::span<const Prefix> prefixes_of(std::string_view unit) {
   const std::string_view first = unit.substr(0, unit.find_first_of("/^"));
   if (unit.find('^') < unit.find('/')) return {};  // a prefix would be squared too
@@ -103,8 +104,8 @@ std::span<const Prefix> prefixes_of(std::string_view unit) {
   return {};
 }
 
-/// The largest prefix with which the number is at least 1, or the smallest prefix if there is none. No prefix
-/// for 0 and for units without prefixes.
+/// The largest usual prefix with which the number is at least 1, or the smallest prefix if there is none. No
+/// prefix for 0 and for units without prefixes.
 Prefix prefix_for(double largest, std::string_view unit) {
   const std::span<const Prefix> prefixes = prefixes_of(unit);
   Prefix chosen =
@@ -120,7 +121,7 @@ void replace_all(std::string& text, std::string_view what, std::string_view by) 
     text.replace(at, what.size(), by);
 }
 
-/// Whether the unit is a word, of which there is one or several.
+/// Whether the unit is a word with a plural: count or sample.
 bool is_counted(std::string_view unit) {
   return unit == "count" || unit == "sample";
 }

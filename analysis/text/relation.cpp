@@ -14,7 +14,7 @@
 namespace zerocount::text {
 namespace {
 
-/// The signs as written. A sign that begins with another sign comes before it.
+/// The relation signs as users write them. A sign that begins with another sign comes before it in the list.
 constexpr std::array<std::pair<std::string_view, Sign>, 10> signs{{{"<=", Sign::at_most},
                                                                    {"≤", Sign::at_most},
                                                                    {"<", Sign::below},

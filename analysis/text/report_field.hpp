@@ -16,7 +16,7 @@ template <class Subject>
 struct ReportField {
   /// JSON object that contains the field, such as "arrival_time"; empty at the top.
   std::string group;
-  std::string name;                             ///< Name within the group.
+  std::string name;                             ///< Name of the field within the group.
   std::string unit;                             ///< Unit; "1" if dimensionless.
   std::string long_name;                        ///< Meaning, with the denominator of a proportion or mean.
   bool whole{false};                            ///< True if the value is a whole number.
@@ -28,7 +28,8 @@ struct ReportField {
   std::optional<double> tolerance{};
 };
 
-/// Largest error within the field's band (counts) or tolerance (rad); nothing if the field has neither.
+/// Largest error within the error band (counts) or tolerance (rad) of the field; nothing if the field has
+/// neither.
 template <class Subject>
 std::optional<double> limit_of(const ReportField<Subject>& field) {
   return field.band ? static_cast<double>(*field.band) : field.tolerance;
@@ -47,7 +48,7 @@ std::string flat_name(const ReportField<Subject>& field) {
   return field.band ? "band_" + name + "[" + std::to_string(*field.band) + "]" : name;
 }
 
-/// A count as the value of a field.
+/// Converts a count to double, as the value of a field.
 inline double to_double(std::int64_t count) {
   return static_cast<double>(count);
 }

@@ -20,8 +20,8 @@ bool in_any(char32_t value, const auto& ranges) {
                      [value](const CodeRange& range) { return value >= range.first && value <= range.last; });
 }
 
-/// Width of a code point in columns, from the blocks of Unicode 15 that contain only combining or only wide
-/// characters.
+/// Width on a terminal of a Unicode code point, in columns: 0, 1 or 2, from the blocks of Unicode 15 that
+/// contain only combining or only wide characters.
 std::size_t columns(char32_t value) {
   constexpr std::array<CodeRange, 8> combining{{{0x0300, 0x036F},
                                                 {0x1AB0, 0x1AFF},

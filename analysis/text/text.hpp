@@ -16,8 +16,9 @@ namespace zerocount::text {
 /// @param width columns of the terminal, at least 20; nothing: the text stays as it is
 std::string fitted(std::string_view text, std::optional<std::size_t> width);
 
-/// A line of parts between commas that fits into the width: parts are left out, the last but one first, and
-/// if the first is still too wide, its end. The first and the last say most.
+/// Shortens a line of parts between commas to `width` terminal columns. Parts are left out, the last but one
+/// first, because the first and the last say most. If the first part alone is still too wide, its end is cut
+/// off.
 std::string shortened(std::string_view line, std::size_t width);
 
 /// A text whose paragraphs were wrapped by hand at about `width`, with each paragraph on one line: a line
@@ -31,42 +32,44 @@ inline constexpr std::size_t width_of_prose = 120;
 // Proportions as percentages. No bound is ever rounded towards what it does not show: a lower bound is
 // rounded down, an upper bound up.
 
-/// A given proportion as a percentage, with as many digits as distinguish it from 0 and 1: "95 %", "99.99999
-/// %".
+/// Text of an exactly known proportion as a percentage, with as many digits as distinguish it from 0 and 1:
+/// "95 %", "99.99999 %".
 std::string percent(double proportion);
 
-/// An observed proportion, rounded to as many digits as distinguish it from 0 and 1, with at least one
-/// decimal: "97.4 %", "99.96 %"; "0 %" and "100 %" are exact.
+/// Text of an observed proportion as a percentage, rounded to as many digits as distinguish it from 0 and 1,
+/// with at least one decimal: "97.4 %", "99.96 %"; "0 %" and "100 %" are exact.
 std::string percent_near(double proportion);
 
-/// A lower bound, rounded down to two significant digits of the smaller of p and 1 − p, and to one decimal if
-/// both are above 1 %. Never "100 %": no sample shows that.
+/// Text of a lower bound p of a proportion as a percentage, rounded down to two significant digits of the
+/// smaller of p and 1 − p, and to one decimal if both are above 1 %. Never "100 %": no sample shows that.
 std::string percent_at_least(double proportion);
 
-/// An upper bound, rounded up to two significant digits, and to one decimal above 1 %. Never "0 %" unless it
-/// is 0.
+/// Text of an upper bound of a proportion as a percentage, rounded up to two significant digits, and to one
+/// decimal above 1 %. Never "0 %" unless it is 0.
 std::string percent_at_most(double proportion);
 
-/// A number rounded down or up to `decimals` decimals. Digits that come from rounding errors do not count.
+/// Text of a number rounded down (next function: up) to `decimals` decimals. Digits that come from rounding
+/// errors do not count.
 std::string rounded_down(double value, int decimals);
 std::string rounded_up(double value, int decimals);
 
-/// "96.6, 99.1": two bounds of a proportion in percent, rounded outward.
+/// Text of two bounds of a proportion in percent, rounded outward: "96.6, 99.1".
 std::string percent_bounds(double low, double high, int decimals = 1, const char* between = ", ");
 
 // Numbers with their units, as people write them.
 
-/// A number with `digits` significant digits and a short exponent: "5.9e6", "0.0125"; "–" for NaN.
+/// Text of a number with `digits` significant digits and a short exponent: "5.9e6", "0.0125"; "–" for NaN.
 std::string number_text(double value, int digits = 4);
 
-/// A number with its unit; lengths, angles, times and frequencies with a prefix: "10 nm", "1.2 mm/s",
+/// Text of a number with its unit; lengths, angles, times and frequencies have a prefix: "10 nm", "1.2 mm/s",
 /// "16 kHz", "5.9e6 N/m". No unit where it is "1".
 std::string quantity_text(double value, std::string_view unit, int digits = 4);
 
-/// A range with its unit, with one prefix for both ends: "310 … 930 N s/m"; one number where they are equal.
+/// Text of a range with its unit, with one prefix for both ends: "310 … 930 N s/m"; one number if the ends
+/// are equal.
 std::string range_text(double low, double high, std::string_view unit);
 
-/// Numbers with one unit: "20, 21, 20, 0 µm".
+/// Text of numbers with one unit: "20, 21, 20, 0 µm".
 std::string list_text(std::span<const double> values, std::string_view unit);
 
 // Texts such as "arrival_time > 0.5" and "success_rate ≥ 0.995": what options and margins ask of a value.
@@ -78,19 +81,19 @@ enum class Sign : std::uint8_t { below, at_most, above, at_least, equal, unequal
 struct Relation {
   std::string_view name;
   Sign sign;
-  std::string_view written;  ///< The sign as written: "≥" or ">=".
+  std::string_view written;  ///< The sign as written in the text: "≥" or ">=".
   std::string_view limit;
 };
 
-/// The parts of the text by the first sign in it, one of < <= ≤ > >= ≥ = == != ≠; nothing without one.
+/// Splits the text at the first relation sign in it, one of < <= ≤ > >= ≥ = == != ≠; nothing without one.
 std::optional<Relation> parse_relation(std::string_view text);
 
-/// Whether the value has this relation to the limit; false for NaN.
+/// Whether the value has the relation `sign` to the limit; false for NaN.
 bool holds(Sign sign, double value, double limit);
 
-/// The values, in which each that is shown as the limit is replaced by the limit, so that a number copied
-/// from an answer means the value that the answer shows rounded. Nothing is replaced if a value is equal to
-/// the limit.
+/// The values, with each value that answers show as the same number as the limit replaced by the limit, so
+/// that a number copied from an answer means the value that the answer shows rounded. Nothing is replaced if
+/// a value is equal to the limit.
 ///
 ///     = and !=   compare at the digits in which the limit is written
 ///     others     compare at these digits too, but at no fewer than answers show (short_digits):
@@ -99,14 +102,14 @@ bool holds(Sign sign, double value, double limit);
 /// @param limit a number as text
 std::vector<double> values_as_written(Sign sign, std::vector<double> values, std::string_view limit);
 
-/// k of n as a percentage with at most one decimal; "–" if n is 0. Values that would round to 0 % or 100 %
-/// are written "< 0.1 %" or "> 99.9 %".
+/// Text of k successes in n trials as a percentage with at most one decimal; "–" if n is 0. Values that would
+/// round to 0 % or 100 % are written "< 0.1 %" or "> 99.9 %".
 std::string percentage(std::int64_t successes, std::int64_t trials);
 
-/// Significant digits of short_number(), the fewest that an answer shows.
+/// Number of significant digits of short_number(), the smallest that an answer shows.
 inline constexpr int short_digits = 4;
 
-/// `value` with four significant digits, "–" for NaN.
+/// Text of `value` with four significant digits, "–" for NaN.
 std::string short_number(double value);
 
 /// Width of UTF-8 text on a terminal in columns: combining marks have 0, East Asian wide characters and

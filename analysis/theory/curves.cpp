@@ -25,30 +25,31 @@ using Complex = std::complex<double>;
 
 constexpr double degrees = 180.0 / std::numbers::pi;
 
-/// Value of the open loop L at z = exp(i·angle).
+/// Value of the open loop L at one frequency: at z = exp(i·angle).
 struct ResponseSample {
   double angle{0.0};
   Complex value{};
 };
 
-/// The angle from one value to the next, in (−180°, 180°].
+/// The change of phase from one value of L to the next, degrees, in (−180°, 180°].
 double turn(const ResponseSample& from, const ResponseSample& to) {
   return std::arg(to.value / from.value) * degrees;
 }
 
-/// Whether the sample has a phase; false at an undamped pole or zero.
+/// Whether L has a phase at the sample; false at an undamped pole or zero, where it is infinite or 0.
 bool has_phase(const ResponseSample& sample) {
   return std::isfinite(std::abs(sample.value)) && sample.value != 0.0;
 }
 
-/// Whether a straight line between the samples represents the curve.
+/// Whether the samples of L are so close that a straight line between them represents the curve.
 bool are_near(const ResponseSample& a, const ResponseSample& b) {
   constexpr double small_turn = 5.0;    // degrees
   constexpr double small_ratio = 0.12;  // of ln|L|: 1 dB
   return std::abs(turn(a, b)) <= small_turn && std::abs(std::log(std::abs(b.value / a.value))) <= small_ratio;
 }
 
-/// Adds samples between `from` and `to`, and `to`, until each is near the next.
+/// Appends samples of L between `from` and `to`, then `to` itself, so dense that a straight line to the next
+/// represents the curve.
 void add_until(const OpenLoop& loop, const ResponseSample& from, const ResponseSample& to,
                std::vector<ResponseSample>& samples) {
   constexpr double smallest_step = 1e-9;  // of the angle; the phase of an undamped mode jumps
@@ -64,7 +65,8 @@ void add_until(const OpenLoop& loop, const ResponseSample& from, const ResponseS
   samples.push_back(to);
 }
 
-/// Dense samples of L from a millionth of half the sample rate on, including the angles `also`.
+/// Dense samples of L from a millionth of half the sample rate up to half of it, including those at the
+/// angles `also` (rad per sample).
 std::vector<ResponseSample> dense_samples(const FrozenLoop& loop, const std::vector<double>& also) {
   std::vector<double> angles = search_angles(loop);
   angles.insert(angles.end(), also.begin(), also.end());
@@ -84,7 +86,7 @@ std::vector<ResponseSample> dense_samples(const FrozenLoop& loop, const std::vec
   return samples;
 }
 
-/// The phase of each sample without jumps of 360°, degrees.
+/// The phase of L at each sample without jumps of 360°, degrees. It begins between −300° and 60°.
 std::vector<double> unwrapped(const std::vector<ResponseSample>& samples) {
   constexpr double highest_start = 60.0;
   constexpr double half_turn = 179.0;
@@ -105,8 +107,8 @@ std::vector<double> unwrapped(const std::vector<ResponseSample>& samples) {
   return phases;
 }
 
-/// Distance of the curve at the point `at` from the straight line between two of its points. 1 is about the
-/// smallest distance that is visible in the figure.
+/// Distance of the Bode curve at the point `at` from the straight line between two of its points, in units of
+/// about the smallest distance that is visible in the figure.
 double distance_from_line(const BodePoint& from, const BodePoint& to, const BodePoint& at) {
   constexpr double visible_magnitude = 0.25;  // dB
   constexpr double visible_phase = 1.0;       // degrees
@@ -135,7 +137,7 @@ void mark_needed(const std::vector<BodePoint>& curve, std::size_t first, std::si
   mark_needed(curve, at, last, tolerance, needed);
 }
 
-/// At most max_bode_points of the points, all that are `kept` among them.
+/// Reduces a Bode curve to at most max_bode_points of its points, including all points with `kept` true.
 std::vector<BodePoint> thinned(const std::vector<BodePoint>& curve, const std::vector<bool>& kept) {
   std::vector<bool> needed;
   for (double tolerance = 0.2;; tolerance *= 1.5) {
@@ -163,7 +165,7 @@ constexpr int halvings = 40;
 struct Criterion {
   const char* name;
   double IntegralGainBounds::*bound;
-  /// True for the trial that reaches the criterion at the lowest gain; false for the highest.
+  /// True: the curve of the trial that reaches the criterion at the lowest gain; false: at the highest.
   bool first;
 };
 
@@ -174,7 +176,8 @@ constexpr Criterion criteria[] = {
     {"(7)", &IntegralGainBounds::unstable_above, false},
 };
 
-/// The examined trials, with two variable parameters.
+/// The examined trials of a design point, with two parameters (x and y of a plane) that can be set to any
+/// value.
 class CriterionTrials {
  public:
   CriterionTrials(const study::Study& study, std::int64_t point, const CriterionPlane& plane)
@@ -195,7 +198,9 @@ class CriterionTrials {
 
   bool empty() const { return trials_.empty(); }
 
-  /// Maximum (first) or minimum (last) of ki/bound over the trials; 1 on the curve.
+  /// Integral gain ki over the criterion's bound, as the maximum over the trials (criterion.first) or the
+  /// minimum; 1 on the criterion's curve.
+  /// @param x, y values of the plane's two parameters
   double gain_over_bound(const Criterion& criterion, double x, double y) {
     double extreme = criterion.first ? 0.0 : std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < trials_.size(); ++i) {
@@ -212,7 +217,7 @@ class CriterionTrials {
   }
 
  private:
-  /// Values of a trial before its completion.
+  /// Parameter values of a trial as given, before the values that follow from others are computed.
   struct Given {
     loop::EncoderParameters encoder;
     loop::ControllerParameters controller;
@@ -220,12 +225,13 @@ class CriterionTrials {
 
   parameters::StudyUnits units_;
   std::vector<trial::TrialParameters> trials_;
-  std::vector<Given> given_;  ///< [trial] Given values of the trial.
+  /// [trial] Parameter values as given, from which the trial is completed again for each x and y.
+  std::vector<Given> given_;
   std::function<void(trial::TrialParameters&, double)> set_x_;
   std::function<void(trial::TrialParameters&, double)> set_y_;
 };
 
-/// The lowest fraction in [0, 1] at which `excess` changes its sign, if any.
+/// The lowest fraction in [0, 1] at which the function `excess` changes its sign; nothing if it does not.
 std::optional<double> crossing(const std::function<double(double)>& excess) {
   double low = 0.0;
   double at_low = excess(low);
@@ -244,7 +250,8 @@ std::optional<double> crossing(const std::function<double(double)>& excess) {
   return std::nullopt;
 }
 
-/// The points of a curve, searched along x for each y, or along y for each x.
+/// The points at which the gain equals the criterion's bound: searched along x for each of several y, or
+/// along y for each of several x.
 std::vector<CurvePoint> curve(CriterionTrials& trials, const Criterion& criterion,
                               const CriterionPlane& plane, bool along_x) {
   std::vector<CurvePoint> points;

@@ -26,14 +26,15 @@ namespace {
 constexpr std::int64_t max_whole_trials = 3;     // examined by the tests of whole trials
 constexpr std::int64_t max_draws_of_moves = 50;  // by those of moves
 
-/// Upper tail probability of both sides of the normal distribution.
+/// Two-sided tail probability of the normal distribution: P(|X| > bound) for X with mean 0 and this standard
+/// deviation.
 double outside(double bound, double deviation) {
   return std::erfc(bound / deviation / std::numbers::sqrt2);
 }
 
 constexpr double negligible = 1e-6;  // of the samples or moves; smaller proportions are written as this
 
-/// Text of an upper bound in percent.
+/// Text of an upper bound of a proportion, in percent.
 std::string percent_at_most(double proportion) {
   return fmt::format("{:.3g} %", 100.0 * std::max(proportion, negligible));
 }
@@ -68,7 +69,8 @@ Doubt zero_counts_are_wider(const GoalOfTrial& of) {
                       of.length(*of.goal.tolerance / held))};
 }
 
-/// Effect of encoder noise on an axis that stands still or is moved by the loop.
+/// Effect of encoder noise on the error or the position of the axis, as two numbers from which rate_within()
+/// computes how often it leaves a bound.
 struct NoisyLoop {
   /// Standard deviation of the error or position that must stay within the bound, counts.
   double deviation;
@@ -76,14 +78,15 @@ struct NoisyLoop {
   double independent;
 };
 
-/// Proportion of moves of which all samples are within ±`bound` (counts).
+/// Proportion of moves in which the noise stays within ±`bound` (counts) at all samples.
 double rate_within(double bound, const NoisyLoop& loop) {
   return std::exp(loop.independent * std::log1p(-outside(bound, loop.deviation)));
 }
 
-/// The loop with which the largest proportion of moves stays within ±`bound` (counts) at all samples. What
-/// must stay within is the error that the loop reads, or the axis, as `at` says. Contacts that stick are
-/// considered; without friction the loops of the free axis. Nothing without a stable loop.
+/// The linear loop with which the largest proportion of moves stays within ±`bound` (counts) at all samples.
+/// The bound applies to the error that the loop reads, or to the axis, as `at` says. If the axis has
+/// friction, loops with a sticking contact are considered; without friction the loops of the free axis.
+/// Nothing without a stable loop.
 std::optional<NoisyLoop> quietest_loop(const GoalOfTrial& of, NoiseAt at, double bound) {
   const loop::EncoderErrors& errors = of.errors();
   std::optional<NoisyLoop> quietest;
@@ -171,7 +174,7 @@ Doubt load_hangs_behind(const GoalOfTrial& of) {
                    of.goal.tolerance ? "" : "a tolerance with ")};
 }
 
-/// A test of goals: of whole trials, or of each of their moves.
+/// A plausibility test of goals, which is applied either to whole trials or to each move of a trial.
 struct GoalTest {
   Doubt (*of_trial)(const GoalOfTrial&){nullptr};
   Doubt (*of_move)(const MoveOfTrial&){nullptr};
@@ -180,7 +183,9 @@ struct GoalTest {
   /// True if a failure is an obstacle to meeting the goal, and not only a doubt about the meaning of the
   /// goal.
   bool is_obstacle{true};
-  bool needs_trial{false};  ///< Counts for a move only if the simulated move misses the band or tolerance.
+  /// True if a failure counts for a move only if a simulation shows that the move misses the band or
+  /// tolerance.
+  bool needs_trial{false};
 };
 constexpr std::array<GoalTest, 14> goal_tests{
     {{load_hangs_behind, nullptr, true, false, false},
@@ -199,23 +204,24 @@ constexpr std::array<GoalTest, 14> goal_tests{
      {nullptr, encoder_misplaces_the_target, true, true}}};
 
 constexpr std::int64_t max_simulated_samples = std::int64_t{1} << 20;  // of all trials
-/// Smallest number of samples that may be simulated for a point in a setting, however many points there
-/// are.
+/// Smallest number of samples that may be simulated for a design point in one setting (condition at an age),
+/// however many points there are.
 constexpr std::int64_t min_simulated_samples_of_cell = std::int64_t{1} << 14;
 
-/// A trial, with its outcome if a test has needed it.
+/// A trial that the plausibility tests examine, with its simulated outcome if a test has needed it.
 struct ExaminedTrial {
   trial::TrialParameters parameters;
   std::optional<trial::TrialOutcome> outcome{};
 };
 
-/// The examined trials in one setting of a point.
+/// The examined trials of a design point in one setting (condition at an age).
 struct ExaminedTrials {
   std::span<ExaminedTrial> trials;
-  std::int64_t& samples_left;  ///< Number of samples that may still be simulated.
+  std::int64_t& samples_left;  ///< Number of samples that may still be simulated for this point and setting.
 };
 
-/// Whether the move is within the band or tolerance in time.
+/// Whether the simulated move settles in the goal's band or tolerance within the allowed time.
+/// @param number index of the move in the trial
 bool settles(const study::Study& study, const study::Goal& goal, const trial::TrialOutcome& outcome,
              std::size_t number) {
   if (number >= outcome.moves.size()) return false;  // the trial was stopped
@@ -236,8 +242,8 @@ bool settles(const study::Study& study, const study::Goal& goal, const trial::Tr
   return time <= goal.within.from_start(move.travel_time) * rounding;  // not NaN
 }
 
-/// Simulates the trial unless it has been simulated.
-/// @returns false if it has too many samples
+/// Simulates the trial, unless it has been simulated, and reduces `samples_left` by its samples.
+/// @returns false if it has more samples than are left, so that it is not simulated
 bool simulate(ExaminedTrial& trial, std::int64_t& samples_left) {
   if (trial.outcome) return true;
   const std::int64_t samples = trial::samples_of_trial(trial.parameters);
@@ -247,7 +253,8 @@ bool simulate(ExaminedTrial& trial, std::int64_t& samples_left) {
   return true;
 }
 
-/// Doubt by a test of whole trials: the goal is out of reach in each examined trial. Nothing otherwise.
+/// The doubt of a test of whole trials, if the goal is out of reach in each examined trial; otherwise
+/// nothing.
 std::optional<Doubt> doubt_of_trials(const GoalTest& test, const study::Study& study, const study::Goal& goal,
                                      const ExaminedTrials& of) {
   std::optional<Doubt> smallest;
@@ -260,8 +267,8 @@ std::optional<Doubt> doubt_of_trials(const GoalTest& test, const study::Study& s
   return smallest;
 }
 
-/// Doubt by a test of moves: the goal is out of reach in more moves than it permits, by more than chance.
-/// Nothing otherwise.
+/// The doubt of a test of moves, if the goal is out of reach in more moves than it permits, by more than
+/// chance; otherwise nothing.
 std::optional<Doubt> doubt_of_moves(const GoalTest& test, const study::Study& study, const study::Goal& goal,
                                     const ExaminedTrials& examined) {
   Doubt worst;
@@ -297,7 +304,7 @@ std::optional<Doubt> doubt_of_moves(const GoalTest& test, const study::Study& st
   return worst;
 }
 
-/// [test] Warning at the worst point; empty if the test does not fail.
+/// [test] Warning of the test at the design point where it fails worst; empty if the test does not fail.
 /// @param is_wanted selects the tests
 std::vector<std::string> worst_lines(const study::Study& study, bool (*is_wanted)(const GoalTest&)) {
   if (study.open_loop) return {};

@@ -23,24 +23,26 @@ namespace zerocount::theory {
 namespace {
 
 constexpr std::int64_t first_judged = 1 << 13;  // samples
-/// Length of the first judged record, in multiples of the longest time that the controller waits; it has at
-/// least first_judged samples.
+/// Length of the first record in which a cycle is looked for, in multiples of the longest time that the
+/// controller waits; it has at least first_judged samples.
 constexpr double waits_judged = 8.0;
-/// Torque that does not move a standing axis, as a proportion of the breakaway torque.
+/// Torque that certainly does not move an axis at rest, as a proportion of the breakaway torque.
 constexpr double part_of_breakaway = 0.05;
 
 bool has_load_friction(const trial::TrialParameters& p) {
   return motion::has_load(p.plant) && p.load_side.friction.model != friction::LoadFrictionModel::none;
 }
 
-/// Whether a part of the loop that is not linear may sustain a cycle.
+/// Whether the loop has a nonlinear part (friction or a gap) that may sustain a limit cycle. False for an
+/// open loop and a sine reference.
 bool may_hunt(const trial::TrialParameters& p) {
   if (!p.command.torque.levels.empty() || p.command.profile.shape == loop::ReferenceShape::sine) return false;
   const bool has_gap = motion::has_load(p.plant) && p.plant.load.gap > 0.0;
   return friction::has_friction(p.friction.model) || has_load_friction(p) || has_gap;
 }
 
-/// The trial with this move from its start alone, and nothing that moves the axis by itself.
+/// The trial reduced to this single move from its start, without noise and vibration, which move the axis by
+/// themselves.
 trial::TrialParameters trial_of_move(trial::TrialParameters trial, const TargetStep& move) {
   trial.command.targets = {move.to - move.from};
   trial.command.exact_targets.clear();
@@ -56,7 +58,7 @@ trial::TrialParameters trial_of_move(trial::TrialParameters trial, const TargetS
   return trial;
 }
 
-/// Number of the first sample at which the reference is at rest.
+/// Number of the first sample at which the motion profile of the reference has ended.
 double reference_ends_at(const trial::TrialParameters& p) {
   const loop::ReferenceProfile& profile = p.command.profile;
   const double duration =
@@ -74,14 +76,14 @@ double longest_wait(const loop::ControlBlocks& blocks, double sample_rate) {
   return std::max({dwell * sample_rate, command, static_cast<double>(blocks.derivative_window)});
 }
 
-/// The longest time after which the controller changes its torque at a constant error, samples.
+/// The longest time that the controller may take before it changes its torque at a constant error, samples.
 double longest_wait(const loop::ControllerParameters& c) {
   const double fine = std::max(longest_wait(c.blocks, c.sample_rate), c.delay);
   if (!loop::has_coarse_phase(c)) return fine;
   return std::max({fine, longest_wait(c.coarse.blocks, c.sample_rate), c.coarse.fine_dwell * c.sample_rate});
 }
 
-/// Change of the torque that does not move a standing axis, N m.
+/// Change of the torque that certainly does not move an axis at rest, N m.
 double negligible_torque(const trial::TrialParameters& p) {
   const double motor = friction::friction_at(p.friction, p.initial.position).breakaway;
   const double load = p.load_side.friction.contact.breakaway;
@@ -91,7 +93,8 @@ double negligible_torque(const trial::TrialParameters& p) {
   return std::max(part_of_breakaway * breakaway, 0.5 * p.dac.resolution);
 }
 
-/// The motion of a loop after the end of the reference, and its judgement as rest or hunting.
+/// Records the motion of a loop after the end of the reference's motion, and judges whether it has come to
+/// rest or hunts (oscillates for good).
 class HeldLoop {
  public:
   HeldLoop(const trial::TrialParameters& p, std::int64_t reference_ends)
@@ -140,8 +143,10 @@ class HeldLoop {
   }
 
   const trial::TrialParameters& p_;
-  std::int64_t reference_ends_;  ///< Number of the first sample that is kept.
-  std::int64_t next_judged_;     ///< Samples kept at which the motion is judged next.
+  /// Index of the first sample after the end of the reference's motion, from which samples are kept.
+  std::int64_t reference_ends_;
+  /// Number of samples after the end of the reference at which the motion is next judged as rest or hunting.
+  std::int64_t next_judged_;
   bool has_load_;
   double target_{0.0};  ///< Position at which the reference rests, counts.
   // Of each sample: positions from the target, counts, and the wanted torque within the range of the

@@ -42,8 +42,8 @@ double mean_of(Series values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// An octave of a record of samples.
-/// @param before number of octaves between this one and the last one
+/// Octave of a record of samples: the last half of it, or of its beginning.
+/// @param before number of octaves between this one and the last one; 0: the last half of the record
 Series octave(Series values, int before) {
   const std::size_t end = values.size() >> before;
   return values.subspan(end / 2, end - end / 2);
@@ -54,8 +54,8 @@ Series quarter_of(Series values, std::size_t quarter) {
   return values.subspan(quarter * size, size);
 }
 
-/// Change of the amplitude after the last quarter, if its changes between the quarters form a geometric
-/// series; 0 if they have different signs or are negligible.
+/// Expected change of an amplitude after the last quarter of a record, if its changes between the quarters
+/// continue as a geometric series; 0 if they have different signs or are negligible, infinite if they grow.
 double change_to_come(const std::array<double, quarters>& amplitudes) {
   const double first = amplitudes[1] - amplitudes[0];
   const double second = amplitudes[2] - amplitudes[1];
@@ -66,7 +66,8 @@ double change_to_come(const std::array<double, quarters>& amplitudes) {
   return ratio < 1.0 ? third * ratio / (1.0 - ratio) : std::numeric_limits<double>::infinity();
 }
 
-/// Means over the periods from one rise through the band to the next; none with too few rises.
+/// Mean amplitude and period over the periods of a position, each from one rise through `band` to the next;
+/// nothing with too few rises.
 std::optional<Cycle> mean_cycle(Series positions, const Extent& band) {
   bool was_below = false;
   std::size_t rises = 0, first = 0, last = 0;
@@ -90,7 +91,8 @@ std::optional<Cycle> mean_cycle(Series positions, const Extent& band) {
   return Cycle{sum / periods, static_cast<double>(last - first) / periods};
 }
 
-/// Change of the means of the torque in the octaves to come, N m.
+/// Change of the mean torque that is expected in the octaves to come (each twice as long as the one before),
+/// N m.
 double drift_to_come(Series torques) {
   const double last = mean_of(octave(torques, 0)) - mean_of(octave(torques, 1));
   const double before = mean_of(octave(torques, 1)) - mean_of(octave(torques, 2));
@@ -102,7 +104,7 @@ double drift_to_come(Series torques) {
   return sum;
 }
 
-/// Whether the torque oscillates quickly between the same extremes.
+/// Whether the torque oscillates quickly between the same extremes, so that its mean does not change.
 bool oscillates_quickly(Series torques) {
   const Series last = octave(torques, 0);
   const Extent before = extent_of(octave(torques, 1));

@@ -15,16 +15,16 @@ namespace zerocount::theory {
 /// Largest half range of the position of an axis that counts as standing, counts.
 inline constexpr double max_standing_amplitude = 1.0;
 
-/// Cycle of a position.
+/// Cycle (lasting oscillation) of a position.
 struct Cycle {
-  double amplitude{0.0};  ///< Mean over its periods of half of the range of the position, counts.
-  double period{0.0};     ///< Mean period, samples.
+  double amplitude{0.0};  ///< Mean over the periods of half of the range of the position, counts.
+  double period{0.0};     ///< Mean period of the oscillation, samples.
 };
 
 /// Whether the position stays within a range of two counts over the last two octaves.
 bool stands(std::span<const float> positions);
 
-/// The cycle of a position in the last octave, if it lasts:
+/// The cycle (oscillation) of a position in the last half of a record, if it lasts:
 ///
 ///   - half of its range is more than max_standing_amplitude, and the same in the octave before and in each
 ///     quarter of the last one, within 5 %
@@ -35,14 +35,15 @@ bool stands(std::span<const float> positions);
 ///     do not count
 std::optional<Cycle> lasting_cycle(std::span<const float> positions);
 
-/// Whether the wanted torque of a standing axis will not move it:
+/// Whether the commanded torque of an axis at rest will not move it in future:
 ///
 ///   - its means over the last three octaves drift so little that twenty more octaves change them by less
 ///     than `tolerance`. An integral that rises at a constant rate doubles its drift with each octave
 ///   - or its range is alike in the quarters of the last octave, and within that of the octave before: it
 ///     oscillates quickly
 ///
-/// @param tolerance N m
+/// @param torques [sample] commanded torque, N m @param tolerance change of the torque that does not move the
+/// axis, N m
 bool torque_has_settled(std::span<const float> torques, double tolerance);
 
 }  // namespace zerocount::theory

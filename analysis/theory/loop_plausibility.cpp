@@ -24,10 +24,11 @@ constexpr std::int64_t max_trials_of_point = 5;
 constexpr double min_phase_margin = 20.0;  // degrees
 constexpr double min_delay_margin = 1.0;   // samples
 
-/// The longest move of a trial against its pre-sliding range, counts.
+/// The longest move of a trial, and the travel before the axis slides (presliding range), both in counts.
 struct Travel {
   double move{0.0};
-  /// Pre-sliding range, counts; infinite without a spring.
+  /// Presliding range, counts; infinite if the friction has no spring before it slides, or criteria (6) and
+  /// (7) do not apply.
   double range{std::numeric_limits<double>::infinity()};
 
   bool slides() const { return move > range; }
@@ -43,26 +44,26 @@ Travel travel_of(const trial::TrialParameters& p) {
   return travel;
 }
 
-/// One loop of one trial.
+/// One control loop of one trial, with what the plausibility tests need.
 struct ExaminedLoop {
   const trial::TrialParameters& trial;
   const TrialLoop& of_trial;
   Travel travel;
   LoopStability stability{LoopStability::stable};
-  /// Phase margin, degrees, and its frequency, Hz; NaN if it does not matter.
+  /// Phase margin, degrees, and its frequency, Hz; NaN if the margin is not needed.
   Margin phase{std::numeric_limits<double>::quiet_NaN(), 0.0};
 };
 
-/// Whether criteria (6) and (7) apply to the control, and it has integral action alone.
+/// Whether the controller has integral action alone, and criteria (6) and (7) apply to it.
 bool is_integral_alone(const trial::TrialParameters& p) {
   return p.controller.kp == 0.0 && p.controller.kd == 0.0 &&
          left_out_of_criteria(p.plant, p.controller).empty();
 }
 
-/// Whether the margins of the loop matter: moves of the trial are made in it, at rest, and while sliding if
-/// they go so far. Without a spring before it slides, only where the loop is stable or there is no friction:
-/// others hunt by design. Integral control alone works beyond criterion (6) too, that is with a loop at k1
-/// which is not stable; it does not beyond (7). So does it at the softest place of a profile.
+/// Whether the stability margins of the loop matter, because moves of the trial are made in it: at rest, and
+/// while sliding if they go so far. Without a spring before it slides, only where the loop is stable or there
+/// is no friction: others hunt by design. Integral control alone works beyond criterion (6) too, that is with
+/// a loop at k1 which is not stable; it does not beyond (7). So does it at the softest place of a profile.
 bool is_used(const ExaminedLoop& loop) {
   if (!friction::has_friction(loop.trial.friction.model)) return true;
   if (loop.of_trial.slides) return loop.stability == LoopStability::stable && loop.travel.slides();
@@ -94,10 +95,10 @@ double presliding_range_over_move(const ExaminedLoop& loop) {
   return loop.travel.range / loop.travel.move;
 }
 
-/// One row of the table of tests.
+/// One row of the table of plausibility tests of loops.
 struct LoopTest {
   Measure measure;
-  double least;  ///< Value below which the loop is doubtful.
+  double least;  ///< Value of the measure below which the loop is doubtful.
   std::string (*text)(const ExaminedLoop&, double value);
 };
 

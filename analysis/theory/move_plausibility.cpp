@@ -31,11 +31,11 @@ double largest_torque(const loop::DacParameters& dac) {
   return std::max(given_for(loop::lowest_torque(dac)), given_for(loop::highest_torque(dac)));
 }
 
-/// The largest torque, and the part that limits it.
+/// The largest torque that can drive a move, and the component that limits it.
 struct TorqueBound {
   double torque;         ///< Largest torque, N m.
   std::string text;      ///< Description, such as "the ±4 N m of the converter".
-  const char* expected;  ///< Setting that would allow a larger torque.
+  const char* expected;  ///< Change of the manifest that would allow a larger torque, for the warning.
 };
 
 TorqueBound torque_bound(const GoalOfTrial& of) {
@@ -50,10 +50,10 @@ TorqueBound torque_bound(const GoalOfTrial& of) {
           by_limit ? "a larger amplifier.limit" : "a larger range of the converter"};
 }
 
-/// Friction as a bound of motion.
+/// Bounds of the friction that a move meets.
 struct FrictionBound {
   double sliding{0.0};    ///< Smallest friction torque while the axis slides, N m.
-  double breakaway{0.0};  ///< Largest friction torque, N m.
+  double breakaway{0.0};  ///< Largest friction torque (breakaway), N m.
   double travel{0.0};     ///< Travel before the axis slides, rad.
 };
 
@@ -79,10 +79,11 @@ double viscous_damping(const trial::TrialParameters& p) {
   return law.has_presliding_damping ? p.plant.presliding_damping : 0.0;
 }
 
-/// The most favourable torques of a move.
+/// The largest driving torque and the largest braking torque that a move may have, from which a lower bound
+/// of its time follows.
 struct BestTorques {
-  double driving;  ///< Driving torque without friction, N m.
-  double braking;  ///< Braking torque including friction, N m.
+  double driving;  ///< Largest torque that can drive the move, without deduction of friction, N m.
+  double braking;  ///< Largest torque that can brake the move, with the help of friction, N m.
 };
 
 BestTorques best_torques(const MoveOfTrial& move, const FrictionBound& friction) {
@@ -97,8 +98,8 @@ BestTorques best_torques(const MoveOfTrial& move, const FrictionBound& friction)
   return {favour + along, favour - along + friction.breakaway};
 }
 
-/// Inertia that the torque has to move. A coupling with a gap, or one that is soft for such a short move,
-/// lets the motor move without its load.
+/// Inertia that the torque has to move in this move, kg m². A coupling with a gap, or one that is soft for
+/// such a short move, lets the motor move without its load.
 double moved_inertia(const MoveOfTrial& move) {
   const motion::PlantParameters& plant = move.of.trial.plant;
   if (!(plant.load.inertia > 0.0)) return plant.inertia;
@@ -128,7 +129,7 @@ double shortest_time(const MoveOfTrial& move) {
   return std::max(shortest_move(axis, sliding + run_up) - run_up_time, 0.0);
 }
 
-/// Constant torque and ripple at an angle, N m.
+/// Torque of the constant disturbance and the ripple at the angle `theta` (rad), N m.
 double standing_torque(const trial::DisturbanceParameters& of, const trial::TrialParameters& p,
                        double theta) {
   return of.torque + motion::value(trial::ripples_of(of.ripple, p.initial.position), theta);
@@ -149,14 +150,15 @@ double friction_of_load(const friction::LoadFrictionParameters& friction) {
   return friction.contact.breakaway;
 }
 
-/// The cascade that ends the moves of the trial; null without one.
+/// The cascade (velocity loop within a position loop) that ends the moves of the trial; null without one.
 const loop::CascadeParameters* cascade_of(const trial::TrialParameters& p) {
   const loop::ControlBlocks& blocks = p.controller.blocks;
   const bool has_cascade = blocks.structure == loop::ControlStructure::cascade && !p.controller.user.plugin;
   return has_cascade ? &blocks.cascade : nullptr;
 }
 
-/// Constant torque and ripple at an angle on the rotor and the load together, N m.
+/// Torque of the constant disturbances and the ripples on rotor and load together at the angle `theta` (rad),
+/// N m.
 double standing_torque(const trial::TrialParameters& p, double theta) {
   return standing_torque(p.disturbance, p, theta) + standing_torque(p.load_side.disturbance, p, theta);
 }

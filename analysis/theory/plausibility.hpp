@@ -12,20 +12,20 @@
 
 namespace zerocount::theory {
 
-/// A goal and a trial that is to meet it.
+/// A goal, and a trial whose parameters are examined to see whether it can meet the goal.
 struct GoalOfTrial {
   const study::Study& study;
   const study::Goal& goal;  ///< Goal of the study. If it has none: zero counts at the end of the move.
   const trial::TrialParameters& trial;
 
   bool feeds_back_coarse() const { return trial.controller.encoder == loop::EncoderChoice::coarse; }
-  double count() const;  ///< Resolution of the encoder that closes the loop, rad.
+  double count() const;  ///< Size of a count of the encoder that closes the loop, rad.
   const loop::EncoderErrors& errors() const {
     return feeds_back_coarse() ? trial.encoder.coarse_errors : trial.encoder.fine_errors;
   }
-  /// Width from one end of the band or tolerance to the other, rad.
+  /// Full width of the goal's band or tolerance, rad.
   double width() const;
-  /// Number of samples of the goal's shortest move at which it must be within the band.
+  /// Number of samples, in the goal's shortest move, at which the error must be within the band.
   double samples_within() const;
 
   std::string unit(const char* rotary) const;
@@ -34,29 +34,32 @@ struct GoalOfTrial {
   std::string band_text() const;
 };
 
-/// A move of the trial that the goal judges.
+/// A move of a trial that the goal judges.
 struct MoveOfTrial {
   const GoalOfTrial& of;
   std::size_t number;
-  /// Previous target and target, relative to the start of the trial, before rounding to counts, rad.
+  /// Previous target and target of the move, relative to the start of the trial, before rounding to counts,
+  /// rad.
   double from, to;
 
   double distance() const;
   double direction() const { return to < from ? -1.0 : 1.0; }
   loop::Reference reference() const;
-  double allowed() const;  ///< Time from the start of the move that the goal allows, s.
-  double within() const;   ///< Time from the start of the move that goal and hold allow together, s.
+  double allowed() const;  ///< Time from the start of the move within which the goal demands settling, s.
+  /// Time within which the move must settle, s from its start: the goal's time or, if shorter, the hold
+  /// (duration of the move).
+  double within() const;
   std::string name() const { return "move " + std::to_string(number); }
 };
 
-/// "point 2 (kp = 3), condition warm: ", the place of a warning.
+/// Place of a warning as text: "point 2 (kp = 3), condition warm: ".
 std::string place_text(const study::Study& study, std::int64_t point, std::int64_t setting);
 
-/// The moves that the goal judges, without moves of length zero. If there are very many, only the first ones.
-/// Empty without targets, and if the reference does not end.
+/// The moves of the trial that the goal judges, without moves of length zero. If there are very many, only
+/// the first ones. Empty without targets, and if the reference does not end.
 std::vector<MoveOfTrial> moves_of(const GoalOfTrial& of);
 
-/// Result of a test: a factor that is above 1 where the goal is out of reach, and the reason.
+/// Result of a plausibility test: a factor that is above 1 if the goal is out of reach, and the reason.
 struct Doubt {
   double ratio{0.0};
   std::string text{};
@@ -64,26 +67,31 @@ struct Doubt {
 
 // Moves that the drive, the reference or the encoder keeps from their goal.
 
-/// The tolerance or band is half of a step or more, so a move is within it while still on its way.
+/// Tests whether the tolerance or band is half of a step or more, so that a move is within it while still on
+/// its way.
 Doubt band_is_half_a_step(const GoalOfTrial& of);
 
-/// The hold ends before the time that the goal allows the move: the goal is judged at the end of the hold.
+/// Tests whether the hold (duration of a move) ends before the time that the goal allows the move. The goal
+/// is then judged at the end of the hold.
 Doubt hold_ends_before_the_goal(const MoveOfTrial& move);
 
-/// The reference is still farther from its end than the band or tolerance at MoveOfTrial::within().
+/// Tests whether the reference is still farther from its end than the band or tolerance at
+/// MoveOfTrial::within().
 Doubt reference_is_on_its_way(const MoveOfTrial& move);
 
-/// The move takes longer than it may, even at the largest torque (shortest_move): with the inertia that it
-/// has to move (of a second mass unless the motor can move without it), the
-/// constant disturbance, and with ripple and vibration always in its favour. Before it slides, a law with
-/// presliding motion is taken to have no friction; over what travel is five times breakaway over its softest
-/// stiffness. Not said of an axis with a random vibration, which has no largest torque.
+/// Tests whether the move takes longer than it may, even at the largest torque (shortest_move): with the
+/// inertia that it has to move (of a second mass unless the motor can move without it), the constant
+/// disturbance, and with ripple and vibration always in its favour. Before it slides, a law with presliding
+/// motion is taken to have no friction; over what travel is five times breakaway over its softest stiffness.
+/// Not said of an axis with a random vibration, which has no largest torque.
 Doubt torque_is_too_small_for_the_move(const MoveOfTrial& move);
 
-/// Constant disturbance and ripple at the target exceed the largest torque.
+/// Tests whether constant disturbance and ripple at the target exceed the largest torque, so that the axis
+/// cannot stay there.
 Doubt torque_is_too_small_at_the_target(const MoveOfTrial& move);
 
-/// A goal of the mass that the position loop does not read. At the target the masses may be apart by
+/// Tests a goal that concerns the mass (motor or load) that the position loop does not read. At the target
+/// the masses may be apart by
 ///
 ///     |ε + τ/kL| + F/kL + g/2
 ///
@@ -91,23 +99,24 @@ Doubt torque_is_too_small_at_the_target(const MoveOfTrial& move);
 /// may stand closer.
 Doubt other_mass_is_elsewhere_unseen(const MoveOfTrial& move);
 
-/// The velocity command of a cascade is rounded to 0 within resolution/(2·kv) of the target. Only a doubt:
-/// the axis may run on into the tolerance.
+/// Tests whether the velocity command of a cascade, which is rounded to 0 within resolution/(2·kv) of the
+/// target, is too coarse. It raises only a doubt: the axis may run on into the tolerance.
 Doubt velocity_command_is_too_coarse(const MoveOfTrial& move);
 
-/// The move takes longer than allowed at the limit of the velocity command. Only a doubt, because the
-/// velocity loop may overshoot.
+/// Tests whether the move takes longer than allowed at the limit of the velocity command. It raises only a
+/// doubt, because the velocity loop may overshoot.
 Doubt velocity_is_too_small_for_the_move(const MoveOfTrial& move);
 
-/// Because of its systematic errors (eccentricity, interpolation), the encoder reads the target nowhere
-/// within the tolerance.
+/// Tests whether the systematic errors of the encoder (eccentricity, interpolation) are so large that it
+/// reads the target nowhere within the tolerance.
 Doubt encoder_misplaces_the_target(const MoveOfTrial& move);
 
 // Goals that are allowed but that the encoder, its noise or the converter keeps an axis from meeting.
 
 struct FrozenLoop;
 
-/// A warning for each test that fails, at the design point and in the setting where it fails worst:
+/// Warnings that a goal is out of reach or doubtful, one for each test that fails, at the design point and in
+/// the setting (condition at an age) where it fails worst:
 ///
 ///   - a tolerance below what zero counts hold: half a count, and half of one more where targets in SI units
 ///     are rounded
@@ -125,39 +134,41 @@ struct FrozenLoop;
 /// for more of their moves than the goal permits, by more than chance.
 std::vector<std::string> doubtful_goals(const study::Study& study);
 
-/// Warnings like doubtful_goals(), but only from the tests that explain why a goal is not met.
+/// Warnings like those of doubtful_goals(), but only from the tests that explain why a goal is not met.
 std::vector<std::string> obstacles_to_goals(const study::Study& study);
 
-/// Warnings like doubtful_goals(), but only from the tests that no value of the controller changes: the
-/// torque is too small for a move, the reference is still on its way at MoveOfTrial::within(), or the encoder
-/// misplaces the target.
+/// Warnings like those of doubtful_goals(), but only from the tests that no value of the controller changes:
+/// the torque is too small for a move, the reference is still on its way at MoveOfTrial::within(), or the
+/// encoder misplaces the target.
 std::vector<std::string> goals_out_of_reach(const study::Study& study);
 
 enum class NoiseAt {
-  axis,  ///< L/(1 + L): response of the axis to the noise.
-  error  ///< 1/(1 + L): response of the error that the loop reads.
+  axis,  ///< Response of the axis position to the encoder noise: L/(1 + L), L the open loop.
+  error  ///< Response of the error that the loop reads to the encoder noise: 1/(1 + L), L the open loop.
 };
 
 struct NoiseResponse {
-  /// Standard deviation of the response over the standard deviation of the noise.
+  /// Standard deviation of the response divided by the standard deviation of the encoder noise.
   double gain;
   /// Number of samples after which values are nearly independent (correlation at most 0.1).
   double correlated_samples;
 };
 
-/// The response G of a linear loop to noise of the encoder with the spectrum S, of mean 1:
+/// The response of a linear loop to encoder noise. G is its transfer function (see NoiseAt), S the spectrum
+/// of the noise, of mean 1:
 ///
 ///     gain² = R(0),   R(k) = 1/π·∫ |G|²·S·cos kα dα over 0 … π.
 ///
-/// @param bandwidth of the noise, Hz
+/// @param bandwidth bandwidth of the noise, Hz; infinite: white noise
 NoiseResponse response_to_noise(const FrozenLoop& loop, NoiseAt at, double bandwidth);
 
 // Loops that are allowed but that nobody would build on purpose.
 
-/// Largest number of trials whose loops are examined, over all design points.
+/// Largest number of trials whose loops are examined by doubtful_loops(), over all design points.
 inline constexpr std::int64_t max_trials_doubted = 100;
 
-/// A warning for each test that fails, at the design point where it fails worst:
+/// Warnings that a control loop is doubtful, one for each test that fails, at the design point where it fails
+/// worst:
 ///
 ///   - a phase margin below 20°
 ///   - a delay margin (phase margin over crossover frequency) below one sample

@@ -27,8 +27,8 @@ bool is_cascade(const trial::TrialParameters& p) {
   return p.controller.blocks.structure == loop::ControlStructure::cascade;
 }
 
-/// Whether an observer brings the error to zero where the control has no integral: it passes on the torque of
-/// the control law, which must have a part proportional to the error.
+/// Whether a disturbance observer brings the error to zero although the control has no integral: it passes on
+/// the torque of the control law, which must have a part proportional to the error.
 bool acts_by_observer(const loop::ControllerParameters& controller) {
   return controller.blocks.observer.bandwidth > 0.0 && controller.kp > 0.0;
 }
@@ -41,13 +41,13 @@ double as_given(const parameters::StudyUnits& units, const trial::TrialParameter
   return analogue_gains(controller, p.encoder).ki;
 }
 
-/// The motor on a spring of `stiffness` (N m/rad) before it slides.
+/// Linear model of a motor held by a spring of `stiffness` (N m/rad), as before it slides.
 friction::LinearContact contact_before_sliding(double stiffness, const trial::TrialParameters& p) {
   return {"", stiffness, p.plant.presliding_damping};
 }
 
-/// ki below which all sampled loops of the trial about a spring of `stiffness` (N m/rad) are stable, N
-/// m/count.
+/// Integral gain ki below which all sampled loops of the trial are stable, if a spring of `stiffness` (N
+/// m/rad) holds the motor, N m/count.
 double sampled_bound(double stiffness, const trial::TrialParameters& p) {
   const friction::LinearContact contact = contact_before_sliding(stiffness, p);
   const double scale = static_stiffness(stiffness, p.encoder, p.controller);
@@ -62,13 +62,14 @@ double sampled_bound(double stiffness, const trial::TrialParameters& p) {
   return bound;
 }
 
-/// Whether friction holds a mass. Such a mass does not approach the target, so the state has no time constant
-/// of a move.
+/// Whether friction holds the load in this state. A held load does not approach the target, so the state has
+/// no time constant of a move.
 bool holds_load(const LoadState& state) {
   return state.friction.stiffness > 0.0 || state.friction.load_stiffness > 0.0;
 }
 
-/// −T/ln z of the largest real pole z, s: the slowest approach without oscillation; 0 without one.
+/// Slowest approach without oscillation: time constant −T/ln z of the largest real pole z, s; 0 without such
+/// a pole.
 double slowest_approach(const Eigen::VectorXcd& poles, double sample_time) {
   constexpr double gone_at_once = 1e-6;  // eigenvalues that are 0 up to rounding
   double slowest = 0.0;
@@ -103,7 +104,7 @@ double hold_of(const trial::TrialParameters& p) {
   return static_cast<double>(trial::samples_of_move(p, 0)) / p.controller.sample_rate;
 }
 
-/// Adds the integral gain below which the trial's sampled loop is stable if the friction is a spring of
+/// Adds the integral gain below which the trial's sampled loop is stable, if the friction is a spring of
 /// `stiffness` (N m/rad), and whether the trial's gain is below it.
 void add_sampled_bound(const study::Study& study, const trial::TrialParameters& p, double stiffness,
                        GainTheory& gain) {
@@ -112,8 +113,8 @@ void add_sampled_bound(const study::Study& study, const trial::TrialParameters& 
   gain.sampled_stable.insert(integral_gain(p.controller) < bound);
 }
 
-/// The ranges of a loop. A loop that is new is appended to `loops`, because not every trial has a coarse
-/// phase.
+/// The ranges that belong to a loop of a trial. If the loop is new, it is appended to `loops`, because not
+/// every trial has a coarse phase.
 LoopRanges& ranges_of(std::vector<LoopRanges>& loops, const TrialLoop& of_trial) {
   const auto found = std::ranges::find(loops, of_trial.name, &LoopRanges::name);
   if (found != loops.end()) return *found;
@@ -123,7 +124,8 @@ LoopRanges& ranges_of(std::vector<LoopRanges>& loops, const TrialLoop& of_trial)
   return added;
 }
 
-/// Adds the margins of the trial's loops, and the bandwidth of those that slide.
+/// Adds the stability margins of the trial's loops to their ranges, and the bandwidth of loops in which the
+/// axis slides.
 void add_loops(std::vector<LoopRanges>& loops, const trial::TrialParameters& p) {
   for (const TrialLoop& of_trial : trial_loops(p)) {
     LoopRanges& ranges = ranges_of(loops, of_trial);
@@ -141,14 +143,14 @@ void add_loops(std::vector<LoopRanges>& loops, const trial::TrialParameters& p) 
   }
 }
 
-/// The theory of a loop without a spring: its sampled bound and time constant.
+/// Adds the theory of a trial whose loop has no spring: its sampled bound and time constant.
 void examine_free(const study::Study& study, const trial::TrialParameters& p, PointTheory& theory) {
   theory.gain.value.add(as_given(study.units, p, integral_gain(p.controller)));
   add_sampled_bound(study, p, 0.0, theory.gain);
   add_time_constant(theory.approach, 0.0, p);
 }
 
-/// The initial errors of moves in the fine phase, counts; empty unless the reference is a step.
+/// The initial errors of moves (step sizes) in the fine phase, counts; empty unless the reference is a step.
 std::set<std::int64_t> steps_of(const trial::TrialParameters& p) {
   std::set<std::int64_t> steps;
   if (p.command.profile.shape != loop::ReferenceShape::step) return steps;
@@ -160,7 +162,7 @@ std::set<std::int64_t> steps_of(const trial::TrialParameters& p) {
   return steps;
 }
 
-/// Updates the slowest move, for slow integral control by the PID law.
+/// Updates the slowest move and its arrival time, for slow integral control by the PID law.
 void add_arrivals(Approach& approach, const trial::TrialParameters& p,
                   const friction::FrictionParameters& contact) {
   if (!(p.controller.ki > 0.0) || is_cascade(p)) return;
@@ -174,15 +176,16 @@ void add_arrivals(Approach& approach, const trial::TrialParameters& p,
   }
 }
 
-/// Whether criteria (6) and (7) apply to the loop of this trial.
+/// Whether criteria (6) and (7) of the paper apply to the loop of this trial.
 bool criteria_apply(const trial::TrialParameters& p) {
   return left_out_of_criteria(p.plant, p.controller).empty();
 }
 
-/// The lowest k1 of a trial's rotor, and the bound of criterion (6) for that k1.
+/// The lowest stiffness k1 along a trial's rotor, and the bound of criterion (6) for it.
 struct LowEnd {
   double k1;  ///< Lowest k1, N m/rad.
-  /// Bound of criterion (6), in the unit of the manifest. Empty if the criterion does not apply.
+  /// Bound of criterion (6) on the integral gain, in the unit of the manifest. Empty if the criterion does
+  /// not apply.
   std::optional<double> stable_below;
 };
 
@@ -196,19 +199,19 @@ void add(LowestStiffness& lowest, const LowEnd& end) {
   if (end.stable_below) lowest.stable_below.add(*end.stable_below);
 }
 
-/// A design point in a setting.
+/// A design point in one setting (condition at an age), whose trials are examined.
 struct ExaminedPoint {
   const study::Study& study;
   std::int64_t point;
   std::int64_t setting;
 
-  /// Parameters of the trial of this point and setting with the given draw (TrialIndices).
+  /// Parameters of the trial of this point and setting with the draw number `draw` (TrialIndices).
   trial::TrialParameters trial(std::int64_t draw) const {
     return study::study_trial(study, point, study::trial_indices(study).trial_of(draw, setting)).parameters;
   }
 };
 
-/// Finds lowest_k1() of a rotor whose k1 is a profile, unless it is known from the point before.
+/// Sets lowest_k1() of a rotor whose k1 varies along it, unless it is known from the design point before.
 void know_rotor(const friction::FrictionAlongRotor& friction, KnownRotor& known) {
   const auto k1 = std::ranges::find(friction.profiled, &friction::FrictionParameters::k1,
                                     &friction::ProfiledParameter::parameter);
@@ -255,7 +258,7 @@ void examine_closely(const study::Study& study, const trial::TrialParameters& p,
   lowest.sampled_below.add(as_given(study.units, p, sampled_bound(k1, p)));
 }
 
-/// Adds the criteria (6) and (7) and the paper's rules for a trial.
+/// Adds the results of criteria (6) and (7) and of the paper's design rules for one trial.
 void add_criteria(const study::Study& study, const trial::TrialParameters& p,
                   const friction::FrictionParameters& contact, GainTheory& gain, DesignRules& rules) {
   const TrialPrediction prediction = predict(p);
@@ -279,7 +282,7 @@ void add_criteria(const study::Study& study, const trial::TrialParameters& p,
   if (p.controller.sample_rate >= advised_sample_rate(p.plant, contact)) ++rules.fast_enough;
 }
 
-/// Applies `add` to the parameters of the first `count` trials of the point.
+/// Calls `add` with the parameters of each of the first `count` trials of the design point and setting.
 template <typename Add>
 void for_trials(const ExaminedPoint& at, std::int64_t count, Add add) {
   for (std::int64_t draw = 0; draw < std::min(study::draw_count(at.study), count); ++draw)

@@ -17,70 +17,77 @@
 
 namespace zerocount::theory {
 
-/// Largest number of trials of a point that are examined.
+/// Largest number of trials of a design point that the theory examines.
 inline constexpr std::int64_t max_trials_examined = 200;
 /// Largest number of trials for which time constants, margins and bounds of the sampled loop are computed.
 inline constexpr std::int64_t max_trials_examined_closely = 20;
 
 using document::Range;
 
-/// The integral gain and its bounds, in the unit of the manifest.
+/// The integral gain and its bounds by the theory, as ranges over the trials, in the unit of the manifest.
 struct GainTheory {
-  std::string name;  ///< Name of the gain: "ki", or the name of the cascade's integral gain.
+  std::string name;  ///< Name of the gain in the manifest: "ki", or the name of the cascade's integral gain.
   std::string unit;
   Range value;
   /// Part of the loop that criteria (6) and (7) do not model, see left_out_of_criteria(). Empty if they
   /// apply.
   std::string_view left_out;
-  Range stable_below;    ///< Bound of criterion (6): the loop is stable below it.
-  Range unstable_above;  ///< Bound of criterion (7): the loop is unstable above it.
-  Range sampled_below;   ///< Bound of the sampled loop about k1, or of the loop without a spring.
+  Range stable_below;    ///< Bound of criterion (6): the loop is stable with a smaller gain.
+  Range unstable_above;  ///< Bound of criterion (7): the loop is unstable with a larger gain.
+  /// Gain below which the sampled loop is stable, with a contact of stiffness k1 or, without a spring, the
+  /// free axis.
+  Range sampled_below;
   PointPrediction prediction;
-  /// Values that the comparison `value < sampled_below` takes in the trials.
+  /// Results of the comparison `value < sampled_below` (gain stable in the sampled loop) in the trials: true,
+  /// false or both.
   std::set<bool> sampled_stable;
   bool observes{false};  ///< True if a disturbance observer takes the place of the integral.
 };
 
-/// The paper's rules for the DAC and the sample rate.
+/// The paper's rules for the resolution of the DAC (torque converter) and for the sample rate, as ranges over
+/// the trials.
 struct DesignRules {
-  Range dac_resolution, dac_bound;  ///< Resolution of the DAC and its bound, in `torque_unit`.
+  /// Resolution of the DAC and its largest allowed value, in `torque_unit`.
+  Range dac_resolution, dac_bound;
   std::string torque_unit;
   bool coarse_feedback{false};  ///< True if the bound uses the resolution Δx of the coarse encoder.
-  /// Natural frequency on k1 + k2, from which the rule for the sample rate follows, and sample rate, Hz.
+  /// Natural frequency of the motor on a spring k1 + k2, from which the rule for the sample rate follows, and
+  /// the sample rate, Hz.
   Range frequency, sample_rate;
   std::int64_t trials{0};
-  std::int64_t fine_enough{0};  ///< trials in which the DAC satisfies the bound
-  std::int64_t fast_enough{0};  ///< trials in which the sample rate satisfies the rule
+  std::int64_t fine_enough{0};  ///< Number of trials in which the DAC satisfies the rule.
+  std::int64_t fast_enough{0};  ///< Number of trials in which the sample rate satisfies the rule.
 };
 
-/// Criterion (6) and the sampled loop at the lowest k1 of the study.
+/// Criterion (6) and the sampled loop at the lowest contact stiffness k1 of the study.
 struct LowestStiffness {
   study::LowEnd source;
-  /// Number of machines with profiles that were examined; 0 without machines.
+  /// Number of machines whose friction varies along the axis and that were examined; 0 without machines.
   std::int64_t machines{0};
-  Range k1;  ///< Minimum of the profiles, or low end of the distribution, N m/rad.
-  /// Bounds of criterion (6) and of the sampled loop at the lowest k1, in the unit of the gain.
+  Range k1;  ///< Lowest k1 along the axis over the machines, or low end of its distribution, N m/rad.
+  /// Bounds of the integral gain by criterion (6) and by the sampled loop, at the lowest k1, in the unit of
+  /// the gain.
   Range stable_below, sampled_below;
 };
 
-/// Time in which the loop brings the error to zero.
+/// Times in which the loop brings the position error to zero, over the trials of a design point.
 struct Approach {
   Range time_constant;  ///< Slowest time constant of the loop, s.
   /// Slowest time constants that delay a move, s. Without friction all time constants count. About a spring
   /// only those without oscillation count, because the spring's hysteresis ends an oscillation that the
   /// linear loop lets ring.
   Range of_moves;
-  double hold{0.0};              ///< Hold of the shortest move, s.
-  std::int64_t longest_step{0};  ///< Step length of the slowest move, counts; 0: no step.
+  double hold{0.0};              ///< Hold (duration) of the shortest move, s.
+  std::int64_t longest_step{0};  ///< Step length of the slowest move, counts; 0: no move is a step.
   /// Time from the start of the slowest move until it has arrived, including the dwell, s.
   double longest_time{0.0};
 
-  /// Whether moves may end before the loop has brought them to their targets.
+  /// Whether moves may end (hold) before the loop has brought them to their targets.
   bool exceeds_hold() const { return of_moves.high > hold || longest_time > hold; }
 };
 
-/// Ranges of the margins of one loop of trial_loops() over the trials. A trial in which the loop has no
-/// crossover does not change the ranges.
+/// Ranges over the trials of the stability margins of one loop of trial_loops(). A trial in which the loop
+/// has no crossover does not change the ranges.
 struct LoopRanges {
   std::string name;
   bool slides{false};
@@ -88,7 +95,7 @@ struct LoopRanges {
   Range gain, gain_at;    ///< Gain margin, dB, and its frequency, Hz.
   Range phase, phase_at;  ///< Phase margin, degrees, and its frequency, Hz.
   std::set<LoopStability> stability;
-  Range slow;  ///< Slowest time constants that are longer than the hold, s.
+  Range slow;  ///< Slowest time constants that are longer than the hold (duration of a move), s.
   /// True if in some trial the loop is unstable with every factor of its gain.
   bool no_gain_stabilises{false};
 };
@@ -103,16 +110,17 @@ struct PointTheory {
   LowestStiffness lowest;
   Approach approach;
   std::vector<LoopRanges> loops;  ///< Loops in the order of trial_loops().
-  std::vector<std::string> cut;   ///< states_without_loop() of the first trial.
+  /// Names of the load's states that cut the control loop in the first trial, see states_without_loop().
+  std::vector<std::string> cut;
 };
 
-/// The lowest k1 (N m/rad) of a rotor, and the profile from which it was found.
+/// The lowest k1 (N m/rad) along a rotor, and the profile of k1 along it from which it was found.
 struct KnownRotor {
   std::shared_ptr<const friction::Profile> k1;
   double lowest{0.0};
 };
 
-/// Examines the first trials of the point in a setting.
+/// Examines by theory the first trials of the design point in a setting (condition at an age).
 /// @param rotors [machine] result of the previous call; a rotor with the same profile is not searched again
 PointTheory examine(const study::Study& study, std::int64_t point, std::int64_t setting,
                     std::vector<KnownRotor>& rotors);
@@ -121,16 +129,17 @@ PointTheory examine(const study::Study& study, std::int64_t point, std::int64_t 
 /// below: 1.5e-04 N m/count". Loops are for data; people have a table of loop_description().
 document::Description<PointTheory> point_theory_description();
 
-/// Why a loop has no gain margin although it is unstable.
+/// Text that explains why an unstable loop has no gain margin.
 inline constexpr std::string_view no_gain_text = "none: no gain stabilises it";
 
-/// "stable", "unstable in some trials" …
+/// Stability of a loop over the trials as text: "stable", "unstable in some trials" …
 std::string stability_text(const LoopRanges& loop);
 
-/// A loop and its margins.
+/// Output items of a loop and its stability margins.
 document::Description<LoopRanges> loop_description();
 
-/// Why approach.exceeds_hold(), for a warning: continues "the loop's slowest time constant".
+/// Text on why approach.exceeds_hold() is true, for a warning: it continues "the loop's slowest time
+/// constant".
 std::string slowness_text(const Approach& approach);
 
 }  // namespace zerocount::theory

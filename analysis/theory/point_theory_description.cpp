@@ -18,7 +18,7 @@ using document::range_text;
 using std::optional;
 using std::string;
 
-/// Text of a margin: "18 dB at 40 Hz"; nothing if no trial has a crossover.
+/// Text of a range of stability margins: "18 dB at 40 Hz"; nothing if no trial has a crossover.
 optional<string> margin_text(const Range& margin, const char* unit, const Range& frequency) {
   const optional<string> found = range_text(margin, unit);
   if (!found) return {};
@@ -35,7 +35,7 @@ string phase_margin_text(const LoopRanges& loop) {
   return margin_text(loop.phase, "°", loop.phase_at).value_or("no gain crossover");
 }
 
-/// A margin with its frequency. @param text for people
+/// Adds output items for a stability margin with its frequency. @param text text for people
 void add_margin(Description<LoopRanges>& description, const string& key, const string& name, const char* unit,
                 Range LoopRanges::*margin, Range LoopRanges::*frequency, string (*text)(const LoopRanges&)) {
   description.value(everywhere(key, name, name, unit), margin)
@@ -107,7 +107,8 @@ Description<GainTheory> gain_description() {
   return description;
 }
 
-/// Text on the trials in which a rule holds: "holds", "holds in 3 of 200 trials", "holds in no trial".
+/// Text on the number of trials in which a rule holds: "holds", "holds in 3 of 200 trials", "holds in no
+/// trial".
 string holds_text(std::int64_t holding, std::int64_t trials) {
   if (holding == trials) return "holds";
   return holding == 0 ? "holds in no trial" : fmt::format("holds in {} of {} trials", holding, trials);

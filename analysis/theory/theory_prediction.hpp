@@ -31,8 +31,8 @@ struct TrialPrediction {
 
 TrialPrediction predict(const trial::TrialParameters& parameters);
 
-/// Numbers of trials by their predictions. For the trials that are neither `stable` nor `unstable` the paper
-/// predicts nothing.
+/// Numbers of a design point's trials by their stability predictions. For the trials that are neither
+/// `stable` nor `unstable` the paper predicts nothing.
 struct PointPrediction {
   std::int64_t trials{0};
   std::int64_t stable{0};    ///< Number of trials in which criterion (6) holds.
@@ -48,23 +48,25 @@ struct PointPrediction {
   }
 };
 
-/// Counts the predictions for the trials `rows`.
+/// Counts the stability predictions for the trials with the global rows `rows`.
 PointPrediction prediction_of(const study::Study& study, layout::RowRange rows);
 
-/// The predictions of every point, [point].
+/// [point] Numbers of trials by their stability predictions, for every design point.
 /// @param known [point] predictions counted before; those that do not cover all trials are computed again
 std::vector<PointPrediction> study_predictions(const study::Study& study,
                                                std::span<const PointPrediction> known = {});
 
-/// The denominator of the proportions: all trials, or 0 if the criteria apply to none.
+/// The number of trials to which proportions of predictions refer: all trials, or 0 if the criteria apply to
+/// none.
 std::int64_t predicted_trials(const PointPrediction& prediction);
 
-/// "stable" if (6) holds in every trial, "unstable" if (7) is exceeded in every trial, "unknown" without
-/// trials, "not applicable" if the criteria apply to none of them, otherwise "undecided" with the
-/// proportions of trials, such as "undecided: (6) holds in 12 %, (7) exceeded in 0 %".
+/// Verdict of the stability criteria on a design point: "stable" if (6) holds in every trial, "unstable" if
+/// (7) is exceeded in every trial, "unknown" without trials, "not applicable" if the criteria apply to none
+/// of them, otherwise "undecided" with the proportions of trials, such as "undecided: (6) holds in 12 %, (7)
+/// exceeded in 0 %".
 std::string verdict(const PointPrediction& prediction);
 
-/// A step of the targets of a trial, counts.
+/// A step of the targets of a trial, from one position to the next, counts.
 struct TargetStep {
   std::int64_t from{0};
   std::int64_t to{0};
@@ -77,11 +79,12 @@ std::vector<TargetStep> target_steps(const trial::CommandParameters& command);
 
 // Linear loops that approximate a trial at rest and while its rotor slides.
 
-/// Whether the loop is open, or the controller a plugin, whose transfer function is not known.
+/// Whether a trial has no linear loop to analyse: the loop is open, or the controller is a plugin, whose
+/// transfer function is not known.
 bool has_no_linear_loop(const trial::TrialParameters& parameters);
 
-/// Whether criteria (6) and (7) do not apply to this trial, because its loop is not linear about a
-/// pre-sliding spring. It is equal in all trials of a point.
+/// Whether criteria (6) and (7) do not apply to this trial, because its loop is not linear with the motor on
+/// a pre-sliding spring. It is equal in all trials of a point.
 bool is_outside_theory(const trial::TrialParameters& parameters);
 
 /// Reason why is_outside_theory() is true: "the loop is open", …; empty if it is false.

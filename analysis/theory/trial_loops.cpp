@@ -12,7 +12,8 @@
 namespace zerocount::theory {
 namespace {
 
-/// A control of a trial, and its name.
+/// Controller parameters in one phase or state of a trial (fine or coarse phase, at standstill), and their
+/// name.
 struct NamedControl {
   loop::ControllerParameters controller;
   std::string name;

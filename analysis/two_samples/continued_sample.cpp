@@ -14,7 +14,8 @@ namespace {
 constexpr std::int64_t max_blocks = 1000;
 constexpr std::uint32_t continuation_key = 0x636f6e74;
 
-/// The sums of a sample. Pairs have differences d, other samples the values v of one file.
+/// Indices of the sums over the units of a sample. Pairs have differences d, other samples the values v of
+/// one file.
 enum Sum : std::size_t {
   units = 0,  ///< Number of units with a value.
   /// Σd or Σv. For failures: their number; for pairs of failures: the pairs that failed only in the current
@@ -41,7 +42,8 @@ std::vector<Sums> pairs_of(const Sample& sample) {
   return pairs;
 }
 
-/// Adds the signed ranks of the differences that are not 0; equal sizes share their mean rank.
+/// Stores, for each pair, the signed rank of its difference (and its square); differences of 0 have none, and
+/// equal sizes share their mean rank.
 void add_signed_ranks(std::vector<Sums>& pairs) {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -61,7 +63,7 @@ void add_signed_ranks(std::vector<Sums>& pairs) {
   }
 }
 
-/// The value up to which `one` has the largest excess of values over `other`, both sorted.
+/// The value x at which the empirical distribution of `one` exceeds that of `other` most, both sorted.
 double place_of_excess(const std::vector<double>& one, const std::vector<double>& other) {
   double place = one.empty() ? 0.0 : one.front();
   double largest = 0.0;
@@ -77,7 +79,8 @@ double place_of_excess(const std::vector<double>& one, const std::vector<double>
   return place;
 }
 
-/// The units of both files. Values are taken from the mean of the baseline, so that squares lose no digits.
+/// [file][unit] Sums of each single unit of both files. Values are counted from the mean of the baseline, so
+/// that squares lose no digits.
 std::array<std::vector<Sums>, 2> units_of(const Sample& sample) {
   std::vector<double> before = known(sample.baseline);
   std::vector<double> after = known(sample.current);
@@ -113,27 +116,30 @@ FailureCounts counts_of(const FileSums& sums) {
   return {std::min(n1, whole(sums[0][values])), n1, std::min(n2, whole(sums[1][values])), n2};
 }
 
-/// Smirnov's limit, of the excess of the first file's values at one place.
+/// One-sided p-value of Smirnov's test by its limit distribution, from the excess of the first file's
+/// empirical distribution at one value.
+/// @param place index in Sums of the number of values up to that value
 double excess_p(const Sums& one, const Sums& other, std::size_t place) {
   const double excess = one[place] / one[units] - other[place] / other[units];
   if (excess <= 0.0) return 1.0;
   return std::exp(-2.0 * excess * excess * one[units] * other[units] / (one[units] + other[units]));
 }
 
-/// Subtracts `effect` from the value of each unit.
+/// Updates the sums as if `effect` were subtracted from the value of each unit.
 void shift(Sums& sums, double effect) {
   sums[squares] += effect * (effect * sums[units] - 2.0 * sums[values]);
   sums[values] -= effect * sums[units];
 }
 
-/// P(count ≥ seen) of a count with this mean and variance, by the normal distribution with a continuity
-/// correction.
+/// Upper tail probability P(count ≥ seen) of a count with this mean and variance, by the normal distribution
+/// with a continuity correction.
 double upper_tail_of_count(double seen, double mean, double variance) {
   if (variance <= 0.0) return 1.0;
   return statistics::normal_upper_tail((seen - mean - 0.5) / std::sqrt(variance));
 }
 
-/// The change with the p-values of a change within ± margin, by its bounds as those of a normal distribution.
+/// Adds to the change the p-values of a change within ± margin. They come from its bounds, taken as those of
+/// a normal distribution.
 Change with_margin(Change change, double confidence, double margin) {
   change.beyond = {change.p, change.improvement_p};
   if (margin == 0.0) return change;
@@ -167,7 +173,7 @@ Change change_of_failures(const FailureCounts& failures, double confidence) {
           upper_tail_of_count(f1, rate * n1, variance)};
 }
 
-/// Cornish and Fisher's expansion of the quantile of Student's t.
+/// Approximate quantile of Student's t distribution (Cornish–Fisher expansion), quick enough for simulations.
 double quick_t_quantile(double confidence, double degrees_of_freedom) {
   const double z = statistics::normal_quantile(confidence);
   const double v = degrees_of_freedom;
@@ -182,7 +188,7 @@ struct QuickMean {
   double degrees_of_freedom{1.0};
 };
 
-/// Wallace's approximation of the probability of Student's t.
+/// Approximate upper tail probability of Student's t for mean over standard error (Wallace's approximation).
 double upper_tail(const QuickMean& mean) {
   if (mean.variance <= 0.0) return mean.value > 0.0 ? 0.0 : mean.value < 0.0 ? 1.0 : 0.5;
   const double t = mean.value / std::sqrt(mean.variance);
@@ -202,13 +208,13 @@ QuickMean quick_mean(const Sums& sums) {
   return {sums[values] / n, sum_of_squares / (n - 1.0) / n, n - 1.0};
 }
 
-/// The mean with one more value, `distance` beyond the present mean.
+/// The mean of the values if one more value is added, `distance` beyond the present mean.
 QuickMean with_one_more(const Sums& sums, double distance) {
   const double value = sums[values] / sums[units] + distance;
   return quick_mean({sums[units] + 1.0, sums[values] + value, sums[squares] + value * value});
 }
 
-/// Welch's difference of two means.
+/// Difference of two means, current − baseline, with Welch's standard error and degrees of freedom.
 QuickMean difference_of(const QuickMean& baseline, const QuickMean& current) {
   const double variance = baseline.variance + current.variance;
   const double spread = baseline.variance * baseline.variance / baseline.degrees_of_freedom +

@@ -13,7 +13,7 @@
 namespace zerocount::two_samples {
 namespace {
 
-/// Tango's statistic Z(λ).
+/// Tango's score statistic Z(λ) for the hypothesis that the difference of two paired proportions is λ.
 double score(const PairedFailures& failures, double difference) {
   const double n = static_cast<double>(failures.pairs);
   const double b = static_cast<double>(failures.only_current);
@@ -29,7 +29,8 @@ double score(const PairedFailures& failures, double difference) {
   return distance == 0.0 ? 0.0 : std::copysign(1e300, distance);
 }
 
-/// The λ at which Z, which falls with λ, crosses `level`.
+/// The difference λ between `low` and `high` at which Tango's statistic Z, which falls with λ, crosses
+/// `level`.
 double crossing(const PairedFailures& failures, double level, double low, double high) {
   const auto is_above = [&](double difference) { return score(failures, difference) > level; };
   if (!is_above(low)) return low;
@@ -41,7 +42,8 @@ double crossing(const PairedFailures& failures, double level, double low, double
 constexpr std::size_t max_exact_ranks = 200;
 constexpr std::int64_t max_exact_lattice = 4'000'000;
 
-/// Twice the mean ranks of the sizes of these differences, which are whole.
+/// Ranks of the magnitudes of differences, doubled so that the mean ranks of equal magnitudes are whole
+/// numbers. Differences of 0 have none.
 struct DoubledRanks {
   std::vector<std::int64_t> ranks;
   std::int64_t positive{0};  ///< Sum of the doubled ranks over the positive differences.
@@ -65,7 +67,8 @@ DoubledRanks doubled_ranks(std::span<const double> differences) {
   return result;
 }
 
-/// P(sum ≥ positive) where every rank is in the sum or not with probability ½.
+/// Exact p-value of the signed-rank test: P(sum ≥ positive) if every doubled rank is in the sum or not with
+/// probability ½.
 double exact_tail(const DoubledRanks& doubled) {
   std::int64_t total = 0;
   std::vector<double> probability{1.0};
@@ -98,7 +101,8 @@ double normal_tail(const DoubledRanks& doubled) {
 /// The groups of equal values in the pooled samples, and the largest excess of the baseline's empirical
 /// distribution over the current sample's at the end of a group, in units of 1/(n₁n₂).
 struct PooledGroups {
-  std::vector<bool> ends;  ///< [number of pooled values]: a group ends there
+  /// [number k of pooled values, in rising order] True if a group of equal values ends with the k-th value.
+  std::vector<bool> ends;
   std::int64_t excess{0};
 };
 
@@ -121,7 +125,8 @@ PooledGroups pooled_groups(std::span<const double> baseline, std::span<const dou
   return groups;
 }
 
-/// The proportion of the lattice paths to (n₁, n₂) that reach the excess at the end of a group.
+/// The proportion of the lattice paths to (n₁, n₂), all orders of the pooled values, in which the excess is
+/// reached at the end of a group: Smirnov's exact p-value.
 double proportion_of_paths(const PooledGroups& groups, std::int64_t n1, std::int64_t n2) {
   std::vector<double> proportion(static_cast<std::size_t>(n2) + 1, 0.0);
   for (std::int64_t i = 0; i <= n1; ++i) {

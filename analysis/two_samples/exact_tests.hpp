@@ -9,14 +9,15 @@
 /// Effects and alternatives are for the worse: more failures, or larger values, than in the baseline.
 namespace zerocount::two_samples {
 
-/// Failures of paired samples, counted trial by trial.
+/// Numbers of failures in pairs of trials (one trial of the baseline, one of the current file with the same
+/// random numbers).
 struct PairedFailures {
   std::int64_t pairs{0};
   std::int64_t only_current{0};   ///< Number of pairs that failed only in the current file.
   std::int64_t only_baseline{0};  ///< Number of pairs that failed only in the baseline.
 };
 
-/// Failures of two independent samples.
+/// Numbers of failures and trials in two independent samples, baseline and current file.
 struct FailureCounts {
   std::int64_t baseline_failures{0};
   std::int64_t baseline_trials{0};
@@ -29,8 +30,8 @@ struct FailureCounts {
 /// McNemar, Psychometrika 12 (1947), 153; exact form as in Fay, R Journal 2 (2010), 53.
 double mcnemar(const PairedFailures& failures);
 
-/// Bounds of the difference of the two proportions, λ = (b − c)/n, each by itself with `confidence`: where
-/// the score statistic
+/// Bounds of the difference of two paired proportions, λ = (b − c)/n, each by itself with `confidence`, where
+/// b pairs failed only in the current file and c only in the baseline, of n pairs: where the score statistic
 ///
 ///   Z(λ) = (b − c − nλ)/√(n(2q + λ(1 − λ))),
 ///
@@ -43,8 +44,8 @@ statistics::ConfidenceInterval tango(const PairedFailures& failures, double conf
 /// Statistical Society 98 (1935), 39.
 double fisher(const FailureCounts& failures);
 
-/// Bounds of the difference of the two proportions, each by itself with `confidence`, from the Wilson bounds
-/// (l, u) of both: with d = p₂ − p₁,
+/// Bounds of the difference of two independent proportions, each by itself with `confidence`, from the Wilson
+/// bounds (l, u) of both: with d = p₂ − p₁,
 ///
 ///   low = d − √((p₂ − l₂)² + (u₁ − p₁)²), high = d + √((u₂ − p₂)² + (p₁ − l₁)²).
 ///

@@ -39,7 +39,7 @@ double half_width(const MeanDifference& difference, double confidence) {
          difference.standard_error;
 }
 
-/// `values` and one more, `distance` beyond their mean.
+/// The values and one more, `distance` beyond their mean.
 std::vector<double> with_one_more(std::span<const double> values, double distance) {
   std::vector<double> more(values.begin(), values.end());
   more.push_back(moments_of(values).mean + distance);
@@ -77,15 +77,15 @@ DirectionalP p_of_failures(const Sample& sample) {
 }
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-/// Precision of a bound, as a proportion of the largest value.
+/// Precision to which a bound of a quantile's change is computed, as a proportion of the largest value.
 constexpr double bound_precision = 1e-3;
 
-/// Whether every cluster has a single value: its proportion is 0 or 1.
+/// Whether every cluster has a single value, so that its proportion of values above a limit is 0 or 1.
 bool are_single(const ClusteredValues& values) {
   return values.clusters == 0 && values.values_of_trial == 1;
 }
 
-/// The largest of the values that are finite; 0 without any.
+/// The largest finite value; 0 if no value is finite.
 double max_finite(const ClusteredValues& values) {
   double largest = 0.0;
   for (const double value : values.values) {
@@ -94,7 +94,7 @@ double max_finite(const ClusteredValues& values) {
   return largest;
 }
 
-/// The proportion of the values of each cluster that are at or above x.
+/// [cluster] Proportion of the cluster's values that are at or above x.
 std::vector<double> proportions_from(const ClusteredValues& values, double x) {
   const auto width = static_cast<std::size_t>(values.values_of_trial);
   const std::size_t trials = values.values.size() / width;
@@ -109,7 +109,8 @@ std::vector<double> proportions_from(const ClusteredValues& values, double x) {
   return proportions;
 }
 
-/// The difference with one more unit on the side of the lower bound, or of the upper one.
+/// Difference of the means, current − baseline, with one unit added `unit` beyond the mean: a negative `unit`
+/// for the lower bound, a positive one for the upper.
 MeanDifference cautious_difference(const Sample& sample, double unit) {
   if (sample.paired) return mean_difference(with_one_more(known(sample.differences), unit));
   return mean_difference(known(sample.baseline), with_one_more(known(sample.current), unit));
@@ -120,7 +121,8 @@ statistics::ConfidenceInterval bounds_of_failures(const Sample& sample, double c
                        : newcombe(failure_counts(sample), confidence);
 }
 
-/// The level at which the bounds of failures reach a margin on either side: ½ where the effect does not.
+/// One-sided error probabilities at which the bounds of the difference of failure proportions just reach
+/// +margin (worse) and −margin (better); ½ if the difference itself does not exceed the margin.
 DirectionalP levels_of_failures(const Sample& sample, double margin) {
   constexpr double closest = 1e-12;     // to a confidence of 1
   constexpr double least = 0.5 + 1e-9;  // bounds with a confidence of ½ are the estimate
@@ -133,7 +135,8 @@ DirectionalP levels_of_failures(const Sample& sample, double margin) {
           level_of([&](double c) { return bounds_of_failures(sample, c).high < -margin; })};
 }
 
-/// The level at which the bounds of a mean reach a margin on either side.
+/// One-sided error probabilities at which the bounds of the difference of means just reach +margin (worse)
+/// and −margin (better).
 DirectionalP levels_of_mean(const Sample& sample, double margin) {
   MeanDifference low = cautious_difference(sample, -sample.plausible);
   MeanDifference high = cautious_difference(sample, sample.plausible);
@@ -146,13 +149,15 @@ DirectionalP larger(const DirectionalP& one, const DirectionalP& other) {
   return {std::max(one.worse, other.worse), std::max(one.better, other.better)};
 }
 
-/// Change::beyond. @param none p_of() the sample
+/// p-values of a change within ± margin, for Change::beyond. @param none p_of() the sample: p-values of no
+/// change
 DirectionalP beyond(const DirectionalP& none, const Sample& sample, double margin) {
   if (margin == 0.0) return none;
   return larger(none, sample.failures ? levels_of_failures(sample, margin) : levels_of_mean(sample, margin));
 }
 
-/// The proportions of values at or above the quantile of both together.
+/// A sample of proportions by which quantiles are compared: for each cluster, the proportion of values at or
+/// above the sample quantile of both files' values together.
 Sample late_values(const QuantileSample& of) {
   std::vector<double> pooled(of.baseline.values.begin(), of.baseline.values.end());
   pooled.insert(pooled.end(), of.current.values.begin(), of.current.values.end());
@@ -165,8 +170,8 @@ Sample late_values(const QuantileSample& of) {
   return sample;
 }
 
-/// The smallest number from which on `holds`, between −range and range, rounded up to the precision; ±∞
-/// where that is beyond.
+/// The smallest number from which on `holds` is true, searched between −range and range, rounded up to the
+/// precision. +∞ if `holds` is false at range, −∞ if it is true at −range.
 template <class Predicate>
 double first_from(double range, double precision, const Predicate& holds) {
   if (!holds(range)) return infinity;

@@ -28,7 +28,8 @@ double initial_stiffness(const FrictionParameters& contact, double /*torque*/) {
   return contact.k1 + contact.k2;
 }
 
-/// Slope of the virgin curve σ(x) = ½·f(2x) where it carries the torque, N m/rad.
+/// Slope of the virgin loading curve σ(x) = ½·f(2x) of a friction contact at the point where it carries
+/// `torque` (N m), N m/rad.
 double stiffness_at_rest(const FrictionParameters& contact, double torque) {
   const double travel = 2.0 * friction::virgin_elongation(contact, torque);
   return contact.k1 + contact.k2 * numerics::exp(-contact.beta * travel);
@@ -51,7 +52,8 @@ constexpr std::array<DerivedQuantity, 5> table{{
      friction::has_spring, presliding_range},
 }};
 
-/// The median machine of each world.
+/// [world] Parameters of the median machine of each world (a draw of what all machines share): all that
+/// differs between machines has its median.
 std::vector<trial::TrialParameters> median_machines(const study::Study& study, std::int64_t point) {
   const std::vector<randomness::RandomCoordinate> coordinates = randomness::random_coordinates(study, point);
   const std::vector<double> medians(coordinates.size(), 0.0);
@@ -64,7 +66,8 @@ std::vector<trial::TrialParameters> median_machines(const study::Study& study, s
   return machines;
 }
 
-/// Root mean square of the holding torque plus the constant disturbance, N m.
+/// Torque that contacts carry at rest: root mean square of the holding torque plus the constant disturbance,
+/// N m.
 double carried_torque(const std::vector<trial::TrialParameters>& machines,
                       const measures::MeasureStatistics& holding_torque) {
   double disturbance = 0.0;

@@ -14,17 +14,18 @@
 namespace zerocount::worlds {
 namespace {
 
-/// The worlds that remain possible if one of them is the truth: a range of neighbours in the order of their
-/// values.
+/// The worlds (possible values of what nobody knows) that a measurement of one parameter leaves possible if a
+/// certain world is the true one: a range of neighbours in the order of the parameter's values.
 struct Possible {
   std::size_t first;
   std::size_t end;  ///< End of the range, exclusive. The range includes the true world itself.
 };
 
-/// The worlds in the order of one input, and those that remain possible at each place.
+/// The worlds (possible values of what nobody knows) sorted by one parameter and, for each, those that a
+/// measurement of this parameter leaves possible if it is the true one.
 struct Neighbours {
-  std::vector<std::size_t> order;  ///< [place] Index of the world at this place.
-  std::vector<Possible> possible;  ///< [place] Worlds that remain possible.
+  std::vector<std::size_t> order;  ///< [place in the order] Index of the world at this place.
+  std::vector<Possible> possible;  ///< [place in the order] Range of the places whose worlds remain possible.
 
   Neighbours(const std::vector<double>& values, double precision) : order(values.size()) {
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -77,15 +78,16 @@ std::int64_t net_of(const Learned& learned) {
   return learned.decided() - learned.misjudged();
 }
 
-/// Proportion of the values that are at least as large as a given one of them.
+/// Proportion of the values that are at least as large as `value`, which is one of them.
 /// @param sorted values in ascending order
 double proportion_from(const std::vector<std::int64_t>& sorted, std::int64_t value) {
   return static_cast<double>(sorted.end() - std::ranges::lower_bound(sorted, value)) /
          static_cast<double>(sorted.size());
 }
 
-/// The p-values of the inputs, see Learned::p_value.
-/// @param nets [input][data set] net_of(); data set 0 is the observed one, the others are permutations
+/// p-value of each input (unknown parameter), see Learned::p_value.
+/// @param nets [input][data set] number of decided minus misjudged worlds; data set 0 is the observed one,
+/// the others are permutations
 std::vector<double> p_values_of(const std::vector<std::vector<std::int64_t>>& nets) {
   std::vector<double> of_observed;
   std::vector<double> smallest(1 + permutations, 1.0);

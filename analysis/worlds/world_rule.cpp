@@ -32,10 +32,11 @@ constexpr std::size_t max_thresholds = 31;
 constexpr std::size_t max_inputs_in_pairs = 8;
 constexpr std::int64_t worlds_worth_a_condition = 2;
 
-using Labels = std::vector<std::uint8_t>;  ///< [world] 1 if the world is bad, otherwise 0.
+using Labels = std::vector<std::uint8_t>;  ///< [world] 1 if the world is bad (misses the goal), otherwise 0.
 using Conditions = std::vector<Condition>;
 
-/// The thresholds of one parameter, and the interval between them in which each world lies.
+/// [world] The thresholds that are tried for one parameter, and the interval between them in which each
+/// world's value lies.
 struct Bins {
   std::vector<double> thresholds;  ///< Thresholds in ascending order.
   std::vector<std::size_t> of_world;
@@ -59,19 +60,20 @@ Bins bins_of(const std::vector<double>& values) {
   return bins;
 }
 
-/// Worlds named by a rule.
+/// Numbers of bad and of good worlds that satisfy a rule.
 struct Named {
   std::int64_t bad{0};
   std::int64_t good{0};
 };
 
-/// A rule, and how well it separates bad worlds from the others. If it has a single condition, both
-/// parameters are the same.
+/// A rule that is tried, and how well it separates bad worlds from the others. If it has a single condition,
+/// both parameters are the same.
 struct Candidate {
   std::vector<Condition> conditions;
   bool all{true};
   Named named;
-  double error{1.0};  ///< Mean of the two error rates.
+  /// Mean of two proportions: of bad worlds that do not satisfy the rule, and of good worlds that do.
+  double error{1.0};
   std::int64_t wrong{0};
 
   bool is_better_than(const Candidate& other) const {
@@ -91,7 +93,7 @@ class Search {
 
   Candidate best_of_one_condition() const { return singles_.front().first; }
 
-  /// The best condition on each input, the best first.
+  /// The best single condition on each parameter, the best first.
   std::vector<Condition> single_conditions() const {
     std::vector<Condition> conditions;
     for (const auto& [single, input] : singles_) {
@@ -113,8 +115,9 @@ class Search {
   }
 
  private:
-  /// Replaces `best` by the rule if the rule is better.
-  /// @param conditions makes the conditions of the rule
+  /// Replaces `best` by the rule with these worlds and conditions, if that is better. @param named worlds
+  /// that satisfy the rule @param all whether all conditions must hold
+  /// @param conditions function that makes the conditions of the rule
   void consider(Candidate& best, const Named& named, bool all, const auto& conditions) const {
     Candidate candidate{{}, all, named, 1.0, all_.bad - named.bad + named.good};
     candidate.error = 0.5 * (static_cast<double>(all_.bad - named.bad) / static_cast<double>(all_.bad) +
@@ -144,7 +147,8 @@ class Search {
     return best;
   }
 
-  /// Rules with a condition on each of two parameters: worlds in one quadrant, or in the other three.
+  /// Tries rules with a condition on each of two parameters: the bad worlds are those in one quadrant of the
+  /// two thresholds, or in the other three. Updates `best`.
   void try_pair(std::size_t first, std::size_t second, Candidate& best) {
     const Bins& a = bins_[first];
     const Bins& b = bins_[second];
@@ -198,7 +202,8 @@ class Search {
   const Labels& bad_;
   Named all_;
   std::vector<std::pair<Candidate, std::size_t>>
-      singles_;  ///< best of one condition on each input, best first
+      /// Best rule with one condition on each parameter, and the parameter's index; the best first.
+      singles_;
   std::vector<Named> below_;
 };
 
@@ -221,11 +226,11 @@ std::vector<double> scaled_ranks(const std::vector<double>& values) {
   return ranks;
 }
 
-/// The worlds in the form that the search for a rule needs.
+/// Values and rates of the worlds in the form that the search for a rule needs.
 struct RankedWorlds {
-  std::vector<Bins> bins;                   ///< [input] Bins of the worlds.
-  std::vector<std::vector<double>> inputs;  ///< [input] Scaled ranks of the worlds' values.
-  std::vector<double> rates;                ///< Scaled ranks of the worlds' rates.
+  std::vector<Bins> bins;  ///< [parameter] Thresholds, and the interval between them of each world.
+  std::vector<std::vector<double>> inputs;  ///< [parameter][world] Scaled ranks of the worlds' values.
+  std::vector<double> rates;                ///< [world] Scaled ranks of the worlds' rates.
   Labels bad;
 };
 
@@ -236,8 +241,8 @@ double correlation(const std::vector<double>& input, const std::vector<double>& 
   return sum;
 }
 
-/// Trend of the rates towards the side of the parameter that the condition names: Spearman's correlation,
-/// positive if the rates fall towards that side.
+/// Trend of the worlds' rates towards the side of the parameter on which the condition holds: Spearman's rank
+/// correlation, positive if the rates fall towards that side.
 double trend_of(const Condition& condition, const RankedWorlds& worlds) {
   std::vector<std::size_t> same(worlds.rates.size());
   std::iota(same.begin(), same.end(), std::size_t{0});
@@ -245,10 +250,11 @@ double trend_of(const Condition& condition, const RankedWorlds& worlds) {
   return condition.above ? -rho : rho;
 }
 
-/// The results of the permutations.
+/// Results of the same search after random permutations of the worlds' rates, for p-values.
 struct Permuted {
   std::vector<Candidate> rules;
-  std::vector<double> strongest_trends;  ///< [permutation] Largest |ρ| of all parameters.
+  /// [permutation] Largest magnitude of Spearman's correlation between rates and any parameter.
+  std::vector<double> strongest_trends;
 
   Permuted(const RankedWorlds& worlds, std::uint64_t seed) {
     const random::RandomKey key = designs::random_key(seed, "worlds/permutations");
@@ -281,14 +287,16 @@ bool holds(const Condition& condition, double value) {
   return condition.above ? value > condition.threshold : value < condition.threshold;
 }
 
-/// Whether both conditions name the same worlds.
+/// Whether both conditions hold in the same worlds.
 bool names_alike(const Condition& a, const Condition& b, const std::vector<WorldInput>& inputs) {
   const std::vector<double>& first = inputs[a.input].values;
   const std::vector<double>& second = inputs[b.input].values;
   return std::ranges::equal(first, second, [&](double x, double y) { return holds(a, x) == holds(b, y); });
 }
 
-/// The conditions on other inputs that name the worlds of the only condition of the rule.
+/// The conditions on other parameters that hold in the same worlds as the only condition of the rule; empty
+/// if the rule has two.
+/// @param singles best condition on each parameter
 std::vector<Condition> same_as(const WorldRule& rule, std::vector<Condition> singles,
                                const std::vector<WorldInput>& inputs) {
   if (rule.conditions.size() != 1) return {};
@@ -299,7 +307,7 @@ std::vector<Condition> same_as(const WorldRule& rule, std::vector<Condition> sin
   return singles;
 }
 
-/// The threshold with as few digits as possible so that every world stays on its side.
+/// The threshold as text, with as few digits as possible so that every value stays on its side.
 std::string number_text(double threshold, const std::vector<double>& values) {
   for (int digits = 2; digits < 17; ++digits) {
     const double rounded = text::round_to_digits(threshold, digits);

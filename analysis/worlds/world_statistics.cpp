@@ -15,7 +15,7 @@ double median_of(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
 }
 
-/// Finds the worst, the median and the best of the rates of the worlds.
+/// Sets the worst, the median and the best of the worlds' rates.
 void sort_out(RatesOfWorlds& rates) {
   std::vector<double> values;
   for (const goal::BoundedProportion& world : rates.worlds) values.push_back(world.value);
@@ -24,7 +24,8 @@ void sort_out(RatesOfWorlds& rates) {
   rates.median = median_of(std::move(values));
 }
 
-/// The rates of the worlds by which the goal is judged.
+/// The rate of each world (draw of what all machines share) by which the goal is judged: of machines or of
+/// moves that meet it.
 RatesOfWorlds judged_rates(const goal::Question& question, const goal::Verdict& verdict) {
   RatesOfWorlds rates;
   for (const goal::WorldVerdict& world : verdict.worlds) rates.worlds.push_back(judged_rate(question, world));
@@ -34,7 +35,7 @@ RatesOfWorlds judged_rates(const goal::Question& question, const goal::Verdict& 
   return rates;
 }
 
-/// [world] Worst status of the claims on the world.
+/// [world] Worst status of the world over all goals in all settings.
 std::vector<goal::Status> worst_statuses(const goal::Verdict& verdict) {
   std::vector<goal::Status> worst(verdict.worlds.size(), goal::Status::met);
   for (const goal::ClaimVerdict& claim : verdict.claims) {
@@ -45,7 +46,7 @@ std::vector<goal::Status> worst_statuses(const goal::Verdict& verdict) {
   return worst;
 }
 
-/// [world] Whether the observed rate of the world falls short of a claim.
+/// [world] Whether the observed rate of the world is below what some goal requires, in any setting.
 std::vector<bool> short_of_claims(const goal::Question& question, const goal::Verdict& verdict) {
   std::vector<bool> bad(verdict.worlds.size(), false);
   for (const goal::ClaimVerdict& claim : verdict.claims) {
@@ -59,7 +60,8 @@ std::vector<bool> short_of_claims(const goal::Question& question, const goal::Ve
   return bad;
 }
 
-/// [world] Whether the world is shown to succeed less often than the median world.
+/// [world] Whether the world is shown to have a lower success rate than the median world.
+/// @param confidence confidence for all worlds together (Bonferroni)
 std::vector<bool> below_median(const PointWorlds& point, const std::vector<measures::MoveCounts>& succeeded,
                                double confidence) {
   std::vector<bool> bad;

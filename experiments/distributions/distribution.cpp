@@ -39,7 +39,8 @@ QuantileConstants constants_of(const LogUniform& d) {
 QuantileConstants constants_of(const Lognormal& d) {
   return {numerics::log_of_draws(d.median), std::sqrt(numerics::log1p(d.cv * d.cv))};
 }
-/// Probabilities of the standardised limits. If the range is an upper tail, it is mirrored.
+/// The constants of a truncated normal distribution's quantile function: the probabilities P(Z ≤ limit) of
+/// its two limits after standardisation. If the range is an upper tail, it is mirrored.
 QuantileConstants constants_of(const TruncatedNormal& d) {
   const bool mirrored = d.low > d.mean;
   const double low = (d.low - d.mean) / d.sd;

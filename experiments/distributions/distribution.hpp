@@ -13,14 +13,14 @@ namespace zerocount::distributions {
 // The distributions of a manifest. Parameters have the unit of the quantity. All distributions are sampled by
 // their quantile function, so that all designs map uniform numbers in the same way.
 
-/// Uniform on [low, high).
+/// Uniform distribution on the half-open interval [low, high).
 struct Uniform {
   double low{0.0};
   double high{1.0};
   bool operator==(const Uniform&) const = default;
 };
 
-/// Uniform logarithm: density ∝ 1/x on [low, high), 0 < low.
+/// Log-uniform distribution: the logarithm is uniform, so the density is ∝ 1/x on [low, high), 0 < low.
 struct LogUniform {
   double low{1.0};
   double high{2.0};
@@ -34,7 +34,8 @@ struct Normal {
   bool operator==(const Normal&) const = default;
 };
 
-/// A Gaussian of mean and standard deviation `mean`, `sd` (those of the parent) conditioned on [low, high).
+/// Truncated normal distribution: a Gaussian with the mean `mean` and the standard deviation `sd` (before
+/// truncation), restricted to values in [low, high).
 struct TruncatedNormal {
   double mean{0.0};
   double sd{1.0};
@@ -43,15 +44,16 @@ struct TruncatedNormal {
   bool operator==(const TruncatedNormal&) const = default;
 };
 
-/// The logarithm is Gaussian: median exp(μ), coefficient of variation (sd/mean of the variable itself)
-/// cv = √(exp(s²) − 1), so s = √ln(1 + cv²).
+/// Distribution whose logarithm is Gaussian, with the standard deviation s. It is given by its median exp(μ)
+/// and its coefficient of variation (standard deviation over mean of the variable itself) cv = √(exp(s²) −
+/// 1), so s = √ln(1 + cv²).
 struct Lognormal {
   double median{1.0};
   double cv{0.1};
   bool operator==(const Lognormal&) const = default;
 };
 
-/// Density that rises linearly from `low` to `mode` and falls linearly to `high`.
+/// Triangular distribution: the density rises linearly from `low` to `mode` and falls linearly to `high`.
 struct Triangular {
   double low{0.0};
   double mode{0.5};
@@ -59,7 +61,7 @@ struct Triangular {
   bool operator==(const Triangular&) const = default;
 };
 
-/// Uniform on the whole numbers `low` … `high`, times `unit`.
+/// Uniform distribution on the whole numbers `low` … `high`, each multiplied by `unit`.
 struct Integers {
   std::int64_t low{0};
   std::int64_t high{1};
@@ -67,7 +69,7 @@ struct Integers {
   bool operator==(const Integers&) const = default;
 };
 
-/// All values are equally likely.
+/// A discrete distribution: all listed values are equally likely.
 struct Choice {
   std::vector<double> values;
   bool operator==(const Choice&) const = default;
@@ -76,12 +78,13 @@ struct Choice {
 using Distribution =
     std::variant<Uniform, LogUniform, Normal, TruncatedNormal, Lognormal, Triangular, Integers, Choice>;
 
-/// Interval of the possible values.
+/// The interval of the values that the distribution can give.
 numerics::Interval support(const Distribution& distribution);
 
-/// The value that the uniform number u draws, 0 < u < 1, in the quantity's unit. For a continuous
-/// distribution it is the quantile: P(X ≤ x) = u. For a discrete distribution of n values it is the value
-/// with index ⌊n·u⌋. The values of a Choice are in the order of its list, which may not be sorted.
+/// The value that the uniform number u, 0 < u < 1, gives for a random quantity with this distribution, in the
+/// quantity's unit. For a continuous distribution it is the quantile: P(X ≤ x) = u. For a discrete
+/// distribution of n values it is the value with index ⌊n·u⌋. The values of a Choice are in the order of its
+/// list, which may not be sorted.
 double quantile(const Distribution& distribution, double u);
 
 /// A uniform number whose quantile is x, to rounding; empty if x cannot be drawn. For a continuous
@@ -98,10 +101,11 @@ Distribution scaled(const Distribution& distribution, double factor);
 /// @param factor above 0
 Distribution widened(const Distribution& distribution, double factor);
 
-/// Whether the extreme quantiles are in `range`. They may overflow for very large parameters.
+/// Whether the lowest and the highest value that quantile() can return for the distribution are in `range`.
+/// These values may overflow for very large parameters.
 bool extremes_are_inside(const Distribution& distribution, const numerics::Interval& range);
 
-/// Whether only whole numbers can be drawn.
+/// Whether all values that the distribution can give are whole numbers.
 bool whole_numbers_only(const Distribution& distribution);
 
 /// Message about invalid parameters of a distribution, in two phrases.
@@ -114,14 +118,18 @@ struct DistributionFault {
 /// …
 std::optional<DistributionFault> find_fault(const Distribution& distribution);
 
-/// The numbers of a quantile function that do not depend on the probability.
+/// Constants of the quantile function of one distribution: its terms that do not depend on the probability,
+/// computed once for many draws.
 struct QuantileConstants {
-  double low{0.0};       ///< log-uniform: ln low; log-normal: ln median; truncated: P(Z ≤ lower limit)
-  double high{0.0};      ///< log-uniform: ln high; log-normal: s; truncated: P(Z ≤ upper limit)
-  bool mirrored{false};  ///< truncated: an upper tail, whose probabilities would be differences near 1
+  double low{0.0};   ///< log-uniform: ln low; log-normal: ln median; truncated: P(Z ≤ lower limit)
+  double high{0.0};  ///< log-uniform: ln high; log-normal: s; truncated: P(Z ≤ upper limit)
+  /// For a truncated normal distribution: the range is an upper tail, whose probabilities would be
+  /// differences of numbers near 1, so the mirrored lower tail is used.
+  bool mirrored{false};
 };
 
-/// The quantile function of one distribution, for many draws: bitwise equal to quantile().
+/// The quantile function of one distribution with its constants computed once, for many draws. Its values are
+/// bitwise equal to those of quantile().
 class QuantileFunction {
  public:
   explicit QuantileFunction(const Distribution& distribution);

@@ -34,12 +34,13 @@ bool is_parameter(const GuideNumber& number) {
 /// The friction spring of a guide, with the values from which other parameters are computed.
 struct GuideSpring {
   double force{0.0};              ///< breakaway force, N
-  double travel{0.0};             ///< travel up to breakaway, m
-  double initial_stiffness{0.0};  ///< k1 + k2, N/m
+  double travel{0.0};             ///< travel from rest up to breakaway, m
+  double initial_stiffness{0.0};  ///< initial stiffness k1 + k2 of the spring, N/m
   std::vector<GuideNumber> parameters;
 };
 
-/// The spring of a guide whose friction grows with the load, in terms of the quantities of its table.
+/// The friction spring of a guide whose friction grows with the load, at the geometric centres of the ranges
+/// in the guide's table.
 GuideSpring loaded_spring(const Guide& guide, const GuideLoad& load) {
   const double normal_force = load.preload + gravity * load.mass;
   const GuideNumber& coefficient = number_of(guide, friction_coefficient);
@@ -100,7 +101,7 @@ GuideSpring measured_spring(const MeasuredSpring& measured, parameters::AxisKind
        given(parameter::friction::measured::breakaway_travel, "rad", measured.travel, "--travel"), final}};
 }
 
-/// The computed parameters of a guide with this load and this spring.
+/// The friction parameters that are computed for a guide with this load and this friction spring.
 std::vector<GuideNumber> computed_parameters(const Guide& guide, const GuideLoad& load,
                                              const GuideSpring& spring) {
   const GuideNumber& creep = number_of(guide, creep_part);

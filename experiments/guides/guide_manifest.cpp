@@ -16,7 +16,8 @@ using parameters::AxisKind;
 constexpr double acceleration = 1.0;  // m/s², which the converter's range allows beside friction
 constexpr int frictionless_bits = 20;
 
-/// Extreme friction values for which the loop is designed; 0 if the guide does not have the parameter.
+/// Extreme values of the friction ranges, for which the control loop is designed: the lowest k1 and damping,
+/// and the highest breakaway force. 0 if the guide does not have the parameter.
 struct Lowest {
   double k1{0.0};
   double damping{0.0};
@@ -41,8 +42,8 @@ std::string written(double number) {
   return fmt::format("{:.4g}", number);
 }
 
-/// The distribution of a number in its range: log-uniform if the ends differ by a factor of more than 2,
-/// otherwise uniform; a plain number if both ends are equal.
+/// Text of a distribution over the range of a number: log-uniform if the ends differ by a factor of more than
+/// 2, otherwise uniform; a plain number if both ends are equal.
 std::string distribution(const GuideNumber& number) {
   if (number.origin == Origin::measured) return fmt::format("{}", number.low);
   if (number.low == number.high) return written(number.low);

@@ -10,27 +10,30 @@
 
 namespace zerocount::guides {
 
-/// Mass and preload of a guide, which scale its friction.
+/// Mass and preload of a linear or rotary guide (bearing). Its friction scales with them.
 struct GuideLoad {
-  double mass{0.0};     ///< moved mass, kg, or moment of inertia, kg m^2
+  double mass{0.0};     ///< moved mass, kg; for a rotary guide the moment of inertia, kg m^2
   double preload{0.0};  ///< preload, N, normal to the guide, on all carriages together
 };
 
 /// Measured values of a friction spring: a secant of the virgin curve, and the breakaway point.
 struct MeasuredSpring {
-  double breakaway{0.0};         ///< breakaway force, N
-  double travel{0.0};            ///< travel up to breakaway, m
-  double secant_stiffness{0.0};  ///< stiffness of the secant from the origin, N/m
-  double secant_travel{0.0};     ///< travel at the end of the secant, m
+  double breakaway{0.0};  ///< breakaway force, N
+  double travel{0.0};     ///< travel from rest up to breakaway, m
+  /// Stiffness (force over travel) of a secant from the origin of the virgin curve, N/m.
+  double secant_stiffness{0.0};
+  double secant_travel{0.0};  ///< travel at which that secant ends, m
 };
 
-/// Message that explains why no spring has these values, with their numbers; empty if a spring has them.
+/// Message that explains why no friction spring has these measured values, with their numbers; empty if a
+/// spring has them.
 std::string fault_of(const MeasuredSpring& measured);
 
-/// The largest final stiffness of a spring with these values, N/m.
+/// The largest final stiffness (stiffness of the last part of the virgin curve, N/m) that a friction spring
+/// with these measured values can have.
 double highest_final_stiffness(const MeasuredSpring& measured);
 
-/// The default mass and preload of a guide.
+/// The default mass and preload of a guide, used if the user gives none.
 GuideLoad usual_load(const Guide& guide);
 
 /// The ranges of the friction parameters of an axis on this guide. With the load W = preload + mass·9.81
@@ -54,7 +57,7 @@ GuideLoad usual_load(const Guide& guide);
 std::vector<GuideNumber> guide_parameters(const Guide& guide, const GuideLoad& load,
                                           const std::optional<MeasuredSpring>& measured = {});
 
-/// Geometric centre of a range; 0 if its low end is 0.
+/// Geometric mean of the two ends of a range; 0 if its low end is 0.
 double centre(const GuideNumber& number);
 
 /// Lowest and highest value of a parameter over all guides of this kind of axis with their usual loads; empty
@@ -62,11 +65,13 @@ double centre(const GuideNumber& number);
 std::optional<std::pair<double, double>> range_over_guides(parameters::AxisKind axis,
                                                            std::string_view parameter);
 
-/// The axis of a new study.
+/// What the user may state about the axis for which a new study's manifest is written; the defaults are those
+/// of the guide.
 struct GuideAxis {
   GuideLoad load;
-  double resolution{1e-8};                 ///< encoder resolution, m per count; used for a linear axis
-  std::optional<MeasuredSpring> spring{};  ///< replaces the spring of the guide
+  double resolution{1e-8};  ///< encoder resolution, m per count; used for a linear axis
+  /// Measured friction spring, which replaces that of the guide; empty: the guide's.
+  std::optional<MeasuredSpring> spring{};
 };
 
 /// A manifest of an axis on this guide. Each machine draws its friction from the ranges of the guide. A

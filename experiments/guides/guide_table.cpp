@@ -26,7 +26,8 @@ constexpr const char* marginal =
     "the number is assumed";
 constexpr const char* grease = "no publication found; below the friction itself up to some 0.1 m/s";
 
-/// Numbers for which no publication was found; the same for all guides with contact.
+/// Numbers about friction for which no publication was found, so they are assumed; the same for all guides
+/// with contact.
 Numbers assumed_of_contacts() {
   return {
       {parameter::friction::alpha, "1/s", 0.1, 2, assumed, "creep lasts seconds, as in Fig. 8 of the paper"},

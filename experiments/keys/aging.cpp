@@ -16,7 +16,7 @@ namespace {
 constexpr std::string_view expected_aging =
     "{exponential: -0.1, scale: 1.0e+6}: a law, linear, exponential or logarithmic, with its rate, and the scale of ages";
 
-/// Phrase that says why the value cannot change with age; empty if it can.
+/// Phrase that says why a value of the parameter must not have a law of aging; empty if it may.
 std::string_view obstacle(const parameters::Parameter& parameter, const study::Value& value,
                           const Reading& reading) {
   if (!reading.groups.ages) return "the study has no ages";
@@ -31,8 +31,8 @@ std::string_view expected_instead(const Reading& reading) {
   return !reading.groups.ages ? "the key ages: {at: [0, 1.0e+5, 1.0e+6], unit: cycles}" : "the value alone";
 }
 
-/// Reads the rate of aging. By default it is drawn for each machine. A rate drawn per trial or per contact is
-/// reported.
+/// Reads the rate at which a value changes with age. By default the rate is drawn for each machine. A rate
+/// drawn per trial or per contact is reported as an error.
 study::Value read_rate(const yaml::Field& field, std::size_t slot, Reading& reading) {
   study::Value rate = read_value(field, slot, reading);
   if (rate.kind != study::Value::Kind::distribution) return rate;

@@ -18,7 +18,7 @@ double with_two_digits(double number) {
   return text::round_to_digits(number, 2);
 }
 
-/// The value at the middle of an example; 0 if there is none.
+/// The number around which the example in a message is built: the parameter's default; 0 if there is none.
 double example_value(const parameters::Parameter& parameter, const parameters::StudyUnits& units) {
   if (!parameters::has_default(parameter) || !parameters::default_holds(parameter, units)) return 0.0;
   const double value = parameters::default_value(parameter);

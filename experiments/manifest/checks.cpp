@@ -176,7 +176,8 @@ void check_effects(Checking& c) {
   }
 }
 
-/// The slots, each followed by the slots from which its value is computed.
+/// The given slots (indices of parameters in the plan), each followed by the slots from which its value is
+/// computed.
 std::vector<std::size_t> with_sources(const study::StudyPlan& plan, std::span<const std::size_t> slots) {
   std::vector<std::size_t> all;
   for (const std::size_t slot : slots) {
@@ -188,9 +189,9 @@ std::vector<std::size_t> with_sources(const study::StudyPlan& plan, std::span<co
   return all;
 }
 
-/// The lowest and the highest value of the slot at a point of the plan, at the point's age. For a profile
-/// these are bounds for all possible rotors, or, if those leave the range of the parameter, bounds of the
-/// actual rotors.
+/// The lowest and the highest value of the slot (one parameter of the plan) at a design point in a setting,
+/// at the setting's age. For a profile along the axis these are bounds for all possible rotors, or, if those
+/// leave the range of the parameter, bounds of the actual rotors.
 std::pair<double, double> aged_extremes(const study::StudyPlan& plan, std::size_t slot, std::size_t point) {
   const study::Value& value = *study::value_at_point(plan, slot, point);
   if (value.kind != study::Value::Kind::profile) return study::extremes_of(plan, slot, point);

@@ -17,7 +17,8 @@ namespace {
 /// saltelli" if it has one of these values; "!machines" if it is not given; "goal*" for each goal. An empty
 /// list counts as not given.
 struct Exclusion {
-  std::string_view key;  ///< key at whose place the exclusion is reported
+  /// The key (in the notation of the table) at whose place in the manifest the error is reported.
+  std::string_view key;
   std::string_view other;
   std::string_view what;
   std::string_view expected;
@@ -83,12 +84,13 @@ constexpr Exclusion exclusions[]{
      "axis: linear, or the key left out"},
 };
 
-/// The fields in which the keys of the table are looked up.
+/// The manifest, in which the two keys of an exclusion are looked up.
 struct Keys {
   yaml::Field root;
-  yaml::Field goal;  ///< the goal that "goal*" stands for
+  yaml::Field goal;  ///< the goal to which the key "goal*" of the table of exclusions refers
 
-  /// The field of a key of the table; empty if the manifest does not match the condition of the key.
+  /// The field of a key in the notation of the table of exclusions ("stop", "design: sobol", "!machines",
+  /// "goal*"); empty if the manifest does not match the condition of the key.
   std::optional<yaml::Field> find(std::string_view key) const {
     const bool is_absent = key.starts_with('!');
     if (is_absent) key.remove_prefix(1);

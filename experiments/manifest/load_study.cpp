@@ -31,8 +31,8 @@ std::string joined(const yaml::YamlNode& root, const study::Study& study) {
   return all;
 }
 
-/// The tree `root`, in which the contents of a table have replaced its file name, changed so that the
-/// contents have the place of the file name.
+/// The tree `root`, in which the contents of a table have replaced its file name, changed so that problems in
+/// these contents are reported at the place of the file name.
 /// @param before tree with the file name
 yaml::YamlPointer with_place_of_name(const yaml::YamlPointer& root, const yaml::YamlNode& before,
                                      std::string_view path, yaml::Problems& problems) {
@@ -46,8 +46,8 @@ yaml::YamlPointer with_place_of_name(const yaml::YamlPointer& root, const yaml::
   return changed ? changed : root;
 }
 
-/// Refuses overrides without effect. For new studies only, because results files made with such overrides
-/// must stay readable.
+/// Refuses overrides of the command line that have no effect on the study. For new studies only, because
+/// results files made with such overrides must stay readable.
 void require_effect(const study::Study& study, std::string_view source) {
   yaml::Problems problems;
   std::deque<std::string> sources;

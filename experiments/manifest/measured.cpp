@@ -21,7 +21,8 @@ std::vector<std::uint32_t> slots_of(const study::StudyTable& table, std::span<co
   return {slots.begin(), slots.end()};
 }
 
-/// The first of the parameters that the manifest gives.
+/// The slot (index in the plan) of the first of these parameters that the manifest gives; empty if it gives
+/// none.
 std::optional<std::uint32_t> first_given(std::span<const std::string_view> names,
                                          const keys::PlanPlaces& places, const study::StudyPlan& plan) {
   for (const std::uint32_t slot : slots_of(plan.table, names))
@@ -34,7 +35,7 @@ std::optional<std::uint32_t> first_own_given(const MeasuredParameters& group, co
   return first_given(std::span(group.names).first(group.own), places, plan);
 }
 
-/// The other group of the same section; null if there is none.
+/// The other group of measured parameters in the same section of the manifest; null if there is none.
 const MeasuredParameters* alternative_to(const MeasuredParameters& group) {
   const auto all = parameters::measured_parameters();
   const auto other = std::ranges::find_if(
@@ -42,8 +43,8 @@ const MeasuredParameters* alternative_to(const MeasuredParameters& group) {
   return other == all.end() ? nullptr : &*other;
 }
 
-/// Whether the manifest uses this group. Keys that two groups share count for the first group, and a manifest
-/// that gives both groups uses the first.
+/// Whether the manifest uses this group of measured parameters. Keys that two groups share count for the
+/// first group, and a manifest that gives both groups uses the first.
 bool is_chosen(const MeasuredParameters& group, const keys::PlanPlaces& places,
                const study::StudyPlan& plan) {
   const MeasuredParameters* const other = alternative_to(group);
@@ -53,7 +54,7 @@ bool is_chosen(const MeasuredParameters& group, const keys::PlanPlaces& places,
   return is_first && !gives_other && first_given(group.names, places, plan);
 }
 
-/// Reports the measured values that are missing at some point.
+/// Reports the measured parameters of a group that the manifest does not give at some design point.
 void require_all(const study::MeasuredSlots& measured, const yaml::Place& first,
                  const keys::PlanPlaces& places, keys::Reading& reading) {
   const study::StudyPlan& plan = reading.plan;
@@ -69,7 +70,8 @@ void require_all(const study::MeasuredSlots& measured, const yaml::Place& first,
   }
 }
 
-/// Reports a parameter that is given although it follows from measured ones.
+/// Whether the parameter of the slot is absent from the manifest. It must be, because it follows from
+/// measured parameters; a parameter that is given nevertheless is reported.
 bool check_not_given(const MeasuredParameters& group, std::uint32_t slot, const keys::PlanPlaces& places,
                      keys::Reading& reading) {
   const auto place = given_place(places, reading.plan, slot);
@@ -80,7 +82,8 @@ bool check_not_given(const MeasuredParameters& group, std::uint32_t slot, const 
   return !place;
 }
 
-/// Reports keys of another group that determines the same parameters.
+/// Whether the manifest gives no key of another group of measured parameters that determines the same
+/// parameters. Such keys are reported.
 bool check_alone(const MeasuredParameters& group, const keys::PlanPlaces& places, keys::Reading& reading) {
   const study::StudyPlan& plan = reading.plan;
   const MeasuredParameters* const other = alternative_to(group);
@@ -107,13 +110,15 @@ void let_follow(const MeasuredParameters& group, const keys::PlanPlaces& places,
   }
 }
 
-/// The draws of a group of measured values.
+/// The measured values (such as stiffnesses) of one group, as they are drawn for each trial, machine or world
+/// of a study.
 class MeasuredDraws {
  public:
   MeasuredDraws(const study::Study& study, const study::MeasuredSlots& measured)
       : study_(study), plan_(*study.plan), measured_(measured) {}
 
-  /// Whether every possible draw at a point of the plan is that of a machine.
+  /// Whether no possible draw at a design point in a setting can be contradictory, so that single draws need
+  /// no check.
   bool are_safe(std::size_t point) const {
     return !study::fault_of_machine(plan_, point, measured_, [&](std::uint32_t slot) {
       return free_ends(slot).value_or(study::extremes_of(plan_, slot, point));
@@ -133,8 +138,8 @@ class MeasuredDraws {
     });
   }
 
-  /// The most frequent level at which a measured value of the point is drawn, apart from values drawn per
-  /// contact.
+  /// How often the measured values of a design point are drawn: the most frequent level among them (study,
+  /// world, machine, trial), apart from values drawn anew at each contact.
   study::DrawLevel level_at(std::size_t point) const {
     study::DrawLevel level = study::DrawLevel::study;
     for (const std::uint32_t slot : measured_.slots) {
@@ -145,11 +150,12 @@ class MeasuredDraws {
     return level;
   }
 
-  /// The number of different draws at the point. These are the draws with the lowest indices.
+  /// The number of different draws of the measured values at a design point in a setting. These are the draws
+  /// with the lowest indices.
   std::int64_t count_at(std::size_t point) const { return study::draw_count(study_, level_at(point)); }
 
  private:
-  /// The range that `tune` gives a parameter.
+  /// The range that the section `tune` gives a parameter; empty if it does not free the parameter.
   std::optional<std::pair<double, double>> free_ends(std::uint32_t slot) const {
     if (!study_.tuning) return std::nullopt;
     const auto free =
@@ -167,7 +173,8 @@ std::string_view name_of(study::DrawLevel level) {
   return keys::draw_level_labels[static_cast<std::size_t>(level)];
 }
 
-/// Reports the first draw of the point that no machine can have, and the number of such draws.
+/// Reports the first draw of measured values at the point that no machine can have, and the number of such
+/// draws. Returns whether there is no such draw.
 bool check_draws(const MeasuredDraws& draws, std::size_t point, const study::Study& study,
                  const keys::PlanPlaces& places, keys::Reading& reading) {
   const std::int64_t count = draws.count_at(point);

@@ -19,7 +19,8 @@ std::string allowed(const parameters::Parameter& parameter) {
          numerics::notation(parameter.range) + (parameter.none ? " | none" : "");
 }
 
-/// The default; without one the range over the guides, if they have the parameter.
+/// Text of the parameter's default. Without a default it is the range over the known guides, if they have the
+/// parameter.
 std::string default_or_guides(const parameters::Parameter& p, const parameters::StudyUnits& units) {
   if (!parameters::default_holds(p, units)) {
     if (const auto range = guides::range_over_guides(units.axis, p.name))

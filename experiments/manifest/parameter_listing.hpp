@@ -10,11 +10,12 @@ namespace zerocount::manifest {
 
 /// Texts that describe a parameter in a listing.
 struct ListedParameter {
-  std::string name;           ///< dotted path in a manifest
-  std::string unit;           ///< unit, "1" if dimensionless
-  std::string default_value;  ///< default; without one the range over the guides, else "none"
-  std::string allowed;        ///< allowed labels, or the range of numbers
-  std::string source;         ///< source of the default; "-" if there is no default
+  std::string name;  ///< dotted path in a manifest
+  std::string unit;  ///< unit, "1" if dimensionless
+  /// Text of the default; if there is none, the range over the known guides, else "none".
+  std::string default_value;
+  std::string allowed;  ///< allowed labels, or the range of numbers
+  std::string source;   ///< source of the default; "-" if there is no default
   std::string meaning;
 };
 
@@ -27,7 +28,7 @@ std::vector<ListedParameter> listed_parameters(const study::Study& study);
 /// Texts that describe a distribution, which a manifest may have in place of a number.
 struct ListedDistribution {
   std::string name;
-  std::string written;  ///< notation in a manifest
+  std::string written;  ///< how a manifest writes the distribution
   std::string meaning;
 };
 

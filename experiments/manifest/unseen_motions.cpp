@@ -14,15 +14,16 @@
 namespace zerocount::manifest {
 namespace {
 
-/// A motion that a trial commands.
+/// A motion that a trial commands: a move to a target, a sine reference or a recorded reference.
 struct Motion {
-  std::size_t slot{0};          ///< slot of the value that commands the motion
-  std::size_t previous{0};      ///< slot of the value before it, to which it is relative; else `slot`
+  std::size_t slot{0};  ///< slot (index in the plan) of the value that commands the motion
+  /// Slot of the previous target, from which the motion starts; equal to `slot` if there is none.
+  std::size_t previous{0};
   bool judged_in_counts{true};  ///< the motion is judged by a band in counts, or by success
-  std::string unseen{};         ///< reason why the encoder does not see it; empty if it does
+  std::string unseen{};         ///< reason why the encoder does not notice the motion; empty if it does
 };
 
-/// The motions of a study's trials.
+/// The motions that the trials of a study command, and whether the encoder notices them.
 class Motions {
  public:
   Motions(const study::Study& study, const study::StudyPlan& plan)
@@ -34,7 +35,7 @@ class Motions {
         shape_(slot_of(parameter::command::profile::shape)),
         amplitude_(slot_of(parameter::command::profile::amplitude)) {}
 
-  /// The slots on which the motions depend.
+  /// The slots (indices in the plan) of the values on which the motions depend.
   std::vector<std::size_t> slots() const {
     std::vector<std::size_t> slots = study::slots_of(plan_.list);
     slots.insert(slots.end(), {encoder_, overrun_, shape_, amplitude_});
@@ -42,8 +43,8 @@ class Motions {
     return slots;
   }
 
-  /// The motions of the trial with this draw. All trials of a point of the plan have the same list of
-  /// motions.
+  /// The motions of the trial with this draw. Each trial at a design point in a setting has the same number
+  /// of motions in the same order.
   std::vector<Motion> of(std::size_t point, std::int64_t draw) const {
     const study::StudyTrial trial =
         study::commanded_trial(study_, study::design_point(plan_, point),
@@ -58,7 +59,7 @@ class Motions {
     return motions;
   }
 
-  /// The slots of the values that decide whether the encoder sees the motion.
+  /// The slots (indices in the plan) of the values that decide whether the encoder notices the motion.
   std::array<std::size_t, 3> involved(const Motion& motion) const {
     return {motion.slot, encoder_, motion.previous};
   }
@@ -73,7 +74,8 @@ class Motions {
     return target < 0 ? overrun_ : plan_.list.first + static_cast<std::size_t>(target);
   }
 
-  /// Whether the move is judged in counts: by success or by a band. A tolerance judges the position itself.
+  /// Whether the move is judged in counts: by success or by an error band. A tolerance judges the position
+  /// itself.
   bool is_judged_in_counts(std::size_t move) const {
     const auto number = static_cast<std::int64_t>(move);
     return study_.goals.empty() || std::ranges::any_of(study_.goals, [number](const study::Goal& goal) {
@@ -117,13 +119,14 @@ class Motions {
   std::size_t encoder_, overrun_, shape_, amplitude_;
 };
 
-/// A motion that the encoder does not see in some trials of a design point.
+/// A motion that is too small for the encoder to notice, in some trials of a design point.
 struct UnseenMotion {
-  Motion motion;  ///< motion in the first trial that does not see it
+  Motion motion;  ///< the motion in the first trial in which the encoder does not notice it
   std::int64_t trials{0};
 };
 
-/// [motion] the unseen motions among the first trials of a point.
+/// The motions that the encoder does not notice in some of the first `trials` trials of a design point in a
+/// setting.
 std::vector<UnseenMotion> unseen_motions(const Motions& motions, std::size_t point, std::int64_t trials) {
   std::vector<UnseenMotion> unseen;
   for (std::int64_t i = 0; i < trials; ++i) {
@@ -136,7 +139,8 @@ std::vector<UnseenMotion> unseen_motions(const Motions& motions, std::size_t poi
   return unseen;
 }
 
-/// The number of design points at which the slots have different values.
+/// The number of design points that differ in the values of these slots; points with equal values are counted
+/// once.
 std::int64_t different_points(const study::StudyPlan& plan, std::span<const std::size_t> slots) {
   std::int64_t points = 0;
   study::visit_points(plan, slots, [&points](std::size_t) { return ++points > 0; });
@@ -151,8 +155,9 @@ std::int64_t trials_to_try(std::int64_t points) {
   return std::clamp<std::int64_t>(max_in_all / points, 1, max_of_point);
 }
 
-/// Text for the point and the number of other points with the same motions and encoders; empty if all points
-/// have the same.
+/// Text that names the design point, its setting (condition at an age) and the number of other points that
+/// have the same values of motions and encoders; empty if all points have the same values.
+/// @param different number of different combinations of these values
 std::string point_text(const study::Study& study, std::size_t point, std::int64_t different) {
   if (different == 1) return "";
   const std::int64_t of_study = study::design_point(*study.plan, point);

@@ -14,26 +14,30 @@ using shapes::list_of;
 using shapes::number_in;
 using shapes::object_of;
 
-/// Regular expression for the dotted path of a rate of aging, such as "friction.k1.aging".
+/// Regular expression for the dotted path of a rate at which a value changes with age, such as
+/// "friction.k1.aging".
 constexpr std::string_view rate_pattern = R"(^[a-z_0-9.]+\.aging$)";
 
-/// Schema of a rate of aging: a number or a distribution.
+/// JSON Schema of the rate at which a value changes with age: a number or a distribution.
 Json rate_schema();
 
-/// Definitions, one for each distribution: `{"uniform": [low, high]}`, with or without `per` beside it.
+/// JSON Schema definitions of the distributions, one for each: `{"uniform": [low, high]}`, with or without
+/// `per` (how often it is drawn) beside it.
 Json definitions();
 
-/// Schema of one value of the parameter.
+/// JSON Schema of one value of the parameter.
 Json value_schema(const parameters::Parameter& parameter);
 
-/// The row of the parameter in the units that allow the most values. The schema of one section cannot depend
-/// on keys of other sections, such as the choice of units.
+/// The table row of the parameter with the choice of units that allows the most values: a position gets SI
+/// units. The schema of one section of a manifest cannot depend on keys of other sections, such as the choice
+/// of units.
 parameters::Parameter in_widest_units(const parameters::Parameter& parameter);
 
-/// A row that stands for any parameter of a plugin, which the schema does not know: any number is allowed.
+/// A table row that stands for any parameter of a user's controller (plugin), which the schema does not know:
+/// any number is allowed.
 parameters::Parameter plugin_value();
 
-/// Schema of the value of a key, with its description and default.
+/// JSON Schema of the value of a key of the manifest, with its description and default.
 Json key_schema(const parameters::Parameter& parameter);
 
 }  // namespace zerocount::manifest

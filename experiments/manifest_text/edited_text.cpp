@@ -17,14 +17,15 @@ std::size_t offset_of(const std::string& text, const yaml::Place& place) {
   return offset + static_cast<std::size_t>(place.column - 1);
 }
 
-/// The entry of a value as text, "controller: {ki: 5}" for the path controller.ki.
+/// Text of a manifest entry that gives `path` the value, "controller: {ki: 5}" for the path controller.ki.
 std::string entry_text(std::string_view path, std::string_view value) {
   const auto dot = path.find('.');
   if (dot == std::string_view::npos) return fmt::format("{}: {}", path, value);
   return fmt::format("{}: {{{}}}", path.substr(0, dot), entry_text(path.substr(dot + 1), value));
 }
 
-/// The text with the entry added to the map.
+/// The manifest `text` with a new entry added to the given map.
+/// @param root the map is the whole manifest
 std::string with_entry(std::string text, const yaml::YamlNode& map, bool root, const std::string& entry) {
   const std::size_t at = offset_of(text, map.place);
   if (at < text.size() && text[at] == '{')
@@ -35,7 +36,7 @@ std::string with_entry(std::string text, const yaml::YamlNode& map, bool root, c
   return text.insert(offset_of(text, first), entry + "\n" + indent);
 }
 
-/// The end of a list or map in flow style that begins at `at`.
+/// Offset of the end of a list or map in flow style ([…] or {…}) that begins at offset `at`.
 std::size_t end_of_flow(const std::string& text, std::size_t at) {
   int depth = 0;
   char quote = 0;
@@ -54,7 +55,8 @@ std::size_t end_of_flow(const std::string& text, std::size_t at) {
   return text.size();
 }
 
-/// The end of a value in block style: of its last line that is indented more than its key.
+/// Offset of the end of a value in YAML block style that begins at offset `at`: the end of its last line that
+/// is indented more than its key.
 std::size_t end_of_block(const std::string& text, std::size_t at, int key_column) {
   std::size_t end = std::min(text.find('\n', at), text.size());
   for (std::size_t start = end + 1; start < text.size();) {
@@ -69,7 +71,7 @@ std::size_t end_of_block(const std::string& text, std::size_t at, int key_column
   return end;
 }
 
-/// The text with the value of the entry replaced.
+/// The manifest `text` with another value of the entry.
 std::string with_new_value(std::string text, const yaml::YamlEntry& entry, std::string_view value) {
   const yaml::YamlNode& node = *entry.value;
   const std::size_t at = offset_of(text, node.place);
@@ -82,7 +84,7 @@ std::string with_new_value(std::string text, const yaml::YamlEntry& entry, std::
   return text.replace(colon + 1, end - colon - 1, " " + std::string(value));
 }
 
-/// Whether the trees have the same values, whatever the order of their keys.
+/// Whether two YAML trees have the same values, whatever the order of their keys.
 bool same_tree(const yaml::YamlNode& a, const yaml::YamlNode& b) {
   if (a.kind != b.kind || a.text != b.text || a.items.size() != b.items.size() ||
       a.entries.size() != b.entries.size())

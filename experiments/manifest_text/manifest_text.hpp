@@ -34,28 +34,29 @@ ManifestValues values_of(const std::string& text, const std::string& source,
 /// The value of a key that is a text or a number; `absent` if the key is missing.
 std::string value_or(const ManifestValues& values, const std::string& key, const std::string& absent);
 
-/// A key that is in one manifest only, or has different values.
+/// A key whose value differs between two manifests, or that only one of them has.
 struct ManifestDifference {
-  std::string key;       ///< dotted path
+  std::string key;       ///< dotted path of the key
   std::string baseline;  ///< value in the baseline, YAML on one line; empty if the key is missing
   std::string current;   ///< value in the current manifest, YAML on one line; empty if the key is missing
 };
 
-/// The keys with different values, sorted. Comments, line ends, spacing, the order of other keys and the
-/// notation of numbers do not matter.
+/// The keys whose values differ between the manifests, sorted by key. Comments, line ends, spacing, the order
+/// of other keys and the notation of numbers do not matter.
 std::vector<ManifestDifference> manifest_differences(const ManifestValues& baseline,
                                                      const ManifestValues& current);
 
 /// Text of the first five differences and the number of others: "seed is 42 there and 43 here, …".
 std::string differences_text(const std::vector<ManifestDifference>& differences);
 
-/// A text that is equal for two manifests if and only if they have no differences.
+/// A text that is equal for two manifests if and only if all their keys have equal values.
 std::string identity_text(const ManifestValues& values);
 
-/// The node at the path of keys; null if there is none.
+/// The node of the YAML tree at the dotted path of keys; null if there is none.
 const yaml::YamlNode* node_at(const yaml::YamlNode& root, std::string_view path);
 
-/// The value that replaces another one. It keeps the `aging` of the replaced value, unless it has its own.
+/// A copy of `value`, with which it can replace the value `before`: it keeps the law of aging (`aging`) of
+/// the replaced value, unless it has its own.
 /// @param before value to be replaced; null: there is none
 yaml::YamlPointer aging_like(const yaml::YamlNode* before, const yaml::YamlPointer& value);
 
@@ -66,7 +67,7 @@ yaml::YamlPointer aging_like(const yaml::YamlNode* before, const yaml::YamlPoint
 yaml::YamlPointer apply_overrides(yaml::YamlPointer root, const std::vector<std::string>& overrides,
                                   std::deque<std::string>& sources, yaml::Problems& problems);
 
-/// Whether the text can be a dotted path: none of its keys is empty.
+/// Whether the text can be a dotted path of keys ("plant.inertia"): none of its keys is empty.
 bool is_dotted_path(std::string_view text);
 
 /// A copy of the tree in which `path` has this value; missing maps are created. Null if the path leads
@@ -77,8 +78,8 @@ yaml::YamlPointer with_value(const yaml::YamlPointer& root, std::string_view pat
 /// Whether the tree has a value at `path`, a path of keys without dots.
 bool has_value_at(const yaml::YamlNode& root, std::string_view path);
 
-/// Reports overrides in `root` without effect, because a grid or every case of the sweep gives the key at all
-/// points.
+/// Reports overrides (key=value) in `root` that have no effect, because the grid or every case of the sweep
+/// gives the key at all design points.
 void report_swept_overrides(const yaml::YamlNode& root, const std::vector<std::string>& overrides,
                             std::deque<std::string>& sources, yaml::Problems& problems);
 
@@ -90,14 +91,16 @@ void report_swept_overrides(const yaml::YamlNode& root, const std::vector<std::s
 std::optional<std::string> with_override(const std::string& text, std::string_view path,
                                          std::string_view value);
 
-/// Changes of the manifest of one design point against the manifest of its study.
+/// Changes that turn the manifest of a study into a manifest of one of its design points.
 struct PointChanges {
-  std::string condition{};  ///< its overrides replace `conditions`; empty: none
-  /// Pairs (dotted path of a parameter, number), which replace the values of the manifest.
+  /// Name of the condition whose overrides are written into the sections in place of `conditions`; empty:
+  /// none.
+  std::string condition{};
+  /// Parameters whose values in the manifest are replaced: pairs (dotted path, number).
   std::vector<std::pair<std::string, double>> values{};
-  /// Pairs (key at the root, YAML), which replace the values of the manifest.
+  /// Keys at the root of the manifest whose values are replaced: pairs (key, YAML text).
   std::vector<std::pair<std::string, std::string>> keys{};
-  std::vector<std::string> removed{};  ///< removed keys: keys at the root, or "section.key"
+  std::vector<std::string> removed{};  ///< keys to be left out: keys at the root, or "section.key"
   /// Folder to which the file names in the study's manifest are relative; empty: its files are not known.
   std::filesystem::path folder{};
 };

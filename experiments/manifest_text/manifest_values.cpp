@@ -14,7 +14,8 @@
 namespace zerocount::manifest_text {
 namespace {
 
-/// Maps whose keys are numbered in the order in which they are written.
+/// Maps of a manifest whose order of keys matters, because it numbers design points, conditions, goals or
+/// tried values.
 constexpr std::array<std::string_view, 5> ordered_maps{"sweep.grid", "sweep.cases", "conditions", "goals",
                                                        "tune.free"};
 constexpr std::string_view between_keys = ", ";
@@ -47,7 +48,7 @@ bool is_of_order(std::string_view key) {
   return key.ends_with(order_of_keys);
 }
 
-/// A value with all its numbers in one standard notation. Names are not changed.
+/// A manifest value with all its numbers in one standard notation. Names are not changed.
 std::string canonical(std::string_view key, std::string_view value) {
   if (is_of_order(key)) return std::string(value);
   if (!value.starts_with('[')) return canonical_number(value);
@@ -80,8 +81,8 @@ std::vector<std::string_view> sorted_keys(std::string_view order) {
   return keys;
 }
 
-/// Whether the difference is the order of a map whose keys differ as well. Such a difference need not be
-/// reported.
+/// Whether the difference is the order of a map whose keys differ as well. Such a difference is reported by
+/// its keys already.
 bool follows_from_other_keys(const ManifestDifference& difference) {
   return is_of_order(difference.key) && sorted_keys(difference.baseline) != sorted_keys(difference.current);
 }

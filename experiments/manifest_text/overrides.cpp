@@ -105,12 +105,13 @@ yaml::YamlPointer replaced(const yaml::YamlPointer& node, const Override& change
   return *child ? copy : nullptr;
 }
 
-/// Whether the dotted path is `swept` or lies below it.
+/// Whether an override of the dotted path is replaced by the sweep of `swept`: the path is `swept` or lies
+/// below it.
 bool is_given_with(std::string_view path, std::string_view swept) {
   return path.starts_with(swept) && (path.size() == swept.size() || path[swept.size()] == '.');
 }
 
-/// The map at a path of keys; null if there is none.
+/// The map at a path of keys in the YAML tree; null if there is none.
 const yaml::YamlNode* map_at(const yaml::YamlNode& root, std::initializer_list<std::string_view> keys) {
   const yaml::YamlNode* node = &root;
   for (const std::string_view key : keys) {

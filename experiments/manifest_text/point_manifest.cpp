@@ -62,7 +62,7 @@ const YamlNode* child(const YamlNode& map, std::string_view key) {
   return entry == nullptr ? nullptr : entry->value.get();
 }
 
-/// The tree without the key, "key" or "section.key".
+/// The YAML tree without the entry at the path, "key" or "section.key".
 YamlPointer without(const YamlPointer& root, std::string_view path) {
   const auto dot = path.find('.');
   auto copy = std::make_shared<YamlNode>(*root);
@@ -95,7 +95,7 @@ class ManifestTree {
     problems_.raise_if_any();
   }
 
-  /// Writes the values of the sweep at the design point into the sections.
+  /// Writes the values that the sweep has at the design point into the sections of the manifest.
   void settle(std::int64_t design_point) {
     const YamlNode* sweep = child(*root_, "sweep");
     if (sweep == nullptr) return;
@@ -118,7 +118,7 @@ class ManifestTree {
     }
   }
 
-  /// Writes the overrides of the condition into the sections, and removes `conditions`.
+  /// Writes the overrides of the condition into the sections of the manifest, and removes `conditions`.
   void settle_condition(std::string_view condition) {
     const YamlPointer kept = root_;
     const YamlNode& overrides = *child(*child(*root_, "conditions"), condition);
@@ -132,7 +132,7 @@ class ManifestTree {
 
   void remove(std::string_view path) { root_ = without(root_, path); }
 
-  /// The overrides of a condition, as YAML.
+  /// The overrides (dotted path: value) of a condition, as YAML text.
   std::string overrides_of(std::string_view condition) const {
     return yaml_text(*child(*child(*root_, "conditions"), condition));
   }

@@ -5,7 +5,7 @@
 
 #include "core/text/text.hpp"
 
-/// The manifests of this folder, which are part of the program.
+/// The manifests in the folder experiments/manifests, which are part of the program.
 namespace zerocount::manifests {
 
 /// All shipped manifests, in the order of their names ("paper-gains.yaml").

@@ -8,8 +8,8 @@
 namespace zerocount::parameters {
 namespace {
 
-/// The Sobol dimension of row i of the blocks of one phase. From i = 14 on, the coarse phase has a separate
-/// range of dimensions.
+/// Dimension of the Sobol sequence for row i of the control blocks (filters, observer and so on) of one
+/// phase. From i = 14 on, the coarse phase has a separate range of dimensions.
 template <Phase phase>
 constexpr std::size_t dimension(std::size_t i) {
   if (phase == Phase::fine) return beyond_moves(32 + i);
@@ -19,8 +19,8 @@ constexpr std::size_t dimension(std::size_t i) {
 // In the order of loop::LoopEncoder.
 const std::vector<std::string_view> loop_encoders{parameter::plant::load::encoder, "motor", "load"};
 
-/// The rows of the control structure of one phase. `Blocks` is a function that returns the ControlBlocks of
-/// the phase in TrialParameters.
+/// The table rows of the parameters that choose the control structure of one phase. `Blocks` is a function
+/// that returns the ControlBlocks of the phase in TrialParameters.
 template <Phase phase, class Blocks>
 std::vector<Parameter> structure_rows(Blocks /*blocks*/) {
   return {
@@ -39,7 +39,8 @@ std::vector<Parameter> structure_rows(Blocks /*blocks*/) {
   };
 }
 
-/// The rows of the other blocks of one phase.
+/// The table rows of the other control blocks (filters, observer, feedforward and so on) of one phase of the
+/// control.
 template <Phase phase, class Blocks>
 std::vector<Parameter> block_rows(Blocks /*blocks*/) {
   return {
@@ -140,7 +141,8 @@ std::vector<Parameter> block_rows(Blocks /*blocks*/) {
   };
 }
 
-/// The rows that only the fine phase has, or a control without a coarse phase.
+/// The table rows of the control parameters that only the fine phase has, or a control without a coarse
+/// phase.
 std::vector<Parameter> rows_of_the_drive() {
   const numerics::Interval samples = numerics::closed(1, 1000);
   return {

@@ -9,9 +9,9 @@ namespace {
 
 constexpr std::string_view no_disc = "the key left out: only an encoder disc has an eccentricity";
 
-/// The rows of the errors of one encoder. `Errors` is a function that returns its EncoderErrors in
+/// The table rows of the errors of one encoder. `Errors` is a function that returns its EncoderErrors in
 /// TrialParameters.
-/// @param dimensions Sobol dimensions, in the order of the rows
+/// @param dimensions dimensions of the Sobol sequence, in the order of the rows
 /// @param noiseless name of the ideal without noise
 /// @tparam Handles handles of the parameters, a parameter::EncoderErrors
 /// @tparam whose suffix that names the encoder in the names of the other ideals

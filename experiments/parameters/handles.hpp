@@ -9,7 +9,8 @@
 /// name. `#` in a path stands for the index of an element of a list.
 namespace zerocount::parameter {
 
-/// Handle of a parameter. It converts to the dotted path of the parameter, but no text converts to a handle.
+/// A parameter's handle, by which code refers to it. It converts to the dotted path of the parameter in a
+/// manifest, but no text converts to a handle.
 struct Handle {
   std::string_view path;
 
@@ -19,7 +20,7 @@ struct Handle {
   friend constexpr bool operator==(const Handle&, const Handle&) = default;
 };
 
-/// Parameters that both phases of the control have.
+/// Handles of the control parameters that both the fine and the coarse phase of the control have.
 template <parameters::Phase phase>
 struct Control {
   static constexpr Handle kp{parameters::phase_path<phase, "kp">};
@@ -74,7 +75,8 @@ struct Control {
   };
 };
 
-/// Errors of one encoder, whose section in a manifest is `section`.
+/// Handles of the parameters of one encoder's errors. `section` is the dotted path of their section in a
+/// manifest.
 template <parameters::Literal section>
 struct EncoderErrors {
   static constexpr Handle eccentricity{parameters::joined<section, ".eccentricity">};

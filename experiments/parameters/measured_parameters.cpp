@@ -21,7 +21,8 @@ constexpr std::string_view final_stiffness = parameter::friction::measured::fina
 constexpr std::string_view breakaway = parameter::friction::measured::breakaway;
 constexpr std::string_view breakaway_travel = parameter::friction::measured::breakaway_travel;
 
-/// The parameters of the friction spring. k2 and beta are computed from all values of the group.
+/// The friction spring's parameters that are computed from a group of measured parameters. k2 and beta are
+/// computed from all values of the group.
 std::vector<DerivedParameter> spring_from(const std::vector<std::string_view>& names, double (*k2)(From),
                                           double (*beta)(From)) {
   return {{parameter::friction::k1, {final_stiffness}},

@@ -6,37 +6,42 @@
 
 namespace zerocount::parameters {
 
-/// Numbers of measured parameters. The declaration that uses them states their order.
+/// Values of measured parameters. The function or member that uses them states their order.
 using MeasuredNumbers = std::span<const double>;
 
-/// A parameter of the table that is computed from measured parameters.
+/// A parameter of the friction law that is computed from measured parameters, such as k1 from a measured
+/// stiffness.
 struct DerivedParameter {
-  std::string_view name;               ///< dotted path
-  std::vector<std::string_view> from;  ///< dotted paths of measured parameters
-  /// Computes the value from the sources; NaN if no machine has these measured values. Null: the value equals
-  /// its only source.
+  std::string_view name;               ///< dotted path of the computed parameter
+  std::vector<std::string_view> from;  ///< dotted paths of the measured parameters from which it is computed
+  /// Computes the value from the values of `from`, in that order; NaN if no machine has these measured
+  /// values. Null: the value equals its only source.
   double (*value)(MeasuredNumbers from){nullptr};
 };
 
 /// A condition low < high between measured values. If it is violated, no machine has these values.
 struct MeasuredCondition {
-  std::string_view low;   ///< formula in the last keys of the paths, "breakaway/breakaway_travel"
-  std::string_view high;  ///< formula of the upper side, in the same notation as `low`
-  std::string_view unit;  ///< unit of both sides on a rotary axis
-  double (*low_value)(MeasuredNumbers values);   ///< computes `low` from all values of the group
-  double (*high_value)(MeasuredNumbers values);  ///< computes `high` from all values of the group
+  /// Formula of the lower side for messages, in the last keys of the paths: "breakaway/breakaway_travel".
+  std::string_view low;
+  std::string_view high;  ///< formula of the higher side for messages, in the same notation as `low`
+  std::string_view unit;  ///< unit of both sides of the condition on a rotary axis
+  /// Computes the lower side `low` from the values of the whole group.
+  double (*low_value)(MeasuredNumbers values);
+  /// Computes the upper side `high` from the values of the whole group.
+  double (*high_value)(MeasuredNumbers values);
 };
 
 /// A group of measured parameters, such as a stiffness, from which the constants of a law follow. A study
 /// that gives one parameter of the group must give all of them, and none of the parameters that follow.
 struct MeasuredParameters {
-  std::string_view section;             ///< dotted path of the map with their keys
-  std::vector<std::string_view> names;  ///< dotted paths
+  std::string_view section;  ///< dotted path of the map in a manifest that holds the measured parameters
+  std::vector<std::string_view> names;  ///< dotted paths of all measured parameters of the group
   /// Number of leading `names` that only this group has. A manifest that gives one of them uses this group;
   /// the other names may belong to another group of the section.
   std::size_t own{0};
   std::vector<DerivedParameter> derived;
-  std::vector<MeasuredCondition> conditions{};  ///< conditions of the values, all of which must hold
+  /// Conditions between the measured values, all of which must hold.
+  std::vector<MeasuredCondition> conditions{};
 };
 
 /// All groups of measured parameters. A study gives at most one group of each section:
@@ -48,8 +53,8 @@ struct MeasuredParameters {
 ///     which creep under the torque τ ends at the extension x.
 std::span<const MeasuredParameters> measured_parameters();
 
-/// Whether a parameter belongs to a group of measured parameters.
-/// @param name dotted path
+/// Whether the name is the dotted path of a measured parameter, such as a stiffness, from which constants of
+/// a friction law follow.
 bool is_measured(std::string_view name);
 
 }  // namespace zerocount::parameters

@@ -20,10 +20,12 @@ namespace zerocount::parameters {
 // beyond_moves(516).
 
 std::vector<Parameter> plant_rows();
-std::vector<Parameter> kinematic_error_rows();  ///< kinematic error of the coupling to a second mass
+/// Rows of the table of parameters for the kinematic error of the coupling to a second mass.
+std::vector<Parameter> kinematic_error_rows();
 std::vector<Parameter> friction_rows();
 std::vector<Parameter> encoder_rows();
-std::vector<Parameter> drive_rows();  ///< converter and amplifier
+/// Rows of the table of parameters for the converter (DAC) and the amplifier.
+std::vector<Parameter> drive_rows();
 std::vector<Parameter> controller_rows();
 std::vector<Parameter> filter_rows();
 std::vector<Parameter> disturbance_rows();
@@ -31,7 +33,7 @@ std::vector<Parameter> command_rows();
 std::vector<Parameter> initial_rows();
 std::vector<Parameter> verdict_rows();
 
-/// Sobol dimension i of those that follow the dimensions of the moves.
+/// Number `i` of the Sobol dimensions that follow those of the moves' values.
 constexpr std::size_t beyond_moves(std::size_t i) {
   return first_sobol_dimension_beyond_moves + i;
 }
@@ -60,19 +62,20 @@ constexpr std::string_view faster_profile = "a profile";
 /// exact arithmetic of counts in double.
 constexpr double max_count = 1e12;
 
-/// Range of all gains, whatever the axis (from a galvanometer to a telescope) and the unit. The maximum is
-/// far above the gains of real machines, and far below the maximum of a double. Whether a gain is plausible
-/// for the axis at hand is checked by rules::plausible_gains().
+/// Range of all control gains, whatever the axis (from a galvanometer to a telescope) and the unit. The
+/// maximum is far above the gains of real machines, and far below the maximum of a double. Whether a gain is
+/// plausible for the axis at hand is checked by rules::plausible_gains().
 constexpr numerics::Interval gain_range{.low = 0, .high = 1e15, .low_included = true, .high_included = true};
 
-/// Stands for the field in rows that have no field in TrialParameters.
+/// Stands for the access to TrialParameters in table rows whose value has no field there.
 struct NoField {};
 
 inline Parameter stored_at(Parameter row, NoField) {
   return row;
 }
 
-/// Adds the access to the field of TrialParameters: `Field` returns a pointer to it.
+/// Adds to a table row the access to the parameter's field of TrialParameters: `Field` returns a pointer to
+/// it.
 template <class Field>
 Parameter stored_at(Parameter row, Field) {
   row.get = [](const trial::TrialParameters& parameters) {
@@ -85,8 +88,8 @@ Parameter stored_at(Parameter row, Field) {
   return row;
 }
 
-/// Adds the access to a field that is a limit, written as "none" if the limit is off. The number that stands
-/// for "none" is max_count; the field of the trial's parameters is then infinity.
+/// Adds to a table row the access to a field of TrialParameters that is a limit. A manifest writes "none" if
+/// the limit is off. The number that stands for "none" is max_count; the field is then infinity.
 template <class Field>
 Parameter or_none(Parameter row, Field) {
   row.none = max_count;
@@ -99,7 +102,7 @@ Parameter or_none(Parameter row, Field) {
   return row;
 }
 
-/// A row of real numbers.
+/// A row of the table of parameters whose values are real numbers.
 template <class Field = NoField>
 Parameter real_row(parameter::Handle name, std::size_t sobol_dimension, std::string_view unit,
                    std::string_view meaning, std::string_view source, const numerics::Interval& range,
@@ -107,7 +110,7 @@ Parameter real_row(parameter::Handle name, std::size_t sobol_dimension, std::str
   return stored_at({name, unit, meaning, source, ParameterKind::real, range, {}, sobol_dimension}, field);
 }
 
-/// A row of whole numbers.
+/// A row of the table of parameters whose values are whole numbers.
 template <class Field = NoField>
 Parameter whole_row(parameter::Handle name, std::size_t sobol_dimension, std::string_view unit,
                     std::string_view meaning, std::string_view source, const numerics::Interval& range,
@@ -116,7 +119,7 @@ Parameter whole_row(parameter::Handle name, std::size_t sobol_dimension, std::st
                    field);
 }
 
-/// A row with labels, in the order of the enumeration's values.
+/// A row of the table of parameters whose values are labels, in the order of the enumeration's values.
 template <class Field>
 Parameter word_row(parameter::Handle name, std::size_t sobol_dimension, std::string_view meaning,
                    std::string_view source, std::vector<std::string_view> labels, Field field) {
@@ -126,7 +129,7 @@ Parameter word_row(parameter::Handle name, std::size_t sobol_dimension, std::str
       field);
 }
 
-/// A row of `true` or `false`.
+/// A row of the table of parameters with the values `true` or `false`.
 template <class Field>
 Parameter bool_row(parameter::Handle name, std::size_t sobol_dimension, std::string_view meaning,
                    std::string_view source, Field field) {
@@ -141,25 +144,27 @@ Parameter bool_row(parameter::Handle name, std::size_t sobol_dimension, std::str
                    field);
 }
 
-/// Marks a position in counts. With command.units: si the manifest gives it in rad (see in_si_positions).
+/// Marks the row of a parameter that is a position in counts. With command.units: si the manifest gives it in
+/// rad, or m (see in_si_positions).
 inline Parameter position(Parameter row) {
   row.is_position = true;
   return row;
 }
 
-/// Adds the number that is written as "none". It lies outside the range of the other values.
+/// Adds to a row the number that a manifest writes as "none" (the limit or feature is off). It lies outside
+/// the range of the other values.
 inline Parameter none_is(double none, Parameter row) {
   row.none = none;
   return row;
 }
 
-/// Makes the number that is written as "none" the default of a row without a field.
+/// Makes the number that a manifest writes as "none" the default of a row without a field.
 inline Parameter none_by_default(double none, Parameter row) {
   row.get = [none](const trial::TrialParameters&) { return none; };
   return none_is(none, std::move(row));
 }
 
-/// Adds the ideal value of a parameter, at which it makes no move fail.
+/// Adds to a row the ideal value of the parameter, at which it makes no move fail.
 /// @param name Ideal::name
 inline Parameter ideal_at(double value, std::string_view name, Parameter row) {
   row.ideal = Ideal{name, value};
@@ -173,26 +178,26 @@ inline Parameter idealised_by(std::string_view name, Parameter row) {
   return row;
 }
 
-/// Lets the key of the section alone stand for this row.
+/// Lets the key of the section, with a number instead of a map, stand for this parameter.
 inline Parameter short_for(std::string_view section, Parameter row) {
   row.short_name = section;
   return row;
 }
 
-/// Marks a row as required wherever it has an effect.
+/// Marks a parameter as required wherever it has an effect: the row gets no default.
 inline Parameter without_default(Parameter row) {
   row.get = nullptr;
   return row;
 }
 
-/// Adds the unit and meaning of a gain with controller.units: si.
+/// Adds to the row of a gain its unit and meaning with controller.units: si.
 inline Parameter in_si(Parameter row, std::string_view unit, std::string_view meaning) {
   row.si_unit = unit;
   row.si_meaning = meaning;
   return row;
 }
 
-/// Restricts a row to one kind of axis.
+/// Restricts the parameter of a row to one kind of axis.
 /// @param instead the corresponding key on the other kind of axis
 inline Parameter only_on(AxisKind axis, std::string_view instead, Parameter row) {
   row.only_on = axis;
@@ -200,7 +205,8 @@ inline Parameter only_on(AxisKind axis, std::string_view instead, Parameter row)
   return row;
 }
 
-/// Makes a row the row of a list. `Field` returns a pointer to the field of value `index`.
+/// Makes a row the row of a parameter whose value is a list. `Field` returns a pointer to the field of value
+/// `index` in TrialParameters.
 /// @param singular noun for one value @param plural noun for several values
 template <class Field>
 Parameter list_of(std::size_t max_values, std::string_view singular, std::string_view plural, Parameter row,

@@ -9,11 +9,11 @@ namespace zerocount::parameters {
 
 /// The phases of the control, whose parameters have the same names in two sections of a manifest.
 enum class Phase : std::uint8_t {
-  fine,   ///< section `controller`; the only phase if no point has a coarse phase
-  coarse  ///< section `controller.coarse`
+  fine,   ///< fine phase: section `controller`; the only phase if no design point has a coarse phase
+  coarse  ///< coarse phase: section `controller.coarse`
 };
 
-/// A text that can be a template argument.
+/// A string literal as a type that can be a template argument.
 template <std::size_t size>
 struct Literal {
   char text[size]{};

@@ -13,25 +13,26 @@ enum class AxisKind { rotary, linear };
 /// Unit of the gains in a manifest.
 enum class GainUnits {
   count,  ///< gains of the sampled control, per count and sample: N m/count
-  si  ///< gains of the continuous control, independent of sample rate and encoder: N m/rad, N m/(rad s), N m
-      ///< s/rad
+  /// Gains of the continuous control, independent of sample rate and encoder: N m/rad, N m/(rad s), N m
+  /// s/rad.
+  si
 };
 
 /// Unit of the targets in a manifest.
 enum class TargetUnits {
-  counts,  ///< counts of the fine encoder
+  counts,  ///< target positions are counts of the fine encoder
   si       ///< rad, or m; a target becomes the nearest count of the trial's fine encoder
 };
 
-/// The choices that determine the units of a study's parameters and results.
+/// The manifest's choices (kind of axis, units of gains, units of targets) that determine the units of a
+/// study's parameters and results.
 struct StudyUnits {
   AxisKind axis{AxisKind::rotary};
   GainUnits gains{GainUnits::count};
   TargetUnits targets{TargetUnits::counts};
 };
 
-/// The values of the manifest's keys `axis`, `controller.units` and `command.units`, in the order of the
-/// enumerations.
+/// The values of the manifest's key `axis`, in the order of AxisKind.
 inline constexpr std::array<std::string_view, 2> axis_labels{"rotary", "linear"};
 inline constexpr std::array<std::string_view, 2> gain_unit_labels{"count", "si"};
 inline constexpr std::array<std::string_view, 2> target_unit_labels{"counts", "si"};

@@ -35,7 +35,8 @@ bool is_member(const std::vector<std::uint32_t>& slots, std::uint32_t slot) {
   return std::ranges::find(slots, slot) != slots.end();
 }
 
-/// Adds the coordinates of the value of one slot, if it is drawn per machine, trial or contact.
+/// Adds the random coordinates of the value of one slot (a parameter in the plan), if the value is drawn per
+/// machine, trial or contact.
 void add_coordinates(const study::Study& study, std::uint32_t slot, const study::Value& value,
                      std::vector<RandomCoordinate>& coordinates) {
   const std::string name(study.plan->table.rows[slot].name);
@@ -57,8 +58,8 @@ void add_coordinates(const study::Study& study, std::uint32_t slot, const study:
   }
 }
 
-/// Adds coordinates for the members of the copula that are not drawn at this point. The random numbers of the
-/// other members depend on them.
+/// Adds coordinates for correlated parameters (members of the Gaussian copula) that are not drawn at this
+/// point. The random numbers of the other members depend on them.
 void add_fixed_members(const study::Study& study, const std::vector<const study::Value*>& values,
                        std::vector<RandomCoordinate>& coordinates) {
   const std::optional<study::GaussianCopula>& copula = study.plan->copula;
@@ -141,7 +142,8 @@ double score_of(const DiscreteDraw& draw, std::span<const double> z) {
   return score;
 }
 
-/// DiscreteDraw::direction of a coordinate. For a correlated coordinate the factors are its row of L.
+/// The pairs (coordinate, factor) of DiscreteDraw::direction for a coordinate. For a correlated coordinate
+/// the factors are its row of the Cholesky factor L.
 std::vector<std::pair<std::size_t, double>> direction_of(const study::Study& study,
                                                          std::span<const RandomCoordinate> coordinates,
                                                          std::size_t coordinate) {

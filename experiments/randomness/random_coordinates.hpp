@@ -15,11 +15,15 @@ namespace zerocount::randomness {
 /// One random coordinate of a trial: a standard normal number z from which values of the trial are computed.
 struct RandomCoordinate {
   enum class Kind : std::uint8_t {
-    values,           ///< values of `slots`: their quantile is Φ(z), after z is correlated as in the study
-    profile_mean,     ///< mean of the profile of slots[0]: its quantile is Φ(z)
-    profile_at_start  ///< field of the profile of slots[0]: its value where the trial begins is z
+    /// The values of `slots` (parameters in the plan); their quantile is Φ(z), after z is correlated as in
+    /// the study.
+    values,
+    profile_mean,  ///< the mean of the profile of slots[0] along the axis; its quantile is Φ(z)
+    /// The Gaussian random field of the profile of slots[0]; its value at the position where the trial begins
+    /// is z.
+    profile_at_start
   };
-  std::string name;  ///< dotted path; for joint samples all paths, joined by ", "
+  std::string name;  ///< dotted path of the parameter; for joint samples all paths, joined by ", "
   Kind kind{Kind::values};
   std::vector<std::uint32_t> slots;
   /// Number of rows of joint samples, of which row ⌊rows·Φ(z)⌋ is drawn; otherwise 0. The order of the rows
@@ -38,7 +42,7 @@ std::vector<RandomCoordinate> random_coordinates(const study::Study& study, std:
 /// Φ(z), clamped so that the result is in the open interval (0, 1) for every z.
 double uniform_of_score(double z);
 
-/// Gives a trial the random number of a coordinate.
+/// Stores the random number of one coordinate in `draws`, the given random numbers of a trial.
 /// @param uniform uniform number in (0, 1), used for values and means of profiles
 /// @param score standard normal number, used for the field of a profile where the trial begins
 void give(study::GivenDraws& draws, const RandomCoordinate& coordinate, double uniform, double score);
@@ -50,9 +54,9 @@ void give(study::GivenDraws& draws, const RandomCoordinate& coordinate, double u
 study::GivenDraws draws_at(const study::Study& study, std::span<const RandomCoordinate> coordinates,
                            std::span<const double> z, std::int64_t number);
 
-/// A draw of one out of several equally probable rows. The rows are the entries of a choice, the numbers of
-/// `integers`, or the rows of joint samples. Equal entries of a choice are several rows with one value, so
-/// this value is more probable.
+/// A random draw of one out of several equally probable rows. The rows are the entries of a choice, the
+/// numbers of `integers`, or the rows of joint samples. Equal entries of a choice are several rows with one
+/// value, so this value is more probable.
 struct DiscreteDraw {
   std::string name{};  ///< name of the draw's coordinate (RandomCoordinate::name)
   /// Pairs of coordinate and factor: row ⌊rows·Φ(Σ factor·z[coordinate])⌋ is drawn. The squares of the
@@ -60,21 +64,24 @@ struct DiscreteDraw {
   std::vector<std::pair<std::size_t, double>> direction{};
   std::int64_t rows{1};
   bool ordered{false};  ///< adjacent rows have adjacent values: whole numbers, or a sorted choice
-  std::vector<std::uint32_t> values_of_rows{};  ///< [row] index of its value; empty: row r has value r
-  std::vector<double> numbers{};                ///< [value] number of a choice; otherwise empty
-  std::int64_t first{0};                        ///< number that row 0 of `integers` stands for
+  /// [row] index of the row's value in `numbers`; empty: row r has value r.
+  std::vector<std::uint32_t> values_of_rows{};
+  /// [index of a value] the number, if the draw is from a choice; otherwise empty.
+  std::vector<double> numbers{};
+  std::int64_t first{0};  ///< the number that row 0 stands for, if the draw is from `integers`
 
   std::int64_t values() const { return numbers.empty() ? rows : std::ssize(numbers); }
 };
 
-/// The discrete draws among the coordinates of a design point.
+/// The discrete draws (choices, whole numbers, rows of joint samples) among the random coordinates of a
+/// design point.
 std::vector<DiscreteDraw> discrete_draws(const study::Study& study, std::int64_t point,
                                          std::span<const RandomCoordinate> coordinates);
 
-/// The index of the value of a row.
+/// The index of the value that a row of the discrete draw gives; several rows can give one value.
 std::int64_t value_of_row(const DiscreteDraw& draw, std::int64_t row);
 
-/// The index of the value that is drawn at the coordinates z.
+/// The index of the value that the discrete draw gives at the independent standard normal coordinates z.
 std::int64_t value_at(const DiscreteDraw& draw, std::span<const double> z);
 
 /// Moves independent standard normal coordinates so that the given row is drawn. The moved coordinates have
@@ -82,7 +89,7 @@ std::int64_t value_at(const DiscreteDraw& draw, std::span<const double> z);
 /// @param uniform uniform number in (0, 1), independent of z
 void move_to_row(const DiscreteDraw& draw, std::int64_t row, double uniform, std::span<double> z);
 
-/// Text of a value: "0.35", or "row 17" for joint samples.
+/// Text of a value of the discrete draw: "0.35", or "row 17" for joint samples.
 /// @param value index of the value
 std::string value_text(const DiscreteDraw& draw, std::int64_t value);
 

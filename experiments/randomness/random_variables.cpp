@@ -50,7 +50,8 @@ std::vector<std::string> factor_names(const study::StudyPlan& plan) {
 
 namespace {
 
-/// The distribution of a coordinate's variable at the point; empty if the value is not drawn there.
+/// The distribution at the point of the value that a random coordinate draws; empty if the value is not drawn
+/// there.
 std::optional<distributions::Distribution> distribution_of(const study::StudyPlan& plan,
                                                            const std::vector<const study::Value*>& values,
                                                            const RandomCoordinate& coordinate) {
@@ -73,7 +74,8 @@ std::string unit_of(const study::Study& study, const RandomCoordinate& coordinat
   return std::string(study.plan->table.rows[coordinate.slots[0]].unit);
 }
 
-/// Index of a variable in the copula; empty if no correlation applies to it.
+/// Index of a variable among the correlated values (the members of the Gaussian copula); empty if no
+/// correlation applies to it.
 std::optional<std::size_t> member_of(const study::GaussianCopula& copula, const RandomVariable& variable) {
   if (variable.coordinate.kind != RandomCoordinate::Kind::values || variable.coordinate.rows > 0)
     return std::nullopt;
@@ -82,7 +84,7 @@ std::optional<std::size_t> member_of(const study::GaussianCopula& copula, const 
   return static_cast<std::size_t>(place - copula.slots.begin());
 }
 
-/// Correlation (L·Lᵀ)(row, column) of two members of the copula.
+/// Correlation (L·Lᵀ)(row, column) of the normal scores of two members of the Gaussian copula.
 double correlation_of(const study::GaussianCopula& copula, std::size_t row, std::size_t column) {
   double sum = 0.0;
   for (std::size_t j = 0; j <= std::min(row, column); ++j)

@@ -36,11 +36,11 @@ bool can_be_positive(const ParameterRange& range) {
   return range.high > 0.0;
 }
 
-/// One parameter that decides whether keys have an effect.
+/// One parameter of the manifest that decides whether other keys have an effect.
 struct Switch {
   parameter::Handle parameter;
   std::function<bool(const ParameterRange&)> is_on;
-  std::string on;  ///< text for messages: how a manifest turns the switch on
+  std::string on;  ///< text for messages that says how a manifest turns the switch on: "… above 0"
 };
 
 Switch above_zero(parameter::Handle parameter) {
@@ -53,7 +53,7 @@ Switch given(parameter::Handle parameter) {
           fmt::format("{} too", parameter.path)};
 }
 
-/// A switch for a parameter with labels: it is on if the parameter has one of these labels.
+/// A switch for a parameter whose values are labels: it is on if the value is one of these labels.
 template <class Word>
 Switch one_of(parameter::Handle parameter, std::initializer_list<Word> words) {
   const auto& labels = parameters::parameter_table()[parameters::find_parameter(parameter).value()].labels;
@@ -73,7 +73,7 @@ std::string no_effect(std::string_view reason) {
   return fmt::format("it has no effect: {}", reason);
 }
 
-/// The rule for keys that have an effect only if a switch is on.
+/// The rule for keys that have an effect only if the switch `by` is on.
 /// @param off phrase for the message if the switch is off at every point
 EffectRule only_with(const Switch& by, Keys keys, std::string_view off) {
   return {.keys = std::move(keys),
@@ -83,7 +83,8 @@ EffectRule only_with(const Switch& by, Keys keys, std::string_view off) {
           .expected = fmt::format("{}{}", by.on, or_left_out)};
 }
 
-/// The rule for keys that have no effect in this kind of study.
+/// The rule for keys that have no effect at all in this kind of study.
+/// @param what phrase that says why @param instead the key that would have the effect, for the message
 EffectRule idle(Keys keys, std::string what, std::string_view instead) {
   return {.keys = std::move(keys),
           .has_effect = [](const Ranges&) { return false; },
@@ -96,14 +97,14 @@ EffectRule except(Keys keys, EffectRule rule) {
   return rule;
 }
 
-/// The rule, except that a key that is 0 at all points is not reported.
+/// The same rule, but a key that is 0 at all design points is not reported.
 EffectRule unless_zero(EffectRule rule) {
   rule.off_at_zero = true;
   return rule;
 }
 
-/// The rule as a warning, for a key that a study may keep on purpose while another key switches between
-/// cases.
+/// The same rule as a warning instead of an error, for a key that a study may keep on purpose while another
+/// key switches between cases.
 EffectRule warning(EffectRule rule) {
   rule.warn_only = true;
   rule.expected.clear();
@@ -160,7 +161,7 @@ std::vector<EffectRule> rules_of_the_reference() {
                     "the reference is never an s_curve")};
 }
 
-/// The rule for keys that act only if the reference moves.
+/// The rule for keys that have an effect only if the reference moves, so that it is not a step.
 EffectRule with_a_moving_reference(Keys keys) {
   using Shape = loop::ReferenceShape;
   return unless_zero(only_with(one_of(parameter::command::profile::shape,

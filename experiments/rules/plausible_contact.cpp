@@ -20,7 +20,8 @@ bool has_spring(const study::ParameterRange& model) {
   return friction::has_spring(static_cast<friction::FrictionModel>(static_cast<int>(model.low)));
 }
 
-/// The pre-sliding range of a contact with the typical values, rad or m.
+/// The pre-sliding range of a friction contact (travel until it slides) with the typical values of its
+/// parameters, rad or m.
 double range_of(const study::ParameterRange& k1, const study::ParameterRange& k2,
                 const study::ParameterRange& beta, const study::ParameterRange& breakaway) {
   friction::FrictionParameters contact;

@@ -20,10 +20,10 @@ constexpr double min_of_sample_rate = 1e-3;
 constexpr double min_delay = 0.01;  // samples; nobody measures less
 constexpr double max_delay = 20.0;  // samples; a loop has some of them
 
-/// Stiffness of a contact at rest, and the parameters that it comes from. The value is 0 and the name empty
-/// for a law with neither k1 and k2 nor sigma0: coulomb, none and gms.
+/// Stiffness of the friction contact at rest, and the parameters that it comes from. The value is 0 and the
+/// name empty for a law with neither k1 and k2 nor sigma0: coulomb, none and gms.
 struct Stiffness {
-  double value{0.0};  ///< N m/rad
+  double value{0.0};  ///< stiffness at rest, N m/rad
   std::string_view name{};
 };
 

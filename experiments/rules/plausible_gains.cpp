@@ -17,13 +17,15 @@ namespace {
 
 using Faults = std::vector<ValueFault>;
 
-/// A gain of one phase of the control.
+/// A controller gain of one phase of the control (fine or coarse).
 struct Gain {
   parameter::Handle handle;
-  parameter::Handle structure;                ///< parameter with the control structure of the gain's phase
-  double theory::AnalogueGains::*continuous;  ///< the gain in SI units
-  double loop::PidGains::*sampled;            ///< the gain per count
-  std::string_view action;                    ///< effect of the gain on one count, for messages
+  /// Parameter that chooses the control structure (such as PID) of the gain's phase.
+  parameter::Handle structure;
+  double theory::AnalogueGains::*continuous;  ///< member of the gains in SI units that holds this gain
+  double loop::PidGains::*sampled;  ///< member of the gains per count and sample that holds this gain
+  /// Beginning of a message about the torque of this gain: "one count of error commands".
+  std::string_view action;
 };
 
 constexpr std::string_view by_error = "one count of error commands";
@@ -46,7 +48,7 @@ constexpr std::array<Gain, 6> gains{
      {parameter::controller::coarse::kd, parameter::controller::coarse::structure, &AnalogueGains::kd,
       &PidGains::kd, by_change}}};
 
-/// The gain in torque per count.
+/// The typical value of the gain, as torque per count.
 double per_count(const study::StudyPlan& plan, const Gain& gain, const Ranges& of) {
   const double value = of[gain.handle].typical;
   if (plan.units.gains == parameters::GainUnits::count) return value;
@@ -60,14 +62,14 @@ double per_count(const study::StudyPlan& plan, const Gain& gain, const Ranges& o
   return theory::sampled_gains(continuous, controller, encoders).*gain.sampled;
 }
 
-/// Parameters that all rules about gains depend on, beside the gains.
+/// Parameters on which all rules about gains depend, apart from the gains themselves.
 std::vector<parameter::Handle> parameters_of_the_loop(const study::StudyPlan& plan) {
   return {parameter::dac::bits,  parameter::dac::resolution,
           parameter::dac::range, parameter::controller::sample_rate,
           fine_encoder(plan),    parameter::controller::coarse::coarse_beyond};
 }
 
-/// Largest torque of the converter.
+/// Largest torque that the converter (DAC) can command, N m.
 double max_torque(const Ranges& of) {
   loop::DacParameters dac{.bits = static_cast<int>(of[parameter::dac::bits].typical),
                           .resolution = of[parameter::dac::resolution].typical};
@@ -79,7 +81,8 @@ bool can_have_coarse_phase(const Ranges& of) {
   return study::can_have_coarse_phase(of[parameter::controller::coarse::coarse_beyond]);
 }
 
-/// The action of a gain, and the torque that the gain commands by it, N m.
+/// The torque that a gain commands for one count, N m, and the phrase for the message that describes this
+/// action.
 struct TorqueOf {
   std::string_view action;
   double torque;
@@ -109,7 +112,8 @@ ValueRule within_the_converter(const study::StudyPlan& plan, const Gain& gain) {
   });
 }
 
-/// The rules for the gains of one phase of the control, if it is a cascade.
+/// The plausibility rules for the gains of one phase of the control that apply if it is a cascade: their
+/// torque should be within the range of the converter.
 template <parameters::Phase phase>
 std::vector<ValueRule> cascade_within_the_converter(const study::StudyPlan& plan) {
   using Control = parameter::Control<phase>;

@@ -130,7 +130,7 @@ std::vector<ValueRule> rules_of_two_phases(const std::string& derivative_unit) {
   };
 }
 
-/// The amplitudes of the ripples on the load that the study has.
+/// Handles of the amplitude parameters of all torque ripples on the load that the study has.
 std::vector<parameter::Handle> ripples_on_the_load(const study::StudyPlan& plan) {
   std::vector<parameter::Handle> amplitudes;
   for (const parameters::Parameter& row : plan.table.rows) {
@@ -141,7 +141,8 @@ std::vector<parameter::Handle> ripples_on_the_load(const study::StudyPlan& plan)
   return amplitudes;
 }
 
-/// The largest constant torque that the contact has to hold at the start. @param ripples on the load
+/// The largest constant torque that the friction contact has to hold at the start of a trial, N m.
+/// @param ripples amplitudes of the ripples on the load
 double largest_held_torque(const Ranges& of, const std::vector<parameter::Handle>& ripples) {
   double largest = max_abs(of[parameter::disturbance::torque]);
   if (of[parameter::plant::load::inertia].high == 0.0) return largest;
@@ -150,7 +151,9 @@ double largest_held_torque(const Ranges& of, const std::vector<parameter::Handle
   return largest;
 }
 
-/// The faults of a start at which friction, without an integral, holds a constant torque.
+/// The faults of a trial's start at which friction alone must hold a constant disturbance: a disturbance that
+/// can reach the friction. Empty if the friction is always larger.
+/// @param largest largest constant disturbance torque, N m
 Faults faults_of_friction_alone(const Ranges& of, double largest, bool open_loop, const std::string& unit) {
   const auto law = static_cast<friction::FrictionModel>(static_cast<int>(of[parameter::friction::model].low));
   const double level = friction::holding_limit(law, of[parameter::friction::breakaway].low,
@@ -170,7 +173,9 @@ Faults faults_of_friction_alone(const Ranges& of, double largest, bool open_loop
                  "smaller disturbance"}};
 }
 
-/// The rule about the contact that carries the constant disturbance at the start.
+/// The rule about a trial that starts while the axis holds the constant disturbance (initial.holding):
+/// friction or an integral must be able to hold it, and the axis must stand still without any other initial
+/// load.
 ValueRule what_holds_the_axis(const study::StudyPlan& plan) {
   std::vector<parameter::Handle> parameters{parameter::initial::holding,
                                             parameter::disturbance::torque,
@@ -214,7 +219,7 @@ ValueRule what_holds_the_axis(const study::StudyPlan& plan) {
       });
 }
 
-/// The rule between a choice of encoder and the encoders that the axis has.
+/// The rule that relates a choice of encoder (the parameter `choice`) to the encoders that the axis has.
 ValueRule about_encoder(parameter::Handle choice,
                         std::function<std::vector<ValueFault>(const Ranges& of)> find_faults) {
   std::vector<parameter::Handle> parameters{choice};
@@ -230,7 +235,7 @@ ValueRule no_coarse_encoder_beside_two(parameter::Handle choice) {
   });
 }
 
-/// The rules about the encoder that each loop reads.
+/// The rules that the encoder that each loop reads exists on the axis.
 std::vector<ValueRule> rules_of_the_loops_encoders() {
   static constexpr parameter::Handle of_velocity = parameter::controller::cascade::velocity;
   return {no_coarse_encoder_beside_two(parameter::controller::encoder),
@@ -272,7 +277,8 @@ std::vector<ValueRule> rules_of_the_clock() {
                   })};
 }
 
-/// The rule that a state ends at an |error| of at least the |error| at which it begins.
+/// The rule that a state of the control (such as a standstill) ends at an |error| of at least the |error| at
+/// which it begins.
 /// @param text message with both numbers, the end first
 ValueRule order_of(parameter::Handle end, parameter::Handle begin, const char* text, const char* expected) {
   return between({end, begin}, [=](const Ranges& of) -> Faults {

@@ -13,31 +13,38 @@
 
 namespace zerocount::rules {
 
-/// An inconsistency between values at a design point.
+/// An inconsistency between values of parameters at a design point, as two phrases for a message.
 struct ValueFault {
   std::string what;
   std::string expected;
-  /// Indices of the involved values of the list; the message names the first one. Empty: only the parameters
-  /// of the rule are involved.
+  /// Indices of the involved values of the list that defines the moves (such as the targets); the message
+  /// names the first one. Empty: only the parameters of the rule are involved.
   std::vector<std::size_t> listed{};
 };
 
 using study::Ranges;
 
-/// A condition on the ranges of several parameters at a design point.
+/// A condition on the ranges of several parameters at a design point, which a manifest must meet.
 struct ValueRule {
   using FindFaults =
       std::function<std::vector<ValueFault>(const Ranges& of, std::span<const study::ParameterRange> list)>;
 
-  std::vector<parameter::Handle> between;  ///< the parameters; the first one gives the path of the message
-  bool whole_list{false};                  ///< the rule also involves all values of the list
-  FindFaults find_faults;  ///< finds faults from the ranges of the parameters, and of the list if whole_list
+  /// Parameters that the rule relates; the first one gives the path of the message.
+  std::vector<parameter::Handle> between;
+  /// The rule also involves all values of the list that defines the moves (targets, torque levels).
+  bool whole_list{false};
+  /// Finds faults from the ranges of the parameters, and of the values of the list if `whole_list` is set.
+  FindFaults find_faults;
   bool warn_only{false};
-  bool once{false};  ///< only the first fault is reported, at a parameter of the rule that the manifest gives
-  bool of_record{false};  ///< the message is about record_key(), which is not a parameter
+  /// Only the first fault at any design point is reported, at a parameter of the rule that the manifest
+  /// gives.
+  bool once{false};
+  /// The message is about the key of the recorded torque or reference, record_key(), which is not a
+  /// parameter.
+  bool of_record{false};
 };
 
-/// A rule between the given parameters, without the list.
+/// A rule that relates the given parameters, without the list that defines the moves.
 inline ValueRule between(std::vector<parameter::Handle> parameters,
                          std::function<std::vector<ValueFault>(const Ranges& of)> find_faults) {
   return {std::move(parameters), false,
@@ -49,28 +56,30 @@ inline ValueRule warning(ValueRule rule) {
   return rule;
 }
 
-/// Default of the hold (s) of a study with a recorded reference: the duration of the record, for the longest
-/// sample time of the base values.
+/// Default duration of the move (`hold`, s) of a study with a recorded reference: the duration of the record,
+/// for the longest sample time of the values outside the sweep.
 double hold_of_the_reference(const study::StudyPlan& plan);
 
-/// The key of the record that replaces torque levels or targets.
+/// Dotted path of the key with the recorded torque or reference, which replaces torque levels or targets.
 std::string_view record_key(const study::StudyPlan& plan);
 
-/// The rules between the values of the list and the parameters of the command: the number of samples of a
-/// trial; of a sequence, the order of its targets; with a profile, the time that the reference travels; of
-/// torque levels, the range of the converter.
+/// The rules between the values of the list that defines the moves and the parameters of the command: the
+/// number of samples of a trial; of a sequence, the order of its targets; with a profile, the time that the
+/// reference travels; of torque levels, the range of the converter.
 std::vector<ValueRule> command_rules(const study::StudyPlan& plan);
 
-/// The rules between the values of lists: the elements of the generalised Maxwell-slip model, and filters.
+/// The consistency rules between the values of other lists: the elements of the generalised Maxwell-slip
+/// model, and filters.
 std::vector<ValueRule> list_rules(const study::StudyPlan& plan);
 
-/// The rules for a study whose controller is a plugin.
+/// The consistency rules for a study whose controller is a plugin.
 std::vector<ValueRule> plugin_rules(const study::StudyPlan& plan);
 
-/// All rules for a plan of this kind.
+/// All consistency rules between parameters for a study like this one.
 std::vector<ValueRule> value_rules(const study::StudyPlan& plan);
 
-/// The rule that the time `within` (s) of a goal is not longer than a move with this range of the hold.
+/// The fault that the time `within` (s) of a goal is longer than a move with this range of the hold (duration
+/// of a move, s); empty if there is none.
 std::vector<ValueFault> longer_than_the_move(double within, const study::ParameterRange& hold);
 
 /// The first inconsistency between the values of a design point that is an error, "path: what; expected …";
@@ -85,34 +94,37 @@ std::string refusal_of(const study::PointEdit& edit);
 // test compares a dimensionless number of the typical values of a design point (medians of distributions,
 // means of profiles) with a bound that no real axis comes near. All are warnings, reported once.
 
-/// Rules for the natural frequency on the friction spring: from some Hz to half the sample rate.
+/// Warnings about an implausible natural frequency of the mass on the friction spring: plausible are some Hz
+/// up to half the sample rate.
 std::vector<ValueRule> plausible_dynamics(const study::StudyPlan& plan);
 
-/// Rules for pre-sliding: the spring softens before it slides, and yields by more than a few counts.
+/// Warnings about implausible pre-sliding: the spring should soften before it slides, and yield by more than
+/// a few counts.
 std::vector<ValueRule> plausible_contact(const study::StudyPlan& plan);
 
-/// Rules that detect a delay of the loop in a wrong unit, such as seconds or microseconds.
+/// Warnings about a delay of the loop that is probably in a wrong unit, such as seconds or microseconds.
 std::vector<ValueRule> plausible_delay(const study::StudyPlan& plan);
 
-/// Rules for gains: the torque for one count of error is within the range of the converter.
+/// Warnings about implausible gains: the torque for one count of error should be within the range of the
+/// converter.
 std::vector<ValueRule> plausible_gains(const study::StudyPlan& plan);
 
-/// All rules about implausible values.
+/// All rules that warn about implausible values.
 std::vector<ValueRule> plausibility_rules(const study::StudyPlan& plan);
 
 /// A rule that warns once, at the first of these parameters that the manifest gives.
 ValueRule plausible(std::vector<parameter::Handle> parameters,
                     std::function<std::vector<ValueFault>(const Ranges& of)> find_faults);
 
-/// The parameter with the resolution of the fine encoder.
+/// The parameter that sets the resolution of the fine encoder in this study.
 parameter::Handle fine_encoder(const study::StudyPlan& plan);
 
 /// Resolution Δx of the fine encoder, rad or m.
 /// @param encoder typical value of the parameter fine_encoder()
 double typical_count(const study::StudyPlan& plan, double encoder);
 
-/// Keys that have an effect only under a condition. A given key is reported if the condition holds at no
-/// design point.
+/// A rule that keys of the manifest have an effect only under a condition. A given key is reported if the
+/// condition holds at no design point.
 struct EffectRule {
   std::vector<std::string_view>
       keys{};  ///< dotted paths of parameters, or of sections (all their parameters)
@@ -120,16 +132,17 @@ struct EffectRule {
   std::vector<parameter::Handle> depends_on{};  ///< parameters that decide whether the keys have an effect
   /// Whether the keys have an effect, from the ranges of the parameters `depends_on`.
   std::function<bool(const Ranges&)> has_effect{};
-  std::string what{};       ///< first phrase of the message
-  std::string expected{};   ///< second phrase of the message; empty for a warning
-  bool off_at_zero{false};  ///< a key that is 0 at all points is not reported
+  std::string what{};       ///< first phrase of the message: what is wrong with a key that has no effect
+  std::string expected{};   ///< second phrase of the message: what to write instead; empty for a warning
+  bool off_at_zero{false};  ///< a key of the rule whose value is 0 at all design points is not reported
   bool warn_only{false};
 };
 
-/// The rules for a plan of this kind. If several rules match a key, the first violated one is reported.
+/// The rules about keys without effect for a study like this one. If several rules match a key, the first
+/// violated one is reported.
 std::vector<EffectRule> effect_rules(const study::StudyPlan& plan);
 
-/// Whether the rule applies to the parameter with this dotted path.
+/// Whether the rule about an effect applies to the parameter with this dotted path.
 bool covers(const EffectRule& rule, std::string_view name);
 
 /// Whether the keys of the rule have an effect at some design point. True if a value could not be read.

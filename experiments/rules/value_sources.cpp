@@ -9,14 +9,15 @@
 namespace zerocount::rules {
 namespace {
 
-/// Whether the default stands for an effect that is absent: 0, false, or the word "none".
+/// Whether the default of the parameter stands for an effect that is absent: 0, false, or the word "none".
 bool is_absent(const parameters::Parameter& parameter) {
   const double value = parameters::default_value(parameter);
   return parameter.kind != parameters::ParameterKind::enumeration &&
          (value == 0.0 || value == parameter.none);
 }
 
-/// Whether the trials depend on the default of the slot.
+/// Whether the trials depend on the default of the slot (a parameter in the plan): the manifest does not give
+/// it, and it has an effect.
 bool is_assumed(const study::StudyPlan& plan, const std::vector<EffectRule>& rules, std::size_t slot) {
   const parameters::Parameter& parameter = plan.table.rows[slot];
   return parameters::has_default(parameter) && parameters::exists_on(parameter, plan.units.axis) &&

@@ -7,12 +7,12 @@
 
 namespace zerocount::rules {
 
-/// The source of the value of a parameter.
+/// Where the value of a parameter in a study comes from.
 enum class ValueSource {
-  measured,  ///< measured parameters in the manifest (parameters::measured_parameters)
-  sampled,   ///< a table of samples, such as the result of an identification
-  given,     ///< the manifest
-  assumed    ///< the default
+  measured,  ///< the manifest gives it as a measured parameter (parameters::measured_parameters)
+  sampled,   ///< drawn from a table of joint samples, such as the result of an identification
+  given,     ///< the manifest gives the value itself
+  assumed    ///< the value is the default
 };
 
 struct SourcedValue {
@@ -20,9 +20,10 @@ struct SourcedValue {
   ValueSource source{ValueSource::assumed};
 };
 
-/// The parameters on whose values the trials depend, in the order of the table: all that the manifest gives,
-/// and all defaults that have an effect at some design point. The command, values that follow from measured
-/// ones, and absent effects (premises_of) are not included.
+/// The parameters on whose values the trials depend, each with the source of its value, in the order of the
+/// table of parameters: all that the manifest gives, and all defaults that have an effect at some design
+/// point. The command, values that follow from measured ones, and absent effects (premises_of) are not
+/// included.
 std::vector<SourcedValue> value_sources(const study::StudyPlan& plan);
 
 }  // namespace zerocount::rules

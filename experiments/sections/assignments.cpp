@@ -34,7 +34,8 @@ std::string names_like(const study::StudyTable& table, std::string_view pattern)
   return names.empty() ? "" : fmt::format("one of {}", fmt::join(names, ", "));
 }
 
-/// The parameter whose rate of aging the key is; empty if the key is not a rate of aging.
+/// The dotted path of the parameter of whose aging the key is the rate ("friction.k1" for
+/// "friction.k1.aging"); empty if the key is not a rate of aging.
 std::string aged_parameter(const study::StudyTable& table, std::string_view key) {
   if (!key.ends_with(study::suffix_of_rate)) return "";
   key.remove_suffix(study::suffix_of_rate.size());
@@ -117,7 +118,8 @@ std::string_view noun_of(const study::SlotRange& list, const study::StudyTable& 
 
 namespace {
 
-/// Adds the value of `field` to the axis. If the value changes with age, its rate is added before it.
+/// Reads the value of `field` and assigns it to the slot (a parameter in the plan) in the current option of
+/// the axis. If the value changes with age, its rate is assigned before it.
 void assign_read(SweptAxis& axis, std::size_t slot, const yaml::Field& field, keys::Reading& reading) {
   const study::Value value = keys::read_value(field, slot, reading);
   if (reading.rate) {

@@ -19,7 +19,8 @@ namespace {
 
 constexpr std::int64_t max_settings = 10'000;
 
-/// Adds the assignments of one option to the last option of the other axis, which is not finished yet.
+/// Copies the assignments of one option of the axis `from` to the last option of the axis `to`, which is not
+/// finished yet.
 void copy_option(const SweptAxis& from, std::size_t option, SweptAxis& to) {
   for (std::size_t i = from.axis.first[option]; i < from.axis.first[option + 1]; ++i) {
     to.axis.assignments.push_back(from.axis.assignments[i]);
@@ -60,13 +61,14 @@ namespace {
 
 constexpr OptionWords words{"condition", "a condition cannot override this key"};
 
-/// Index of the option that has this assignment.
+/// Index of the option of the axis to which this assignment belongs.
 std::size_t option_of(const study::PlanAxis& axis, std::size_t assignment) {
   const auto after = std::ranges::upper_bound(axis.first, static_cast<std::uint32_t>(assignment));
   return static_cast<std::size_t>(after - axis.first.begin()) - 1;
 }
 
-/// Reports the first override of a slot whose value is also given elsewhere.
+/// Reports the first override by a condition that changes a slot (a parameter in the plan) whose value is
+/// also given elsewhere.
 /// @param what phrase for the message, "is swept" @param other place of the other value
 void refuse_override(const SweptAxis& conditions, std::size_t slot, std::string_view what,
                      const yaml::Place& other, keys::Reading& reading) {
@@ -82,7 +84,7 @@ void refuse_override(const SweptAxis& conditions, std::size_t slot, std::string_
   }
 }
 
-/// Place of the axis's first value of the slot.
+/// Place in the manifest of the first value that the axis assigns to the slot (a parameter in the plan).
 yaml::Place place_of(const SweptAxis& axis, std::size_t slot) {
   for (std::size_t i = 0; i < axis.axis.assignments.size(); ++i) {
     if (axis.axis.assignments[i].slot == slot) return axis.places[i];
@@ -123,7 +125,8 @@ void take_level(const yaml::Field& field, std::uint32_t slot, study::Value& valu
   if (value.kind == Kind::profile) reading.profiles[value.index].level = parameter.level;
 }
 
-/// The values of one condition, from assignment `first` on, in the order of its map.
+/// Sets how often the overrides of one condition are drawn: as often as their parameters. The overrides are
+/// the assignments from index `first` on, in the order of the condition's map.
 void take_levels(const yaml::Field& overrides, std::size_t first, SweptAxis& axis, keys::Reading& reading) {
   for (const yaml::YamlEntry& entry : overrides.node->entries) {
     const auto slots = study::find_slots(entry.key, reading.plan.table);

@@ -17,17 +17,18 @@ namespace zerocount::sections {
 
 using LoadedPlugin = std::variant<std::shared_ptr<const plugin::ControllerPlugin>, plugin::PluginFault>;
 
-/// Finds the user's controller by the value of the key `controller.plugin`.
+/// Function that loads the user's controller (plugin) from the path in the key `controller.plugin`.
 using PluginLoader = std::function<LoadedPlugin(const std::string& path)>;
 
-/// A loader for a study whose plugin is known already: it returns this plugin.
+/// A loader for a study whose plugin (the user's controller) is known already: it returns this plugin for
+/// every path.
 PluginLoader known_plugin(std::shared_ptr<const plugin::ControllerPlugin> plugin);
 
 /// Reads the key `controller.plugin` into plan.plugin.
 /// @param load empty: the command does not load plugins
 void read_plugin(const yaml::Field& root, const PluginLoader& load, keys::Reading& reading);
 
-/// Reads the text of a table that a manifest names.
+/// Function that reads the text of a table that a manifest names.
 /// @param what phrase for the message if the file cannot be read, "a table of samples"
 /// @throws Failure if the file cannot be read
 using SamplesReader = std::function<std::string(const std::string& path, std::string_view what)>;
@@ -36,8 +37,8 @@ using SamplesReader = std::function<std::string(const std::string& path, std::st
 struct ExternalInputs {
   PluginLoader plugin{};
   SamplesReader samples{};
-  /// Profiles of a similar study. Equal profiles are shared, because realising the profiles of thousands of
-  /// machines takes longer than reading a manifest.
+  /// Drawn friction profiles of a similar study. Profiles that are equal are shared, because realising the
+  /// profiles of thousands of machines takes longer than reading a manifest.
   std::vector<std::shared_ptr<const study::Rotors>> rotors{};
 };
 
@@ -45,7 +46,8 @@ struct ExternalInputs {
 ExternalInputs known_external_inputs(std::shared_ptr<const plugin::ControllerPlugin> plugin,
                                      std::optional<std::string> samples);
 
-/// ExternalInputs for a variant of the study: its plugin, its samples and its profiles.
+/// The files and plugins for a variant of the study's manifest: the study's plugin, table of samples and
+/// drawn friction profiles.
 ExternalInputs external_inputs_of(const study::Study& study);
 
 }  // namespace zerocount::sections

@@ -22,7 +22,7 @@
 namespace zerocount::sections {
 namespace {
 
-/// Inserts a number into the rising list, unless it is there already. False if the list is full.
+/// Inserts a limit into the rising list, unless it is there already. Returns false if the list is full.
 template <class Limits>
 bool add_limit(Limits& limits, decltype(+limits.limits[0]) limit) {
   const auto begin = limits.limits.begin();
@@ -67,7 +67,8 @@ std::int64_t move_count(const study::StudyPlan& plan) {
   return plan.sequence ? std::ssize(study::sequence_moves(*plan.sequence, listed)) : listed;
 }
 
-/// The names of the measures that can have a limit in this study, except the measures of tolerances.
+/// The names of the measures for which a goal may set a limit in this study, except the settling times within
+/// tolerances.
 std::vector<std::string> limited_measures(const study::StudyPlan& plan) {
   std::vector<std::string> names;
   for (const trial::NamedMeasure& measure : trial::named_measures()) names.emplace_back(measure.name);
@@ -77,7 +78,8 @@ std::vector<std::string> limited_measures(const study::StudyPlan& plan) {
   return names;
 }
 
-/// The tolerance (rad) in the name "tolerance_settling_time[1e-8]"; empty for other names.
+/// The tolerance (rad, or m) that the name of a limited measure contains, as in
+/// "tolerance_settling_time[1e-8]"; empty for other names.
 std::optional<double> limited_tolerance(std::string_view name) {
   if (!name.starts_with(trial::tolerance_measure)) return std::nullopt;
   name.remove_prefix(trial::tolerance_measure.size());
@@ -86,7 +88,7 @@ std::optional<double> limited_tolerance(std::string_view name) {
   return tolerance && std::isfinite(*tolerance) && *tolerance > 0.0 ? tolerance : std::nullopt;
 }
 
-/// Makes the trials measure settling within the tolerance.
+/// Makes the trials measure settling of the position error within this tolerance (rad, or m).
 void measure_tolerance(const yaml::Field& field, double tolerance, keys::Reading& reading) {
   trial::VerdictParameters& verdict = reading.plan.common.verdict;
   verdict.position_error = true;
@@ -100,7 +102,7 @@ bool measures_motion(const study::StudyPlan& plan) {
                                  [](const study::ParameterRange& motion) { return motion.can_be_zero; });
 }
 
-/// Reads the limits of a goal.
+/// Reads the limits that a goal sets for measures, such as the overshoot.
 void take_limits(const yaml::Field& of_goal, keys::Reading& reading, study::Goal& goal) {
   const auto limits = yaml::find_field(of_goal, "limits");
   if (!limits) return;
@@ -134,7 +136,7 @@ void take_limits(const yaml::Field& of_goal, keys::Reading& reading, study::Goal
   }
 }
 
-/// Makes the trials measure the band or the tolerance by which the goal is judged.
+/// Makes the trials measure settling within the error band or the tolerance by which the goal is judged.
 void measure_for(const yaml::Field& field, const study::Goal& goal, keys::Reading& reading) {
   trial::VerdictParameters& verdict = reading.plan.common.verdict;
   if (!goal.tolerance) {
@@ -183,7 +185,7 @@ void choose_masses(const yaml::Field& of_goals, keys::Reading& reading,
   if (other) reading.plan.common.verdict.position_error = true;
 }
 
-/// Checks a goal, and adds its band or tolerance to the bands and tolerances of the plan.
+/// Checks a goal, and makes the trials measure its error band or tolerance.
 void check_goal(const yaml::Field& field, study::Goal& goal, keys::Reading& reading) {
   for (const char* const key : {"within", "after_profile"})
     if (const auto within = yaml::find_field(field, key))

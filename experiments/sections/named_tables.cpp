@@ -16,7 +16,7 @@ namespace {
 
 using Pairs = std::vector<std::pair<double, double>>;
 
-/// Reports a fault of the table that `field` names.
+/// Reports a fault of the table that `field` names, at this line and column (from 1) of the table.
 void add_fault(const yaml::Field& field, std::size_t line, std::string_view what, std::string_view expected,
                yaml::Problems& problems, std::size_t column = 1) {
   problems.add({field.node->text, static_cast<int>(line), static_cast<int>(column)}, field.path, what,
@@ -25,28 +25,29 @@ void add_fault(const yaml::Field& field, std::size_t line, std::string_view what
 
 struct FoundColumn {
   std::size_t index;
-  double si;  ///< factor from the unit of the column to SI units
+  double si;  ///< factor by which the column's numbers are multiplied to get SI units
 };
 
-/// The quantity of a record, with the names it may have in a table.
+/// The quantity of a recorded torque or reference, with the names it may have in a table.
 struct Recorded {
-  std::string_view quantity;         ///< noun for the quantity, in the plural
-  std::vector<std::string> columns;  ///< possible names of the column; the table has one of them
+  std::string_view quantity;  ///< noun for the recorded quantity, in the plural ("torques"), for messages
+  std::vector<std::string> columns;  ///< possible names of the quantity's column; the table has one of them
   text::Dimension dimension;
-  std::string_view units;    ///< such as its column can have
-  std::string header;        ///< such as the table can have
-  std::string_view between;  ///< value between two rows
+  std::string_view units;    ///< examples of units that its column can have, for messages
+  std::string header;        ///< example of a header that the table can have, for messages
+  std::string_view between;  ///< phrase for the value of the record between two of its rows, for messages
 };
 
-/// The table of a record.
+/// The table of a recorded torque or reference in a file that the manifest names.
 struct RecordTable {
   const yaml::Field& field;
   const tables::TextTable& table;
   const Recorded& recorded;
   yaml::Problems& problems;
-  double first{0.0};  ///< time of the first row, s
+  double first{0.0};  ///< time of the record's first row in the table, s
 
-  /// The column with one of these names. Reports its absence, and a unit of another dimension.
+  /// The column whose name is one of `names`, with its unit. Empty, and reported, if there is none or if its
+  /// unit has another dimension.
   std::optional<FoundColumn> column(const std::vector<std::string>& names, text::Dimension dimension,
                                     std::string_view units) const {
     const auto name =
@@ -65,7 +66,8 @@ struct RecordTable {
     return std::nullopt;
   }
 
-  /// Times from 0 on (s) and values in SI units; none after a report.
+  /// The rows of the record as pairs of time (s, the first time becomes 0) and value (SI units); empty after
+  /// errors, which are reported.
   Pairs pairs() {
     const auto time = column({"t", "time"}, text::Dimension::time, "s, ms or us");
     if (!time) return {};
@@ -94,7 +96,7 @@ struct RecordTable {
   }
 };
 
-/// The points of the table of a spectrum; empty after an error, which is reported.
+/// The points [frequency in Hz, density] of the table of a spectrum; empty after an error, which is reported.
 Pairs points_of(const yaml::Field& field, const tables::TextTable& table, std::string_view expected,
                 yaml::Problems& problems) {
   Pairs points;
@@ -118,7 +120,8 @@ std::string list_of(const Pairs& pairs) {
   return "[" + list + "]";
 }
 
-/// Name and text of the file that a field names in place of a list of pairs.
+/// The table in the file that a field names where a list of pairs is allowed too; empty if the field is
+/// absent or has a list, and after an error, which is reported.
 std::optional<tables::TextTable> named_table(const std::optional<yaml::Field>& field, std::string_view what,
                                              std::string_view expected, const SamplesReader& read,
                                              yaml::Problems& problems) {
@@ -152,7 +155,8 @@ Recorded positions(bool linear, const std::string& column) {
           "a straight line joins them"};
 }
 
-/// Reader of the tables of a manifest, and the results of reading them: problems, warnings and overrides.
+/// What is needed to read the tables that a manifest names (the reader of files), and what results from it:
+/// problems, warnings and overrides.
 struct TableReading {
   const SamplesReader& read;
   yaml::Problems& problems;
@@ -172,8 +176,8 @@ void add_spectra_below(const yaml::Field& disturbance, TableReading& reading) {
   }
 }
 
-/// Adds a warning of the gaps of a record across which the value changes: rows of a standstill may be left
-/// out.
+/// Adds a warning about the gaps in the times of a record across which the value changes: rows of a
+/// standstill may be left out.
 /// @param first time of the first row in the record, s @param place_of the place of a row
 template <class PlaceOf>
 void warn_of_gaps(const Pairs& rows, double first, const Recorded& recorded, std::string_view path,
@@ -192,7 +196,7 @@ void warn_of_gaps(const Pairs& rows, double first, const Recorded& recorded, std
                   gaps.size() > 1 ? fmt::format("; such gaps in all: {}", gaps.size()) : "")));
 }
 
-/// The pairs of a list in the manifest, as far as all are plain numbers; empty otherwise.
+/// The pairs of numbers of a list in the manifest; empty if some of them are not plain numbers.
 Pairs pairs_of_list(const yaml::Field& list) {
   Pairs pairs;
   for (const yaml::YamlPointer& item : list.node->items) {
@@ -205,8 +209,9 @@ Pairs pairs_of_list(const yaml::Field& list) {
   return pairs;
 }
 
-/// The record in the file that the field names; empty without one and after a report. Warns of gaps in it,
-/// and in a list that stands in its place.
+/// The rows of the record in the file that the field names; empty if the field names no file, and after
+/// errors, which are reported. Warns of gaps in the times of the record, also if the manifest has a list of
+/// pairs instead of a file.
 Pairs pairs_in(const std::optional<yaml::Field>& field, const Recorded& recorded, TableReading& reading) {
   const std::string expected =
       fmt::format("a header such as {}, and 2 to {} rows of numbers", recorded.header, keys::max_record_rows);
@@ -275,8 +280,8 @@ std::optional<tables::TextTable> read_table(const yaml::Field& field, std::strin
 
 namespace {
 
-/// Reads the list of pairs of a record; null after errors, which it reports. If the table of a
-/// file could not be read, the field still has the file name; that error was reported before.
+/// Reads a recorded torque or reference from a list of pairs; null after errors, which it reports. If the
+/// table of a file could not be read, the field still has the file name; that error was reported before.
 template <class Record>
 std::shared_ptr<const Record> read_record(const yaml::Field& list, yaml::Problems& problems) {
   if (!shapes::read(list, keys::shape_of(list.path), problems) ||

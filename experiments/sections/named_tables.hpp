@@ -18,7 +18,7 @@
 /// Tables of numbers in files that a manifest names, and the lists of pairs that may replace them.
 namespace zerocount::sections {
 
-/// The table in the file that `field` names. Empty if the text is not a table; this is reported.
+/// Reads the table in the file that `field` names. Empty if the text is not a table; this is reported.
 /// @param text contents of the file @param expected phrase for the message
 std::optional<tables::TextTable> read_table(const yaml::Field& field, std::string text,
                                             std::string_view expected, yaml::Problems& problems);
@@ -37,7 +37,8 @@ std::shared_ptr<const loop::ReferenceRecord> read_reference_record(const yaml::F
 /// density], …], lines: 100}.
 bool is_spectrum(const yaml::Field& element);
 
-/// Reads an element that is a spectrum (is_spectrum); null after errors, which it reports.
+/// Reads the spectrum of a vibration, {spectrum: [[frequency, density], …], lines: 100}; null after errors,
+/// which it reports.
 std::shared_ptr<const trial::SpectrumParameters> read_spectrum(const yaml::Field& element,
                                                                yaml::Problems& problems);
 
@@ -58,10 +59,11 @@ constexpr std::size_t max_samples_size = std::size_t{1}
                                          << 24;  ///< maximum size of the table of samples, bytes
 constexpr std::size_t max_samples = 100'000;     ///< maximum number of rows of the table of samples
 
-/// The table of the key `samples`, with places for messages. It is read before the rest of the manifest.
+/// The table of joint draws that the key `samples` names, with places for messages. It is read before the
+/// rest of the manifest.
 struct SamplesTable {
   study::JointSamples samples;
-  std::string source;                ///< source of the places, for messages
+  std::string source;                ///< name of the table's file, to which the places in it refer
   yaml::Field field;                 ///< field of the key `samples` in the manifest
   std::vector<yaml::Place> columns;  ///< [column] place of the column's name
 };
@@ -72,8 +74,8 @@ struct SamplesTable {
 void insert_samples(yaml::YamlPointer& root, const SamplesReader& read, std::optional<SamplesTable>& table,
                     yaml::Problems& problems);
 
-/// Joins the draws of the columns into rows: sets plan.sampled_slots and study.samples. The parameters and
-/// the sweep must be read already.
+/// Makes the sampled parameters take their values from one row of the table in each draw: sets
+/// plan.sampled_slots and study.samples. The parameters and the sweep must be read already.
 void join_samples(const SamplesTable& table, const std::vector<SweptAxis>& axes, keys::Reading& reading);
 
 /// Reads the key `correlation`, a list of entries [first parameter, second parameter, coefficient], into

@@ -26,7 +26,8 @@ std::shared_ptr<yaml::YamlNode> node_at(const yaml::Place& place, yaml::YamlNode
   return node;
 }
 
-/// The node {choice: [cells of the column]}, with the key `per` of the samples.
+/// A distribution that stands for one column of joint draws in the manifest: the node {choice: [cells of the
+/// column]}, with the key `per` (how often it is drawn) of the samples.
 yaml::YamlPointer choice_of(const SamplesTable& samples, const tables::TextTable& table, std::size_t column,
                             const yaml::Place& place) {
   const auto list = node_at(place, yaml::YamlNode::Kind::list);
@@ -44,7 +45,8 @@ yaml::YamlPointer choice_of(const SamplesTable& samples, const tables::TextTable
   return value;
 }
 
-/// True if the column can have this name; reports an error if it cannot.
+/// Whether a column of the table of joint draws can have this name: the dotted path of a parameter that the
+/// manifest does not give. Reports an error if it cannot.
 bool check_name(std::string_view name, const yaml::Place& place, const yaml::YamlPointer& root,
                 yaml::Problems& problems) {
   const char* const expected = "the dotted path of a parameter, such as friction.k1";
@@ -61,7 +63,7 @@ bool check_name(std::string_view name, const yaml::Place& place, const yaml::Yam
   return false;
 }
 
-/// The table of the samples; empty after an error, which is reported.
+/// Reads the table of joint draws that the key `samples` names; empty after an error, which is reported.
 std::optional<tables::TextTable> read_samples(const yaml::Field& file, const SamplesReader& read,
                                               SamplesTable& samples, yaml::Problems& problems) {
   if (!read) {
@@ -86,7 +88,8 @@ std::optional<tables::TextTable> read_samples(const yaml::Field& file, const Sam
   return std::nullopt;
 }
 
-/// True if the values of the sampled slots are drawn equally often; reports an error if they are not.
+/// Whether the values of the sampled slots (parameters of the joint draws) are drawn equally often; reports
+/// an error if they are not.
 bool check_draw_levels(const SamplesTable& table, const std::vector<std::uint32_t>& slots,
                        keys::Reading& reading) {
   const auto level_of = [&](std::uint32_t slot) { return reading.plan.base[slot].level; };

@@ -21,7 +21,7 @@ struct SectionReading {
   const yaml::Field& root;
   keys::Reading& reading;
   keys::PlanPlaces& places;
-  std::string form{};  ///< the key of `command` that defines the moves
+  std::string form{};  ///< key of the section `command` that defines the moves, such as "targets"
 
   yaml::Problems& problems() { return reading.problems; }
   study::StudyPlan& plan() { return reading.plan; }

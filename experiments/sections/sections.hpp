@@ -15,48 +15,54 @@ namespace zerocount::sections {
 
 // Values that a sweep or a condition gives to parameters by their dotted paths.
 
-/// One factor of the product of design points: the axis for the plan, and the labels of its options.
+/// One factor of the product of design points: a swept key or the list of cases. It has the axis for the
+/// plan, and the labels of its options (the alternatives that it runs through).
 struct SweptAxis {
   bool cases{false};
-  std::string name;                   ///< the swept key; "case" for the cases
+  std::string name;                   ///< dotted path of the swept key; "case" for the cases
   yaml::Place place{};                ///< place of the axis's values in the manifest
-  std::vector<std::string> labels{};  ///< [option] label
+  std::vector<std::string> labels{};  ///< [option of the axis] label
   study::PlanAxis axis{};
-  std::vector<yaml::Place> places{};  ///< [assignment] place of its value in the manifest
-  std::vector<std::size_t> slots{};   ///< slots that some option assigns, in order of appearance
+  /// [assignment of a value in `axis`] place of this value in the manifest.
+  std::vector<yaml::Place> places{};
+  /// Slots (parameters in the plan) to which some option assigns a value, in order of appearance.
+  std::vector<std::size_t> slots{};
 };
 
-/// Whether the path belongs to the points or lines of a spectrum of the study:
+/// Whether the path names a value inside a spectrum of the study, its points or its number of lines:
 /// "disturbance.vibration.0.lines".
 bool is_of_spectrum(const study::StudyPlan& plan, std::string_view path);
 
-/// The slots of the entry's dotted path. Empty for an unknown path, which is reported with the nearest known
-/// path.
+/// The slots (parameters in the plan) that the dotted path in the key of `entry` names. Empty for an unknown
+/// path, which is reported with the nearest known path.
 /// @param refusal message about a key that is not a parameter
 std::optional<study::SlotRange> find_assigned(const yaml::Field& map, const yaml::YamlEntry& entry,
                                               std::string_view refusal, keys::Reading& reading);
 
-/// Adds slots to SweptAxis::slots.
+/// Adds the slots to SweptAxis::slots, unless they are there already.
 void note_slots(SweptAxis& axis, const study::SlotRange& slots);
 void assign(SweptAxis& axis, std::size_t slot, const study::Value& value, const yaml::Place& place);
-/// Adds the values of `field` to the current option of the axis. finish_option() ends the option.
+/// Reads the values of `field` and assigns them to these slots in the current option of the axis.
+/// finish_option() ends the option.
 void read_assignments(const yaml::Field& field, const study::SlotRange& slots, SweptAxis& axis,
                       keys::Reading& reading);
 void finish_option(SweptAxis& axis, std::string label);
 
-/// Gives values without `aging` the law of aging that their parameter has in the sections.
+/// Gives the values of the axis that have no `aging` the law of aging that their parameter has outside the
+/// sweep.
 void inherit_aging(study::PlanAxis& axis, const study::StudyPlan& plan);
 
-/// Noun for the values of a list, such as "targets".
+/// Noun for the values of the list that the slots hold, such as "targets", for messages.
 std::string_view noun_of(const study::SlotRange& list, const study::StudyTable& table);
 
-/// Words for an option in messages.
+/// Words for messages about one option of an axis, such as a case or a condition.
 struct OptionWords {
-  std::string_view option;   ///< noun for an option, "case"
-  std::string_view refusal;  ///< message about a key that is not a parameter
+  std::string_view option;   ///< noun for one option in messages, "case"
+  std::string_view refusal;  ///< message that refuses a key which is not a parameter
 };
 
-/// Reads one option of the axis, such as a case: a map from dotted paths to values.
+/// Reads one option of the axis, such as a case of the sweep: a map from dotted paths of parameters to
+/// values.
 void read_option(const yaml::Field& options, const yaml::YamlEntry& entry, const OptionWords& words,
                  SweptAxis& axis, keys::Reading& reading);
 
@@ -65,8 +71,9 @@ void read_option(const yaml::Field& options, const yaml::YamlEntry& entry, const
 /// @param root the manifest
 void read_ages(const yaml::Field& root, keys::Reading& reading);
 
-/// The axis whose options are the settings of the study. The axis has no options if there are neither
-/// conditions nor ages. Reports too many settings, and removes them from the study.
+/// The axis whose options are the settings of the study: all pairs of a condition and an age. The axis has no
+/// options if there are neither conditions nor ages. Reports too many settings, and removes them from the
+/// study.
 /// @param conditions result of read_conditions(); without options if there are no conditions
 SweptAxis settings_axis(const SweptAxis& conditions, keys::Reading& reading);
 
@@ -78,24 +85,26 @@ SweptAxis settings_axis(const SweptAxis& conditions, keys::Reading& reading);
 SweptAxis read_conditions(const yaml::Field& field, const std::vector<SweptAxis>& swept,
                           keys::Reading& reading);
 
-/// Reports overrides of parameters that come from `samples`, or that `tune` may change.
+/// Reports overrides by conditions of parameters that come from the table `samples`, or that `tune` may
+/// change.
 /// @param root the manifest. @param sampled [sampled slot of the plan] place in the header of the table
 void check_overrides(const yaml::Field& root, const SweptAxis& conditions,
                      const std::vector<yaml::Place>& sampled, keys::Reading& reading);
 
-/// Reads `goal`, or `goals`, of the manifest. Adds their bands and tolerances to those of the plan. The
-/// study's machines and all parameters must be read already.
+/// Reads `goal`, or `goals`, of the manifest. Adds the error bands and tolerances of the goals to those that
+/// the trials measure. The study's machines and all parameters must be read already.
 void read_goals(const yaml::Field& root, keys::Reading& reading);
 
-/// Lets the trials of a sequence measure the position of a load that does not close the loop. The study's
-/// goals must be read already.
+/// Lets the trials of a sequence measure the position of a load whose encoder does not close the loop. The
+/// study's goals must be read already.
 void measure_both_masses(study::StudyPlan& plan);
 
-/// Reads the stopping rule `stop`. The manifest's `trials` become the size of a block, and the study's number
-/// of trials becomes the maximum.
+/// Reads the sequential stopping rule `stop`. The manifest's `trials` become the number of trials between two
+/// tests of the rule, and the study's number of trials becomes the maximum.
 void read_stop(const yaml::Field& field, keys::Reading& reading);
 
-/// Reads `tune`. The study's goal and all parameters must be read already.
+/// Reads the section `tune`: parameters that the tuning may change, criterion and margins. The study's goal
+/// and all parameters must be read already.
 void read_tuning(const yaml::Field& field, keys::Reading& reading);
 
 /// Reads `sweep: {grid, cases}`. The cases are the slowest axis, followed by the keys of the grid in their
@@ -106,10 +115,11 @@ void read_tuning(const yaml::Field& field, keys::Reading& reading);
 /// significant digits.
 std::vector<SweptAxis> read_sweep(const yaml::Field& sweep, keys::Reading& reading);
 
-/// The labels of all points, such as "a, controller.kp=0"; {"all"} without axes.
+/// The labels of all design points, such as "a, controller.kp=0"; {"all"} if the study sweeps nothing.
 std::vector<std::string> label_points(const std::vector<SweptAxis>& axes);
 
-/// The axes of the results file: the name of the case, and one axis for every swept slot.
+/// The sweep's axes as the results file describes them: the name of the case, and one axis for every swept
+/// parameter.
 std::vector<study::SweepAxis> describe_axes(const std::vector<SweptAxis>& axes, const study::StudyPlan& plan);
 
 /// Reads `observed`, a map from cases or point labels to observations on a real machine: study.observed and
@@ -124,7 +134,8 @@ void read_sections(const yaml::Field& root, keys::Reading& reading, keys::PlanPl
 
 constexpr std::size_t max_points = 1'000'000;  ///< maximum number of points of a sweep
 
-/// `count` numbers from `from` to `to`, both included, with equal distances or (logarithmic) equal ratios.
+/// The description of `count` numbers from `from` to `to`, both included, with equal distances or
+/// (logarithmic) equal ratios.
 struct Spacing {
   double from{0.0};
   double to{1.0};
@@ -135,10 +146,10 @@ struct Spacing {
 /// Shape of the value of the key linspace or logspace: [first value, last value, number of values].
 shapes::Shape spacing_shape(bool logarithmic);
 
-/// The spacing in `field`, the value of linspace or logspace. Empty after errors, which are reported.
+/// Reads the value of linspace or logspace in `field`. Empty after errors, which are reported.
 std::optional<Spacing> read_spacing(const yaml::Field& field, bool logarithmic, yaml::Problems& problems);
 
-/// The numbers of a spacing. Numbers between the ends are rounded to 15 significant digits.
+/// The numbers of a linspace or logspace. Numbers between the ends are rounded to 15 significant digits.
 std::vector<double> spaced_values(const Spacing& spacing);
 
 /// Labels "name=value" for all `values`, as short as possible but all different.

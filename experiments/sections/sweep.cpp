@@ -145,7 +145,7 @@ void read_grid(const yaml::Field& sweep, const yaml::Field& grid, std::vector<Sw
   }
 }
 
-/// Reports the name of a case that would be taken for the number of a design point.
+/// Reports a case whose name would be taken for the number of a design point on the command line.
 void check_case_name(const yaml::Field& cases, const yaml::YamlEntry& entry, yaml::Problems& problems) {
   if (!text::parse_number<std::int64_t>(entry.key)) return;
   problems.add(entry.place, yaml::entry_of(cases, entry).path,

@@ -17,7 +17,8 @@
 namespace zerocount::sections {
 namespace {
 
-/// The range of a parameter, whose ends must be in order, allowed and, of a whole number, whole.
+/// Reads the range in which `tune` may change a parameter. Reports ends that are not in order, not allowed
+/// or, if the parameter takes whole numbers, not whole.
 void take_range(const yaml::Field& field, const numerics::Interval& allowed, study::FreeParameter& parameter,
                 yaml::Problems& problems) {
   const auto log = yaml::find_field(field, "log");
@@ -37,8 +38,8 @@ void take_range(const yaml::Field& field, const numerics::Interval& allowed, stu
     problems.add(ends, "an end is not a whole number", "whole numbers");
 }
 
-/// Whether the value of the slot is the same number at all design points. Overrides by conditions are checked
-/// elsewhere.
+/// Whether the value of the slot (a parameter in the plan) is the same number at all design points. Overrides
+/// by conditions are checked elsewhere.
 bool is_one_number(const study::StudyPlan& plan, std::size_t slot) {
   const auto swept = std::span(plan.axes).first(plan.axes.size() - (plan.settings_axis ? 1 : 0));
   const auto is_swept = [slot](const study::PlanAxis& axis) {
@@ -91,7 +92,8 @@ void read_free(const yaml::Field& map, const study::StudyPlan& plan, study::Tuni
   }
 }
 
-/// Reports free parameters that have no effect for any values of the free parameters.
+/// Reports parameters that `tune` may change although they have no effect for any values of the free
+/// parameters.
 void check_effects_of_free(const yaml::Field& map, const study::Tuning& tuning, keys::Reading& reading) {
   const auto is_free = [&](std::string_view name) {
     return std::ranges::find(tuning.free, name, &study::FreeParameter::name) != tuning.free.end();

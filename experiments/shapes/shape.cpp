@@ -136,7 +136,8 @@ bool Reader::list(const yaml::Field& field, const Shape& shape) {
   return sound && order(field, shape);
 }
 
-/// Reports the first item that breaks the order of the list.
+/// Whether the items of the list have the required order (distinct or rising). Reports the first item that
+/// breaks the order.
 bool Reader::order(const yaml::Field& field, const Shape& shape) {
   if (shape.order == Shape::Order::any) return true;
   const bool rising = shape.order == Shape::Order::rising;

@@ -23,71 +23,80 @@ namespace zerocount::shapes {
 
 using keys::Reading;
 
-/// The form of a key that is not a parameter, or of a value inside such a key. Such a value cannot be drawn
-/// or swept. The reader with its messages (read), the JSON Schema (shape_schema.hpp) and the line of
-/// `zerocount parameters` are all derived from the shape. Conditions that involve other keys are checked
-/// elsewhere, where those are known.
+/// The allowed form of the value of a manifest key that is not a parameter, or of a value inside such a key.
+/// Such a value cannot be drawn or swept. The reader with its messages (read), the JSON Schema
+/// (shape_schema.hpp) and the line of `zerocount parameters` are all derived from the shape. Conditions that
+/// involve other keys are checked elsewhere, where those are known.
 struct Shape {
   enum class Form : std::uint8_t {
-    own,  ///< values of parameters; the table of parameters describes them, not the shape
+    own,  ///< values of parameters of a trial; the table of parameters describes them, not the shape
     text,
-    line,  ///< a text on one line that is not blank: a name, a path
-    word,  ///< a line without blanks
+    line,  ///< a text on one line with at least one character that is not blank: a name, a path
+    word,  ///< a text on one line without blanks
     seed,  ///< a whole number from 0 to 2⁶⁴ − 1
     boolean,
     label,
     whole_number,
     real,
-    list,     ///< a list of values that all have one shape
-    tuple,    ///< a list of values, each of its own shape
-    map,      ///< a map with known keys
-    entries,  ///< a map from names or paths to values of one shape
-    one_of    ///< shapes of different kinds: a single value, a list, a map
+    list,     ///< a list of any number of values that all have one shape
+    tuple,    ///< a list with a fixed number of values, each of its own shape
+    map,      ///< a map with a fixed set of keys
+    entries,  ///< a map with any names or dotted paths as keys, to values of one shape
+    one_of    ///< one of several shapes of different kinds: a single value, a list, a map
   };
   enum class Order : std::uint8_t { any, distinct, rising };
   using Standard = std::variant<std::monostate, double, std::string, std::vector<double>>;
 
-  std::string_view name{};     ///< dotted path; for a key of a map its last part
-  std::string_view meaning{};  ///< description; empty for a key of a map: the map's meaning explains it
-  /// What a manifest lacks without this required key, for the message; empty: the key is optional.
+  std::string_view name{};  ///< dotted path of the key; for a key of a map its last part only
+  /// Description of the key; empty for a key of a map: the map's meaning explains it.
+  std::string_view meaning{};
+  /// Phrase for the message if this required key is missing: what the manifest then lacks. Empty: the key is
+  /// optional.
   std::string_view if_missing{};
-  std::string_view in_its_place{};  ///< key of the same map that may replace this required key
+  /// Another key of the same map that may be given in place of this required key.
+  std::string_view in_its_place{};
   Form form{Form::own};
-  numerics::Interval range{};                  ///< range of a number; closed for a whole number
+  numerics::Interval range{};  ///< allowed range of a number; a whole number may be equal to both ends
   std::span<const std::string_view> labels{};  ///< allowed labels, in the order of the enumeration
-  std::string_view none{};                     ///< word that replaces the number, or all numbers of the map
-  /// Words that may replace a map, each with a function that stores the values it stands for.
+  /// Word that may stand in place of the number, or of all numbers of the map; empty: none.
+  std::string_view none{};
+  /// Words that may stand in place of a map, each with a function that stores the values that the word means.
   std::vector<std::pair<std::string_view, void (*)(Reading&)>> presets{};
-  /// Text after "expected" in messages; empty for numbers and labels, whose text follows from `range` or
-  /// `labels`.
+  /// Text after "expected" in messages about a wrong value; empty for numbers and labels, whose text follows
+  /// from `range` or `labels`.
   std::string expected{};
   /// Shapes of the keys of a map, of the values of a tuple, or of the alternatives; for a list or entries,
   /// the one shape of all values.
   std::vector<Shape> parts{};
-  std::size_t min_count{0};  ///< minimum length of a list, or minimum number of entries
-  /// Maximum length of a list, or maximum number of entries.
+  std::size_t min_count{0};  ///< minimum length of a list, or minimum number of entries of a map
+  /// Maximum length of a list, or maximum number of entries of a map.
   std::size_t max_count{std::numeric_limits<std::size_t>::max()};
-  Order order{Order::any};              ///< order of the numbers in a list, or of the first numbers of tuples
-  std::string_view entry{};             ///< noun for one entry, for messages
-  bool named{true};                     ///< the keys of entries are names, each on one line
-  std::vector<std::string> patterns{};  ///< regular expressions of all keys of entries; empty: any key
-  /// Creates the object in which the value of an entry is stored, before the value is read.
+  /// Required order of the numbers in a list, or of the first numbers of its tuples.
+  Order order{Order::any};
+  std::string_view entry{};  ///< noun for one entry of a map from names to values, for messages
+  bool named{true};          ///< for a map with names as keys: each name stands on one line
+  /// For a map with any keys: regular expressions of the allowed keys; empty: any key is allowed.
+  std::vector<std::string> patterns{};
+  /// Creates the object in which the value of an entry (of a map from names to values) is stored, before that
+  /// value is read.
   std::function<void(Reading&, const std::string& entry)> add{};
-  /// Stores a value of this shape; a null field stands for the word `none`. Empty: other code reads the value
-  /// where it is needed.
+  /// Stores a value that was read with this shape; a null field stands for the word `none`. Empty: other code
+  /// reads the value where it is needed.
   std::function<void(Reading&, const Shape&, const yaml::Field*)> set{};
   Standard standard{};  ///< default if the key is absent
 
   bool required() const { return !if_missing.empty(); }
 };
 
-/// Adds a form, and its parts, to a shape that has the name, the meaning and the text `if_missing`.
+/// A copy of the shape `key` (with its name, its meaning and its text `if_missing`), which gets this form and
+/// the shapes of its parts.
 Shape of(Shape::Form form, Shape key = {}, std::string expected = "", std::vector<Shape> parts = {});
 
 Shape whole(std::int64_t low, std::int64_t high, Shape key = {});
 Shape real(const numerics::Interval& range, Shape key = {});
 
-/// Sets the maximum of the whole numbers in a list of the map, for a maximum that depends on other keys.
+/// Sets the maximum of the whole numbers in a list under one key of the map, for a maximum that depends on
+/// other keys.
 /// @param list name of the list's key @param highest maximum; below 0 counts as 0
 void limit_items(Shape& map, std::string_view list, std::int64_t highest);
 

@@ -68,7 +68,7 @@ Json entries_schema(const Shape& shape, const OwnSchema& own) {
   return schema;
 }
 
-/// The schema of the value, without the words that may replace it.
+/// JSON Schema of the value of the shape, without the words (such as "none") that may replace it.
 Json form_schema(const Shape& shape, const OwnSchema& own) {
   switch (shape.form) {
     case Form::own:

@@ -16,17 +16,18 @@ enum class AgingLaw : std::uint8_t {
   logarithmic   ///< v·(1 + r·log10(1 + a/s))
 };
 
-/// The keys of `aging` that name its law, in the order of AgingLaw.
+/// The keys inside `aging` that name the law by which a value changes with age, in the order of AgingLaw.
 inline constexpr std::array<std::string_view, 3> aging_law_labels{"linear", "exponential", "logarithmic"};
 
-/// The law of aging of one value (`aging`).
+/// The law by which one value of a manifest changes with age (key `aging`).
 struct Aging {
   AgingLaw law{AgingLaw::linear};
-  double scale{1.0};      ///< s, in the unit of ages
-  std::uint32_t rate{0};  ///< slot of the rate r
+  double scale{1.0};      ///< scale s of the ages, in the unit of ages
+  std::uint32_t rate{0};  ///< index in the plan of the slot that holds the rate r
 };
 
-/// Ratio of a value at this age to the value at age 0. Exactly 1 at age 0.
+/// Factor by which age multiplies a value: its ratio at this age to the value at age 0. Exactly 1 at age 0.
+/// @param rate rate r of the law
 double factor_at_age(const Aging& aging, double rate, double age);
 
 /// The ages at which every machine is simulated (`ages`).
@@ -35,7 +36,7 @@ struct Ages {
   std::string unit{"cycles"};  ///< unit of ages, one word
 };
 
-/// Text of an age with all its digits, "100000 cycles", as columns of ages print it.
+/// Text of an age with its unit and all its digits, "100000 cycles", as the columns of tables print it.
 std::string age_text(const Ages& ages, double age);
 
 }  // namespace zerocount::study

@@ -25,7 +25,7 @@ bool has_spectra(const StudyPlan& plan) {
   return !plan.common.disturbance.spectra.empty() || !plan.common.load_side.disturbance.spectra.empty();
 }
 
-/// The effects of the errors of one encoder.
+/// The entries in the table of effects for the errors of one encoder.
 /// @tparam Handles a parameter::EncoderErrors
 /// @tparam streams beginning of the names of their random numbers, which never change
 template <class Handles, parameters::Literal streams>
@@ -76,7 +76,7 @@ constexpr std::array more{
     Effect{"disturbance.vibration.#.spectrum", disturbance, nullptr, &R::spectrum,
            "disturbance.vibration/spectrum", has_spectra}};
 
-/// Whether this row of the study's table is the parameter of the effect.
+/// Whether this row of the study's table of parameters is the parameter that switches the effect on.
 bool is_of(const Effect& effect, const parameters::Parameter& row) {
   const bool of_element = effect.parameter.find('#') != std::string_view::npos;
   return parameters::has_value(row) && (of_element ? parameters::without_indices(row.name) == effect.parameter

@@ -10,20 +10,22 @@
 
 namespace zerocount::study {
 
-/// The inputs that all trials of one group share, indexed by the columns of InputColumns::shared, each in the
-/// unit of its column.
+/// The inputs (drawn parameters) that all trials of one group share, such as all trials of one machine,
+/// indexed by the columns of InputColumns::shared, each in the unit of its column.
 /// @throws Failure (bad_input) for a group that the study does not have
 std::vector<double> group_inputs(const Study& study, Grouping grouping, std::int64_t group);
 
-/// A parameter that is drawn for each world, with its values.
+/// A parameter that is drawn for each world, with its values. A world is one possible set of the values that
+/// nobody knows and all machines share.
 struct WorldValues {
-  std::string name;  ///< dotted path
+  std::string name;  ///< dotted path of the parameter
   std::string unit;
   std::vector<double> values;  ///< [world] value, in `unit`
 };
 
-/// The values drawn per world at a design point, including distributions that the sweep gives. Empty without
-/// worlds.
+/// The parameters that are drawn once per world at a design point, with their values, including distributions
+/// that the sweep gives. A world is one possible set of the values that nobody knows and all machines share.
+/// Empty without worlds.
 std::vector<WorldValues> world_values(const Study& study, std::int64_t point);
 
 /// Whether a parameter differs between machines but not between the moves of one machine. This holds if it is
@@ -33,22 +35,24 @@ std::vector<WorldValues> world_values(const Study& study, std::int64_t point);
 /// @param name dotted path
 bool differs_between_machines(const Study& study, DrawLevel level, std::string_view name);
 
-/// A drawn quantity in which machines differ: one parameter, or a row of joint samples.
+/// A drawn quantity that differs between machines: one parameter, or a row of joint samples.
 struct MachineInput {
-  std::string name;                  ///< dotted path; for joint samples all their paths, joined by ", "
-  std::vector<std::uint32_t> slots;  ///< slots of the values that share one random number
+  /// Dotted path of the parameter; for a row of joint samples all their paths, joined by ", ".
+  std::string name;
+  std::vector<std::uint32_t> slots;  ///< slots (parameters in the plan) whose values share one random number
 };
 
-/// The drawn quantities in which the machines of a point differ (differs_between_machines), without profiles.
-/// A row of joint samples is listed as a whole if one of its values differs between machines.
+/// The drawn quantities in which the machines of a design point differ (differs_between_machines), without
+/// parameters that vary along the axis. A row of joint samples is listed as a whole if one of its values
+/// differs between machines.
 std::vector<MachineInput> machine_inputs(const Study& study, std::int64_t point);
 
-/// The values of an input's slots at this quantile: pairs of dotted path and value in the unit of the
-/// manifest.
+/// The values of the parameters in `input` at this quantile: pairs of dotted path and value in the unit of
+/// the manifest.
 std::vector<std::pair<std::string, double>> values_at_quantile(const Study& study, std::int64_t point,
                                                                const MachineInput& input, double quantile);
 
-/// The quantile that trial `index` has drawn for each input, in (0, 1).
+/// [input] the quantile in (0, 1) that trial `index` has drawn for the input.
 std::vector<double> drawn_quantiles(const Study& study, std::int64_t point, std::int64_t index,
                                     const std::vector<MachineInput>& inputs);
 

@@ -11,7 +11,8 @@ namespace {
 
 constexpr double tail_probability = 0.001;
 
-/// Whether the distribution has a low tail with small probability (the normal distributions).
+/// Whether the distribution reaches down to very improbable low values: the normal, truncated normal and
+/// lognormal distributions.
 struct HasLowTail {
   bool operator()(const distributions::Uniform&) const { return false; }
   bool operator()(const distributions::LogUniform&) const { return false; }
@@ -31,7 +32,8 @@ LowEnd low_end_of(const distributions::Distribution& distribution) {
 
 LowEnd low_end_of_slot(const StudyPlan& plan, std::size_t point, std::size_t slot);
 
-/// The low end of a value at the point's age, from its low end at age 0 and the low end of its rate of aging.
+/// The low end of a value at the age of a point, computed from its low end at age 0 and the low end of its
+/// rate of aging.
 LowEnd at_age(const StudyPlan& plan, std::size_t point, const Value& value, LowEnd end) {
   if (!value.aging) return end;
   const Aging& aging = plan.agings[*value.aging];

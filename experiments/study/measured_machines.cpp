@@ -32,7 +32,8 @@ MeasuredFault fault_of(const StudyPlan& plan, const MeasuredSlots& measured,
   return fault;
 }
 
-/// The numbers at a corner of the box. Bit i of `corner` selects the high end of number i.
+/// The numbers at one corner of the box that the ends of the numbers span. Bit i of `corner` selects the high
+/// end of number i.
 std::vector<double> corner_of(std::span<const std::pair<double, double>> ends, std::size_t corner) {
   std::vector<double> numbers;
   numbers.reserve(ends.size());
@@ -41,8 +42,8 @@ std::vector<double> corner_of(std::span<const std::pair<double, double>> ends, s
   return numbers;
 }
 
-/// Whether the corner differs from all corners before it. It does not if it takes the high end of a known
-/// number, whose ends are equal.
+/// Whether the corner of the box differs from all corners before it. It does not if it takes the high end of
+/// a known number, whose ends are equal.
 bool is_new(std::span<const std::pair<double, double>> ends, std::size_t corner) {
   for (std::size_t i = 0; i < ends.size(); ++i) {
     if (((corner >> i) & 1U) == 1U && ends[i].first == ends[i].second) return false;

@@ -15,28 +15,34 @@ namespace zerocount::study {
 
 /// A contradiction between measured values: no machine can have all of them.
 struct MeasuredFault {
-  std::vector<std::uint32_t> slots;  ///< slots of the values that contradict each other
-  std::string what;      ///< message, "final_stiffness = 5e+05 N/m is not below breakaway/… = 4e+05 N/m"
-  std::string expected;  ///< the violated condition, "final_stiffness below breakaway/…"
+  /// Slots (parameters in the plan) of the values that contradict each other.
+  std::vector<std::uint32_t> slots;
+  /// Message that names the contradiction: "final_stiffness = 5e+05 N/m is not below breakaway/… = 4e+05
+  /// N/m".
+  std::string what;
+  /// The condition that the values violate, as text: "final_stiffness below breakaway/…".
+  std::string expected;
 };
 
-/// Function that returns the lowest and the highest number of a slot; both are equal if the number is known.
+/// Function that returns the lowest and the highest number that a slot (a parameter in the plan) can have;
+/// both are equal if the number is known.
 using SlotEnds = std::function<std::pair<double, double>(std::uint32_t slot)>;
 
-/// The first condition that some numbers between the ends violate; empty if none is violated. Only the
-/// corners of the box are tried. This is exact, because each condition is linear in each of its numbers or in
-/// the inverse of the number, so a violated condition is violated at a corner.
+/// The first condition between measured values that some numbers between the ends violate; empty if none is
+/// violated. Only the corners of the box are tried. This is exact, because each condition is linear in each
+/// of its numbers or in the inverse of the number, so a violated condition is violated at a corner.
 std::optional<MeasuredFault> fault_within(const StudyPlan& plan, const MeasuredSlots& measured,
                                           const SlotEnds& ends);
 
-/// The first condition that the values of a trial, or of one of its contacts, violate; see fault_within(). A
-/// value that is drawn at each contact may take any value of its distribution, or any row of joint samples.
+/// The first condition between measured values that the values of a trial, or of one of its contacts (periods
+/// between two slips), violate; see fault_within(). A value that is drawn at each contact may take any value
+/// of its distribution, or any row of joint samples.
 /// @param ends ends of the slots that are not drawn at each contact
 std::optional<MeasuredFault> fault_of_machine(const StudyPlan& plan, std::size_t point,
                                               const MeasuredSlots& measured, const SlotEnds& ends);
 
-/// The numbers that a trial has in the given slots. The values of these slots must be numbers or
-/// distributions.
+/// The numbers that trial `index` has for the given slots (parameters in the plan). The values of these slots
+/// must be numbers or distributions.
 std::vector<double> drawn_numbers(const Study& study, std::int64_t point, std::int64_t index,
                                   std::span<const std::uint32_t> slots, const GivenDraws& given = {});
 

@@ -17,7 +17,8 @@ std::size_t slot_named(const StudyPlan& plan, std::string_view parameter) {
   return slots_named(plan.table, {&parameter, 1}).front();
 }
 
-/// The values of a list, or of a short range of whole numbers; empty for other distributions.
+/// The values that the distribution can give, if it is a list or a short range of whole numbers; empty for
+/// other distributions.
 std::optional<distributions::Choice> listed(const distributions::Distribution& distribution) {
   if (const auto* choice = std::get_if<distributions::Choice>(&distribution)) return *choice;
   const auto* integers = std::get_if<distributions::Integers>(&distribution);

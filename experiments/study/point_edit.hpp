@@ -14,18 +14,21 @@
 
 namespace zerocount::study {
 
-/// Result of PointEdit::widen().
+/// Which values PointEdit::widen() has widened, and which not.
 struct Widened {
-  std::vector<std::string> changed;  ///< dotted paths of the drawn values that were widened
-  std::vector<std::string> kept;     ///< dotted paths of the drawn values that would have left their ranges
+  /// Dotted paths of the drawn parameters whose distributions were widened.
+  std::vector<std::string> changed;
+  /// Dotted paths of the drawn parameters that were not widened, because they would have left their ranges.
+  std::vector<std::string> kept;
 };
 
 /// The scaling of a value by a factor. If the value is a number or drawn from a list, one number can be
 /// exempt.
 struct Scaling {
-  double factor{1.0};           ///< factor, above 0
-  std::optional<double> off{};  ///< number that is not scaled, in addition to "none"
-  /// Minimum after scaling. Not enforced for values drawn from a continuous distribution.
+  double factor{1.0};  ///< factor, above 0
+  /// Number that is not scaled, in addition to the number that means "none" (the feature is off).
+  std::optional<double> off{};
+  /// Minimum of the value after scaling. Not enforced for values drawn from a continuous distribution.
   double least{-std::numeric_limits<double>::infinity()};
 
   double operator()(double value) const { return value == off ? value : std::max(least, factor * value); }
@@ -39,7 +42,7 @@ class PointEdit {
  public:
   PointEdit(const Study& study, std::int64_t point);
 
-  /// The points of the plan for the design point, one per setting.
+  /// The points of the plan that belong to the edited design point, one per setting (condition at an age).
   std::vector<std::size_t> points() const;
   const StudyPlan& plan() const { return plan_; }
   StudyPlan& plan() { return plan_; }
@@ -48,7 +51,8 @@ class PointEdit {
 
   void set(std::size_t slot, double number);
   void set(std::string_view parameter, double number);
-  /// Scales a value. The value "none" stays, and so does a required value that the study does not have (NaN).
+  /// Scales the value of a slot (a parameter in the plan). The value "none" stays, and so does a required
+  /// value that the study does not have (NaN).
   void scale(std::size_t slot, const Scaling& scaling);
   void scale(std::string_view parameter, const Scaling& scaling);
   void scale(std::size_t slot, double factor) { scale(slot, Scaling{factor}); }
@@ -57,14 +61,15 @@ class PointEdit {
   /// `factor` times as far from its centre (distributions::widened). Values that would leave their ranges,
   /// whole numbers, choices and rows of samples stay as they are.
   Widened widen(double factor);
-  /// Adds a whole number to a parameter that takes whole numbers.
+  /// Adds `number` to the value of a parameter that takes whole numbers.
   void add(std::string_view parameter, std::int64_t number);
 
   /// Message about the first new value outside the range of its parameter, "path: what; expected …"; empty if
   /// all are inside.
   std::string out_of_range() const;
 
-  /// The study whose trials at the point have the new values. Later edits do not change it.
+  /// The study with the edits so far: its trials at the edited point have the new values. Later edits do not
+  /// change it.
   Study study() const;
 
  private:

@@ -8,7 +8,7 @@
 namespace zerocount::study {
 namespace {
 
-/// The words of a label, without the commas between them.
+/// The words of a design point's label ("controller.kp=400"), without the commas between them.
 std::vector<std::string_view> split_words(std::string_view label) {
   std::vector<std::string_view> words;
   for (std::size_t at = label.find_first_not_of(' '); at != std::string_view::npos;
@@ -32,7 +32,8 @@ bool shortens(std::string_view text, std::string_view label) {
                             });
 }
 
-/// The only point with this short label.
+/// The index of the only design point whose label can be shortened to this text; empty if there is none or
+/// several.
 std::optional<std::int64_t> point_with_short_label(std::string_view text,
                                                    std::span<const std::string> labels) {
   std::optional<std::int64_t> found;
@@ -49,7 +50,8 @@ std::optional<std::int64_t> point_with_number(std::string_view text, std::span<c
   return number && *number >= 0 && *number < std::ssize(labels) ? number : std::nullopt;
 }
 
-/// Reads "3 (kp=400 ki=8e4)": number and label must belong to the same point.
+/// The index of the design point that a text like "3 (kp=400 ki=8e4)" names by number and label; empty if
+/// they do not belong to the same point.
 std::optional<std::int64_t> point_with_both(std::string_view text, std::span<const std::string> labels) {
   const std::size_t bracket = text.find(" (");
   if (bracket == std::string_view::npos || !text.ends_with(')')) return std::nullopt;

@@ -31,7 +31,8 @@ void add_number(double number, std::vector<double>& numbers) {
   if (!std::isnan(number)) numbers.push_back(number);
 }
 
-/// The numbers of a derived value at the corners of the box of its sources, without NaN.
+/// The numbers that a derived value has at the corners of the box of the values from which it is computed,
+/// without NaN.
 std::vector<double> numbers_at_corners(const StudyPlan& plan, const DerivedValue& derived,
                                        std::size_t point) {
   std::vector<double> numbers;
@@ -76,8 +77,8 @@ std::vector<double> numbers_inside(const StudyPlan& plan, const DerivedValue& de
   return numbers;
 }
 
-/// The range of a derived value, from the corners of the box of its sources. If some corner has no value
-/// (NaN), points inside the box are used as well.
+/// The range of a derived value, from its values at the corners of the box of its sources. If some corner has
+/// no value (NaN), points inside the box are used as well.
 ParameterRange range_of_derived(const StudyPlan& plan, const DerivedValue& derived, std::size_t point) {
   if (derived.value == nullptr) return range_of_slot(plan, derived.from.front(), point);
   std::vector<double> numbers = numbers_at_corners(plan, derived, point);
@@ -93,7 +94,7 @@ ParameterRange range_of_derived(const StudyPlan& plan, const DerivedValue& deriv
   return {low, high, low <= 0.0, typical};
 }
 
-/// The median, also of a choice, whose values are in the order of its list.
+/// The median of the distribution. The values of a choice are sorted for it.
 double median_of(const distributions::Distribution& distribution) {
   const auto* choice = std::get_if<distributions::Choice>(&distribution);
   if (choice == nullptr) return distributions::quantile(distribution, 0.5);
@@ -107,7 +108,7 @@ bool assigns_any(const PlanAxis& axis, const std::vector<bool>& wanted) {
                      [&](const Assignment& assignment) { return wanted[assignment.slot]; });
 }
 
-/// The lowest and the highest number that can be drawn, at age 0.
+/// The lowest and the highest number that can be drawn for a value, at age 0.
 std::pair<double, double> drawn_extremes(const StudyPlan& plan, const Value& value) {
   if (value.kind == Value::Kind::number) return {value.number, value.number};
   const distributions::Distribution& distribution = plan.distributions[value.index];
@@ -120,7 +121,8 @@ std::pair<double, double> drawn_extremes(const StudyPlan& plan, const Value& val
           distributions::quantile(distribution, 1.0 - 0x1p-53)};
 }
 
-/// The ends of all products of a number between `low` and `high`, which may be infinite, with a factor.
+/// The lowest and the highest product of a number between `low` and `high`, which may be infinite, and a
+/// factor in the range `factors`.
 std::pair<double, double> times(double low, double high, const ParameterRange& factors) {
   const auto product = [](double x, double factor) { return x == 0.0 || factor == 0.0 ? 0.0 : x * factor; };
   return std::minmax({product(low, factors.low), product(low, factors.high), product(high, factors.low),

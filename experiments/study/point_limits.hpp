@@ -14,19 +14,22 @@
 
 namespace zerocount::study {
 
-/// The lowest value of a parameter that a design must cover at a design point in a setting.
+/// The lowest value of a parameter that a design must cover at a design point in a setting (a condition at an
+/// age).
 struct LowEnd {
   enum class Kind : std::uint8_t {
     number,   ///< the number itself: the parameter is not drawn
-    support,  ///< low end of the distribution's support
-    tail,     ///< 0.1 % quantile of a normal, truncated normal or lognormal distribution
-    profile   ///< the parameter varies along the rotor; use the minimum of the trial's profile, not `value`
+    support,  ///< the low end of the support (possible values) of the parameter's distribution
+    /// The 0.1 % quantile of a normal, truncated normal or lognormal distribution, which would reach lower.
+    tail,
+    profile  ///< the parameter varies along the rotor: the minimum of the trial's profile counts, not `value`
   };
   Kind kind{Kind::number};
-  double value{0.0};  ///< low end, in the parameter's unit
+  double value{0.0};  ///< lowest value, in the parameter's unit; not used for a profile
 };
 
-/// The low end of a parameter at a design point in a setting.
+/// The lowest value of a parameter that a design must cover, at a design point in a setting (condition at an
+/// age).
 /// @param parameter dotted path of a positive physical value, such as friction.k1
 LowEnd low_end(const Study& study, std::int64_t point, std::string_view parameter, std::int64_t setting = 0);
 
@@ -37,35 +40,40 @@ struct ParameterRange {
   double low{0.0};
   double high{0.0};
   bool can_be_zero{false};
-  double typical{0.0};  ///< the number, the median of the distribution, or the mean of the profile
+  /// Typical value: the number, the median of the distribution, or the mean of the profile along the axis.
+  double typical{0.0};
 };
 
-/// The lowest and the highest number that can be drawn for the slot at a point of the plan, at the point's
-/// age. Both are finite, unlike the ends of a support. The value of the slot must be a number or a
-/// distribution.
+/// The lowest and the highest number that can be drawn for the slot (a parameter in the plan) at a design
+/// point in a setting, at the setting's age. Both are finite, unlike the ends of a distribution's support.
+/// The value of the slot must be a number or a distribution.
 std::pair<double, double> extremes_of(const StudyPlan& plan, std::size_t slot, std::size_t point);
 
-/// The range of a value at age 0. The value must not be computed from other slots.
+/// The range of a value of the manifest at age 0, over all that can be drawn. The value must not be computed
+/// from other slots.
 ParameterRange range_of(const StudyPlan& plan, const Value& value);
 
-/// The range of factor_at_age() for the value of a slot at a point of the plan; {1, 1, false, 1} if the value
-/// does not change with age.
+/// The range of the factor by which age multiplies the value of a slot (a parameter in the plan) at a design
+/// point in a setting: factor_at_age(). It is {1, 1, false, 1} if the value does not change with age.
 ParameterRange age_factors(const StudyPlan& plan, std::size_t slot, std::size_t point);
 
-/// The range of the value of a slot at a point of the plan, at the point's age.
+/// The range of the value of a slot (a parameter in the plan) over all trials at a design point in a setting,
+/// at the setting's age.
 ParameterRange range_of_slot(const StudyPlan& plan, std::size_t slot, std::size_t point);
 
 /// Whether the control has a coarse phase in some trial, from the range of controller.coarse.coarse_beyond.
 bool can_have_coarse_phase(const ParameterRange& coarse_beyond);
 
-/// The ranges of several parameters at a point of the plan, found by handle: of[parameter::friction::k1].
+/// The ranges of several parameters at a design point in a setting, found by handle:
+/// of[parameter::friction::k1].
 class Ranges {
  public:
   /// @param handles,ranges in the same order; both must outlive the object
   Ranges(std::span<const parameter::Handle> handles, std::span<const ParameterRange> ranges)
       : handles_(handles), ranges_(ranges) {}
 
-  /// @throws std::logic_error if the parameter is not among them
+  /// The range of the parameter.
+  /// @throws std::logic_error if the parameter is not among the given ones
   const ParameterRange& operator[](const parameter::Handle& handle) const;
   std::span<const ParameterRange> all() const { return ranges_; }
 
@@ -91,12 +99,12 @@ bool closes_somewhere(const StudyPlan& plan, motion::EncoderPlace mass);
 /// Whether the axis has a coarse encoder beside the fine one: the manifest names it, or the control reads it.
 bool has_coarse_encoder(const StudyPlan& plan);
 
-/// The slots of these parameters; for a list, the first slot.
+/// The slots (indices in the plan) of these parameters; for a list, the first slot.
 std::vector<std::size_t> slots_named(const StudyTable& table, std::span<const parameter::Handle> handles);
-/// The slots of the parameters with these dotted paths; for a list, the first slot.
+/// The slots (indices in the plan) of the parameters with these dotted paths; for a list, the first slot.
 std::vector<std::size_t> slots_named(const StudyTable& table, std::span<const std::string_view> paths);
 
-/// The slots of a group of rows.
+/// The slots (indices in the plan) of a group of consecutive rows of the study's table of parameters.
 std::vector<std::size_t> slots_of(const RowGroup& group);
 
 /// Calls `visit` for one design point of each combination of values of `slots`, until it returns false.
@@ -104,18 +112,20 @@ std::vector<std::size_t> slots_of(const RowGroup& group);
 void visit_points(const StudyPlan& plan, std::span<const std::size_t> slots,
                   const std::function<bool(std::size_t point)>& visit);
 
-/// The values of a slot: one for each combination of options on which it depends.
+/// All values that the manifest gives to a slot (a parameter in the plan): one for each combination of
+/// options of the sweep and conditions on which it depends.
 std::vector<const Value*> values_of(const StudyPlan& plan, std::size_t slot);
 
-/// The ranges of the values at a point of the plan, in the order of `slots`.
+/// The ranges of the values of these slots (parameters in the plan) at a design point in a setting, in the
+/// order of `slots`.
 std::vector<ParameterRange> ranges_at(const StudyPlan& plan, std::span<const std::size_t> slots,
                                       std::size_t point);
 
-/// Whether all values could be read: no range is NaN.
+/// Whether the values behind all these ranges could be read: no range is NaN.
 bool are_readable(std::span<const ParameterRange> ranges);
 
-/// Whether the predicate `holds` is true at some design point. Its argument is the ranges of these
-/// parameters.
+/// Whether the predicate `holds` is true at some design point. Its argument is the ranges of these parameters
+/// at the point.
 bool holds_somewhere(const StudyPlan& plan, std::span<const parameter::Handle> handles,
                      const std::function<bool(const Ranges&)>& holds);
 /// Whether the predicate `holds` is true for the range of the parameter with this path at some design point.

@@ -15,13 +15,17 @@
 
 namespace zerocount::study {
 
-/// Distribution of the mean of a profile. The mean is drawn once for every rotor.
+/// Distribution of the mean of a friction parameter that varies along the axis. The mean is drawn once for
+/// every rotor.
 struct DrawnMean {
   distributions::Distribution distribution;
   Design design{Design::monte_carlo};
   SlotRandomness randomness;
-  std::uint64_t worlds{0};     ///< number of worlds among which the rotors are divided; 0: no worlds
-  random::RandomKey places{};  ///< key of the order of the rotors' Sobol points; for the design sobol
+  /// Number of worlds (possible sets of the shared unknown values) among which the rotors are divided; 0: no
+  /// worlds.
+  std::uint64_t worlds{0};
+  /// Key of the random order in which the rotors take Sobol points; for the design sobol.
+  random::RandomKey places{};
 
   bool operator==(const DrawnMean&) const = default;
 };
@@ -39,7 +43,7 @@ class Rotors {
   /// deviate `factor` times as much from their centres (distributions::widened).
   std::shared_ptr<const Rotors> widened(double factor) const;
 
-  /// Whether all profiles of both are equal.
+  /// Whether all profiles of this object and of the other one are equal.
   bool is_same(const Rotors& other) const;
 
   std::int64_t count() const { return count_; }
@@ -51,21 +55,23 @@ class Rotors {
   double mean(std::int64_t rotor) const;
   std::shared_ptr<const friction::Profile> rotor(std::int64_t rotor) const;
 
-  /// The mean at this quantile of its distribution; the fixed mean if it is not drawn.
+  /// The mean of the friction parameter along a rotor at this quantile of the mean's distribution; the fixed
+  /// mean if it is not drawn.
   double mean_at(double quantile) const;
 
-  /// The profile of a rotor for which the quantile of the mean, the value of the field g at one position, or
-  /// both are given. The field of the rotor is conditioned on this value: with Δ = field − g(position) and
-  /// the correlation function ρ of the field, it becomes g(θ) + Δ·ρ(θ − position).
+  /// The friction parameter along a rotor for which some random numbers are given: the quantile of its mean,
+  /// the value of its Gaussian random field g at one position, or both. The field of the rotor is conditioned
+  /// on this value: with Δ = field − g(position) and the correlation function ρ of the field, it becomes g(θ)
+  /// + Δ·ρ(θ − position).
   friction::Profile rotor_with(std::int64_t rotor, std::optional<double> mean_quantile,
                                std::optional<double> field, double position) const;
 
-  /// Interval that contains all values of all possible rotors, computed without creating the rotors'
-  /// profiles.
+  /// Interval that contains all values of the friction parameter on all possible rotors, computed without
+  /// creating the rotors' profiles.
   numerics::Interval bounds() const;
 
-  /// Interval that contains all values of the actual rotors: hull of distributions::limits() of their
-  /// profiles.
+  /// Interval that contains all values of the friction parameter on the actual rotors: hull of
+  /// distributions::limits() of their profiles.
   numerics::Interval all_limits() const;
 
  private:

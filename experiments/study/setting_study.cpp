@@ -15,7 +15,7 @@
 namespace zerocount::study {
 namespace {
 
-/// A copy of the axis with only one of its options.
+/// A copy of the plan's axis with only one of its options.
 PlanAxis only_option(const PlanAxis& axis, std::size_t option) {
   PlanAxis only;
   for (std::size_t i = axis.first[option]; i < axis.first[option + 1]; ++i)
@@ -24,7 +24,8 @@ PlanAxis only_option(const PlanAxis& axis, std::size_t option) {
   return only;
 }
 
-/// Removes the columns of other settings, and the suffix of this setting from the names that stay.
+/// Removes the columns that belong to other settings (conditions at an age), and the suffix of this setting
+/// from the names of the columns that stay.
 void keep_setting(std::int64_t setting, std::vector<InputColumn>& columns,
                   std::vector<InputSource>& sources) {
   std::size_t kept = 0;

@@ -22,14 +22,14 @@
 
 namespace zerocount::study {
 
-/// A manifest as it was given.
+/// The text of a study's manifest and the overrides, as they were given.
 struct ManifestSource {
-  std::string text;                    ///< exact bytes of the manifest
-  std::string sha256;                  ///< SHA-256 of the text, lower-case hexadecimal
-  std::vector<std::string> overrides;  ///< "key=value", as given with --set, in order
+  std::string text;                    ///< the exact bytes of the manifest file
+  std::string sha256;                  ///< SHA-256 checksum of `text`, lower-case hexadecimal
+  std::vector<std::string> overrides;  ///< overrides of keys, "key=value" as given with --set, in order
 };
 
-/// Trials counted on a real machine.
+/// Trials counted on a real machine, for comparison with the simulated success rate.
 struct ObservedCounts {
   std::int64_t successes{0};  ///< number of trials all of whose moves ended at zero error
   std::int64_t of{1};         ///< total number of trials, all on one machine
@@ -43,45 +43,53 @@ struct Study {
   ManifestSource manifest;
   std::string name;
   std::string description;
-  std::vector<std::string> warnings;  ///< possibly unintended input, one line each
-  std::vector<Premise> premises{};    ///< effects of a real axis, considered or left out
+  std::vector<std::string> warnings;  ///< warnings about input that is possibly unintended, one line each
+  /// States of the assumptions that effects of a real axis are absent: considered, stated or assumed.
+  std::vector<Premise> premises{};
 
   // The trials to run, and the question to answer.
   parameters::StudyUnits units;
-  /// Period of profiles along the axis: a revolution, rad; or the travel, m.
+  /// Period of friction parameters that vary along the axis: a revolution, rad; or the travel, m.
   double period{2.0 * std::numbers::pi};
   std::uint64_t seed{0};
   std::int64_t trials{0};    ///< number of trials per design point; the maximum with `stop`
   std::int64_t machines{0};  ///< number of machines; 0: no trials share a machine
-  std::int64_t worlds{0};    ///< number of worlds, which divides `machines`; 0: nothing is drawn for each
-  Settings settings{};       ///< conditions and ages; every machine is simulated in each setting
+  /// Number of worlds (possible sets of the values that nobody knows and all machines share), which divides
+  /// `machines`; 0: nothing is drawn for each world.
+  std::int64_t worlds{0};
+  Settings settings{};  ///< conditions and ages; every machine is simulated in each setting
   Design design{Design::monte_carlo};
   bool independent_points{false};
   std::vector<Correlation>
-      correlations;  ///< correlations of drawn parameters; pairs not listed are independent
-  std::optional<JointSamples> samples;  ///< joint draws of several parameters
-  std::optional<StoppingRule> stop;     ///< set for sequential stopping
-  std::vector<Goal> goals{};            ///< goals, all of which must be met; empty: the study has none
+      correlations;  ///< Correlations of drawn parameters; pairs of parameters not listed are independent
+  std::optional<JointSamples> samples;  ///< joint draws of several parameters from a table; empty: none
+  std::optional<StoppingRule> stop;  ///< rule for sequential stopping; empty: the study runs all its trials
+  std::vector<Goal> goals{};         ///< goals, all of which must be met; empty: the study has none
   std::optional<Tuning> tuning{};
   /// Point label → observation on the real machine. The text of a case is repeated for all its points.
   std::map<std::string, std::string> observed;
-  std::map<std::string, ObservedCounts> observed_counts;  ///< point label → observed counts, if given
-  std::vector<std::int64_t> retained_trials;  ///< trial indices whose traces are kept, at every point
+  /// Label of the design point → counts observed on the real machine, if the manifest gives them.
+  std::map<std::string, ObservedCounts> observed_counts;
+  /// Indices of the trials whose traces (signals over time) are kept, at every design point.
+  std::vector<std::int64_t> retained_trials;
   Retention retention{Retention::trials};
   /// The user's controller, which runs the trials if it is loaded; null: there is none.
   std::shared_ptr<const plugin::ControllerPlugin> plugin;
-  Engine engine{Engine::batch};  ///< chosen for the run; not part of the manifest
+  /// Engine that runs the trials, chosen for the run; not part of the manifest.
+  Engine engine{Engine::batch};
 
   // Compiled from the manifest.
   /// Hash of the values of manifest and overrides, of plugin and samples: equal hashes mean the same trials.
   std::string study_sha256;
   DesignPoints points;
   InputColumns columns;
-  std::vector<std::string> factors;  ///< factors of the design saltelli, in its order; otherwise empty
+  /// Names of the factors of the design saltelli, in the design's order; otherwise empty.
+  std::vector<std::string> factors;
   std::vector<RealisedProfile> profiles;
-  std::int64_t moves{1};               ///< number of moves per trial
-  std::vector<SequenceMove> sequence;  ///< [move of the sequence]; empty without a sequence
-  bool open_loop{false};               ///< the moves are torque levels, without targets
+  std::int64_t moves{1};  ///< number of moves in one trial
+  /// [index of the move] moves of the sequence (`command.sequence`); empty without a sequence.
+  std::vector<SequenceMove> sequence;
+  bool open_loop{false};  ///< the moves are commanded torque levels, without targets and without control
   StudyFeatures features;
   /// Compiled values from which study_trial() makes the parameters of a trial. The plan of a study never
   /// changes, so anything derived from it stays valid as long as the pointer is the same.
@@ -105,23 +113,26 @@ inline std::int64_t trial_count(const Study& study) {
   return point_count(study) * study.trials;
 }
 
-/// Number of groups; 0 if the study does not have the grouping.
+/// Number of groups (such as machines) in this way of grouping the trials; 0 if the study does not have the
+/// grouping.
 std::int64_t group_count(const Study& study, Grouping grouping);
 
 TrialIndices trial_indices(const Study& study);
 
-/// The group of trial `trial_index` at every point.
+/// Index of the group (such as the machine) to which the trial with this index belongs, the same at every
+/// design point.
 inline std::int64_t group_of(const Study& study, Grouping grouping, std::int64_t trial_index) {
   return trial_indices(study).group_of(grouping, trial_index);
 }
 
-/// Number of draws per point: its number of trials in one setting.
+/// Number of draws per design point. A draw is one set of random numbers, which is used once in each setting
+/// (condition at an age); so this is the number of trials in one setting.
 inline std::int64_t draw_count(const Study& study) {
   return study.trials / study.settings.total();
 }
 
-/// Number of draws at this level by the trials of a point in one setting. For contacts, only the first
-/// contact of each trial is counted.
+/// Number of draws at this level (per world, machine, trial …) by the trials of a design point in one setting
+/// (condition at an age). For contacts, only the first contact of each trial is counted.
 std::int64_t draw_count(const Study& study, DrawLevel level);
 
 }  // namespace zerocount::study

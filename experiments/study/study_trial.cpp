@@ -39,16 +39,16 @@ void set_hold_of_record(const StudyPlan& plan, trial::TrialParameters& trial) {
         loop::record_duration(trial.command.profile.record->time, 1.0 / trial.controller.sample_rate);
 }
 
-/// Completes a trial after all its numbers are set.
+/// Converts gains and targets of a trial to the units of the simulation, after all its numbers are set.
 void complete(const Study& study, StudyTrial& trial) {
   complete_trial(study.units, trial.parameters);
   complete_targets(trial);
 }
 
-/// A trial whose parameters are being set.
+/// A trial whose parameters are being set, with memory for the numbers.
 struct TrialInProgress {
   StudyTrial& trial;
-  std::vector<double>& numbers;  ///< [slot] number of the trial
+  std::vector<double>& numbers;  ///< [slot] number of the trial for each slot (parameter in the plan)
   const StudyPlan& plan;
 
   void set(std::size_t slot, double number) {
@@ -58,7 +58,8 @@ struct TrialInProgress {
   }
 };
 
-/// Sets a value that follows from other slots. The numbers of these slots must be set.
+/// Sets a parameter whose value is computed from other slots (parameters in the plan). The numbers of these
+/// slots must be set.
 void set_derived(const TrialDraws& draws, std::size_t point, std::uint32_t slot, TrialInProgress& t) {
   const DerivedValue& derived = t.plan.derived[value_at_point(t.plan, slot, point)->index];
   t.set(slot, derived_value(derived, [&](std::uint32_t source) { return t.numbers[source]; }));
@@ -78,7 +79,8 @@ void set_derived(const TrialDraws& draws, std::size_t point, std::uint32_t slot,
        }});
 }
 
-/// Refuses measured values that no machine can have. The checks of the manifest have not seen this draw.
+/// Refuses a trial with measured values that no machine can have. The checks of the manifest have not seen
+/// this draw.
 void require_machine(std::size_t point, const TrialInProgress& t) {
   for (const MeasuredSlots& measured : t.plan.measured) {
     const auto fault = fault_of_machine(t.plan, point, measured, [&](std::uint32_t slot) {
@@ -91,7 +93,7 @@ void require_machine(std::size_t point, const TrialInProgress& t) {
   }
 }
 
-/// Sets all values except profiles.
+/// Sets all values of a trial except friction parameters that vary along the axis.
 void begin_trial(const TrialDraws& draws, std::size_t point, TrialInProgress& t) {
   const StudyPlan& plan = t.plan;
   t.trial.parameters = plan.common;
@@ -114,8 +116,8 @@ void begin_trial(const TrialDraws& draws, std::size_t point, TrialInProgress& t)
   require_machine(point, t);
 }
 
-/// See study_trial_as_given().
-/// @param point point of the plan @param numbers memory for the numbers, [slot]
+/// Makes the parameters of a trial with all numbers in the units of the manifest; see study_trial_as_given().
+/// @param point point of the plan (a design point in a setting) @param numbers memory for the numbers, [slot]
 void make_trial(const TrialDraws& draws, std::size_t point, StudyTrial& trial, std::vector<double>& numbers) {
   const StudyPlan& plan = draws.plan();
   TrialInProgress t{trial, numbers, plan};

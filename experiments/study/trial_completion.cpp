@@ -13,7 +13,7 @@
 namespace zerocount::study {
 namespace {
 
-/// Converts the gains of a phase from SI units.
+/// Converts the gains of a phase of the control from SI units to units per count and sample.
 /// @tparam Phase ControllerParameters or CoarsePhaseParameters; both have kp, ki and kd
 template <class Phase>
 void convert_gains(Phase& phase, const trial::TrialParameters& trial) {

@@ -48,7 +48,8 @@ void check_exists(const Study& study, std::int64_t point, std::int64_t index) {
   }
 }
 
-/// The quantile of a distribution of the plan at u in (0, 1).
+/// The quantile of a distribution of the plan at the probability u in (0, 1).
+/// @param distribution index in the plan's distributions
 double drawn_quantile(const TrialDraws& draws, std::size_t distribution, double u) {
   const distributions::Distribution& of_plan = draws.plan().distributions[distribution];
   if (draws.quantiles == nullptr) return distributions::quantile(of_plan, u);
@@ -71,9 +72,9 @@ double age_factor_of(const TrialDraws& draws, const Value& value, std::size_t po
                        age_at(plan, point));
 }
 
-/// The number at the age of the point.
+/// The value of a slot (a parameter in the plan) at the age of the point: `number` times `factor`.
 /// @throws Failure (bad_input) if it is outside the range of the parameter; the checks of the manifest have
-/// not seen this draw
+///        not seen this draw
 double at_age(const TrialDraws& draws, std::uint32_t slot, std::size_t point, double number, double factor) {
   const StudyPlan& plan = draws.plan();
   const parameters::Parameter& parameter = plan.table.rows[slot];
@@ -95,7 +96,8 @@ const GivenProfile* given_profile(const TrialDraws& draws, std::uint32_t slot) {
   return given == draws.given.profiles.end() ? nullptr : &given->second;
 }
 
-/// The profile at age 0 of a trial that begins at the position `start`.
+/// The friction parameter of the slot along the axis at age 0, for a trial that begins at the position
+/// `start`.
 std::shared_ptr<const friction::Profile> profile_of(const TrialDraws& draws, std::uint32_t slot,
                                                     const Value& value, double start) {
   const Rotors& rotors = *draws.plan().profiles[value.index];

@@ -22,7 +22,7 @@ bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\r';
 }
 
-/// Removes surrounding blanks and quotation marks.
+/// The text without blanks and quotation marks around it.
 std::string_view unquoted(std::string_view text) {
   text = text::trimmed(text);
   if (text.size() >= 2 && text.front() == '"' && text.back() == '"') return text.substr(1, text.size() - 2);
@@ -43,7 +43,8 @@ bool separates(char c, Separator separator) {
   return false;
 }
 
-/// Takes the next cell from `line`. If `line` ends with a separator, one more cell follows: `more` says so.
+/// Takes the next cell from the beginning of `line`. If `line` ends with a separator, one more (empty) cell
+/// follows: `more` is then set.
 std::string_view next_cell(std::string_view& line, Separator separator, bool& more) {
   bool quoted = false;
   int brackets = 0;
@@ -62,7 +63,8 @@ std::string_view next_cell(std::string_view& line, Separator separator, bool& mo
   return unquoted(cell);
 }
 
-/// The cells of a header. Between blanks a unit in brackets belongs to the name before it.
+/// The cells of a table's header. If blanks separate the cells, a unit in brackets belongs to the name before
+/// it.
 std::vector<std::string> header_cells(std::string_view line, Separator separator) {
   std::vector<std::string> cells;
   for (const std::string_view cell : cells_of(line, separator)) {
@@ -94,7 +96,7 @@ double number_of(std::string_view text, Separator separator) {
   return number_of(with_point);
 }
 
-/// True for "12:00:00.125" and "2026-11-26T12:00:00".
+/// Whether the text is a time of day or a date with time, "12:00:00.125" or "2026-11-26T12:00:00".
 bool is_time_stamp(std::string_view text) {
   return std::ranges::count(text, ':') == 2 && std::ranges::all_of(text, [](char c) {
            return (c >= '0' && c <= '9') || std::string_view(":.,-/ TZ+").find(c) != std::string_view::npos;
@@ -106,7 +108,7 @@ bool all_numbers(const std::vector<std::string_view>& cells, Separator separator
                      [&](std::string_view cell) { return std::isfinite(number_of(cell, separator)); });
 }
 
-/// True if a cell has a blank inside; numbers have none.
+/// Whether one of the cells has a blank inside; numbers have none.
 bool has_blank_inside(const std::vector<std::string_view>& cells) {
   return std::any_of(cells.begin(), cells.end(),
                      [](std::string_view cell) { return cell.find(' ') != std::string_view::npos; });
@@ -114,8 +116,8 @@ bool has_blank_inside(const std::vector<std::string_view>& cells) {
 
 constexpr std::array separators{Separator::tab, Separator::semicolon, Separator::comma, Separator::blanks};
 
-/// The separator that gives a header (or first row) and the row below it equally many cells; empty if there
-/// is none.
+/// The separator that gives a table's header (or first row) and the row below it equally many cells; empty if
+/// there is none.
 std::optional<Separator> common_separator(std::string_view first, std::string_view second) {
   for (const Separator separator : separators) {
     const std::size_t count = header_cells(first, separator).size();
@@ -134,7 +136,8 @@ Separator separator_of(std::string_view first, std::string_view second) {
   return Separator::comma;
 }
 
-/// The cells of a row. Loggers may end rows with a separator and the header without.
+/// Number of cells of a row. One empty cell at its end is not counted if the row has one more than `columns`:
+/// loggers may end rows with a separator and the header without.
 std::size_t cells_of_row(std::string_view line, Separator separator, std::size_t columns) {
   const std::vector<std::string_view> cells = cells_of(line, separator);
   return cells.size() == columns + 1 && cells.back().empty() ? columns : cells.size();
@@ -147,8 +150,8 @@ bool has_number(const std::vector<std::string_view>& cells, Separator separator)
 
 constexpr std::size_t max_titles = 100;
 
-/// The number of titles above the header, which is the first line that has no numbers and as many cells as
-/// the line below it and as the last one. 0 if there is no such line.
+/// The number of title lines above the header. The header is the first line that has no numbers and as many
+/// cells as the line below it and as the last one. 0 if there is no such line.
 /// @param first lines of the table, without the last
 std::size_t titles_above_header(const std::vector<std::string_view>& first, std::string_view last,
                                 std::optional<Separator> given) {

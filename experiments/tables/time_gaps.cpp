@@ -12,7 +12,8 @@ constexpr double times_usual = 4.0;
 constexpr std::size_t fewest_long_steps = 3;  // are rare in any record
 constexpr double rare = 0.03;                 // of the steps
 
-/// The 90 % quantile of the steps about the one with this index, without it; 0 of too few.
+/// The 90 % quantile of the neighbouring steps of step `index`, without this step itself; 0 if there are too
+/// few.
 double usual_step(const std::vector<double>& steps, std::size_t index) {
   const std::size_t first = index - std::min(index, steps_on_a_side);
   const std::size_t end = std::min(steps.size(), index + 1 + steps_on_a_side);

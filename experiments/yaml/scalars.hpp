@@ -11,7 +11,7 @@
 
 namespace zerocount::yaml {
 
-/// A node and its dotted path in the manifest.
+/// A node of a manifest's YAML tree, and its dotted path in the manifest.
 struct Field {
   const YamlNode* node{nullptr};
   std::string path;
@@ -36,17 +36,18 @@ std::optional<double> read_real(const Field& field, const numerics::Interval& ra
 std::optional<std::int64_t> read_whole(const Field& field, std::int64_t low, std::int64_t high,
                                        Problems& problems, std::string_view or_else = {});
 
-/// A whole number from 0 to 2⁶⁴ − 1.
+/// The field as a whole number from 0 to 2⁶⁴ − 1; empty after an error, which is reported.
 std::optional<std::uint64_t> read_seed(const Field& field, Problems& problems);
 
-/// `true` or `false`.
+/// The field as `true` or `false`; empty after an error, which is reported.
 std::optional<bool> read_bool(const Field& field, Problems& problems);
 
-/// Index of the field's text in `labels`.
+/// Index in `labels` of the field's text; empty, and reported, if it is not among them.
 std::optional<std::size_t> read_label(const Field& field, std::span<const std::string_view> labels,
                                       Problems& problems);
 
-/// A text; a text that YAML would read as a number, a boolean or null must be quoted.
+/// The field as a text; empty after an error, which is reported. A text that YAML would read as a number, a
+/// boolean or null must be quoted.
 std::optional<std::string> read_text(const Field& field, Problems& problems);
 
 /// A text on one line, such as a name or a path. Empty after an error, which is reported.
@@ -55,7 +56,7 @@ std::optional<std::string> read_line(const Field& field, Problems& problems);
 /// Reports that `field` has the wrong type, and describes its value.
 void add_wrong_type(const Field& field, const std::string& expected, Problems& problems);
 
-/// Whether the field is a map (a list); reports an error if it is not.
+/// Whether the field is a map; reports an error if it is not.
 bool check_map(const Field& field, const std::string& expected, Problems& problems);
 bool check_list(const Field& field, const std::string& expected, Problems& problems);
 

@@ -59,7 +59,7 @@ std::string read_bytes(const fs::path& path, std::size_t max_size, std::string_v
   return read_stream(path, file.get(), max_size);
 }
 
-/// Bytes at a place of a file that show its format.
+/// Characteristic bytes at an offset of a file by which its format is recognised.
 struct Signature {
   std::string_view bytes;
   OtherFormat format;

@@ -14,7 +14,7 @@ using YamlPointer = std::shared_ptr<const YamlNode>;
 
 struct YamlEntry {
   std::string key;
-  Place place;  ///< place of the key
+  Place place;  ///< place of the key in the document
   YamlPointer value;
 };
 
@@ -31,9 +31,10 @@ struct YamlNode {
 };
 
 /// Limits that protect against malicious files.
-constexpr std::size_t max_manifest_size = 1 << 20;     ///< size of the text, bytes
-constexpr std::size_t max_nesting = 24;                ///< nested lists and maps
-constexpr std::size_t max_expanded_nodes = 2'000'000;  ///< nodes after all aliases are expanded
+constexpr std::size_t max_manifest_size = 1 << 20;  ///< Maximum size of a manifest's text, bytes.
+constexpr std::size_t max_nesting = 24;             ///< Maximum depth of nested lists and maps.
+/// Maximum number of nodes after all aliases are expanded.
+constexpr std::size_t max_expanded_nodes = 2'000'000;
 
 /// Parses the document in `text`. Returns null if that is not possible; all errors are added to `problems`.
 /// Refused are several documents, tags, keys that are not scalars, anchors that contain themselves, and
@@ -41,10 +42,10 @@ constexpr std::size_t max_expanded_nodes = 2'000'000;  ///< nodes after all alia
 /// must outlive the tree. With `one_line`, places contain only the source.
 YamlPointer parse_yaml(const std::string& text, std::string_view source, bool one_line, Problems& problems);
 
-/// The node as YAML in flow style on one line, for labels.
+/// The node as YAML text in flow style on one line, for labels.
 std::string flow_text(const YamlNode& node);
 
-/// The entry of `key` in a map, or null.
+/// The entry of a map that has this key, or null.
 const YamlEntry* find_entry(const YamlNode& map, std::string_view key);
 
 }  // namespace zerocount::yaml

@@ -14,10 +14,10 @@ namespace zerocount::answers {
 /// (the JSON answer), "schema" (the schema of this answer), "text" and "html".
 command_line::OptionSpec format_option(std::vector<std::string> more = {});
 
-/// Format with the JSON on one line, for commands that answer repeatedly.
+/// Format of an answer: JSON on one line, for commands that print their answer repeatedly.
 inline constexpr std::string_view json_line = "json_line";
 
-/// Renders the answer in a format of format_option(), or as json_line.
+/// Renders the answer of a command as text in one of the formats of format_option(), or as json_line.
 /// @throws Failure (machine_failed) for HTML with figures, if the program was built without the libraries for
 /// drawing
 std::string rendered(const document::Answer& answer, std::string_view format);

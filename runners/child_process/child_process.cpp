@@ -27,7 +27,9 @@ struct CloseFile {
 };
 using NamelessFile = std::unique_ptr<std::FILE, CloseFile>;
 
-/// A temporary file without a name. Unlike a pipe it holds any amount of data without a concurrent reader.
+/// Makes a temporary file that has no name and disappears when it is closed. Unlike a pipe it holds any
+/// amount of data without a concurrent reader.
+/// @param program program to be run, for messages
 NamelessFile nameless_file(const std::string& program) {
   NamelessFile file(std::tmpfile());
   if (!file) fail(program, errno);
@@ -45,7 +47,7 @@ std::string content_of(std::FILE* file) {
   return text;
 }
 
-/// Redirects standard input, output and error of a child process.
+/// Redirects standard input, output and error of a child process to open files.
 class Redirections {
  public:
   Redirections(std::FILE* in, std::FILE* out, std::FILE* err) {

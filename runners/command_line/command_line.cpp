@@ -19,7 +19,8 @@ namespace po = boost::program_options;
 
 constexpr const char* operand_key = "operand";
 
-/// @param given as the user wrote it ("--outptu")
+/// Message for an option that the command does not have.
+/// @param given the option as the user wrote it, such as "--outptu"
 std::string unknown_option(const CommandSpec& spec, const std::string& given) {
   std::vector<std::string> known;
   for (const OptionSpec& option : spec.options) known.push_back("--" + long_name(option));
@@ -28,7 +29,9 @@ std::string unknown_option(const CommandSpec& spec, const std::string& given) {
                      yaml::is_near(given, nearest) ? fmt::format("; did you mean {}?", nearest) : "");
 }
 
-/// Describes the wrong value of the option `given`, which is as the user wrote it ("--quiet").
+/// Text that says which value an option needs, for a message about a missing or wrong one: "takes no value",
+/// "needs a value, one of …".
+/// @param given the option as the user wrote it, such as "--quiet"
 std::string value_problem(const CommandSpec& spec, const std::string& given) {
   for (const OptionSpec& option : spec.options) {
     if (given != "--" + long_name(option)) continue;
@@ -38,7 +41,7 @@ std::string value_problem(const CommandSpec& spec, const std::string& given) {
   return "needs a value";
 }
 
-/// The option with this long name.
+/// The option of the command with this long name, such as "output"; the end of spec.options if there is none.
 std::vector<OptionSpec>::const_iterator find_spec(const CommandSpec& spec, std::string_view name) {
   return std::find_if(spec.options.begin(), spec.options.end(),
                       [&](const OptionSpec& option) { return long_name(option) == name; });
@@ -68,13 +71,13 @@ po::parsed_options parse(const CommandSpec& spec, const std::vector<std::string>
   return po::command_line_parser(words).options(all).positional(operands).style(unguessed).run();
 }
 
-/// A condition as the user writes it: "--format json".
+/// Text of a condition as the user would write it: "--format json".
 std::string shown(std::string condition) {
   std::ranges::replace(condition, '=', ' ');
   return "--" + condition;
 }
 
-/// "table (default), json or csv"
+/// List of words for the help, such as "table (default), json or csv".
 std::string words_text(const std::vector<std::string>& words) {
   std::string text = words.front() + " (default)";
   for (std::size_t i = 1; i < words.size(); ++i) text += (i + 1 == words.size() ? " or " : ", ") + words[i];

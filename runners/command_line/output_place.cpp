@@ -19,7 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A link, a device or a pipe is never an output: a new file would be put in its place.
+/// Path of the output file that the option names, with a check that its folder exists. A folder, a link, a
+/// device or a pipe is refused, because a new file would be put in its place.
 fs::path file_in_folder(const Arguments& arguments, std::string_view option) {
   fs::path output = arguments.required(option);
   std::error_code error;
@@ -50,7 +51,7 @@ fs::path output_of_option(const Arguments& arguments, std::string_view option) {
   return output;
 }
 
-/// Canonical path of a file, which need not exist.
+/// Canonical path of a file (absolute, without links), which need not exist.
 fs::path destination(const fs::path& path) {
   std::error_code error;
   const fs::path whole = fs::absolute(path, error);
@@ -63,7 +64,7 @@ bool are_same_file(const fs::path& a, const fs::path& b) {
   return fs::equivalent(a, b, error) || destination(a) == destination(b);
 }
 
-/// A file of a command, and the option that names it: "--report", or "" for an operand.
+/// A file that a command reads or writes, and the option that names it: "--report", or "" for an operand.
 struct NamedFile {
   fs::path path;
   std::string option;

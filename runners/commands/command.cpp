@@ -56,7 +56,10 @@ void print_warnings(const study::Study& study) {
 
 namespace {
 
-/// Output of a program for `input`.
+/// Runs a program and returns what it writes to standard output.
+/// @param words name of the program, and its arguments
+/// @param input text for its standard input
+/// @param package software package that contains the program, for the message if it is missing
 std::string output_of(const std::vector<std::string>& words, std::string_view input,
                       std::string_view package) {
   const std::optional<child_process::ChildResult> result = child_process::run_child(words, input);
@@ -101,7 +104,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The study whose trials a complete results file holds.
+/// Study that a complete results file describes. Refuses options such as --set, which change a manifest only.
 study::Study study_in_file(const fs::path& path, const command_line::Arguments& arguments) {
   if (!arguments.values("set").empty())
     arguments.refuse("option '--set': changes a manifest, not a results file; expected a manifest");

@@ -22,21 +22,22 @@
 
 namespace zerocount::commands {
 
-/// One command of the command line.
+/// One command of the program, such as `zerocount run`.
 struct Command {
   command_line::CommandSpec spec;
-  std::string summary;  ///< Summary of one line.
-  std::string help;     ///< Complete description with examples.
+  std::string summary;  ///< One-line summary of the command for the list of commands.
+  std::string help;     ///< Complete help text of the command, with examples.
   ExitCode (*run)(const command_line::Arguments&){nullptr};
-  /// Types of the command's answers; null if it gives no answers. A function, because describing a type takes
-  /// long.
+  /// Types of the command's answers (for their schema); null if it gives no answers. A function, because
+  /// describing a type takes long.
   std::vector<document::AnswerType> (*answers)(){nullptr};
 };
 
-/// Prints to stderr if the lock is only a file with an owner.
+/// Prints a warning to stderr if the file system has no real locks, so that the output is protected only by a
+/// lock file with the name of its owner.
 void print_fallback_lock(const storage::OutputLock& lock, const std::filesystem::path& output);
 
-/// Prints the warnings about the manifest and its loops to stderr.
+/// Prints the warnings about a study's manifest and its control loops to stderr.
 void print_warnings(const study::Study& study);
 
 /// Exit code of a verdict: success if the goal is met, regression if it is missed, otherwise inconclusive.
@@ -51,22 +52,27 @@ std::string picture(const report::Figure& figure, std::string_view extension);
 /// Kind of a file with figures: an HTML page of all figures, or a picture of one figure.
 enum class DrawingKind { page, svg, png };
 
-/// Kind of a drawing from the ending of the file name; a page for standard output. Refuses other endings.
+/// Kind of a drawing from the ending of the file name (.html, .svg, .png); a page for standard output.
+/// Refuses other endings.
+/// @param option option that names the file, for messages
 DrawingKind drawing_kind(const command_line::Arguments& arguments, std::string_view option,
                          const std::filesystem::path& place);
 
-/// Text of the page, or the picture of its first figure.
+/// Contents of a drawing file: the HTML of the page, or the picture of its first figure as SVG or PNG.
 /// @throws Failure as picture().
 std::string drawing(const report::ReportPage& page, DrawingKind kind);
 
-/// Whether `path` is a results file, by its signature or by its name (the signature may be damaged).
+/// Whether `path` is a results file, by the signature at its beginning or by its name (the signature may be
+/// damaged).
 bool is_results_file(const std::filesystem::path& path);
 
-/// Checks that the trials of the file's study can be run.
-/// @throws Failure (bad_input) if they cannot, because the controller is a plugin
+/// Checks that the trials of the file's study can be simulated.
+/// @throws Failure (bad_input) if they cannot, because the controller is a plugin, which the file does not
+/// contain
 void require_simulable(const reading::ResultsFile& file);
 
-/// Study of a finished results file. Only its description is read, neither trials nor the checksum.
+/// Study that a finished results file describes. Only its description is read, neither trials nor the
+/// checksum.
 /// @throws Failure as layout::recorded_study and shards::inspect_header
 study::Study described_study(const std::filesystem::path& path);
 
@@ -78,17 +84,17 @@ study::Study described_study(const std::filesystem::path& path);
 /// the file does not contain; otherwise as reading::ResultsFile
 study::Study load_study(const std::filesystem::path& operand, const command_line::Arguments& arguments);
 
-/// Design point of the option `--point` for `MANIFEST|FILE`; nothing without the option. The point is given
-/// by label, by number, or as `best`. For a results file, `best` is the best point
-/// (summary::summarise_chosen()); for a manifest, its only point.
+/// Index of the design point that the option `--point` names for the operand `MANIFEST|FILE`; nothing without
+/// the option. The point is given by label, by number, or as `best`. For a results file, `best` is the best
+/// point (summary::summarise_chosen()); for a manifest, its only point.
 /// @throws Failure: bad_input for `best` of a manifest with several points; as summary::summarise_chosen()
 std::optional<std::int64_t> study_point(const command_line::Arguments& arguments, const study::Study& study);
 
 /// User's controller from the option --plugin, for the trials of a results file; null without the option.
 std::shared_ptr<const plugin::ControllerPlugin> plugin_option(const command_line::Arguments& arguments);
 
-/// Text that identifies the source of a report: the checksum of the results file, and the build of the
-/// program.
+/// Text at the end of a report that identifies its source: the checksum of the results file, and the build of
+/// the program.
 std::string report_source(const std::filesystem::path& file);
 
 /// Report of a results file, with its report_source(), and with a warning for each trial that is simulated

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 constexpr double part_of_so_far = 0.02;  // of the time of a processor
 
-/// Processor time of the calling thread, s.
+/// Processor time that the calling thread has used, s.
 double processor_seconds() {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
@@ -32,9 +32,9 @@ double processor_seconds() {
 }
 
 struct Moment {
-  std::string text;   ///< Progress of the work.
-  std::string ended;  ///< Why there is no answer; empty while the work runs.
-  double seconds;     ///< Time since the start of the work, s.
+  std::string text;   ///< Progress of the work as text.
+  std::string ended;  ///< Reason why there is no answer, if the work failed; empty while the work runs.
+  double seconds;     ///< Time since the start of the work that the page shows, s.
 };
 using At = const Moment&;
 

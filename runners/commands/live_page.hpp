@@ -18,8 +18,9 @@
 
 namespace zerocount::commands {
 
-/// Checks the path of a page as command_line::require_replaceable() does. An unfinished page
-/// (report::is_unfinished_page) is replaced without --force, because the same command is resumed.
+/// Checks that an HTML page may be written to this path, as command_line::require_replaceable() does. An
+/// unfinished page (report::is_unfinished_page) is replaced without --force, because the same command is
+/// resumed.
 void require_page_place(const command_line::Arguments& arguments, const std::filesystem::path& page);
 
 /// Path of the page of `option`, such as --report, after a check that it can be written; nothing without the
@@ -29,13 +30,14 @@ void require_page_place(const command_line::Arguments& arguments, const std::fil
 std::optional<std::filesystem::path> page_option(const command_line::Arguments& arguments,
                                                  const std::string& option);
 
-/// Option `--watch`, the path of a LivePage.
+/// Option `--watch`, the path of an HTML page that shows the progress of the command (LivePage).
 command_line::OptionSpec watch_option();
 
-/// Path of the page of watch_option(), checked as page_option() does. Standard output is refused.
+/// Path of the page that the option --watch names, checked as page_option() does; nothing without the option.
+/// Standard output is refused.
 std::optional<std::filesystem::path> watched_page(const command_line::Arguments& arguments);
 
-/// A page that shows the progress of long work and the answer so far.
+/// An HTML page that shows the progress of long work and the answer so far.
 ///
 ///     when the work tells its progress, in the thread of the work, because the file library has one thread
 ///     at a time:
@@ -59,17 +61,17 @@ class LivePage {
   LivePage(const LivePage&) = delete;
   LivePage& operator=(const LivePage&) = delete;
 
-  /// Listener that receives the progress of the work.
+  /// Callback that the work must call with its progress, which the page then shows.
   status::Listener listener();
 
-  /// Sets the answer so far.
+  /// Sets the sections that the page shows as the answer so far.
   void show(std::vector<report::PageSection> sections);
 
-  /// Writes the final page.
-  /// @param html page of the answer
+  /// Writes the final page, which is not reloaded any more.
+  /// @param html HTML text of the page with the answer
   void finish(std::string_view html);
 
-  /// Runs `work`. If it throws, the page shows the failure.
+  /// Runs `work` and returns its result. If it throws, the page shows the failure, and the exception goes on.
   template <class Work>
   auto during(const Work& work) {
     try {
@@ -96,10 +98,12 @@ class LivePage {
   Sections so_far_;
   Clock::time_point start_{Clock::now()};
   Clock::time_point next_call_{start_};
-  std::mutex mutex_;                           ///< Protects text_ and sections_.
-  std::string text_;                           ///< Progress of the work.
-  std::vector<report::PageSection> sections_;  ///< Answer so far, without figures.
-  std::jthread writer_;                        ///< Last member, because it uses the others.
+  /// Protects text_ and sections_, which the thread of the work and the writer's thread use.
+  std::mutex mutex_;
+  std::string text_;  ///< Progress of the work as text.
+  /// Sections that the page shows as the answer so far, without figures.
+  std::vector<report::PageSection> sections_;
+  std::jthread writer_;  ///< Thread that writes the page. Last member, because it uses the others.
 };
 
 }  // namespace zerocount::commands

@@ -12,13 +12,14 @@
 
 namespace zerocount::commands {
 
-/// Prints the stage of a long computation to stderr, with the time since its start. A computation that ends
-/// soon prints nothing.
+/// Prints the current stage of a long computation to stderr, with the time since its start. A computation
+/// that ends soon prints nothing.
 class StageProgress {
  public:
   /// @param command text that begins each message: "zerocount identify"
+  /// @param quiet whether to print nothing
   StageProgress(std::string command, bool quiet);
-  /// Removes the line from a terminal.
+  /// Ends the messages, and removes the last line from a terminal.
   ~StageProgress();
   StageProgress(const StageProgress&) = delete;
   StageProgress& operator=(const StageProgress&) = delete;
@@ -40,7 +41,8 @@ class StageProgress {
   std::thread printer_;
 };
 
-/// Runs `work` while a StageProgress shows the stage. Returns the result of `work`.
+/// Runs `work` while the name of its stage and the time are printed to stderr (StageProgress). Returns the
+/// result of `work`.
 template <class Work>
 auto with_progress(std::string command, std::string_view stage, const Work& work) {
   StageProgress progress(std::move(command), /*quiet=*/false);

@@ -33,7 +33,7 @@ Notation c_notation(Precision precision) {
                     .remark = "/* {} */"}};
 }
 
-/// A text without an end of the comment that it stands in.
+/// The text, changed so that it does not end the C comment into which it is put.
 std::string in_comment(const std::string& text) {
   return boost::algorithm::replace_all_copy(text, "*/", "* /");
 }
@@ -48,7 +48,7 @@ std::string_view type_text(Type type, Precision precision) {
   return number_type(precision);
 }
 
-/// Members of a struct: all variables with this role.
+/// C declarations of all variables that have this role, as members of a struct.
 std::string members(const Program& program, Role role) {
   std::string text;
   for (const Variable& variable : program.variables) {
@@ -59,7 +59,10 @@ std::string members(const Program& program, Role role) {
   return text;
 }
 
-/// The functions that the statements call.
+/// C definitions of the helper functions that the statements call, and no others.
+/// @param statements C text of the statements
+/// @param type C type of a number
+/// @param zero text of the number 0 in this type
 std::string functions(std::string_view statements, std::string_view type, std::string_view zero) {
   std::string text;
   if (statements.find("magnitude(") != std::string_view::npos)
@@ -140,8 +143,9 @@ const zerocount_controller* zerocount_controller_entry(void) {{ return &descript
 #endif
 )";
 
-/// The inputs of the program as C initialisers, separated by commas: the double-precision expressions `from`,
-/// in the order of the inputs. Single precision: each is cast to the type of its input, except flags.
+/// C initialisers for the inputs of the program, separated by commas.
+/// @param from double-precision expressions, in the order of the inputs. For single precision, each is cast
+/// to the type of its input, except flags.
 std::string converted(const Program& program, const std::vector<std::string>& from) {
   std::string text;
   for (std::size_t i = 0; i < program.inputs(); ++i) {

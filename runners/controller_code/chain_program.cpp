@@ -18,11 +18,13 @@
 namespace zerocount::controller_code {
 namespace {
 
-/// Longest window of counts, and latency of a command, samples: each is a variable of its own.
+/// Maximum number of samples in the window of the velocity estimate, or in the latency of a command. Each
+/// sample of them needs a variable of its own in the written code.
 constexpr int max_queue = 64;
 
-/// Writes the chain block by block: a block's constants and states become names, and the formulas of
-/// core/loop, with terms for numbers, its statements.
+/// Writes the controller of a study as a program, block by block. The constants and states of a block become
+/// named variables. Its statements come from the same formulas (core/loop) that the simulation uses, computed
+/// with Term instead of numbers.
 class ChainWriter {
  public:
   ChainWriter(const ControllerToWrite& of, Precision precision)
@@ -63,7 +65,9 @@ class ChainWriter {
              double initial = 0.0) {
     return write_.variable({name, Role::state, type, meaning, initial});
   }
-  /// States of the last samples, the oldest first.
+  /// Declares state variables for the values of the last `length` samples, the oldest first.
+  /// @param name beginning of the variables' names
+  /// @param unit text of the unit, for their comments
   std::vector<Term> queue(const std::string& name, int length, const std::string& unit,
                           Type type = Type::number) {
     if (length == 1) return {state(name, "at the sample before, " + unit, type)};
@@ -80,12 +84,13 @@ class ChainWriter {
   Term local(const std::string& name, Type type = Type::number) {
     return write_.variable({name, Role::local, type});
   }
-  /// The coefficient as a constant, but for the value with which it does not act.
+  /// A named constant for the coefficient. If it has the value with which it has no effect, only this
+  /// literal, so that the formulas leave it out.
   Term coefficient(const std::string& name, double value, const std::string& meaning,
                    double without_effect = 0.0) {
     return value == without_effect ? Term(value) : write_.constant(name, value, meaning);
   }
-  /// "N m/count".
+  /// Text of the unit torque per divisor, such as "N m/count".
   std::string torque_per(std::string_view divisor) const {
     return fmt::format("{}/{}", torque_unit_, divisor);
   }
@@ -108,7 +113,8 @@ class ChainWriter {
     });
   }
 
-  /// e′.
+  /// Writes the statements that compute e′, the position error (counts) after its dead band. Without a dead
+  /// band, e′ is the error.
   void write_error() {
     const loop::ErrorDeadbandConstants<double> zone = loop::error_deadband_constants(blocks_.error_deadband);
     if (!(zone.band > 0.0)) return;
@@ -174,7 +180,8 @@ class ChainWriter {
     write_observer();
   }
 
-  /// d, counts.
+  /// Writes the statements that compute d, the filtered difference of successive counts per sample (the
+  /// velocity), counts.
   void write_difference() {
     const double pole = loop::derivative_pole(blocks_, sample_rate_);
     const bool remembered = pole != 0.0 || (cascade_ && blocks_.hold.enter >= 0.0);
@@ -187,7 +194,8 @@ class ChainWriter {
     write_.assign(*difference_, loop::filtered_difference(a, *difference_, change));
   }
 
-  /// I, changed by the increment under its conditions.
+  /// Writes the statements that add the increment to the integral I, N m, with its limits, dead band and
+  /// zone. Returns the term of I.
   Term write_integral(const Term& increment) {
     const loop::TorqueRange range = loop::integral_range(
         of_.controller.anti_windup, loop::lowest_torque(of_.dac), loop::highest_torque(of_.dac));
@@ -214,11 +222,15 @@ class ChainWriter {
   }
 
   struct SiUnit {
-    double factor;  ///< Factor on the gain per count.
+    double factor;  ///< Factor that converts the gain per count to SI units.
     std::string_view unit;
   };
 
-  /// A gain of the PID law, N m/count; 0 if it is always 0.
+  /// Term of a gain of the PID law, N m/count, which at standstill may have another value; the literal 0 if
+  /// it is always 0.
+  /// @param usual value of the gain in motion
+  /// @param at_standstill value of the gain at standstill
+  /// @param si conversion to SI units, for the comment
   Term gain(const std::string& name, std::string_view meaning, double usual, double at_standstill,
             const SiUnit& si) {
     const auto constant = [&](const std::string& of, double value) {
@@ -232,7 +244,9 @@ class ChainWriter {
     return is_zero(one) && is_zero(still) ? one : select(*stands_now_, still, one);
   }
 
-  /// I, changed by the trapezoidal rule; 0 without integral. `last` becomes the input of the sample before.
+  /// Writes the statements that integrate `input` by the trapezoidal rule, I += ki·(input + last input).
+  /// Returns the term of I; 0 without an integral.
+  /// @param last is set to the state variable that holds the input of the sample before
   Term write_trapezoid(const Term& ki, const Term& input, std::optional<Term>& last, const std::string& name,
                        const std::string& meaning) {
     if (is_zero(ki)) return of_.initial_integral != 0.0 ? write_integral(0.0) : Term(0.0);
@@ -260,7 +274,8 @@ class ChainWriter {
     return loop::velocity_error<Term>({0.0, *velocity_, 0.0, 0.0}, command_, *difference_);
   }
 
-  /// v* (VelocityCommand), also at samples whose torque is held.
+  /// Writes the statements that compute v*, the velocity that the position loop of the cascade commands
+  /// (VelocityCommand). They run also at samples whose torque is held.
   void write_command() {
     const loop::CascadeParameters& cascade = blocks_.cascade;
     const loop::CascadeConstants<double> c =
@@ -413,16 +428,18 @@ class ChainWriter {
   ProgramWriter write_;
 
   Term error_{write_.input(Input::error)};
-  /// Count whose differences are the velocity. The observer reads it too.
+  /// Encoder count from which the velocity is computed, as a difference of successive counts. The disturbance
+  /// observer reads it too.
   Term velocity_count_{write_.input(of_.controller.velocity_by_other ? Input::velocity_count : Input::count)};
   Term new_target_{write_.input(Input::new_target)};
-  Term e_{error_};  ///< Term of e′.
+  Term e_{error_};  ///< Term of e′, the position error after its dead band, counts.
   Term u_{local("wanted")};
   Term started_{state("started", "there has been a sample", Type::flag)};
-  std::vector<Term> last_counts_;  ///< Counts of earlier samples, the oldest first.
+  std::vector<Term> last_counts_;  ///< State variables with the counts of earlier samples, the oldest first.
   std::optional<Term> first_count_, difference_, stands_now_;
-  std::optional<Term> last_error_;  ///< Last error of the PID law.
-  Term command_{0.0};               ///< Velocity command of the cascade.
+  /// State variable with the position error of the sample before, for the integral of the PID law.
+  std::optional<Term> last_error_;
+  Term command_{0.0};  ///< Term of the velocity command of the cascade.
   std::optional<Term> velocity_, last_velocity_error_;
 };
 

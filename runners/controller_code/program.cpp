@@ -15,8 +15,8 @@ void require_new(const std::vector<Named>& all, const std::string& name) {
     throw std::logic_error("the program has two of the name " + name);
 }
 
-/// State of a program during a trial. Flags are 0 or 1. Counts are kept in double precision, which represents
-/// all counts.
+/// Runs a controller program in this process: holds the values of its variables during a trial, in the
+/// precision `Number`. Flags are 0 or 1. Counts are kept in double precision, which represents all counts.
 template <class Number>
 class RunningProgram {
  public:
@@ -124,8 +124,9 @@ class RunningProgram {
   }
 
   std::shared_ptr<const Program> program_;
-  std::vector<Number> constants_, numbers_;  ///< [constant], [variable]
-  std::vector<double> counts_;               ///< [variable]
+  /// [constant] values of the constants; [variable] values of the variables that are numbers or flags.
+  std::vector<Number> constants_, numbers_;
+  std::vector<double> counts_;  ///< [variable] Values of the variables that are counts.
 };
 
 }  // namespace

@@ -15,8 +15,8 @@
 
 namespace zerocount::controller_code {
 
-/// A controller as a list of statements. Every output language is written from these statements, and they can
-/// be run.
+/// A controller as a list of statements. The code in C, Structured Text or for LinuxCNC is written from these
+/// statements, and they can be run in this process.
 ///
 ///     at each sample: run `step`, whose statements read inputs and states; then `wanted` holds the torque
 
@@ -31,16 +31,16 @@ enum class Operation {
   difference,
   product,
   quotient,
-  count_difference,  ///< Difference of two counts, as a number.
+  count_difference,  ///< Difference of two encoder counts (first minus second operand), as a number.
   magnitude,
-  limited,   ///< x limited to a range; operands: x, lowest, highest.
-  nearest,   ///< Nearest whole number; ties go to the even one.
-  is_even,   ///< Whether ⌊x⌋ is even, for x ≥ 0.
+  limited,   ///< A value x limited to a range; operands: x, lower end, upper end.
+  nearest,   ///< Nearest whole number to the operand; ties go to the even one.
+  is_even,   ///< Whether ⌊x⌋ of the operand x is even, for x ≥ 0.
   choice,    ///< Choice by a condition; operands: condition, value if it holds, value otherwise.
-  at_most,   ///< ≤
-  at_least,  ///< ≥
-  below,     ///< <
-  above,     ///< >
+  at_most,   ///< Whether the first operand is ≤ the second.
+  at_least,  ///< Whether the first operand is ≥ the second.
+  below,     ///< Whether the first operand is < the second.
+  above,     ///< Whether the first operand is > the second.
   negation,
   both,
   either
@@ -48,7 +48,8 @@ enum class Operation {
 
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
-/// An expression tree. Copies share their nodes.
+/// An expression tree: an operation with its operands, a literal, a constant or a variable. Copies share
+/// their nodes.
 class Term {
  public:
   Term(double literal)  // NOLINT(google-explicit-constructor): 2.0 * x
@@ -58,8 +59,9 @@ class Term {
 
   Operation operation() const { return node_->operation; }
   const std::vector<Term>& operands() const { return node_->operands; }
-  std::size_t index() const { return node_->index; }  ///< Index of a constant or variable in the program.
-  double value() const { return node_->value; }       ///< Value of a literal.
+  /// Index of a constant in Program::constants, or of a variable in Program::variables.
+  std::size_t index() const { return node_->index; }
+  double value() const { return node_->value; }  ///< Value of a literal; only for Operation::literal.
 
   friend bool is_same(const Term& a, const Term& b) { return a.node_ == b.node_; }
   friend bool is_literal(const Term& a) { return a.operation() == Operation::literal; }
@@ -133,21 +135,23 @@ class Term {
   std::shared_ptr<const Node> node_;
 };
 
-/// A number with a name.
+/// A named constant of a controller program, such as a gain.
 struct Constant {
   std::string name;
   double value{0.0};
-  std::string meaning;  ///< Meaning with the unit, for a comment.
+  std::string meaning;  ///< Meaning with the unit, which the written code has as a comment.
 };
 
 enum class Role {
   input,
-  state,  ///< Keeps its value until the next sample.
+  state,  ///< A variable that keeps its value until the next sample.
   local
 };
 enum class Type {
   number,
-  count,  ///< A number; in single precision, which cannot represent all counts, a whole number.
+  /// An encoder count: a number in double precision; in single precision, which cannot represent all counts,
+  /// a whole number.
+  count,
   flag
 };
 
@@ -155,52 +159,57 @@ struct Variable {
   std::string name;
   Role role{Role::local};
   Type type{Type::number};
-  std::string meaning{};  ///< Meaning with the unit, for a comment.
-  double initial{0.0};    ///< Initial value of a state.
+  std::string meaning{};  ///< Meaning with the unit, which the written code has as a comment.
+  double initial{0.0};    ///< Value of a state before the first sample.
 };
 
-/// An assignment, a branch with a condition, or a remark.
+/// A statement of a controller program: an assignment, a branch with a condition, or a remark (comment).
 struct Statement {
   enum class Kind { assignment, branch, remark };
   Kind kind;
-  Term term{0.0};                               ///< Assigned value, or condition of a branch.
-  std::size_t variable{0};                      ///< Index of the assigned variable.
-  std::vector<Statement> holds{}, otherwise{};  ///< Branches if the condition holds, and otherwise.
-  std::string text{};                           ///< Text of a remark.
+  Term term{0.0};           ///< Value that is assigned, or condition of a branch.
+  std::size_t variable{0};  ///< Index in Program::variables of the variable that an assignment sets.
+  /// Statements that a branch runs if its condition holds, and otherwise.
+  std::vector<Statement> holds{}, otherwise{};
+  std::string text{};  ///< Text of a remark (comment).
 };
 using Statements = std::vector<Statement>;
 
-/// Inputs of every program, in the order of its variables. The last input exists only if a velocity loop
-/// reads an encoder of its own.
+/// Inputs of a controller program, in the order of its first variables. The last input exists only if a
+/// velocity loop reads an encoder of its own.
 enum class Input { error, count, velocity, acceleration, torque, new_target, velocity_count };
 
-/// A controller program.
+/// A controller as a program that runs once per sample: constants, variables, and the statements `step`.
 struct Program {
   Precision precision{Precision::double_precision};
   std::vector<Constant> constants{};
-  std::vector<Variable> variables{};  ///< The inputs come first.
+  /// Variables of the program. The inputs come first, in the order of Input.
+  std::vector<Variable> variables{};
   Statements step{};
-  std::size_t wanted{0};  ///< Index of the variable with the result.
+  std::size_t wanted{0};  ///< Index in `variables` of the variable that holds the wanted torque after `step`.
 
-  std::size_t inputs() const;  ///< Number of inputs.
+  std::size_t inputs() const;  ///< Number of inputs, which are the first variables.
 };
 
-/// Makes a program, statement by statement.
+/// Makes a Program, statement by statement. Its functions append to the program in the order of their calls.
 class ProgramWriter {
  public:
   /// @param angle unit of angles, such as "rad"
   /// @param torque unit of torques, such as "N m"
+  /// @param with_velocity_count whether the velocity loop reads an encoder of its own, which is then the last
+  /// input
   ProgramWriter(Precision precision, const std::string& angle, const std::string& torque,
                 bool with_velocity_count);
 
   Term input(Input input) const;
-  /// Adds a constant.
+  /// Adds a named constant to the program. Returns the term that refers to it.
   /// @throws std::logic_error if the program has another constant with this name
   Term constant(const std::string& name, double value, const std::string& meaning);
   Term variable(const Variable& variable);
 
   void remark(const std::string& text);
-  /// Assigns a value. Subexpressions that a variable already holds are read from this variable.
+  /// Appends the statement `variable` = `value`. Subexpressions that a variable already holds are read from
+  /// this variable.
   void assign(const Term& variable, const Term& value);
   void branch(const Term& condition, const std::function<void()>& holds,
               const std::function<void()>& otherwise = {});
@@ -214,83 +223,91 @@ class ProgramWriter {
   };
 
   Statements statements_of(const std::function<void()>& write);
-  /// The term with subexpressions replaced by the variables that already hold them.
+  /// The term with those subexpressions replaced whose value a variable already holds, because it was
+  /// assigned before.
   Term shortened(const Term& term) const;
 
   Program program_;
   Statements* at_;
-  std::vector<Assigned> assigned_;  ///< Assignments since the last branch began or ended.
+  /// Values assigned to variables since the last branch began or ended; they are still valid.
+  std::vector<Assigned> assigned_;
 };
 
-/// Control law that runs the program in this process, statement by statement in its precision.
+/// Control law for the simulation that runs the program in this process, statement by statement in its
+/// precision.
 std::shared_ptr<const plugin::ControllerPlugin> law_of(const Program& program);
 
-/// A control chain to be written as a program.
+/// A controller of a study that is to be written as a program in another language.
 struct ControllerToWrite {
-  loop::ControllerParameters controller;  ///< Controller with gains per count.
-  double resolution{1.0};                 ///< Resolution Δx, rad per count.
-  double velocity_resolution{1.0};        ///< Resolution of the velocity loop's encoder, rad per count.
-  loop::DacParameters dac{};              ///< Converter; its range clamps the integral.
-  double initial_integral{0.0};           ///< Integral I before the first sample, N m.
-  std::string name{};                     ///< Name of the study, for comments.
+  loop::ControllerParameters controller;  ///< Parameters of the controller, with gains per count.
+  double resolution{1.0};                 ///< Length Δx of a count of the position encoder, rad per count.
+  /// Length of a count of the encoder that the velocity loop reads, rad per count.
+  double velocity_resolution{1.0};
+  loop::DacParameters dac{};     ///< Digital-to-analogue converter; its range limits the integral.
+  double initial_integral{0.0};  ///< Value of the integral I before the first sample, N m.
+  std::string name{};            ///< Name of the study, for comments in the code.
   parameters::AxisKind axis{parameters::AxisKind::rotary};
-  std::vector<std::string> remarks{};  ///< Lines of the heading.
+  std::vector<std::string> remarks{};  ///< Further lines of text for the heading of the code.
 };
 
-/// Why the chain cannot be written; empty if it can. Not writable are a plugin, two phases of control and, in
-/// single precision, feedback from the coarse encoder.
+/// Reason why the controller cannot be written as a program; empty if it can. Not writable are a plugin, two
+/// phases of control and, in single precision, feedback from the coarse encoder.
 std::string_view why_not_writable(const loop::ControllerParameters& controller, Precision precision);
 
-/// Program of a control chain. Its operations have the order of loop::ControlChain, so in double precision it
-/// computes the same bits. Terms with a gain of 0 are left out. In single precision, counts are whole numbers
-/// whose differences are exact, and a dither follows a phase instead of the sample number. A drive is
-/// switched on at rest. So, whatever the study starts with, counts before the first sample equal the first
-/// count, and past values of filters and observer are 0.
+/// Writes the controller of a study as a program. Its operations have the order of loop::ControlChain, so in
+/// double precision it computes the same bits. Terms with a gain of 0 are left out. In single precision,
+/// counts are whole numbers whose differences are exact, and a dither follows a phase instead of the sample
+/// number. A real drive is switched on at rest. So, whatever the study starts with, the program takes the
+/// first count for all counts before the first sample, and 0 for past values of filters and observer.
 Program chain_program(const ControllerToWrite& chain, Precision precision);
 
-/// C99 source file of a program, without dependencies. The states are members of a struct, and the constants
-/// have names. With ZEROCOUNT_PLUGIN defined, the file is a plugin for zerocount.
-/// @param chain control chain of the program, for the heading
+/// Text of a C99 source file with the controller program, without dependencies. The states are members of a
+/// struct, and the constants have names. With ZEROCOUNT_PLUGIN defined, the file is a plugin for zerocount.
+/// @param chain controller of the program, for the heading
 std::string c_code(const ControllerToWrite& chain, const Program& program);
 
-/// Source of a LinuxCNC HAL component that runs the program, for halcompile.
+/// Text of a source file for halcompile: a LinuxCNC HAL component that runs the controller program.
+/// @param chain controller of the program, for the heading
 /// @param component name of the component, equal to the file name without `.comp`
 std::string linuxcnc_component(const ControllerToWrite& chain, const Program& program,
                                const std::string& component);
 
-/// Source of a function block that runs the program, in Structured Text (IEC 61131-3).
+/// Text of a function block that runs the controller program, in Structured Text (IEC 61131-3).
+/// @param chain controller of the program, for the heading
 std::string structured_text(const ControllerToWrite& chain, const Program& program,
                             const std::string& function_block);
 
-/// Notation of a programming language. In the forms, `{0}`, `{1}` … stand for the operands.
+/// How a programming language writes the parts of a program. In forms of operations, `{0}`, `{1}` … stand for
+/// the operands.
 struct Notation {
   struct Lines {
     std::string_view assignment{}, if_begins{}, otherwise{}, if_ends{}, remark{};
   };
   Precision precision{Precision::double_precision};
-  std::string_view number_suffix{};   ///< Suffix of a decimal constant.
-  std::string_view input{}, state{};  ///< Prefixes of the names of inputs and states.
-  std::string_view no{}, yes{};       ///< Texts of a flag that is 0, and of one that is 1.
-  /// Forms of the operations that languages write in different ways.
+  std::string_view number_suffix{};  ///< Suffix of a decimal constant, such as "f" for single precision in C.
+  /// Prefixes of the names of the program's inputs, and of its state variables.
+  std::string_view input{}, state{};
+  std::string_view no{}, yes{};  ///< Text of a flag that is 0, and text of one that is 1.
+  /// Forms of the operations that languages write in different ways, such as a choice by a condition.
   std::map<Operation, std::string_view> forms{};
   Lines lines{};
 };
 
-/// Shortest decimal number, with a decimal point, that reads back to the same value in the precision of the
-/// notation.
+/// Text of a number: the shortest decimal number, with a decimal point, that reads back to the same value in
+/// the precision of the notation.
 std::string decimal(double value, const Notation& notation);
 
-/// Text that refers to a variable.
+/// Text that refers to a variable of the program: its name with the prefix of its role.
 std::string variable_text(const Variable& variable, const Notation& notation);
 /// Text of the initial value of a variable: a flag as `no` or `yes`, others as a decimal number.
 std::string initial_text(const Variable& variable, const Notation& notation);
 
-/// Text with a line for each statement.
-/// @param indent indentation of the lines
+/// Text of the statements in the notation of a language, with a line for each assignment.
+/// @param indent number of blanks before each line
 std::string statements_text(const Program& program, const Notation& notation, const Statements& statements,
                             std::size_t indent);
 
-/// Lines of the heading above the code, without comment signs.
+/// Lines of the heading above the written code, without comment signs.
 std::vector<std::string> heading_lines(const ControllerToWrite& chain, Precision precision);
 
 }  // namespace zerocount::controller_code

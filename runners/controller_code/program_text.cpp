@@ -9,13 +9,14 @@
 namespace zerocount::controller_code {
 namespace {
 
-/// The weakest binding first; both languages agree on the order.
+/// How strongly operators bind, from the weakest (either: or) to the strongest (whole: a name, number or
+/// parentheses). C and Structured Text agree on the order.
 enum class Binding { either, both, comparison, sum, product, sign, whole };
 
-/// How an operation is written, and how strongly it and its operands bind. Operators of equal strength act
-/// from the left. In a disjunction a conjunction gets parentheses too.
+/// How an operation is written, and how strongly it and its operands must bind. Operators of equal strength
+/// act from the left. In a disjunction (or) a conjunction (and) gets parentheses too.
 struct Shape {
-  std::string_view form;  ///< Form of the operation; empty: the form is in Notation::forms.
+  std::string_view form;  ///< Text with `{0}`, `{1}` for the operands; empty: the form is in Notation::forms.
   Binding binding, left, right;
 };
 
@@ -38,7 +39,8 @@ Shape shape_of(Operation operation) {
   return found == shapes.end() ? Shape{"", whole, either, either} : found->second;
 }
 
-/// The text of a term, in parentheses where it does not bind as strongly.
+/// Text of an expression in the notation of a language. It gets parentheses if it binds less strongly than
+/// `least`.
 std::string term_text(const Program& program, const Notation& notation, const Term& term,
                       Binding least = Binding::either) {
   const auto text = [&](const std::string& written, Binding binding) {

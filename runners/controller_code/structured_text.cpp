@@ -31,8 +31,8 @@ Notation st_notation(Precision precision) {
                 .remark = "(* {} *)"}};
 }
 
-/// The text as the inside of a comment of Structured Text: the marks `(*` and `*)` are broken by a space, and
-/// each byte that is not ASCII becomes `?`, because some compilers read ASCII only.
+/// The text, changed so that it can stand inside a comment of Structured Text: the marks `(*` and `*)` are
+/// broken by a space, and each byte that is not ASCII becomes `?`, because some compilers read ASCII only.
 std::string in_st_comment(std::string text) {
   boost::algorithm::replace_all(text, "*)", "* )");
   boost::algorithm::replace_all(text, "(*", "( *");
@@ -55,7 +55,7 @@ std::string_view st_type(Type type, Precision precision) {
   return single ? "REAL" : "LREAL";
 }
 
-/// The declarations of all variables with this role.
+/// Declarations in Structured Text of all variables that have this role.
 std::string declarations(const Program& program, const Notation& notation, Role role) {
   std::string text;
   for (const Variable& variable : program.variables) {

@@ -33,26 +33,31 @@ using statistics::SequentialCost;
 constexpr std::int64_t default_failures = 3;
 constexpr double worst_case_rate = 0.5;
 
-/// The parsed options.
+/// Options of the command `plan` for a claim about a rate or for its bounds; nothing where an option is
+/// missing.
 struct PlanRequest {
   double confidence{statistics::summary_confidence};
   std::optional<double> success{}, true_success{}, power{}, halfwidth{};
   std::optional<double> machine_sd{}, machines_share{};
   std::int64_t failures{default_failures};
-  std::string pilot{};  ///< Text that names the source of machine_sd and of the rate.
+  /// Text that names the pilot study from which machine_sd and the success rate are taken; empty: no pilot.
+  std::string pilot{};
 
   double rate() const { return true_success.value_or(worst_case_rate); }
 };
 
-/// A design point of a pilot; if the pilot has settings, in one of them.
+/// Success rates at a design point of a pilot study; if the pilot has settings (conditions at ages), in one
+/// of them.
 struct PilotPoint {
   std::string label;
-  double rate{0.0};        ///< Success rate.
-  double machine_sd{0.0};  ///< Standard deviation of the success probability between machines.
+  double rate{0.0};  ///< Success rate of the pilot's trials, 0 to 1.
+  /// Standard deviation, between machines, of the probability that a trial of a machine succeeds.
+  double machine_sd{0.0};
 };
 
-/// Design point and setting at which the machines of the pilot differ most. Nothing if no machine has
-/// several trials.
+/// Design point and setting (condition at an age) of a pilot study at which the success rates of its machines
+/// differ most. Nothing if no machine has several trials.
+/// @param path results file of the pilot
 std::optional<PilotPoint> worst_point(const std::string& path) {
   std::optional<PilotPoint> worst;
   const auto take = [&](const summary::StudySummary& summary, std::string_view setting) {
@@ -74,7 +79,8 @@ std::optional<PilotPoint> worst_point(const std::string& path) {
   return worst;
 }
 
-/// Takes the standard deviation and the rate from the point of a pilot study whose machines differ most.
+/// Takes the standard deviation between machines and the success rate from the point of a pilot study whose
+/// machines differ most, and stores them in the request.
 void measure_pilot(PlanRequest& request, const std::string& path) {
   const std::optional<PilotPoint> worst = worst_point(path);
   if (!worst) {
@@ -114,14 +120,15 @@ PlanRequest request_of(const command_line::Arguments& arguments) {
   return request;
 }
 
-/// A plan of a claim, and its probability to show it at the assumed true proportion.
+/// Numbers of trials and allowed failures that demonstrate a claim, with the probability that the claim is
+/// demonstrated at the assumed true proportion.
 struct ClaimRow {
   ClaimPlan plan;
   std::optional<double> chance{};
   std::optional<bool> has_power{};
 };
 
-/// A request with the plans that answer it. Plans for other questions are empty.
+/// The request for a plan, with the plans that answer it. Lists of plans that were not asked for are empty.
 struct Plans : PlanRequest {
   std::vector<ClaimRow> claims{};
   std::vector<MachinePlan> tolerance{};
@@ -158,8 +165,10 @@ std::vector<MachinePlan> halfwidth_plans(const PlanRequest& request) {
   return plans;
 }
 
-/// Plans in which more machines need fewer trials on each. The rank of the tolerance statement rises in steps
-/// with the number of machines, so that some larger numbers need more trials on each: these are left out.
+/// Numbers of machines and of trials on each that demonstrate a tolerance statement (a proportion of all
+/// machines succeeds with a given rate). More machines need fewer trials on each. The rank of the tolerance
+/// statement rises in steps with the number of machines, so some larger numbers need more trials on each;
+/// these are left out.
 std::vector<MachinePlan> tolerance_plans(const PlanRequest& request) {
   const std::int64_t fewest =
       statistics::min_machines_for_tolerance(*request.machines_share, request.confidence);
@@ -192,7 +201,8 @@ std::string with_confidence(const PlanRequest& request) {
   return fmt::format("with {} confidence", text::percent(request.confidence));
 }
 
-/// The first plan with the power that is asked for, or without a failure.
+/// First line of the answer, about one plan: the first that has the wanted power, or else the plan without a
+/// failure.
 std::string claim_headline(const Plans& plans) {
   const std::vector<ClaimRow>& rows = plans.claims;
   const auto strong = std::ranges::find(rows, std::optional(true), &ClaimRow::has_power);
@@ -293,7 +303,8 @@ document::AnswerDescription<Plans> answer_named(const char* name, const char* me
   return answer;
 }
 
-/// Adds the bounds, which may be asked for beside a claim.
+/// Adds to the answer the plans that bring the bounds of a rate within a half-width. They may be asked for
+/// beside a claim.
 document::AnswerDescription<Plans> with_halfwidth(document::AnswerDescription<Plans> answer) {
   answer.items.object(everywhere("halfwidth", "trials for these bounds", "plan of the bounds of a rate"),
                       halfwidth_description(),

@@ -33,8 +33,9 @@ namespace {
 using document::everywhere;
 using document::in_data;
 
-constexpr std::int64_t pilot_trials = 1000;  ///< Number of pilot trials per design point.
-constexpr std::int64_t pilot_block = 100;    ///< Number of trials that one task runs.
+/// Number of trials per design point that the pilot study simulates.
+constexpr std::int64_t pilot_trials = 1000;
+constexpr std::int64_t pilot_block = 100;  ///< Number of pilot trials that one task runs.
 constexpr double min_planned_trials = 20.0;
 constexpr double max_planned_trials = 100'000.0;
 
@@ -49,7 +50,9 @@ std::string measure_names() {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// Parses a margin: `success_rate=0.02` is absolute, `arrival_time=5%` is relative to the measure's value.
+/// Parses a margin of the option --margin: `success_rate=0.02` is absolute, `arrival_time=5%` is relative to
+/// the measure's value.
+/// @returns name of the measure, and its margin
 std::pair<std::string, comparison::GateMargin> read_margin(const command_line::Arguments& arguments,
                                                            const std::string& text) {
   const std::size_t equals = text.find('=');
@@ -96,7 +99,7 @@ study::Study planned_study(const command_line::Arguments& arguments) {
   return study;
 }
 
-/// Refuses margins for measures of goals that the study does not have.
+/// Refuses margins for measures that belong to goals which the study does not have.
 void require_goals_of_margins(const comparison::GateRules& rules, const study::Study& study,
                               const std::string& manifest) {
   if (study.goals.empty() && comparison::names_goal_measure(rules)) {
@@ -111,8 +114,8 @@ void require_goals_of_margins(const comparison::GateRules& rules, const study::S
   comparison::require_named_goals(rules, names, manifest);
 }
 
-/// Runs the first `trials` trials of a design point.
-/// @param study study in one setting
+/// Simulates the first `trials` trials of a design point. Returns the measures of their moves.
+/// @param study study in one setting (condition at an age)
 comparison::PointTrials run_point(const study::Study& study, std::int64_t point, std::int64_t trials) {
   const auto draw = [&](std::int64_t index) { return study::study_trial(study, point, index).parameters; };
   std::vector<trial::MoveOutcome> outcomes;
@@ -129,32 +132,39 @@ comparison::PointTrials run_point(const study::Study& study, std::int64_t point,
   return comparison::gather_trials(outcomes, std::ssize(outcomes) / trials, also);
 }
 
-/// A measure at a design point of the pilot, and the trials that it needs.
+/// A measure at a design point of the pilot study, and the number of trials with which two equal studies are
+/// shown to be equivalent in it.
 struct PlannedMeasure {
-  std::string point;    ///< Label of the design point and the setting.
-  std::string setting;  ///< Name of the setting; empty without settings.
+  std::string point;    ///< Label of the design point, with the setting (condition at an age).
+  std::string setting;  ///< Name of the setting (condition at an age); empty without settings.
   comparison::Judgement found;
-  /// Trials per design point that each of the two studies needs for this measure alone. Nothing if the
-  /// maximum number of trials does not decide the margin.
+  /// Number of trials per design point that each of the two studies needs for this measure alone. Nothing if
+  /// even the maximum number of trials does not decide the margin.
   std::optional<std::int64_t> trials{};
-  std::string trials_text{};  ///< Text of `trials`, or the margin that the maximum number of trials decides.
+  /// Text of `trials`; without a number, the margin that the maximum number of trials decides.
+  std::string trials_text{};
 
   std::string text(double value) const { return comparison::value_text(value, found.measure, found.unit); }
 };
 
-/// Plan of a comparison that shows two equal studies to be equivalent.
+/// Plan of a comparison with enough trials to show that two equal studies are equivalent in their measures,
+/// within margins.
 struct EquivalencePlan {
   comparison::GateRules rules;
   double power{comparison::decision_probability};
-  std::int64_t pilot{0};     ///< Pilot trials of each design point in each setting.
-  std::int64_t settings{1};  ///< Number of settings in which each design point is run.
+  /// Number of pilot trials of each design point in each setting (condition at an age).
+  std::int64_t pilot{0};
+  std::int64_t settings{1};  ///< Number of settings (conditions at ages) in which each design point is run.
   comparison::Forecast forecast;
-  std::int64_t machines{1};  ///< Machines of each design point; 1: no trials share a machine.
+  std::int64_t machines{1};  ///< Number of machines of each design point; 1: no trials share a machine.
   std::vector<PlannedMeasure> measures;
-  std::vector<PlannedMeasure> unplanned;  ///< Measures for which too few pilot trials have a value.
+  /// Measures for which too few pilot trials have a value to plan the number of trials.
+  std::vector<PlannedMeasure> unplanned;
 };
 
-/// Adds the measures of a point in a setting to the plan. The pilot's sample represents both studies.
+/// Adds to the plan the measures of a design point in a setting (condition at an age). The pilot's sample
+/// represents both studies that are to be compared.
+/// @param trials pilot trials of the point in this setting
 void add_point(EquivalencePlan& plan, comparison::ForecastSamples& samples, const std::string& design_point,
                const std::string& setting, const comparison::PointTrials& trials) {
   const std::string label = study::label_under(design_point, setting);
@@ -170,15 +180,16 @@ void add_point(EquivalencePlan& plan, comparison::ForecastSamples& samples, cons
   }
 }
 
-/// Number of trials of a design point in all settings together. It is rounded up so that each machine
-/// has equally many trials in each setting.
+/// Number of trials of a design point in all settings (conditions at ages) together. It is rounded up so that
+/// each machine has equally many trials in each setting.
 /// @param each trials of the point in each setting
 std::int64_t trials_of_point(const EquivalencePlan& plan, double each) {
   const double on_machine = std::ceil(each / static_cast<double>(plan.machines));
   return plan.settings * plan.machines * static_cast<std::int64_t>(on_machine);
 }
 
-/// Text of trials_of_point() for people. If any number of trials can be run, the text is rounded up.
+/// Text of the number that trials_of_point() gives. The text is rounded up if any number of trials can be
+/// run.
 std::string trials_text(const EquivalencePlan& plan, double each) {
   const std::int64_t trials = trials_of_point(plan, each);
   return plan.settings * plan.machines > 1 ? std::to_string(trials)

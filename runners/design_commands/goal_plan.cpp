@@ -29,7 +29,8 @@ using document::with_words;
 
 constexpr std::string_view other_plans = ", or --success, --halfwidth or --margin";
 
-/// A study, and the time that it takes with all cores of this machine, s, where that was measured.
+/// Size of a study that decides or can meet a goal, and the time that it takes with all cores of this
+/// computer, s; nothing if it was not measured.
 struct PlannedStudy : goal::Needs {
   std::optional<double> seconds{};
 };
@@ -38,7 +39,8 @@ bool is_on_machines(const study::Study& study) {
   return std::ranges::any_of(study.goals, [](const study::Goal& goal) { return goal.machines.has_value(); });
 }
 
-/// The studies with their times, where goals on machines leave a choice between machines and trials on each.
+/// The study sizes with their computing times. Times are measured only for goals on machines, which leave a
+/// choice between many machines and many trials on each.
 std::vector<PlannedStudy> with_times(const std::vector<goal::Needs>& studies, const study::Study& study) {
   std::vector<PlannedStudy> planned;
   planned.reserve(studies.size());
@@ -71,7 +73,7 @@ document::Description<PlannedStudy> study_columns() {
              &PlannedStudy::seconds);
 }
 
-/// The smallest studies that can meet the goals of a manifest.
+/// The smallest studies with which the goals of a manifest can be shown to be met.
 struct GoalPlans {
   const study::Study& study;
   std::vector<PlannedStudy> smallest;
@@ -87,7 +89,8 @@ std::string smallest_headline(const GoalPlans& plans) {
                      plans.study.goals.size() > 1 ? "them" : "it");
 }
 
-/// Sentence about the worlds, settings and design points to which the numbers refer.
+/// Sentence about the worlds (draws of the values that all machines share), settings (conditions at ages) and
+/// design points to which the numbers refer.
 std::string extent_sentence(const GoalPlans& plans) {
   std::string lines;
   if (plans.study.worlds > 0)
@@ -120,12 +123,13 @@ document::AnswerDescription<GoalPlans> goal_answer() {
   return answer;
 }
 
-/// Judgement of the results of a pilot.
+/// Verdict on the goal from the results of a pilot study, and the studies that would decide it.
 struct Pilot {
   const summary::StudySummary& summary;
   summary::JudgedPoint judged;
-  std::vector<PlannedStudy>
-      studies{};  ///< Studies that decide the goal, if they are a choice between machines and trials.
+  /// Sizes of studies that decide the goal, if they are a choice between machines and trials on each;
+  /// otherwise empty.
+  std::vector<PlannedStudy> studies{};
 };
 
 document::AnswerDescription<Pilot> pilot_answer() {
@@ -150,7 +154,7 @@ document::AnswerDescription<Pilot> pilot_answer() {
   return answer;
 }
 
-/// Goals of the study, each with the number of moves of a trial that it judges.
+/// Goals of the study, each with the number of a trial's moves that it judges.
 std::vector<goal::AskedGoal> asked_goals(const study::Study& study) {
   std::vector<goal::AskedGoal> asked;
   const std::vector<measures::CountedGoal> counted = measures::asked_of_moves(study);

@@ -50,7 +50,8 @@ constexpr const char* limits_help =
     "\n"
     "Example: zerocount limits my-axis.yaml\n";
 
-/// Text such as "17 % fewer", comparing the failures with those of the unchanged point.
+/// Text such as "17 % fewer", which compares the failures with a cause switched off with those of the
+/// unchanged point.
 std::string failures_text(const Limit& limit) {
   if (!limit.avoided) return "";
   return fmt::format("{:.0f} % {}", std::abs(100.0 * *limit.avoided),
@@ -64,7 +65,8 @@ auto gain_of(Member member) {
   };
 }
 
-/// @param effect the column of Limit::effect
+/// Columns of a table of success rates with an effect switched off or added.
+/// @param effect item of the first column, the name of the effect (Limit::effect)
 document::Description<Limit> limit_columns(const document::Item& effect) {
   return document::Description<Limit>()
       .value(effect, &Limit::effect)
@@ -107,7 +109,8 @@ document::Description<Limit> limit_columns(const document::Item& effect) {
           [](const Limit& limit) { return limit.note.empty() ? std::nullopt : std::optional(limit.note); });
 }
 
-/// "; not simulated, for the reasons in their rows: twice the sample rate".
+/// Text that names the effects which were not simulated: "; not simulated, for the reasons in their rows:
+/// twice the sample rate".
 std::string not_simulated_text(const std::vector<Limit>& limits) {
   std::vector<std::string> names;
   for (const Limit& one : limits)
@@ -117,7 +120,7 @@ std::string not_simulated_text(const std::vector<Limit>& limits) {
              : fmt::format("; not simulated, for the reasons in their rows: {}", fmt::join(names, ", "));
 }
 
-/// Tells what was not tried, and whether there were too few machines to show a cause.
+/// Sentence that says which causes were not tried, and whether there were too few machines to show a cause.
 std::string causes_sentence(const std::vector<Limit>& limits) {
   std::int64_t tried = 0;
   std::int64_t machines = 0;
@@ -145,8 +148,8 @@ std::string causes_sentence(const std::vector<Limit>& limits) {
              fmt::join(tuning::sections_with_other_values(), ", "), not_simulated_text(limits));
 }
 
-/// The rates with a cause switched off, beside that with none and what is asked for; nothing where no cause
-/// was simulated, because nothing is missed.
+/// Figure of the success rates with each cause switched off, with none, and the rate that is asked for. No
+/// figure if no cause was simulated, because nothing is missed.
 std::vector<document::Figure> limits_figures(const std::vector<Limit>& limits) {
   using nlohmann::ordered_json;
   using report::datum;
@@ -185,7 +188,7 @@ struct PointLimits {
   std::vector<Limit> additions;
 };
 
-/// Tells what was simulated.
+/// Sentence that says how many machines and trials were simulated.
 std::string simulated_sentence(const PointLimits& found) {
   const std::int64_t all = trials::replicates_of(found.study, found.machines.point).count;
   const std::string machines = std::string(found.study.machines > 0 ? "machines" : "trials") +
@@ -198,8 +201,8 @@ std::string simulated_sentence(const PointLimits& found) {
          ", in each row with the same random numbers; pairs of causes first on some of them";
 }
 
-/// Names the loops that are unstable or too slow by the linear theory, where most moves miss: perhaps no
-/// cause mends them.
+/// Sentence that names the control loops which are unstable or too slow by the linear theory; empty unless
+/// most moves miss the goal. Perhaps switching off a cause does not help then.
 std::string theory_sentence(const PointLimits& found) {
   constexpr double most = 0.5;
   if (found.limits.front().holds || found.limits.front().rate.value_or(0.0) > most) return "";
@@ -217,7 +220,7 @@ std::string theory_sentence(const PointLimits& found) {
              : fmt::format("by the linear theory (`zerocount check`), {}", fmt::join(objections, "; "));
 }
 
-/// "96.5 % of the moves meet the goal; with no delay 100 %".
+/// First line of the answer, such as "96.5 % of the moves meet the goal; with no delay 100 %".
 std::string limits_headline(const PointLimits& found) {
   const Limit& base = found.limits.front();
   const std::size_t worst = base.estimate.worst;
@@ -248,7 +251,7 @@ document::AnswerDescription<PointLimits> limits_answer() {
   return answer;
 }
 
-/// About how often the machines are run.
+/// Approximate number of times that `limits` simulates all the machines.
 double runs_of(const study::Study& study, const trials::Replicates& machines) {
   constexpr double additions = 10.0;  // two, and the modes that are tried
   return tuning::runs_of_causes(study, machines.point, machines.count) + additions;
@@ -257,7 +260,7 @@ double runs_of(const study::Study& study, const trials::Replicates& machines) {
 constexpr std::int64_t fewest_machines = 16;
 constexpr double part_of_speed = 0.5;  // some causes double the samples, and the speed is a guess
 
-/// Machines of the study, as many as the effort is enough for.
+/// As many machines of the study as the effort is enough for, at most all of them.
 /// @throws trials::Spent if these are too few to show anything
 trials::Replicates affordable_machines(const study::Study& study, std::int64_t point,
                                        const trials::Effort& effort) {
@@ -277,8 +280,8 @@ trials::Replicates affordable_machines(const study::Study& study, std::int64_t p
   return machines;
 }
 
-/// Refuses the budget, and names the least one that is enough.
-/// @throws trial::Interrupted
+/// Failure for a budget that is too small, whose message names the smallest budget that is enough.
+/// @throws trial::Interrupted if `stop` is requested
 Failure too_small(const command_line::Budget& budget, const study::Study& study, std::int64_t point,
                   const std::stop_token& stop) {
   constexpr double margin = 1.5;  // the speed is measured anew, in a part of the time

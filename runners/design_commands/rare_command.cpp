@@ -67,7 +67,9 @@ std::optional<std::int64_t> world_to_ask(const command_line::Arguments& argument
   return world;
 }
 
-/// A probability over all settings would be an average: one is named.
+/// Index of the setting (condition at an age) for which the probability is estimated; nothing without
+/// settings. If the study has several, the options must name one, because a probability over all settings
+/// would be an average.
 std::optional<std::int64_t> setting_to_ask(const command_line::Arguments& arguments,
                                            const study::Study& study) {
   const std::int64_t setting = study::setting_named(study, arguments.value("condition"),
@@ -97,6 +99,8 @@ rare::RareSettings settings_of(const command_line::Arguments& arguments) {
   return settings;
 }
 
+/// Question about the probability of the event, with a check that the study draws something for each trial.
+/// @param name name of the study, for messages
 /// @throws Failure (bad_input) if there is nothing that could make a trial fail
 rare::Question question_with_draws(const study::Study& study, const rare::Population& of,
                                    measures::MoveEvent event, const std::string& name) {

@@ -44,7 +44,7 @@ constexpr const char* worst_help =
 struct Search {
   const study::Study& study;
   WorstMachines found;
-  /// Path of the manifest to write; nothing: none is written.
+  /// Path of the manifest to write for the worst machine; nothing: none is written.
   std::optional<std::filesystem::path> manifest{};
 };
 
@@ -58,7 +58,7 @@ std::string headline(const Search& search) {
                                           study::setting_phrase(search.study.settings, worst.setting)));
 }
 
-/// Sentence that tells how to run the machine of the manifest again.
+/// Sentence that tells how to simulate again the machine whose manifest was written.
 std::string replay_sentence(const Search& search) {
   const JudgedMachine& machine = search.found.in_box;
   if (!search.manifest || yaml::is_standard_stream(*search.manifest) || machine.manifest.empty()) return "";
@@ -82,7 +82,9 @@ document::Description<JudgedMachine> judged_description() {
              &JudgedMachine::met);
 }
 
-/// A machine that was sought. @param other_key of whether it is this other machine of the answer
+/// Columns of data about one of the worst machines that the search found.
+/// @param other_key key of the column that says whether it equals the machine found before
+/// @param other_machine text that names this other machine
 document::Description<JudgedMachine> found_description(const std::string& other_key,
                                                        const std::string& other_machine) {
   return document::Description<JudgedMachine>()
@@ -96,7 +98,7 @@ document::Description<JudgedMachine> found_description(const std::string& other_
       .value(in_data(other_key, "whether it is " + other_machine), &JudgedMachine::is_previous);
 }
 
-/// The machines that differ, each with its name, for people.
+/// A row of the table for people: text that says which worst machine it is, and the machine.
 using NamedMachine = std::pair<std::string, JudgedMachine>;
 
 std::vector<NamedMachine> machine_rows(const Search& search) {
@@ -115,8 +117,8 @@ document::Description<NamedMachine> machine_columns() {
       .include(judged_description(), &NamedMachine::second);
 }
 
-/// The inputs of the box, and of the machines that differ, each below its heading; null for one that does
-/// not.
+/// Columns of a table of machine inputs, each with its heading: the edges of the box, and the worst machines.
+/// Null for a machine that equals the one before it.
 auto inputs_side_by_side(const WorstMachines& found) {
   const auto if_other = [](const JudgedMachine& one) { return one.is_previous ? nullptr : &one.inputs; };
   return std::vector<std::pair<const char*, const NamedValues*>>{{"box from", &found.edges.low},
@@ -127,7 +129,8 @@ auto inputs_side_by_side(const WorstMachines& found) {
                                                                  {"likely", if_other(found.likely)}};
 }
 
-/// An input and its values in inputs_side_by_side().
+/// Name of a machine input, with its value in each column of inputs_side_by_side(); nothing where a column
+/// does not have it.
 struct InputRow {
   std::string name;
   std::vector<std::optional<double>> values{};
@@ -178,7 +181,7 @@ document::AnswerDescription<Search> worst_answer() {
   return answer;
 }
 
-/// The folder from which the operand names its files; nothing for a results file.
+/// Folder to which paths in the operand's manifest are relative; nothing for a results file.
 std::optional<std::filesystem::path> folder_of(const std::filesystem::path& operand) {
   if (commands::is_results_file(operand)) return std::nullopt;
   return std::filesystem::absolute(yaml::is_stream(operand) ? "." : operand).parent_path();
@@ -189,7 +192,9 @@ std::optional<std::filesystem::path> folder_of(const std::filesystem::path& oper
                 fmt::format("{}: no manifest describes the worst machine: {}", output.string(), why));
 }
 
-/// @throws Failure (bad_input), before a search, where no machine that it may find has a manifest
+/// Checks before a search that every machine which it may find can be described by a manifest.
+/// @param output path for the manifest
+/// @throws Failure (bad_input) if some machine cannot
 void require_manifest(const ExaminedPoint& examined, const std::filesystem::path& output) {
   const std::string why = tuning::refusal_of_manifests(examined.study, examined.point);
   if (!why.empty()) refuse_manifest(output, why);

@@ -14,7 +14,8 @@
 namespace zerocount::forecast {
 namespace {
 
-/// Shortens a trial to `max_samples`. The cost per sample of a long trial is at most that of its beginning.
+/// Shortens a trial to at most `max_samples` samples, so that its cost can be measured quickly. The cost per
+/// sample of a long trial is at most that of its beginning.
 trial::TrialParameters beginning_of(trial::TrialParameters trial, std::int64_t max_samples) {
   trial::CommandParameters& command = trial.command;
   std::int64_t samples = 0;
@@ -46,14 +47,14 @@ trial::TrialParameters parameters_of(const study::Study& study, std::int64_t row
 
 constexpr double patience = 0.05;  // s
 
-/// A block of trials, each cut at a number of samples.
+/// Number of trials that are measured together, and number of samples at which each is cut.
 struct BlockSize {
   std::int64_t trials;
   std::int64_t samples_of_trial;
 };
 
-/// Block that takes not much longer than `patience`, judged by the cost of the beginning of some trials. It
-/// has at most a million samples, which fill the lanes unless trials are long.
+/// Size of a block of trials that takes not much longer than `patience`, judged by the cost of the beginning
+/// of some trials. It has at most a million samples, which fill the SIMD lanes unless trials are long.
 BlockSize affordable_block(const study::Study& study, double samples_of_trial) {
   constexpr std::int64_t tried = 4;
   constexpr std::int64_t short_trial = 100;  // samples

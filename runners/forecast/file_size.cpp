@@ -21,10 +21,12 @@
 namespace zerocount::forecast {
 namespace {
 
-/// Bytes of a dataset without values: its header, attributes, index and its part of the group. Measured.
+/// Bytes that a dataset takes in a results file without its values: its header, attributes, index and its
+/// entry in the group. Measured.
 constexpr double bytes_of_dataset = 3050.0;
 
-/// First row whose trial has the same drawn numbers at this level as the trial of row i.
+/// Function that returns, for the trial of row i, the first row whose trial has the same random draws at this
+/// level, such as the trials of the same machine. For a level at which nothing repeats: row i itself.
 std::function<std::int64_t(std::int64_t)> twins_of(const study::Study& study, study::DrawLevel level) {
   const bool has_twins =
       level != study::DrawLevel::study && (level < study::DrawLevel::trial || !study.independent_points);
@@ -34,7 +36,7 @@ std::function<std::int64_t(std::int64_t)> twins_of(const study::Study& study, st
   };
 }
 
-/// Bytes of the tables of the trials that the file keeps.
+/// Estimated bytes of the tables of the trials that the file keeps.
 double bytes_of_trials(const study::Study& study, const TrialSample& sample) {
   std::vector<shards::TrialResult> trials = sample.trials;
   const auto all = static_cast<double>(study::trial_count(study));
@@ -66,7 +68,7 @@ double bytes_of_trials(const study::Study& study, const TrialSample& sample) {
   return bytes;
 }
 
-/// Bytes of the sample-by-sample records.
+/// Estimated bytes of the sample-by-sample records (traces) of the retained trials.
 double bytes_of_records(const study::Study& study, const TrialSample& sample) {
   if (sample.traced.empty()) return 0.0;
   const auto retained = static_cast<double>(std::ssize(study.retained_trials) * study::point_count(study));
@@ -83,7 +85,8 @@ double stored_reals(const std::vector<double>& values) {
   return stored_bytes(hdf5::Element::float64, std::as_bytes(std::span(values)));
 }
 
-/// Bytes of all friction profiles, estimated from the profiles of some machines.
+/// Estimated bytes of all friction profiles (friction that varies along the axis), from the profiles of some
+/// machines.
 double bytes_of_profiles(const study::Study& study) {
   constexpr std::int64_t max_machines = 4;
   double bytes = 0.0;
@@ -107,7 +110,7 @@ double bytes_of_profiles(const study::Study& study) {
   return bytes;
 }
 
-/// Bytes of the inputs of machines.
+/// Estimated bytes of the inputs of machines and of their counts of successes.
 double bytes_of_machines(const study::Study& study) {
   constexpr std::int64_t max_machines = 128;
   const std::int64_t tried = std::min(study.machines, max_machines);
@@ -124,7 +127,7 @@ double bytes_of_machines(const study::Study& study) {
   return bytes + bytes_of_count * static_cast<double>(study.machines * study::point_count(study));
 }
 
-/// Trials that represent some design points, with equally many trials each.
+/// Trials of the sample in groups that each represent one design point, with equally many trials each.
 std::vector<std::span<const shards::TrialResult>> trials_by_place(const study::Study& study,
                                                                   const TrialSample& sample) {
   constexpr std::size_t max_of_place = 4;
@@ -138,7 +141,7 @@ std::vector<std::span<const shards::TrialResult>> trials_by_place(const study::S
   return all;
 }
 
-/// Bytes of the statistics and the labels of the points, estimated from some points.
+/// Estimated bytes of the statistics and the labels of the design points, from the statistics of some points.
 double bytes_of_points(const study::Study& study, const TrialSample& sample) {
   constexpr double bytes_of_text = 32.0;  // its reference and its place in the heap, without its letters
   double bytes = 0.0;
@@ -157,7 +160,7 @@ double bytes_of_points(const study::Study& study, const TrialSample& sample) {
   return bytes + 8.0 * count * static_cast<double>(study.points.axes.size());
 }
 
-/// Number of datasets.
+/// Number of datasets in the results file.
 double datasets_of(const study::Study& study) {
   const layout::MeasureTable& measures = layout::measure_table(study.features);
   std::size_t datasets = 12 + study.points.axes.size() + 2 * study.profiles.size() +
@@ -176,7 +179,8 @@ double datasets_of(const study::Study& study) {
   return static_cast<double>(datasets);
 }
 
-/// Size of the sums of a point, bytes: `raw` as 8-byte numbers, `stored` as the file stores them.
+/// Size of the sums of a design point (which replace the trials if not all are kept), bytes: `raw` as 8-byte
+/// numbers, `stored` as the file stores them.
 struct SumsSize {
   double raw;
   double stored;
@@ -190,8 +194,9 @@ SumsSize size_of_sums(const study::Study& study, std::span<const shards::TrialRe
           stored_bytes(hdf5::Element::int64, std::as_bytes(std::span(sums.whole))) + stored_reals(sums.real)};
 }
 
-/// Bytes of the sums of all points. The sums of growing numbers of trials of one point are extrapolated to
-/// all trials of a point. Each doubling of the trials adds values, as long as there are further machines.
+/// Estimated bytes of the sums of all design points. The sums of growing numbers of trials of one point are
+/// extrapolated to all trials of a point. Each doubling of the trials adds values, as long as there are
+/// further machines.
 double bytes_of_sums(const study::Study& study, const TrialSample& sample) {
   const std::span<const shards::TrialResult> trials(sample.of_point);
   if (trials.empty()) return 0.0;

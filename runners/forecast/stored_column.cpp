@@ -19,7 +19,8 @@ std::span<const std::byte> bytes_of(const std::vector<Value>& values) {
   return std::as_bytes(std::span(values));
 }
 
-/// Number of trailing mantissa bits that are 0 in all values. It is large for counts stored as real numbers.
+/// Smallest number of trailing mantissa bits that are 0, over all values. It is large for counts stored as
+/// real numbers.
 int trailing_zeros(std::span<const double> values) {
   constexpr int mantissa_bits = 52;
   int fewest = mantissa_bits;
@@ -29,7 +30,7 @@ int trailing_zeros(std::span<const double> values) {
   return fewest;
 }
 
-/// Generator of elements that are similar to a sample.
+/// Generator of column elements that are similar to a sample, to see how well they are compressed.
 template <class Value>
 class Population {
  public:
@@ -42,7 +43,7 @@ class Population {
     find_repetition(period);
   }
 
-  /// `count` elements of `all`.
+  /// Generates `count` elements like those of a column with `all` elements.
   std::vector<Value> some(std::size_t count, double all) {
     std::vector<Value> values(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -61,7 +62,7 @@ class Population {
  private:
   double chance() { return std::uniform_real_distribution<double>(0.0, 1.0)(random_); }
 
-  /// Proportion of values that equal the value one period before.
+  /// Measures the proportion of values in the sample that equal the value one period (design point) before.
   void find_repetition(double period) {
     const std::size_t length = sample_.size() / sampled_places;
     if (!(period >= 1.0) || period >= static_cast<double>(length)) return;
@@ -75,7 +76,8 @@ class Population {
     repetition_ = static_cast<double>(equal) / static_cast<double>(pairs);
   }
 
-  /// Random place in the part of the sample that represents the neighbourhood of element `i`.
+  /// Random index in the part of the sample that represents the neighbourhood of element `i`.
+  /// @param count number of generated elements
   std::size_t place_of(std::size_t i, std::size_t count) {
     const std::size_t length = std::max<std::size_t>(sample_.size() / sampled_places, 1);
     const std::size_t first = i * sample_.size() / count / length * length;
@@ -98,11 +100,11 @@ class Population {
   }
 
   std::vector<Value> sample_;
-  std::vector<Value> sorted_;  ///< Sorted values without NaN.
+  std::vector<Value> sorted_;  ///< Values of the sample without NaN, in ascending order.
   std::uint64_t kept_bits_{0};
   std::size_t period_{0};
   double repetition_{0.0};
-  bool rises_{false};  ///< Whether the values rise, as row numbers do.
+  bool rises_{false};  ///< Whether the values of the sample rise throughout, as row numbers do.
   std::mt19937_64 random_{1};
 };
 

@@ -30,8 +30,8 @@ namespace fs = std::filesystem;
 constexpr std::int64_t max_sampled_trials = 512;
 constexpr double max_sampled_samples = 5e5;  // takes a tenth of a second
 constexpr double max_traced_samples = 2e5;   // by the slower reference engine
-/// Time limit of the sampled trials, and of those with traces. If no trial ends in time, a trial without
-/// jerks represents them.
+/// Time limit of the sampled trials, and of those with traces, s. If no trial ends in time, an artificial
+/// trial without jerks represents them.
 constexpr double sampling_limit = 2.0;  // s
 
 shards::TrialResult trial_without_jerks(const study::Study& study) {
@@ -49,7 +49,9 @@ std::int64_t trials_with(double samples, const study::Study& study, std::int64_t
 
 using Rows = std::vector<std::int64_t>;
 
-/// Rows at several places of the study: at each place, the rows number `from` to `to` − 1 of the place.
+/// Numbers of trials (rows) at several places of the study, equally far apart: at each place, the rows `from`
+/// to `to` − 1 counted from the first row of the place.
+/// @param all number of trials of the study
 Rows rows_at(std::int64_t places, std::int64_t from, std::int64_t to, std::int64_t all) {
   Rows rows;
   for (std::int64_t place = 0; place < places; ++place) {
@@ -58,8 +60,8 @@ Rows rows_at(std::int64_t places, std::int64_t from, std::int64_t to, std::int64
   return rows;
 }
 
-/// Runs the trials of these rows until the time ends. Returns the finished ones, without sample records and
-/// numbered from 0.
+/// Simulates the trials of these rows until the time limit. Returns the finished ones, without sample records
+/// and numbered from 0.
 /// @param groups groups of rows that run one after the other
 std::vector<shards::TrialResult> run_in_time(const study::Study& study, std::span<const Rows> groups) {
   const trials::Effort limited = trials::Effort().limited_to({}, sampling_limit);
@@ -79,7 +81,7 @@ std::vector<shards::TrialResult> run_in_time(const study::Study& study, std::spa
   return trials;
 }
 
-/// Runs trials from several places of the study that together fill the lanes.
+/// Simulates trials from several places of the study, enough together to fill the SIMD lanes.
 std::vector<shards::TrialResult> sampled_trials(const study::Study& study) {
   const std::int64_t rows = study::trial_count(study);
   const std::int64_t wanted = trials_with(max_sampled_samples, study, std::min(max_sampled_trials, rows));
@@ -88,7 +90,7 @@ std::vector<shards::TrialResult> sampled_trials(const study::Study& study) {
                      std::array{rows_at(places, 0, 1, rows), rows_at(places, 1, wanted / places, rows)});
 }
 
-/// Runs the first trials of the middle design point.
+/// Simulates the first trials of the middle design point. Empty if the file keeps every trial.
 std::vector<shards::TrialResult> trials_of_point(const study::Study& study) {
   if (!layout::has_sums(study.retention)) return {};
   Rows rows(static_cast<std::size_t>(
@@ -97,7 +99,8 @@ std::vector<shards::TrialResult> trials_of_point(const study::Study& study) {
   return run_in_time(study, std::array{std::move(rows)});
 }
 
-/// Runs some of the trials whose records the study retains, at design points spread over the study.
+/// Simulates some of the trials whose sample records (traces) the study retains, at design points spread over
+/// the study. Empty if it retains none.
 std::vector<shards::TrialResult> traced_trials(const study::Study& study) {
   if (study.retained_trials.empty() || !layout::has_trials(study.retention)) return {};
   const trials::Effort limited = trials::Effort().limited_to({}, sampling_limit);
@@ -119,9 +122,9 @@ std::vector<shards::TrialResult> traced_trials(const study::Study& study) {
   return traced;
 }
 
-/// Bytes of sums on the disk per byte in memory, measured.
+/// Size of sums on the disk divided by their size in memory; measured.
 constexpr double compressed_sums = 0.2;
-/// Bytes of a column of a shard without values: its name and the sizes of its chunks.
+/// Bytes that a column of a shard file takes without its values: its name and the sizes of its chunks.
 constexpr double bytes_of_shard_column = 60.0;
 
 double bytes_of_row(const layout::Table& table) {
@@ -131,7 +134,8 @@ double bytes_of_row(const layout::Table& table) {
   return bytes;
 }
 
-/// Bytes of a trial with its jerks in a shard, without sample records.
+/// Bytes that a trial with its jerks takes in a shard file, without sample records.
+/// @param jerks mean number of jerks of a trial
 double bytes_of_trial(const study::Study& study, double jerks) {
   constexpr double numbers = 3.0 * sizeof(std::int64_t);  // row, point and index
   const double of_move = bytes_of_row(layout::outcome_table(study.features)) +
@@ -141,14 +145,14 @@ double bytes_of_trial(const study::Study& study, double jerks) {
          static_cast<double>(study.moves) * of_move + jerks * bytes_of_row(layout::jerk_table());
 }
 
-/// Bytes of all sample records in memory or in shards.
+/// Bytes of all sample records (traces) of the study, in memory or in shard files.
 double bytes_of_records(const study::Study& study) {
   const auto trials = static_cast<double>(std::ssize(study.retained_trials) * study::point_count(study));
   if (trials == 0.0) return 0.0;
   return trials * trials::samples_per_trial(study) * bytes_of_row(layout::trace_table(study.features));
 }
 
-/// Bytes of the columns of a shard without their values.
+/// Bytes that the columns of a shard file take without their values.
 double bytes_of_descriptions(const study::Study& study) {
   double columns = 10.0;  // but for those of the trials
   if (layout::has_trials(study.retention)) {
@@ -161,7 +165,7 @@ double bytes_of_descriptions(const study::Study& study) {
   return bytes_of_shard_column * columns;
 }
 
-/// Mean number of values in the sums of a point, from trials that are numbered from 0.
+/// Mean number of values in the sums of a design point, from trials that are numbered from 0.
 double numbers_of_sums(const study::Study& study, std::vector<shards::TrialResult> trials) {
   const auto points = static_cast<std::size_t>((std::ssize(trials) - 1) / study.trials + 1);
   const trials::KeptBlock block =
@@ -174,10 +178,10 @@ double numbers_of_sums(const study::Study& study, std::vector<shards::TrialResul
   return numbers / static_cast<double>(points);
 }
 
-/// Memory of the sums of a point, bytes.
+/// Memory of the sums of a design point, bytes, if sums replace the trials.
 struct SumBytes {
-  double of_block{0.0};  ///< Sums of few trials, as threads hold them.
-  double of_all{0.0};    ///< Sums of all trials.
+  double of_block{0.0};  ///< Memory of the sums of a few trials, as threads hold them, bytes.
+  double of_all{0.0};    ///< Memory of the sums of all trials of the point, bytes.
 };
 
 SumBytes bytes_of_sums(const study::Study& study, const std::vector<shards::TrialResult>& all_trials) {
@@ -201,7 +205,8 @@ SumBytes bytes_of_sums(const study::Study& study, const std::vector<shards::Tria
   return {all * sizeof(double), (growth * all + of_machines) * sizeof(double)};
 }
 
-/// Number of shards of a run: one per turn, or more if points are shorter than a turn.
+/// Estimated number of shard files of a run: one per turn (time in which the trials of one design point run),
+/// or more if points are shorter than a turn.
 double shards_of_run(const study::Study& study, int threads) {
   const std::int64_t points = study::point_count(study);
   const double seconds = measure_cost(study).seconds();
@@ -211,7 +216,7 @@ double shards_of_run(const study::Study& study, int threads) {
   return turns + static_cast<double>(points) / static_cast<double>(trials::max_points_of_shard);
 }
 
-/// Proportion of trials that the study keeps.
+/// Proportion of trials that the results file keeps, 0 to 1, estimated from these trials.
 double kept_proportion(const study::Study& study, std::span<const shards::TrialResult> trials) {
   if (!layout::has_trials(study.retention)) return 0.0;
   if (!layout::has_sums(study.retention)) return 1.0;

@@ -57,7 +57,7 @@ double positive_option(const command_line::Arguments& arguments, const std::stri
   return *number;
 }
 
-/// A number of protocols, or a time.
+/// Reads the option --budget of the search for an experiment: a number of protocols, or a time.
 void read_budget(const command_line::Arguments& arguments, experiment_design::SearchSettings& search) {
   const command_line::Budget budget = command_line::budget_option(arguments);
   constexpr std::int64_t most = std::numeric_limits<int>::max();
@@ -68,7 +68,7 @@ void read_budget(const command_line::Arguments& arguments, experiment_design::Se
   search.go_on = [end](int) { return std::chrono::steady_clock::now() < end; };
 }
 
-/// The files to write besides standard output.
+/// Paths of the files that the command writes besides standard output; nothing: the file is not written.
 struct ExperimentOutputs {
   std::optional<std::filesystem::path> protocol;
   std::optional<std::filesystem::path> streamer;

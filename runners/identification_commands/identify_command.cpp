@@ -81,13 +81,13 @@ constexpr const char* identify_help =
     "          zerocount identify log.txt --column time=t[ms] --column 'torque=I[A]*0.87' \\\n"
     "            --column 'angle=pos[mm]/10'\n";
 
-/// The least value of a known parameter.
+/// Smallest value that a user may give for a known parameter, in its unit.
 double min_known(fit::Coordinate coordinate) {
   if (coordinate == fit::time_offset) return -fit::max_time_offset;
   return coordinate == fit::creep_exponent ? 1.0 : std::numeric_limits<double>::min();
 }
 
-/// "KEY=VALUE".
+/// Parses a known parameter from the text "KEY=VALUE". Refuses other texts.
 fit::KnownParameter known_parameter(const command_line::Arguments& arguments, const std::string& text) {
   const std::size_t equals = text.find('=');
   const std::string key = text.substr(0, equals);
@@ -128,7 +128,8 @@ fit::IdentificationOptions identification_options(const command_line::Arguments&
   return options;
 }
 
-/// Windows of sliding begin at samples, and so must their torque.
+/// Refuses a delay that is not a whole number of samples. Windows of sliding begin at samples, and so must
+/// their torque.
 void refuse_fractional_delay(const command_line::Arguments& arguments) {
   const std::optional<double> delay = delay_option(arguments);
   if (delay && *delay != std::floor(*delay)) {
@@ -172,8 +173,8 @@ std::vector<command_line::OptionSpec> law_options() {
       {"series-compliance", "", "fit the compliance of a fixture in series with the contact, too"}};
 }
 
-/// The laws to compare. None without these options, and for the pre-sliding model alone, which has a fit of
-/// its own.
+/// Friction laws that the options ask to compare. None without these options, and for the pre-sliding model
+/// alone, which has a fit of its own.
 fit::LawChoice chosen_laws(const command_line::Arguments& arguments) {
   const std::vector<std::string> words = fit::law_words();
   std::vector<std::string> wanted;
@@ -199,7 +200,7 @@ fit::LawChoice chosen_laws(const command_line::Arguments& arguments) {
   return choice;
 }
 
-/// Refuses options that the comparison of laws does not have.
+/// Refuses options that cannot be used when friction laws are compared.
 void refuse_options_beside_laws(const command_line::Arguments& arguments) {
   for (const char* option : {"fix", "effort", "posterior", "plot"}) {
     if (!arguments.has(option)) continue;
@@ -209,8 +210,8 @@ void refuse_options_beside_laws(const command_line::Arguments& arguments) {
   }
 }
 
-/// Success, or inconclusive with a message if no parameter is estimated or the fit does not explain the
-/// records.
+/// Exit code of an identification: success, or inconclusive with a message if no parameter is estimated or
+/// the fit does not explain the records.
 ExitCode identification_verdict(std::span<const fit::ParameterEstimate> parameters,
                                 const fit::ResidualChecks& checks) {
   if (!checks.passed) {
@@ -230,7 +231,7 @@ fit::Identification identify_with_progress(const command_line::Arguments& argume
   return fit::identify(std::move(records), options);
 }
 
-/// The output files and streams.
+/// Paths of the output files and streams of the command; nothing: not written.
 struct IdentifyOutputs {
   std::filesystem::path report;
   std::optional<std::filesystem::path> posterior;
@@ -251,7 +252,7 @@ IdentifyOutputs identify_outputs(const command_line::Arguments& arguments) {
   return outputs;
 }
 
-/// A picture has room for one record.
+/// Refuses a picture for several records, because it has room for only one.
 void refuse_picture_of_several(const command_line::Arguments& arguments, const IdentifyOutputs& outputs,
                                std::size_t records) {
   if (!outputs.plot || outputs.plot_kind == commands::DrawingKind::page || records == 1) return;
@@ -275,7 +276,8 @@ document::AnswerDescription<fit::Identification> answer_with_figures() {
   return answer;
 }
 
-/// Writes the answer, or as YAML its fragment of a manifest. @returns its exit code
+/// Writes the answer in the format that the options ask for; as YAML, writes its fragment of a manifest.
+/// @returns exit code of the answer
 ExitCode write_answer(const command_line::Arguments& arguments, const IdentifyOutputs& outputs,
                       const document::Answer& answer, const std::string& fragment) {
   const std::string format = arguments.choice("format");
@@ -334,7 +336,8 @@ ExitCode identify(const command_line::Arguments& arguments) {
                             [&] { return identify_records(arguments, outputs, std::move(options)); });
 }
 
-/// An option of material tests, whose help says that sliding records do not have it.
+/// Option for records of material tests (torque, angle and time before sliding). Its help says that it is not
+/// for records of sliding, and it is refused with --sliding.
 command_line::OptionSpec of_tests(command_line::OptionSpec option) {
   option.help += "; not with --sliding";
   return command_line::excluding({"sliding"}, std::move(option));

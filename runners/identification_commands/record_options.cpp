@@ -25,11 +25,12 @@
 namespace zerocount::identification_commands {
 namespace {
 
-/// Kind of a file with records.
+/// Kind of a file with measured records: a text table, an HDF5 file of datasets, or a results file of this
+/// program.
 enum class RecordFile { table, datasets, results };
 
-/// Kind of a file, from its signature or from its name (the signature may be damaged). An HDF5 file is a file
-/// of datasets if columns are chosen, and a results file otherwise.
+/// Determines the kind of a file, from its signature or from its name (the signature may be damaged). An HDF5
+/// file is a file of datasets if columns are chosen, and a results file otherwise.
 RecordFile record_file(const std::string& path, const records::SeriesChoice& choice) {
   const std::filesystem::path extension = std::filesystem::path(path).extension();
   if (extension != ".h5" && yaml::is_stream(path)) return RecordFile::table;
@@ -39,7 +40,7 @@ RecordFile record_file(const std::string& path, const records::SeriesChoice& cho
   return choice.columns.empty() ? RecordFile::results : RecordFile::datasets;
 }
 
-/// Intervals of the option `--exclude`. Refuses anything but "FROM:TO".
+/// Time intervals that the option `--exclude` masks in the records. Refuses any value but "FROM:TO".
 std::vector<records::ExcludedTime> excluded_times(const command_line::Arguments& arguments) {
   std::vector<records::ExcludedTime> times;
   for (const std::string& text : arguments.values("exclude")) {
@@ -62,7 +63,9 @@ std::optional<std::string> column_option(const command_line::Arguments& argument
   return arguments.one_of(name, columns);
 }
 
-/// A lower bandwidth is implausible for a positioning drive, and not identifiable from the samples.
+/// Bandwidth of the amplifier from the option, Hz; 0: ideal amplifier; nothing without the option. A positive
+/// value below 0.01 Hz is refused, because it is implausible for a positioning drive and not identifiable
+/// from the samples.
 std::optional<double> bandwidth_option(const command_line::Arguments& arguments) {
   constexpr double least = 0.01;
   const std::optional<double> bandwidth = command_line::number_option(arguments, "amplifier-bandwidth", 0.0);
@@ -74,7 +77,8 @@ std::optional<double> bandwidth_option(const command_line::Arguments& arguments)
   return bandwidth;
 }
 
-/// The size of a count (rad or m), by the option of the kind of axis.
+/// Size of an encoder count, rad or m, from the option for the kind of axis (--counts-per-revolution or
+/// --resolution); nothing without both. Refuses both together.
 std::optional<double> count_size_option(const command_line::Arguments& arguments,
                                         const records::SeriesChoice& choice) {
   const auto counts = command_line::number_option(arguments, "counts-per-revolution", 1.0);
@@ -112,7 +116,9 @@ records::SeriesChoice series_choice(const command_line::Arguments& arguments) {
   return choice;
 }
 
-/// The chosen points, or all that keep the trace of the trial and are of one axis.
+/// Indices of the design points whose records are read from a results file: those of the option --point, or
+/// all that keep the trace of the trial and are of one axis.
+/// @param index number of the trial
 std::vector<std::int64_t> points_of(const command_line::Arguments& arguments, const std::string& path,
                                     std::int64_t index) {
   if (arguments.has("point")) {
@@ -126,7 +132,7 @@ std::vector<std::int64_t> points_of(const command_line::Arguments& arguments, co
   return traced.points;
 }
 
-/// Refuses options that no record is read by.
+/// Refuses options that none of the given kinds of files uses, such as --separator without a text table.
 void refuse_options_without_file(const command_line::Arguments& arguments,
                                  const std::vector<RecordFile>& files) {
   const auto any = [&](RecordFile kind) { return std::ranges::find(files, kind) != files.end(); };
@@ -142,13 +148,14 @@ void refuse_options_without_file(const command_line::Arguments& arguments,
           "a table; a results file says this itself");
 }
 
-/// Series of one operand.
+/// A measured series, and the index of the operand (file) from which it was read.
 struct FileSeries {
   std::size_t operand;
   records::RawSeries series;
 };
 
-/// Readings that are given twice would count as independent ones, which narrows the intervals.
+/// Refuses two files with equal readings. They would count as independent, which makes the confidence
+/// intervals too narrow.
 void refuse_equal_files(const command_line::Arguments& arguments, const std::vector<FileSeries>& found) {
   for (std::size_t i = 0; i < found.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
@@ -159,7 +166,8 @@ void refuse_equal_files(const command_line::Arguments& arguments, const std::vec
             found[j].series.name, found[i].series.name));
 }
 
-/// Refuses options of which no record that was read has anything.
+/// Refuses options that have no effect on any of the records that were read, such as the resolution of an
+/// encoder without a column in counts.
 void refuse_options_without_effect(const command_line::Arguments& arguments,
                                    const std::vector<records::RawSeries>& series) {
   const auto counted = [](const records::RawSeries& one) { return one.count_size > 0.0; };

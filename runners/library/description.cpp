@@ -41,7 +41,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using yaml::YamlNode;
 
-/// Maximum size of a text, bytes; far above the limit of a manifest.
+/// Maximum size of a text given to the library, bytes; far above the limit of a manifest.
 constexpr std::size_t max_text = std::size_t{1} << 26;
 
 template <class Value>
@@ -65,7 +65,7 @@ std::string_view name_of(layout::MoveReduction rule) {
   return "last";
 }
 
-/// A column, in the words for this kind of axis.
+/// JSON description of a column of a table, with its unit and meaning in the words for this kind of axis.
 Json column_json(const layout::Column& column, parameters::AxisKind axis) {
   Json words = Json::array();
   if (column.element != hdf5::Element::flag) {
@@ -87,7 +87,7 @@ Json columns_json(const std::vector<layout::RecordField<Record>>& fields, parame
   return columns;
 }
 
-/// Measures of moves, and how the values of a trial's moves are combined.
+/// JSON list of the measures of moves, which also says how the values of a trial's moves are combined.
 Json measures_json(const study::StudyFeatures& features) {
   std::set<std::string> names;
   for (const auto& field : layout::outcome_fields(features, layout::measure_table(features)))
@@ -102,7 +102,7 @@ Json measures_json(const study::StudyFeatures& features) {
   return measures;
 }
 
-/// The words of the outcomes, from best to worst.
+/// Words of the outcomes of a move, from best to worst.
 std::vector<std::string> outcomes_by_severity() {
   std::vector<layout::FlagMeaning> labels = layout::outcome_labels();
   std::ranges::sort(labels, {}, [](const layout::FlagMeaning& label) {
@@ -182,13 +182,14 @@ Json form_of(const d::Choice& c) {
   return {{"choice", c.values}};
 }
 
-/// Kind of a random variable: "value" in its unit, normal "score" of a profile, or "row" of joint samples.
+/// Kind of a random variable: "value" (in its unit), "score" (normal score of a profile), or "row" (of joint
+/// samples).
 std::string_view kind_of(const randomness::RandomCoordinate& coordinate) {
   if (coordinate.rows > 0) return "row";
   return coordinate.kind == randomness::RandomCoordinate::Kind::profile_at_start ? "score" : "value";
 }
 
-/// The number that is all of the text, with or without a sign.
+/// The number that is the whole text, with or without a sign; nothing if the text is anything else.
 template <class Number>
 std::optional<Number> number_in(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);

@@ -15,32 +15,36 @@
 /// program gives them to a package that finds no library.
 namespace zerocount::library {
 
-/// Name of a column's type in NumPy.
+/// Name that the type of a column has in NumPy, such as "float64".
 std::string_view type_of(hdf5::Element element);
 
-/// Study of a manifest given as text.
+/// Reads the study of a manifest that is given as text.
+/// @param source name of the manifest, for messages
 /// @param folder folder to which paths in the manifest are relative
+/// @param overrides "key=value" changes of the manifest
 study::Study study_of_text(std::string text, std::string_view source, const std::filesystem::path& folder,
                            const std::vector<std::string>& overrides);
 
-/// Study of a results file, as its trials were run.
+/// Reads the study of a results file, with the overrides with which its trials were run.
 study::Study study_of_file(const std::filesystem::path& file);
 
 /// Checks that a design point exists.
 /// @throws Failure (bad_input) if the study has no such design point
 void require_point(const study::Study& study, std::int64_t point);
 
-/// Random variables of a design point.
+/// Random variables of the trials at a design point.
 /// @throws Failure (bad_input) if its trials run under several conditions
 randomness::RandomVariables sampled_variables(const study::Study& study, std::int64_t point);
 
-/// JSON description of a study (see zerocount_describe_study).
+/// JSON description of a study, as the function zerocount_describe_study of the C interface gives it.
 std::string description_of(const study::Study& study);
 
-/// JSON description of the random variables of a design point (see zerocount_describe_variables).
+/// JSON description of the random variables of a design point, as zerocount_describe_variables of the C
+/// interface gives it.
 std::string variables_of(const study::Study& study, std::int64_t point);
 
-/// Text of a manifest with overrides applied. The manifest is not checked.
+/// Text of a manifest with overrides ("key=value") applied. The manifest is not checked.
+/// @param source name of the manifest, for messages
 std::string manifest_of(const std::string& text, std::string_view source,
                         const std::vector<std::string>& overrides);
 

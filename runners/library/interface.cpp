@@ -43,7 +43,8 @@ std::int32_t failed(ExitCode code, std::string text) {
   return static_cast<std::int32_t>(code);
 }
 
-/// Does the work of a function; no exception leaves it.
+/// Runs the work of a function of the C interface. An exception does not leave it: it becomes the exit code
+/// and the message of the last error.
 template <class Work>
 std::int32_t guarded(const Work& work) {
   try {
@@ -64,7 +65,7 @@ std::vector<std::string> texts_of(const char* const* texts, std::size_t count) {
   return {texts, texts + count};
 }
 
-/// Copy of a text on the heap. zerocount_free_text() frees it.
+/// Copy of a text on the heap for the C interface, which zerocount_free_text() frees.
 char* copy_of(const std::string& text) {
   char* copy = static_cast<char*>(std::malloc(text.size() + 1));
   if (copy == nullptr) throw std::bad_alloc();
@@ -72,7 +73,7 @@ char* copy_of(const std::string& text) {
   return copy;
 }
 
-/// A job that does the work on a thread of its own.
+/// Starts a job that runs `work` on a thread of its own.
 template <class Work>
 std::unique_ptr<zerocount_job> started(Work work) {
   auto job = std::make_unique<zerocount_job>();

@@ -20,7 +20,8 @@ namespace {
 
 constexpr std::int64_t trials_at_a_time = 64;
 
-/// Lets the law decide in place of the study's control law.
+/// Replaces the study's control law in the parameters of a trial by the law that the caller of the library
+/// gives.
 void use_law(trial::TrialParameters& parameters, zerocount_law& law) {
   if (law.size != sizeof law)
     throw Failure(ExitCode::bad_input,

@@ -16,10 +16,10 @@
 
 namespace zerocount::library {
 
-/// Arrays that a job returns.
+/// Named arrays that a job of the library returns.
 class Result {
  public:
-  /// Adds the fields of the records as columns.
+  /// Adds the fields of the records as columns (arrays), one row per record.
   /// @param prefix prefix of the column names
   template <class Record>
   void add(const std::string& prefix, const std::vector<layout::RecordField<Record>>& fields,
@@ -30,7 +30,7 @@ class Result {
   }
   void add(std::string name, hdf5::Element element, std::vector<std::byte> values);
 
-  std::vector<zerocount_array> arrays() const;  ///< Views of the columns that this object owns.
+  std::vector<zerocount_array> arrays() const;  ///< Views of the arrays, which this object owns.
 
  private:
   struct Column {
@@ -41,13 +41,17 @@ class Result {
   std::vector<Column> columns_;
 };
 
-/// Runs trials with given values of the random variables. Returns the measures of their moves.
+/// Simulates trials with given values of the random variables. Returns the measures of their moves.
+/// @param point index of the design point
 /// @param values [trial][variable] values of the variables
+/// @param numbers [trial] number from which the trial's other random numbers follow
 /// @param threads number of threads
 Result simulated(const study::Study& study, std::int64_t point, std::span<const double> values,
                  std::span<const std::int64_t> numbers, int threads, const std::stop_token& stop);
 
-/// Runs a trial and returns its samples.
+/// Simulates a trial of a design point and returns its samples.
+/// @param point index of the design point
+/// @param trial number of the trial
 /// @param law control law that replaces the law of the manifest; null: the law of the manifest
 Result traced(const study::Study& study, std::int64_t point, std::int64_t trial, zerocount_law* law,
               const std::stop_token& stop);

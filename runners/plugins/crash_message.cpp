@@ -13,7 +13,8 @@
 namespace zerocount::plugins {
 namespace {
 
-/// A handler of signals may not allocate memory, so the message is ready before a crash.
+/// Message that the handler of crash signals prints. It is prepared before a crash, because such a handler
+/// may not allocate memory.
 std::array<char, 4096> crash_message{};
 
 extern "C" void print_message_and_end(int signal) {

@@ -26,7 +26,8 @@ constexpr std::size_t alignment = 64;           // of states, as zerocount/contr
 
 using Samples = std::vector<trial::SampleRecord>;
 
-/// The start of a trial: of each move as many samples as make max_samples_checked in all.
+/// Parameters of a trial of which every move is cut short, so that all its moves together have
+/// max_samples_checked samples.
 trial::TrialParameters start_of(const study::Study& study, std::int64_t point, std::int64_t index) {
   trial::TrialParameters p = study::study_trial(study, point, index).parameters;
   const double rate = p.controller.sample_rate;
@@ -36,7 +37,7 @@ trial::TrialParameters start_of(const study::Study& study, std::int64_t point, s
   return p;
 }
 
-/// Trials spread over the points and their indices.
+/// Parameters of a few shortened trials (start_of()), spread evenly over the design points and their trials.
 std::vector<trial::TrialParameters> some_trials(const study::Study& study) {
   const std::int64_t points = study::point_count(study);
   const std::int64_t count = std::min(max_trials_checked, study::trial_count(study));
@@ -66,7 +67,7 @@ bool same(const Samples& a, const Samples& b) {
   });
 }
 
-/// The controller alone, with the inputs of a trial.
+/// Runs the user's controller without an axis, with inputs that were recorded in a trial.
 class ControllerAlone {
  public:
   ControllerAlone(const trial::TrialParameters& p, const Samples& inputs)
@@ -94,7 +95,7 @@ class ControllerAlone {
 
   bool new_target() const { return k_ > 0 && (*inputs_)[k_].target != (*inputs_)[k_ - 1].target; }
 
-  /// The wanted torque at its next sample, N m.
+  /// Runs the next sample of the controller. Returns the torque that it wants, N m.
   double step() {
     const trial::SampleRecord& record = (*inputs_)[k_];
     const zerocount_sample sample{
@@ -116,7 +117,8 @@ class ControllerAlone {
 
   bool done() const { return k_ == inputs_->size(); }
 
-  /// Copies the state to another address, and overwrites it at the old one.
+  /// Copies the controller's state to another address, and overwrites it at the old one, so that a controller
+  /// that keeps pointers into its state gives other torques.
   void move_state() {
     std::vector<std::byte> elsewhere(state_.size() + alignment);
     std::memcpy(aligned(elsewhere), aligned(state_), functions_.state_size);
@@ -141,7 +143,8 @@ class ControllerAlone {
   std::size_t k_{0};
 };
 
-/// The torques of all samples, one trial after the other.
+/// [trial][sample] Torques of the controller, run for one trial after the other, N m.
+/// @param inputs [trial] recorded samples that are its inputs
 std::vector<std::vector<double>> torques_in_order(const std::vector<trial::TrialParameters>& trials,
                                                   const std::vector<Samples>& inputs) {
   std::vector<std::vector<double>> torques(trials.size());
@@ -152,7 +155,10 @@ std::vector<std::vector<double>> torques_in_order(const std::vector<trial::Trial
   return torques;
 }
 
-/// The torques of all samples, with the trials in turns and their states moved to other addresses.
+/// [trial][sample] Torques of the controllers of all trials, run in turns sample by sample, while their
+/// states move to other addresses, N m. They differ from torques_in_order() if a controller keeps something
+/// outside its state.
+/// @param inputs [trial] recorded samples that are their inputs
 std::vector<std::vector<double>> torques_in_turns(const std::vector<trial::TrialParameters>& trials,
                                                   const std::vector<Samples>& inputs) {
   constexpr std::size_t samples_between_moves = 7;

@@ -28,7 +28,7 @@ std::optional<std::string> bytes_of(const fs::path& path) {
   return bytes;
 }
 
-/// The symbol that the loader's message names as undefined; empty if it names none.
+/// Name of the symbol that the loader's message says is undefined; empty if the message names none.
 std::string missing_symbol(const char* message) {
   constexpr std::string_view words = "undefined symbol: ";
   const std::string_view text = message == nullptr ? "" : message;
@@ -38,8 +38,9 @@ std::string missing_symbol(const char* message) {
   return std::string(rest.substr(0, rest.find_first_of(", \n")));
 }
 
-/// Loads the library and calls its entry. Libraries compiled with -ffast-math change the mode of arithmetic
-/// when they are loaded.
+/// Loads the library and calls the function that returns its controller; a PluginFault if this fails.
+/// Libraries compiled with -ffast-math change the processor's mode of arithmetic when they are loaded, so the
+/// mode is restored.
 std::variant<const zerocount_controller*, PluginFault> entry_of(const fs::path& library) {
   const plugin::ArithmeticMode mode;
   void* const handle = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);

@@ -7,7 +7,8 @@
 
 namespace zerocount::plugins {
 
-/// Checks that the plugin of a study keeps nothing outside its state. Does nothing without a plugin.
+/// Checks that the controller plugin of a study keeps nothing between samples outside the state that the
+/// program gives it. Does nothing without a plugin.
 ///
 /// The beginnings of some trials run twice, the second time in another order. Then the controller runs alone:
 /// the trials take turns sample by sample, and their states move to other addresses. Equal inputs must give

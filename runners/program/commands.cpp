@@ -30,7 +30,7 @@ namespace zerocount::program {
 
 namespace {
 
-/// The types of the answers of all commands.
+/// Types of the answers that all commands give, for their schemas.
 std::vector<document::AnswerType> answer_types() {
   std::vector<document::AnswerType> types;
   for (const commands::Command& command : commands()) {
@@ -91,7 +91,8 @@ std::string help_of(const commands::Command& command) {
                      command_line::options_help(command.spec), exit_codes_help());
 }
 
-/// Prints a text that was wrapped by hand; on a narrow terminal its paragraphs are wrapped again.
+/// Prints a help text, whose lines were broken by hand. On a terminal that is narrower, its paragraphs are
+/// wrapped again.
 ExitCode print(const std::string& text) {
   constexpr std::size_t hand_width = 86;
   constexpr std::size_t widest_line = 96;

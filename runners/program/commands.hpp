@@ -10,10 +10,11 @@
 
 namespace zerocount::program {
 
-/// All commands, in the order of the help.
+/// All commands of the program, in the order in which the help lists them.
 std::vector<commands::Command> commands();
 
-/// Runs the program with its command-line arguments.
+/// Runs the program with its command-line arguments. Returns the exit code.
+/// @param words arguments without the name of the program
 /// @throws Failure with the message for the user and the exit code.
 ExitCode run_command_line(std::span<const std::string> words);
 
@@ -28,9 +29,9 @@ commands::Command completion_command();
 commands::Command manual_command();
 commands::Command schema_command();
 
-/// Prints the completions of the last word, one candidate per line, with its help after a tab. A first line
-/// tells how the shell completes: ":files" adds files, ":keys" adds no blank, ":list" completes in a list
-/// with commas. For --option=value, only the value is completed.
+/// Prints the shell completions of the last word, one candidate per line, with its help after a tab. A first
+/// line tells how the shell completes: ":files" adds files, ":keys" adds no blank, ":list" completes in a
+/// list with commas. For --option=value, only the value is completed.
 /// @param words words that follow the name of the program
 void print_candidates(std::span<const commands::Command> commands, std::span<const std::string> words);
 

@@ -18,7 +18,7 @@
 namespace zerocount::program {
 namespace {
 
-/// Escape sequence of a character that man(7) would print as another.
+/// Escape sequence for a character that man(7) would otherwise print as another one; empty if it needs none.
 std::string_view escape_of(char c) {
   switch (c) {
     case '\\':
@@ -38,7 +38,8 @@ std::string_view escape_of(char c) {
   }
 }
 
-/// Text as man(7) takes it: no request at the start of a line, and characters that can be copied. In UTF-8.
+/// The text in the form that man(7) reads: no line starts with a request, and special characters are escaped
+/// so that they can be copied. In UTF-8.
 std::string roff(std::string_view text) {
   std::string escaped;
   bool at_start = true;
@@ -100,7 +101,7 @@ namespace {
 
 constexpr std::size_t max_words = 10000;  // of a line that is completed
 
-/// The study of a manifest or a results file.
+/// Study of a manifest or a results file, for a command that lists its names.
 study::Study named_study(const command_line::Arguments& arguments, const std::string& file) {
   if (!commands::is_results_file(file)) return commands::load_study(file, arguments);
   if (arguments.has("set")) arguments.refuse("option '--set' needs a manifest instead of a results file");
@@ -122,7 +123,8 @@ std::vector<std::string> age_texts(const study::Study& study) {
   return texts;
 }
 
-/// Names in a study that options have as values.
+/// A kind of names in a study that options have as values, such as its design points, and the function that
+/// lists them.
 struct StudyList {
   std::string_view word;
   std::vector<std::string> (*names)(const study::Study&);

@@ -20,7 +20,8 @@ namespace {
 using command_line::OptionSpec;
 using Words = std::span<const std::string>;
 
-/// Options whose values are names in a file, and the words of the command that prints them for this file.
+/// Options whose values are names in a file, each with the command (two words) that prints these names for a
+/// file.
 constexpr std::array<std::pair<std::string_view, std::array<std::string_view, 2>>, 6> listings{
     {{"point", {"completion", "points"}},
      {"points", {"completion", "points"}},
@@ -39,7 +40,7 @@ const commands::Command* find_command(std::span<const commands::Command> command
   return found == commands.end() ? nullptr : &*found;
 }
 
-/// The forms of an option, "--output" and "-o".
+/// Forms in which the user can write an option: "--output" and "-o".
 std::vector<std::string> forms_of(const OptionSpec& option) {
   std::vector<std::string> forms{"--" + command_line::long_name(option)};
   if (const std::size_t comma = option.name.find(','); comma != std::string::npos)
@@ -47,7 +48,8 @@ std::vector<std::string> forms_of(const OptionSpec& option) {
   return forms;
 }
 
-/// The option whose value the last word is: behind "=", or after the option, which may have two values.
+/// The option whose value is being completed in the last word: behind "=", or after the option, which may
+/// have two values. Null if the last word is not a value.
 const OptionSpec* option_of_value(const commands::Command& command, Words words) {
   const std::string& last = words.back();
   const std::size_t equals = last.starts_with("--") ? last.find('=') : std::string::npos;
@@ -62,7 +64,8 @@ const OptionSpec* option_of_value(const commands::Command& command, Words words)
   return nullptr;
 }
 
-/// The first word that is the name of a file; the shell has not replaced a ~ in it.
+/// The first word that is the path of an existing file; nothing if there is none. The shell has not replaced
+/// a ~ in it.
 std::optional<std::string> first_file(Words words) {
   const char* const home = std::getenv("HOME");
   for (std::string word : words) {
@@ -73,7 +76,7 @@ std::optional<std::string> first_file(Words words) {
   return std::nullopt;
 }
 
-/// Keys that --set can give a value: the parameters of the table, and the keys of the study.
+/// Prints the keys that --set can give a value: the parameters of the table, and the keys of the study.
 void print_keys() {
   print_line(":keys");
   for (const parameters::Parameter& parameter : parameters::parameter_table()) {

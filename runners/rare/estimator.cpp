@@ -24,7 +24,8 @@ constexpr double common_value = 0.01;              // more probable ones are dra
 constexpr std::int64_t trials_of_values = 40'000;  // of a discrete draw, shared by its values
 constexpr std::int64_t max_trials_of_value = 10;
 constexpr std::int64_t trials_of_values_at_once = 2000;
-/// Number of values that are tried again, and number of trials at each.
+/// One more round of trials at the values of a discrete draw that look most likely to fail: the number of
+/// values that get it, and the number of trials at each.
 struct Retrial {
   std::size_t values;
   std::int64_t trials;
@@ -57,13 +58,14 @@ double sum_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-/// Scales the weights of the points to the sum `size`.
+/// Multiplies the weights of the points by a common factor, so that their sum is `size`.
 void balance(WeightedPoints& points, double size) {
   const double sum = sum_of(points.weights);
   for (double& weight : points.weights) weight *= size / sum;
 }
 
-/// Mixture of two fits. The second has the proportion `proportion`, or 1 if the first is empty.
+/// Mixture of normal distributions from the components of two fits. Those of the second fit have the
+/// proportion `proportion` together, or 1 if the first is empty.
 std::vector<NormalComponent> mixed(std::vector<NormalComponent> first, std::vector<NormalComponent> second,
                                    double proportion) {
   const auto scale_weights = [](std::vector<NormalComponent>& components, double sum) {
@@ -77,7 +79,8 @@ std::vector<NormalComponent> mixed(std::vector<NormalComponent> first, std::vect
   return first;
 }
 
-/// A value of a discrete draw, and [score] the largest score among its last trials; −∞: not known.
+/// A value of a discrete draw, with the results of the trials run at it. `scores` is [score] the largest
+/// score among its last trials; −∞: no trial had a known score.
 struct TriedValue {
   PinnedValue value;
   std::vector<double> scores;
@@ -92,8 +95,8 @@ struct TriedValue {
   }
 };
 
-/// At most `count` values: first those with most failures, then equally many with the largest value of each
-/// score.
+/// Chooses at most `count` of the tried values for more trials: first the values with most failures; then,
+/// for each score, equally many values with the largest score. All values, if these are at most `count`.
 std::vector<TriedValue> most_suspicious(const std::vector<TriedValue>& tried, std::size_t count,
                                         std::size_t scores) {
   if (tried.size() <= count) return tried;
@@ -173,7 +176,8 @@ class Estimator {
     return true;
   }
 
-  /// Switches to plain trials.
+  /// Replaces the learned proposal by the trials' own distribution, so that the estimation goes on with plain
+  /// Monte-Carlo trials.
   void draw_plainly() {
     state_.proposal = {};
     state_.cap = 1.0;
@@ -181,7 +185,8 @@ class Estimator {
     state_.learnings = std::max<std::int64_t>(state_.learnings, 1);
   }
 
-  /// Runs trials drawn from their own distribution. If failures are common, these are enough to learn from.
+  /// Runs the first plain trials, which are drawn from their own distribution, and keeps their failures. If
+  /// failures are common, the proposal is learned from these failures alone.
   void run_plain() {
     NumberSource numbers = numbers_for("plain", static_cast<std::uint32_t>(state_.searched));
     std::vector<std::vector<double>> points;
@@ -207,8 +212,10 @@ class Estimator {
     return true;
   }
 
-  /// Tries the values of one discrete draw. The values that look worst are tried again, with ever more
-  /// trials.
+  /// Runs trials at each value of one discrete draw that has a probability below 1 %. The values that look
+  /// worst get two more rounds of more trials each. Values with frequent failures become pinned values of the
+  /// proposal.
+  /// @return whether the budget was enough
   bool try_values_of(std::size_t draw) {
     NumberSource numbers =
         numbers_for(fmt::format("values/{}", draw), static_cast<std::uint32_t>(state_.searched));
@@ -236,7 +243,7 @@ class Estimator {
     return true;
   }
 
-  /// Runs `trials_of_each` trials at each value.
+  /// Runs `trials_of_each` new trials at each value, which replace the value's earlier results.
   /// @return whether the budget was enough
   bool run_tried(std::vector<TriedValue>& values, std::int64_t trials_of_each, NumberSource& numbers) {
     const auto at_once =
@@ -256,7 +263,7 @@ class Estimator {
     return true;
   }
 
-  /// Splits along all scores.
+  /// Runs multilevel splitting along each score, twice along the first, and keeps the failures that it finds.
   /// @return whether the budget was enough
   bool search_all() {
     double best = 0.0;
@@ -312,7 +319,8 @@ class Estimator {
 
   // The proposal.
 
-  /// Points without a pinned value, in the coordinates of the normal components (proposal_coordinates()).
+  /// The points at which no discrete draw has a pinned value of the proposal, in the coordinates of the
+  /// normal components (proposal_coordinates()).
   WeightedPoints unexplained(const WeightedPoints& points) const {
     WeightedPoints found;
     for (std::size_t i = 0; i < points.z.size(); ++i) {
@@ -322,9 +330,9 @@ class Estimator {
     return found;
   }
 
-  /// Fits the normal components of the proposal. They are a mixture fitted to the failures of the pilots, and
-  /// a normal distribution for each level of splitting. Failures of splitting are added with more weight if
-  /// the pilots found few.
+  /// Fits the normal components of the proposal: a mixture fitted to the failures found so far, and a normal
+  /// distribution for each level of splitting. The failures are those drawn from earlier proposals (pilots)
+  /// and those found by splitting. The latter get more weight if the pilots found few.
   void fit(NumberSource& numbers) {
     WeightedPoints points = unexplained(pilots_);
     WeightedPoints searched = unexplained(searched_);
@@ -337,7 +345,8 @@ class Estimator {
                                     : mixed(fitted_mixture(points, numbers), levels_, proportion_of_levels));
   }
 
-  /// Sets the normal components and the proportions of the proposal. There are no components if every failure
+  /// Sets the normal components of the proposal. Also sets the proportions of draws from the trials' own
+  /// distribution, from the pinned values and from the components. There are no components if every failure
   /// is at a pinned value.
   void set_components(std::vector<NormalComponent> components) {
     Proposal& proposal = state_.proposal;
@@ -352,7 +361,8 @@ class Estimator {
     return likelihood_ratio(settings_.space, state_.proposal, z);
   }
 
-  /// Draws trials from the proposal, and adds their failures to the pilots.
+  /// Draws a batch of trials from the proposal, and adds their failures to pilots_, from which the next
+  /// proposal is fitted.
   /// @return the probability of a failing move, estimated from these trials
   double run_pilot(NumberSource& numbers) {
     WeightedPoints found;
@@ -367,7 +377,8 @@ class Estimator {
     return sum / static_cast<double>(pilot_trials);
   }
 
-  /// Weighted 99.8 % quantile of the likelihood ratio at these points; 0 without points.
+  /// Weighted 99.8 % quantile of the likelihood ratio at these points (weights: WeightedPoints::weights); 0
+  /// without points. EstimatorState::cap is at least twice this value.
   double usual_largest(const WeightedPoints& points) const {
     std::vector<std::pair<double, double>> ratios;
     for (std::size_t i = 0; i < points.z.size(); ++i)
@@ -381,7 +392,8 @@ class Estimator {
     return ratios.empty() ? 0.0 : ratios.back().first;
   }
 
-  /// Raises the cap so that the bounds allow for failures at these points.
+  /// Raises EstimatorState::cap, the largest weight of a failure that the bounds allow for, to at least twice
+  /// the likelihood ratio at each of these points.
   void raise_cap(const std::vector<std::vector<double>>& points) {
     for (const std::vector<double>& z : points)
       state_.cap = std::max(state_.cap, cap_beyond_usual * ratio_at(z));
@@ -431,7 +443,8 @@ class Estimator {
     state_.trials += std::ssize(trials);
   }
 
-  /// Runs a trial at each of these points. Each gets a new Trial::number.
+  /// Runs a trial at each of these points, which are standard normal coordinates. Each trial gets a new
+  /// Trial::number.
   std::vector<Trial> run_at(std::vector<std::vector<double>> points) {
     std::vector<Trial> trials;
     trials.reserve(points.size());
@@ -441,7 +454,8 @@ class Estimator {
     return trials;
   }
 
-  /// Runs trials drawn from the proposal. Returns them with their weights and without scores.
+  /// Draws `count` trials from the proposal and runs them. Returns them with their weights (likelihood
+  /// ratios) and without scores.
   std::vector<Trial> draw_trials(std::size_t count, NumberSource& numbers) {
     std::vector<std::vector<double>> points;
     std::vector<bool> natural;
@@ -459,7 +473,7 @@ class Estimator {
     return trials;
   }
 
-  /// Counts a trial that was drawn from its own distribution.
+  /// Adds a trial that was drawn from its own distribution to the counts of plain trials and plain failures.
   void count_plain(const Trial& trial) {
     ++state_.plain_trials;
     if (trial.failed > 0.0) ++state_.plain_failures;
@@ -473,17 +487,20 @@ class Estimator {
   const EstimatorSettings& settings_;
   const Simulation& simulate_;
   const std::function<bool(const EstimatorState&)>& go_on_;
-  WeightedPoints searched_;                         ///< Failures found by plain trials and splitting.
-  std::vector<std::vector<double>> plain_failing_;  ///< Failures found by plain trials.
-  /// Failures found by pilots, without those at pinned values. The sum of the weights is their effective
-  /// size.
+  /// Coordinates and weights of the failures found by plain trials and by splitting.
+  WeightedPoints searched_;
+  /// Coordinates of the failures found by trials that were drawn from their own distribution.
+  std::vector<std::vector<double>> plain_failing_;
+  /// Failures found among the trials of run_pilot(), without those at pinned values. Their weights sum to
+  /// their effective sample size.
   WeightedPoints pilots_;
-  std::vector<NormalComponent> levels_;  ///< Normal distribution of each level of splitting.
+  /// Normal distributions fitted to the trials above each level of splitting, for all runs of splitting.
+  std::vector<NormalComponent> levels_;
 };
 
-/// Confidence of the bounds of the current proposal. The error probabilities of all proposals sum to the
-/// allowed one. The first proposal has the largest fraction, then the plain trials that follow a useless
-/// proposal.
+/// Confidence level of the bounds from the current proposal. The allowed error probability 1 − `confidence`
+/// is divided among all proposals that may be learned in turn: 0.7 of it for the first, 0.2 for the plain
+/// trials that follow a useless proposal, the rest for the others.
 double confidence_of(const EstimatorState& state, double confidence) {
   const double part = state.learnings <= 1 ? 0.7
                       : state.proposal.is_natural()
@@ -492,9 +509,9 @@ double confidence_of(const EstimatorState& state, double confidence) {
   return 1.0 - (1.0 - confidence) * part;
 }
 
-/// Whether splitting along the first score found a failure probability far above the bounds, every time that
-/// it reached failures. The other scores are ignored: along them splitting may end with copies of a few
-/// failures, whose number says little.
+/// Whether splitting along the first score estimated a failure probability more than ten times the upper
+/// bound `high`, in every run that reached failures. False if no run reached them. Splitting along the other
+/// scores is ignored, because it may end with copies of a few failures, whose number says little.
 bool splitting_disagrees(const EstimatorState& state, double high) {
   const auto is_meant = [](const ScoreSearch& search) { return search.score == 0 && search.reached; };
   return std::ranges::any_of(state.searches, is_meant) &&

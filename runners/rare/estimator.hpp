@@ -11,18 +11,22 @@
 
 namespace zerocount::rare {
 
-/// Settings of multilevel splitting.
+/// Settings of multilevel splitting, which drives a population of trials step by step to larger values of a
+/// score.
 struct SplittingSettings {
-  std::size_t score{0};  ///< Index in Trial::scores of the score that is driven up.
-  double least{1e-11};   ///< Splitting ends without a failure if the probability of a level is below this.
-  std::int64_t first_number{0};  ///< Trial::number of the first trial.
+  std::size_t score{0};  ///< Index in Trial::scores of the score that splitting drives towards larger values.
+  /// Smallest probability of a level. Splitting ends without a failure if a level is less probable.
+  double least{1e-11};
+  std::int64_t first_number{0};  ///< Trial::number of the first trial that splitting runs.
 };
 
-/// Course of splitting along a score.
+/// Course of one run of multilevel splitting along a score.
 struct ScoreSearch {
-  std::size_t score{0};     ///< Index in Trial::scores.
-  bool reached{false};      ///< Whether failures were reached: enough trials of the last level fail.
-  double probability{1.0};  ///< Probability of a failure if reached, else of the last level; without bounds.
+  std::size_t score{0};  ///< Index in Trial::scores of the score along which the run splits.
+  bool reached{false};   ///< Whether splitting reached failures: enough trials of the last level fail.
+  /// Estimated probability of a failure if `reached`, otherwise of a score above the last level. It has no
+  /// bounds.
+  double probability{1.0};
   int levels{0};
   std::int64_t trials{0};
 };
@@ -30,7 +34,7 @@ struct ScoreSearch {
 struct SplittingResult {
   ScoreSearch search;
   std::vector<Trial> plain;    ///< Trials before the first level, drawn from their own distribution.
-  std::vector<Trial> failing;  ///< Trials distributed approximately as trials that fail.
+  std::vector<Trial> failing;  ///< Trials distributed approximately as the trials that fail.
   /// [level] Trials distributed approximately as trials above the level, starting with the first level.
   std::vector<std::vector<Trial>> above;
 };
@@ -55,18 +59,21 @@ SplittingResult split(const SplittingSettings& settings, const TrialSpace& space
 
 /// State of an estimate, from which it can be resumed: the learned proposal, and the trials drawn from it.
 struct EstimatorState {
-  std::int64_t trials{0};          ///< Number of all trials that were run.
-  std::int64_t plain_trials{0};    ///< Number of trials drawn from their own distribution, in all phases.
-  std::int64_t plain_failures{0};  ///< Number of plain trials with a failed move.
+  std::int64_t trials{0};  ///< Number of all trials that were run so far.
+  /// Number of trials drawn from their own distribution (plain trials), in all phases of the estimate.
+  std::int64_t plain_trials{0};
+  std::int64_t plain_failures{0};  ///< Number of plain trials with at least one failed move.
   std::vector<ScoreSearch> searches;
-  bool learned{false};        ///< Whether the proposal is ready.
-  std::int64_t searched{0};   ///< Number of earlier attempts to learn that did not end.
-  std::int64_t learnings{0};  ///< Number of proposals learned so far.
+  bool learned{false};        ///< Whether the proposal has been learned, so that trials can be drawn from it.
+  std::int64_t searched{0};   ///< Number of attempts to learn a proposal that were interrupted.
+  std::int64_t learnings{0};  ///< Number of proposals that were learned so far, one after another.
   Proposal proposal;
-  double cap{0.0};           ///< Largest weight of a failure that the bounds allow for.
-  std::vector<Trial> drawn;  ///< Trials drawn from this proposal, without scores.
+  /// Largest importance weight of a failed trial that the confidence bounds allow for. A heavier one makes
+  /// the estimator learn a new proposal.
+  double cap{0.0};
+  std::vector<Trial> drawn;  ///< Trials drawn from the current proposal, without their scores.
 
-  /// Number of drawn trials with a failed move.
+  /// Number of the trials in `drawn` with at least one failed move.
   std::int64_t failures() const {
     return std::ranges::count_if(drawn, [](const Trial& trial) { return trial.failed > 0.0; });
   }
@@ -74,35 +81,38 @@ struct EstimatorState {
 
 struct EstimatorSettings {
   TrialSpace space{};
-  std::size_t scores{1};  ///< Number of Trial::scores.
+  std::size_t scores{1};  ///< Number of scores of each trial (size of Trial::scores).
   double confidence{statistics::summary_confidence};
-  double ratio{2.0};  ///< Wanted ratio of the bounds, high / low.
+  /// Wanted ratio of the confidence bounds, high / low. The estimate ends when it is reached.
+  double ratio{2.0};
   std::uint64_t seed{0};
 };
 
-/// Maximum number of trials drawn from a proposal. Each takes some hundred bytes.
+/// Maximum number of trials drawn from a proposal. Each takes some hundred bytes of memory.
 inline constexpr std::size_t max_drawn = 2'000'000;
-/// Maximum number of values of a discrete draw for which each value is tried. Draws with more values are not
-/// tried.
+/// Maximum number of possible values of a discrete draw at which trials are run to find values that fail. A
+/// discrete draw with more values is left out of this.
 inline constexpr std::int64_t max_tried_values = 100'000;
 
 enum class EstimateStatus {
-  estimated,    ///< The bounds are as narrow as asked.
-  no_failure,   ///< No score leads to a failure, and no plain trial failed.
-  not_covered,  ///< The proposal hardly draws some failures: weights above the cap recur.
-  too_many,     ///< The bounds are too wide after max_drawn trials.
-  budget        ///< The budget ended before the bounds were narrow enough.
+  estimated,   ///< The confidence bounds are as narrow as asked.
+  no_failure,  ///< No score leads to a failure, and no trial drawn from its own distribution failed.
+  /// Some failures lie where the proposal hardly draws, so that weights above EstimatorState::cap recur.
+  not_covered,
+  too_many,  ///< The bounds are still wider than asked after max_drawn trials.
+  budget     ///< The budget of trials or time ended before the bounds were as narrow as asked.
 };
 
 struct Estimate {
   EstimateStatus status{EstimateStatus::budget};
-  bool narrow{false};       ///< Whether the bounds from the drawn trials are as narrow as asked.
-  double probability{0.0};  ///< Estimate of the expected proportion of failing moves.
-  /// Bounds of the expected proportion of failing moves. If the status is `estimated`, they are as narrow as
-  /// asked. Otherwise `high` is at least plain_high.
+  bool narrow{false};  ///< Whether the bounds from the drawn trials are as narrow as asked.
+  /// Estimated probability that a move fails (expected proportion of failing moves), 0 to 1.
+  double probability{0.0};
+  /// Confidence bounds of the expected proportion of failing moves. If the status is `estimated`, they are as
+  /// narrow as asked. Otherwise `high` is at least plain_high.
   statistics::ConfidenceInterval bounds{};
-  /// Clopper–Pearson upper bound from the plain trials alone, which are drawn from their own distribution. It
-  /// needs no score.
+  /// Clopper–Pearson upper bound of the expected proportion of failing moves, from the plain trials alone,
+  /// which are drawn from their own distribution. It needs no score.
   double plain_high{1.0};
 };
 
@@ -135,7 +145,7 @@ struct Estimate {
 Estimate estimate(EstimatorState& state, const EstimatorSettings& settings, const Simulation& simulate,
                   const std::function<bool(const EstimatorState&)>& go_on);
 
-/// Estimate from the trials in a state, without running any.
+/// Estimate of the probability from the trials that a state already holds. No trial is run.
 Estimate answer_of(const EstimatorState& state, const EstimatorSettings& settings);
 
 }  // namespace zerocount::rare

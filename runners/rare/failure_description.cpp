@@ -19,7 +19,8 @@ constexpr std::int64_t max_failures = 2000;
 constexpr std::int64_t examined_machines = 48;
 constexpr std::int64_t moves_of_machine = 64;
 
-/// Draws `count` failures by their weights, at equal steps of the cumulative weight.
+/// Chooses `count` of the failed trials with a frequency proportional to weight × failed proportion
+/// (systematic sampling: equal steps of the cumulative weight). A trial may be chosen several times.
 std::vector<Trial> drawn_failures(const EstimatorState& state, std::int64_t count) {
   double sum = 0.0;
   for (const Trial& trial : state.drawn) sum += trial.weight * trial.failed;
@@ -40,7 +41,8 @@ InputRange range_of(const std::vector<double>& sorted) {
   return {quantile(0.05), quantile(0.5), quantile(0.95)};
 }
 
-/// Normal score of a value in a sorted sample: Φ⁻¹ of its relative rank. Equal values have their mean rank.
+/// Normal score of a value in a sorted sample: standard normal quantile Φ⁻¹ of its relative rank. Equal
+/// values have their mean rank.
 double normal_score(const std::vector<double>& sorted, double value) {
   const auto [first, last] = std::equal_range(sorted.begin(), sorted.end(), value);
   const double rank = 0.5 * static_cast<double>((first - sorted.begin()) + (last - sorted.begin()));
@@ -55,7 +57,8 @@ double mean_of(const Values& values, const Get& get) {
   return sum / static_cast<double>(values.size());
 }
 
-/// Mean over the failures of the random coordinate that alone decides this input; nothing if there is none.
+/// Mean over the failed trials of the standard normal coordinate that alone decides this input. Nothing if
+/// there is no such coordinate, or if the study has correlations.
 std::optional<double> mean_coordinate(const Question& question, std::string_view input,
                                       const std::vector<Trial>& failed) {
   if (!question.study.correlations.empty()) return std::nullopt;
@@ -67,7 +70,7 @@ std::optional<double> mean_coordinate(const Question& question, std::string_view
   return mean_of(failed, [&](const Trial& trial) { return trial.z[index]; });
 }
 
-/// [input column] Drawn values of all trials, sorted.
+/// [input column] Values of this input in all the trials, sorted in ascending order.
 std::vector<std::vector<double>> sorted_inputs(const Question& question, const std::vector<Trial>& trials) {
   std::vector<std::vector<double>> inputs(trials.size());
   parallel::for_each_index(
@@ -80,7 +83,8 @@ std::vector<std::vector<double>> sorted_inputs(const Question& question, const s
   return columns;
 }
 
-/// Whether a value of the machine and one of the move are correlated, so that neither is drawn alone.
+/// Whether a value drawn per machine is correlated with a value drawn per move. Then the machine cannot be
+/// kept while new moves are drawn.
 bool correlates_machine_and_move(const Question& question) {
   const auto is_of_machine = [&](const std::string& name) {
     return std::ranges::any_of(question.coordinates, [&](const randomness::RandomCoordinate& one) {

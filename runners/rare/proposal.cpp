@@ -24,13 +24,13 @@ Eigen::VectorXd vector_of(std::span<const double> z) {
 
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// The square matrix stored by rows.
+/// The square matrix whose elements are stored row by row.
 Eigen::MatrixXd matrix_of(std::span<const double> rows) {
   const auto size = static_cast<Eigen::Index>(std::lround(std::sqrt(static_cast<double>(rows.size()))));
   return Eigen::Map<const RowMatrix>(rows.data(), size, size);
 }
 
-/// L⁻¹ of a lower triangular L, by rows.
+/// Inverse L⁻¹ of a lower triangular `size` × `size` matrix L, both stored row by row.
 std::vector<double> inverse_of_factor(std::span<const double> factor, std::size_t size) {
   std::vector<double> inverse(factor.size(), 0.0);
   for (std::size_t column = 0; column < size; ++column) {
@@ -48,14 +48,15 @@ NormalComponent component_of(double weight, const Eigen::VectorXd& mean, const E
   return normal_component(weight, {mean.begin(), mean.end()}, {factor.data(), factor.data() + factor.size()});
 }
 
-/// [column] Logarithms of the density, without the factor (2π)^(−d/2), at the columns of `z`.
+/// [column] Natural logarithm of the component's normal density at each column of `z`, without the factor
+/// (2π)^(−d/2).
 Eigen::VectorXd log_densities(const NormalComponent& component, const Eigen::MatrixXd& z) {
   const Eigen::MatrixXd white =
       numerics::product(matrix_of(component.inverse_factor), z.colwise() - vector_of(component.mean));
   return -0.5 * white.colwise().squaredNorm().transpose().array() - component.log_determinant;
 }
 
-/// Logarithm of the density at one point, without the factor (2π)^(−d/2).
+/// Natural logarithm of the component's normal density at one point, without the factor (2π)^(−d/2).
 double log_density(const NormalComponent& component, std::span<const double> z) {
   const std::size_t size = z.size();
   double squares = 0.0;
@@ -68,7 +69,7 @@ double log_density(const NormalComponent& component, std::span<const double> z) 
   return -0.5 * squares - component.log_determinant;
 }
 
-/// Logarithm of Σ exp(xᵢ).
+/// ln Σ exp(xᵢ), computed without overflow.
 double log_sum(std::span<const double> x) {
   const double largest = std::ranges::max(x);
   double sum = 0.0;
@@ -76,15 +77,15 @@ double log_sum(std::span<const double> x) {
   return largest + numerics::log(sum);
 }
 
-/// Points to which a mixture is fitted, as columns.
+/// Points to which a mixture of normal distributions is fitted, as columns of a matrix.
 struct FittedPoints {
-  Eigen::MatrixXd z;        ///< [coordinate, point]
-  Eigen::VectorXd weights;  ///< [point] Weights; the sum is the effective sample size.
+  Eigen::MatrixXd z;        ///< [coordinate, point] Coordinates of the points, one column per point.
+  Eigen::VectorXd weights;  ///< [point] Weights of the points. They sum to the effective sample size.
 };
 
-/// Normal component fitted to points with these weights. Its weight is the proportion of these weights in the
-/// whole weight. Its covariance is that of the points, mixed with d + 2 points of the standard normal
-/// distribution.
+/// Normal component fitted to points with the weights `weights`. The component's own weight in the mixture is
+/// the sum of `weights` divided by the sum of points.weights. Its covariance is that of the weighted points,
+/// mixed with d + 2 points of the standard normal distribution, so that it is never singular.
 NormalComponent component_of(const FittedPoints& points, const Eigen::VectorXd& weights) {
   const double sum = weights.sum();
   const Eigen::VectorXd mean = numerics::product(points.z, weights) / sum;
@@ -97,15 +98,15 @@ NormalComponent component_of(const FittedPoints& points, const Eigen::VectorXd& 
   return component_of(sum / points.weights.sum(), mean, covariance);
 }
 
-/// A mixture during its fit.
+/// A mixture of normal distributions during its fit to points by expectation and maximisation.
 struct Fit {
   std::vector<NormalComponent> components;
-  /// Mean log-likelihood per unit of weight.
+  /// Mean log-likelihood of the points under the mixture, per unit of weight.
   double log_likelihood{-std::numeric_limits<double>::infinity()};
 };
 
-/// Indices of points far from each other, at which the components start (k-means++, Arthur and Vassilvitskii
-/// 2007).
+/// Indices of `count` points far from each other, which are the first means of the components (k-means++,
+/// Arthur and Vassilvitskii 2007).
 std::vector<Eigen::Index> first_centres(const FittedPoints& points, std::size_t count,
                                         NumberSource& numbers) {
   Eigen::VectorXd distance = Eigen::VectorXd::Ones(points.weights.size());
@@ -126,8 +127,8 @@ std::vector<Eigen::Index> first_centres(const FittedPoints& points, std::size_t 
   return centres;
 }
 
-/// [component] Weights of the points in the component (expectation step). Sets the mean log-likelihood of
-/// `fit`.
+/// [component] Weight of each point times the probability that it belongs to the component (expectation
+/// step). Sets the mean log-likelihood of `fit`.
 std::vector<Eigen::VectorXd> weights_in(const FittedPoints& points, Fit& fit) {
   std::vector<Eigen::VectorXd> in_component;
   for (const NormalComponent& component : fit.components)
@@ -174,7 +175,8 @@ Fit fit_of(const FittedPoints& points, std::size_t count, NumberSource& numbers)
   return fit;
 }
 
-/// The component with the covariance S + 1.25·S·(I + S)⁻³ in place of S.
+/// The component with its covariance S enlarged to S + 1.25·S·(I + S)⁻³, so that the proposal covers the
+/// tails.
 NormalComponent widened(const NormalComponent& component) {
   const Eigen::MatrixXd factor = matrix_of(component.factor);
   const Eigen::MatrixXd covariance = numerics::product(factor, factor.transpose());
@@ -186,7 +188,8 @@ NormalComponent widened(const NormalComponent& component) {
                       covariance + 0.5 * (added + added.transpose()));
 }
 
-/// The points, or a sample drawn by their weights if they are more than a fit takes.
+/// The points as columns of a matrix. If there are more than a fit takes, a sample of them, drawn by their
+/// weights.
 FittedPoints fitted_points(const WeightedPoints& points, NumberSource& numbers) {
   const double effective = effective_size(points.weights);
   const std::size_t size = points.z.size();
@@ -213,7 +216,8 @@ FittedPoints fitted_points(const WeightedPoints& points, NumberSource& numbers) 
   return fitted;
 }
 
-/// Density of the pinned values divided by the density of the trials' own distribution.
+/// Density at `z` of the mixture of pinned values (the trials' own distribution, given that a discrete draw
+/// has one value), divided by the density of the trials' own distribution.
 double density_of_pinned(const TrialSpace& space, const Proposal& proposal, std::span<const double> z) {
   double density = 0.0;
   for (const PinnedValue& one : proposal.values) {
@@ -223,7 +227,9 @@ double density_of_pinned(const TrialSpace& space, const Proposal& proposal, std:
   return density;
 }
 
-/// The element in whose interval of the cumulative weights `place` lies.
+/// Chooses an element with a probability proportional to its weight.
+/// @param place uniform random number from 0 to the sum of the weights; the element is returned in whose
+/// interval of the cumulative weights it lies
 template <class Weighted>
 const Weighted& chosen_by(const std::vector<Weighted>& all, double place) {
   std::size_t chosen = 0;

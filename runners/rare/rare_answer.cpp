@@ -33,7 +33,7 @@ bool is_estimated(const RareAnswer& answer) {
   return answer.estimate.status == EstimateStatus::estimated;
 }
 
-/// Whether failures were found and weighted, so that there is an estimate of the probability.
+/// Whether the answer has an estimate of the probability: failures were found and weighted.
 bool has_probability(const RareAnswer& answer) {
   return !answer.state.drawn.empty() && answer.estimate.probability > 0.0;
 }
@@ -54,7 +54,8 @@ std::string_view reason_of(const RareAnswer& answer) {
   return "";
 }
 
-/// Assumption of the upper bound; nothing if the answer does not depend on a learned proposal.
+/// Assumption under which the upper bound of the probability holds; nothing if the answer does not depend on
+/// a learned proposal.
 std::optional<std::string> premise_of(const RareAnswer& answer) {
   if (!is_estimated(answer) || answer.state.proposal.is_natural()) return std::nullopt;
   std::vector<std::string> untried;
@@ -98,8 +99,9 @@ std::string undecided_sentence(const RareAnswer& answer) {
   return text;
 }
 
-/// Sentence with the number of plain trials that would give bounds of the same ratio. With k failures,
-/// high/low is about exp(2·z/√k).
+/// Sentence that says how many moves there are per failure, and how many plain trials would give equally
+/// narrow bounds. Empty without an estimate, or for a probability of 1 % and more. With k failures, plain
+/// trials give a ratio high/low of about exp(2·z/√k).
 std::string plain_need_sentence(const RareAnswer& answer) {
   const auto& [low, high] = answer.estimate.bounds;
   const double probability = answer.estimate.probability;
@@ -130,7 +132,7 @@ std::string replays_sentence(const RareAnswer& answer) {
 
 // Tables and objects.
 
-/// A part of an answer, with the question that gives its names.
+/// One item of a list in an answer, together with the question that gives the names of its scores or draws.
 template <class Part>
 struct PartOf {
   Part part;
@@ -165,7 +167,8 @@ Description<PartOf<ScoreSearch>> search_columns() {
              [](const PartOf<ScoreSearch>& row) { return row.part.trials; });
 }
 
-/// The values of discrete draws at which failures are frequent, the most probable failure first.
+/// The discrete draws' values at which failures are frequent, sorted by decreasing probability of the
+/// failure.
 std::vector<PartOf<PinnedValue>> value_rows(const RareAnswer& answer) {
   std::vector<PinnedValue> values = answer.state.proposal.values;
   std::ranges::stable_sort(values, std::greater<>(), &PinnedValue::weight);
@@ -253,7 +256,7 @@ Description<CarryingMachines> machines_description() {
              &Machines::probability_of_one);
 }
 
-/// The probability, and how it was found.
+/// Adds the probability with its bounds, and how it was found, to the description of the answer.
 void add_probability(Description<RareAnswer>& items) {
   items.headline(headline)
       .value(in_data("probability",

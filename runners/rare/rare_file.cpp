@@ -34,7 +34,8 @@ constexpr std::size_t weight_column = 1;
 constexpr std::size_t failed_column = 2;
 constexpr std::size_t first_coordinate = 3;
 
-/// Table of the trials drawn from the proposal. The inputs follow the coordinates.
+/// Description of the table with one row for each trial drawn from the proposal. Its columns of inputs follow
+/// those of the coordinates.
 layout::Table drawn_table(const std::vector<randomness::RandomCoordinate>& coordinates,
                           const std::vector<study::InputColumn>& inputs) {
   layout::Table table{"drawn", {"draw", "1", "index of the drawn trial", hdf5::Element::int64}, {}, {}};
@@ -52,7 +53,8 @@ layout::Table drawn_table(const std::vector<randomness::RandomCoordinate>& coord
   return table;
 }
 
-/// Whether a state can belong to an estimate of the question.
+/// Whether a state that was read from a file can belong to an estimate of this question: its proposal has the
+/// question's number of coordinates and its discrete draws, and its scores exist.
 bool fits(const EstimatorState& state, const Question& question) {
   const std::size_t changed = question.coordinates.size() - question.space.unordered.size();
   const auto& [natural, pinned, values, components] = state.proposal;
@@ -70,7 +72,8 @@ bool fits(const EstimatorState& state, const Question& question) {
          });
 }
 
-/// Completes a proposal that was read: adds the values that follow from it and from the manifest.
+/// Completes a proposal that was read from a file, by the values that are not stored: the inverse factors of
+/// its normal components, and what the manifest says of its pinned values.
 void complete(Proposal& proposal, const Question& question) {
   for (NormalComponent& one : proposal.components)
     one = normal_component(one.weight, std::move(one.mean), std::move(one.factor));

@@ -23,7 +23,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double seconds_between_writes = 60.0;
 
-/// How the question of a file differs from this one; empty if it does not.
+/// Text that says how the question recorded in a file differs from this one; empty if it does not differ.
 std::string difference(const fs::path& file, const RareRecord& record, const Question& question) {
   if (record.header.study_sha256 != question.whole.study_sha256)
     return fmt::format("its study differs: {}", manifest_text::differences_text(layout::study_differences(
@@ -37,7 +37,8 @@ std::string difference(const fs::path& file, const RareRecord& record, const Que
   return "";
 }
 
-/// Record of an earlier run, from which this run resumes; nothing if there is none.
+/// Record of an earlier run in the file settings.output, from which this run resumes; nothing if there is
+/// none.
 std::optional<RareRecord> earlier_record(const Question& question, const RareSettings& settings) {
   std::error_code error;
   if (settings.output.empty() || !fs::exists(settings.output, error) || settings.force) return std::nullopt;
@@ -52,14 +53,15 @@ std::optional<RareRecord> earlier_record(const Question& question, const RareSet
                             settings.output.string(), problem));
 }
 
-/// Status line of a running estimate.
+/// Text of the status line of a running estimate.
 std::string progress_text(const Estimate& estimate, const EstimatorState& state) {
   if (!state.learned) return fmt::format("learns where failures are: {} trials", state.trials);
   return fmt::format("{} trials: {:.2g} [{:.2g}, {:.2g}]", state.trials, estimate.probability,
                      estimate.bounds.low, estimate.bounds.high);
 }
 
-/// Adds the inputs of failures and the failure rates of their machines to the answer.
+/// Adds to the answer how the inputs of failing trials differ from all trials, and the failure rates of the
+/// machines on which failures occur.
 void describe_failures(const trials::Effort& effort, RareAnswer& answer) {
   try {
     answer.inputs = failure_inputs(answer.question, answer.state);

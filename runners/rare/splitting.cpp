@@ -60,7 +60,8 @@ class Splitting {
   }
 
  private:
-  /// Score of a trial that was run. A failure has the largest score.
+  /// Score of a trial that was run, for splitting: the largest possible value for a failure, the lowest for
+  /// an unknown score.
   double score_of(const Trial& trial) const {
     if (trial.failed > 0.0) return failed_score;
     const double score = trial.scores[settings_.score];
@@ -78,8 +79,8 @@ class Splitting {
     return static_cast<double>(above) / static_cast<double>(particles_.size());
   }
 
-  /// Next level: the score that a fifth of the particles reach. If too many particles have this score, the
-  /// next larger score.
+  /// Next level of splitting: the score that a fifth of the particles (trials) reach. If too many particles
+  /// have exactly this score, the next larger score.
   double next_level(double level) const {
     std::vector<double> scores;
     for (const Trial& particle : particles_) scores.push_back(score_of(particle));
@@ -91,8 +92,9 @@ class Splitting {
     return last_above == scores.begin() ? level : *std::prev(last_above);
   }
 
-  /// Keeps the particles at or above the level, copies them until their number is restored, and moves all
-  /// within the level.
+  /// Raises the population of trials (particles) to a level: removes those below the level, copies the others
+  /// until their number is restored, and moves all by steps of a Markov chain that stay at or above the
+  /// level.
   void climb(double level) {
     result_.search.probability *= proportion_from(level);
     std::erase_if(particles_, [&](const Trial& particle) { return score_of(particle) < level; });

@@ -50,7 +50,7 @@ constexpr const char* accept_help =
     "Example: zerocount accept my-axis.h5 machine-1.csv machine-2.csv machine-3.csv\n"
     "         zerocount accept my-axis.h5 machine-*.csv --format html > acceptance.html\n";
 
-/// The moves of a log that is given twice would count as those of two machines.
+/// Refuses a file that is given twice, because its moves would count as those of two machines.
 void require_different_files(const command_line::Arguments& arguments) {
   const std::vector<std::string>& operands = arguments.operands();
   std::set<std::filesystem::path> places;
@@ -62,7 +62,8 @@ void require_different_files(const command_line::Arguments& arguments) {
   }
 }
 
-/// "a.csv, b.csv and 3 more"
+/// Text of the names of some logs, such as "a.csv, b.csv and 3 more".
+/// @param indices indices of these logs
 std::string names_of(const std::vector<monitor::MoveLog>& logs, const std::vector<std::size_t>& indices) {
   constexpr std::size_t max_shown = 5;
   const std::size_t shown = std::min(indices.size(), max_shown);
@@ -72,7 +73,7 @@ std::string names_of(const std::vector<monitor::MoveLog>& logs, const std::vecto
   return fmt::format("{}{}", fmt::join(names, ", "), more > 0 ? fmt::format(" and {} more", more) : "");
 }
 
-/// Copies of one log would count as so many machines.
+/// Refuses logs with equal contents, because copies of one log would count as several machines.
 void require_different_logs(const std::vector<monitor::MoveLog>& logs) {
   const std::optional<monitor::EqualLogs> equal = monitor::equal_logs(logs);
   if (!equal) return;

@@ -30,7 +30,8 @@ using Trial = trial::TrialParameters;
 const std::vector<double> factors{0.35, 0.6, 0.84, 1.0, 1.19, 1.67, 2.8};
 const std::vector<double> whole_counts{0.0, 1.0, 2.0, 4.0, 9.0};
 
-/// Whether the row is a number that can change in a machine that is used.
+/// Whether the parameter is a real number that can change while a machine is in use. The length of a count,
+/// phases and rates of aging cannot.
 bool can_change(const parameters::Parameter& row) {
   constexpr std::array sections{"plant.",     "friction.",   "encoder.",    "dac.",
                                 "amplifier.", "controller.", "disturbance."};
@@ -43,10 +44,11 @@ bool can_change(const parameters::Parameter& row) {
          !name.ends_with(study::suffix_of_rate);
 }
 
-/// Sizes of a machine, as scales of amounts.
+/// Sizes of a machine, from which the amounts are derived that are added to its parameters.
 struct Scales {
-  double torque;  ///< Breakaway torque; without friction 1/100 of the converter's range, N m or N.
-  double count;   ///< Length of a count of the encoder that closes the loop, rad or m.
+  /// Breakaway torque (force) of the friction; without friction 1/100 of the converter's range, N m or N.
+  double torque;
+  double count;  ///< Length of a count of the encoder that closes the loop, rad or m.
   bool has_load;
 };
 
@@ -65,12 +67,12 @@ std::vector<double> multiples(double scale, std::vector<double> numbers) {
   return numbers;
 }
 
-/// Widens a zone of errors, which negative bounds switch off.
+/// Makes a zone of errors wider by `amount`. A negative bound means that there is no zone, so it counts as 0.
 void widen(double& bound, double amount) {
   bound = std::max(bound, 0.0) + amount;
 }
 
-/// The parameters to which an amount is added where they are 0 or "none".
+/// Parameters of a machine to which an amount may be added if they are 0 or "none", such as encoder noise.
 std::vector<Cause> amounts_of(const Trial& trial) {
   const Scales scales = scales_of(trial);
   const std::vector<double> torques = multiples(scales.torque, {-0.7, -0.3, -0.1, 0.0, 0.1, 0.3, 0.7});
@@ -113,7 +115,7 @@ std::vector<Cause> amounts_of(const Trial& trial) {
   return causes;
 }
 
-/// Whether the values of the slot are 0 or "none".
+/// Whether the parameter is 0 or "none" in all trials.
 bool is_absent(const parameters::Parameter& row, const study::ParameterRange& range) {
   return range.low == range.high && (range.low == 0.0 || range.low == row.none);
 }

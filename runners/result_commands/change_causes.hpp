@@ -12,17 +12,19 @@
 
 namespace zerocount::result_commands {
 
-/// A parameter of a study that may have changed in a machine.
+/// A parameter of a study that may have changed in a machine in use and so explain an alarm.
 struct Cause {
-  std::string name;  ///< Dotted path.
+  std::string name;  ///< Dotted path of the parameter.
   std::string unit{};
   monitor::ChangeKind kind{monitor::ChangeKind::factor};
-  std::vector<double> changes{};  ///< Changes in ascending order; "no change" is one of them.
-  /// Adds an amount to the drawn parameters of a trial. Empty if the change is a factor on the study's value.
+  /// Changes that are simulated, in ascending order: factors or amounts. "No change" is one of them.
+  std::vector<double> changes{};
+  /// Function that adds an amount to the drawn parameters of a trial. Empty if the change is a factor on the
+  /// study's value.
   std::function<void(trial::TrialParameters& parameters, double amount)> add{};
 };
 
-/// Parameters that may change in a machine at this design point. They are the real numbers of plant,
+/// Parameters that may change in a machine in use at this design point. They are the real numbers of plant,
 /// friction, encoder, converter, amplifier, control and disturbances that have an effect and are not 0,
 /// "none" or a profile. Each is multiplied by factors between 0.35 and 2.8. An amount is added to some
 /// parameters that are 0 or "none": encoder noise, delay, dead bands, the gap of a coupling, constant torques
@@ -32,7 +34,8 @@ struct Cause {
 /// them.
 std::vector<Cause> causes_of(const study::Study& study, std::int64_t point);
 
-/// Study with the parameter multiplied by `factor`; nothing if a value would be impossible.
+/// Copy of the study in which the parameter of `cause` is multiplied by `factor`; nothing if a value would be
+/// impossible.
 std::optional<study::Study> study_with_factor(const study::Study& study, std::int64_t point,
                                               const Cause& cause, double factor);
 
@@ -42,8 +45,8 @@ std::optional<study::Study> study_with_factor(const study::Study& study, std::in
 /// @throws Failure (bad_input) if a name matches no parameter that can change in some machine
 std::vector<std::string> unchanged_names(const study::Study& study, const std::vector<std::string>& lists);
 
-/// Whether a dotted path matches a name: it begins with the first part of the name, and contains the other
-/// parts in the same order.
+/// Whether a dotted path matches a name from which parts may be left out: the path begins with the first part
+/// of the name, and contains the other parts in the same order.
 bool is_named(std::string_view path, std::string_view name);
 
 }  // namespace zerocount::result_commands

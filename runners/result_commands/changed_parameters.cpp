@@ -22,17 +22,21 @@ using monitor::ChangeKind;
 using Machines = std::vector<monitor::MoveValues>;
 
 constexpr std::int64_t max_simulated_machines = 64;
-constexpr std::int64_t pilot_trials = 16;  ///< Trials per change; enough to see whether it acts.
-/// Trials per change; enough to see which parameters do not fit.
+/// Number of trials per change of a parameter; enough to see whether the change has any effect.
+constexpr std::int64_t pilot_trials = 16;
+/// Number of trials per change of a parameter; enough to see which parameters do not fit the log.
 constexpr std::int64_t screened_trials = 64;
 
-/// Stage that simulates changes near the likeliest change with more trials.
+/// A stage of the explanation that simulates more changes near the likeliest change of each parameter, with
+/// more trials.
 struct Refinement {
-  std::int64_t trials;  ///< Number of trials of each change.
-  /// Number of likeliest parameters that fit; other fitting ones stay as they are.
+  std::int64_t trials;  ///< Number of trials that are simulated with each change.
+  /// Maximum number of likeliest parameters to simulate again among those that fit the log. Other fitting
+  /// ones keep their results.
   std::size_t max_parameters;
-  std::size_t min_parameters;  ///< Number of likeliest parameters to refine even if they do not fit.
-  std::size_t changes;         ///< Number of changes of each parameter.
+  /// Number of likeliest parameters that are simulated again even if they do not fit the log.
+  std::size_t min_parameters;
+  std::size_t changes;  ///< Number of changes of each parameter that are simulated.
 };
 constexpr std::array refinements{
     Refinement{.trials = 128, .max_parameters = 8, .min_parameters = 3, .changes = 5},
@@ -41,10 +45,11 @@ constexpr std::array refinements{
 struct WatchedField {
   const layout::RecordField<trial::MoveOutcome>* field;
   monitor::MonitoredMeasure measure;
-  double evidence;  ///< Evidence that the measure has changed.
+  double evidence;  ///< Evidence of the monitor that the measure has changed; larger is stronger.
 };
 
-/// Data behind an alarm.
+/// Data behind an alarm of the monitor: the study, its simulated moves, the log and the measures that are
+/// watched.
 struct Alarm {
   const study::Study& study;
   const monitor::ModelMoves& moves;
@@ -54,7 +59,7 @@ struct Alarm {
   const trials::Effort& effort;
 };
 
-/// Whether something is drawn that differs from one machine to another.
+/// Whether the study draws some value that differs from one machine to another.
 bool machines_differ(const study::Study& study, std::int64_t point) {
   const study::StudyPlan& plan = *study.plan;
   const std::size_t place = study::plan_point(plan, point);
@@ -69,18 +74,20 @@ bool machines_differ(const study::Study& study, std::int64_t point) {
   return false;
 }
 
-/// Numbers of simulated machines and trials. The machines are the machines of the study or, without
+/// Numbers of machines and trials to simulate. The machines are the machines of the study or, without
 /// `machines`, its trials. If no drawn quantity differs between them, all trials belong to one machine.
 struct SimulatedMachines {
   std::int64_t machines;
   std::int64_t trials_of_machine;
-  bool are_one;  ///< All trials belong to one machine.
+  /// Whether all trials belong to one machine, because no drawn quantity differs between trials.
+  bool are_one;
 
   std::int64_t trials() const { return machines * trials_of_machine; }
 };
 
-/// Machines to simulate, with at most `max_trials` trials. If machines differ, each has two trials, so that
-/// differences between machines can be separated from differences within a machine.
+/// Numbers of machines and trials to simulate, at most `max_trials` trials together. If the study's machines
+/// differ, each has two or more trials, so that differences between machines can be separated from
+/// differences within a machine.
 SimulatedMachines machines_of(const Alarm& alarm, std::int64_t max_trials) {
   const study::Study& study = alarm.study;
   if (alarm.moves.machine) return {1, std::min(study.trials / study.machines, max_trials), false};
@@ -90,7 +97,7 @@ SimulatedMachines machines_of(const Alarm& alarm, std::int64_t max_trials) {
   return {machines, std::min(study.trials / study.machines, max_trials / machines), false};
 }
 
-/// The moves of simulated machines with each change.
+/// Simulates the machines with a changed parameter, and holds their moves without a change.
 class Simulations {
  public:
   Simulations(const Alarm& alarm, const SimulatedMachines& machines) : of_(alarm), machines_(machines) {
@@ -99,7 +106,8 @@ class Simulations {
 
   const Machines& same() const { return same_; }
 
-  /// The moves with the change; nothing where a value would be impossible.
+  /// [machine] Values of the moves with this change of the parameter; nothing if a value would be impossible.
+  /// @param change factor or amount
   std::optional<Machines> changed(const Cause& cause, double change) const {
     if (change == monitor::unchanged_by(cause.kind)) return same_;
     if (cause.add)
@@ -109,18 +117,20 @@ class Simulations {
     return simulated(*study, [](trial::TrialParameters&) {});
   }
 
-  /// Explanation of the change by these candidates, from the moves of the log.
+  /// Explains the alarm from the moves of the log: which of the candidates (changed parameters) make the
+  /// simulated moves like those.
   monitor::ChangeExplanation explained(std::vector<monitor::ChangeCandidate> candidates) const;
 
  private:
-  /// The trial of the point with this number among those that are simulated.
+  /// Number, within the design point, of the trial that is number `number` among the simulated ones.
   std::int64_t index(std::int64_t number) const {
     if (machines_.are_one) return number;
     const std::int64_t machine = of_.moves.machine.value_or(number / machines_.trials_of_machine);
     return machine + of_.study.machines * (number % machines_.trials_of_machine);
   }
 
-  /// @param change of the drawn parameters
+  /// [machine] Values of the watched measures of the simulated moves.
+  /// @param change changes the parameters of each drawn trial
   Machines simulated(const study::Study& study,
                      const std::function<void(trial::TrialParameters&)>& change) const {
     const auto draw = [&](std::int64_t number) {
@@ -147,14 +157,16 @@ class Simulations {
 
   const Alarm& of_;
   SimulatedMachines machines_;
-  Machines same_;  ///< Moves of the machines without a change.
+  Machines same_;  ///< [machine] Values of the moves without a change.
 };
 
-/// Replaces the values of each machine's moves by their ranks among the unchanged moves like them, so that
-/// moves of different targets are alike. Without likes the values stay.
+/// Replaces the values of each machine's moves by their ranks among the unchanged moves of the same kind (the
+/// same target, for example), so that moves of different kinds can be compared. If there is only one kind,
+/// the values stay.
 class RanksAmongLikes {
  public:
-  /// @param likes [machine][move] @param unchanged [machine]
+  /// @param likes [machine][move] kind of the move, as an index
+  /// @param unchanged [machine] values of the moves without a change
   RanksAmongLikes(const Alarm& alarm, const std::vector<std::vector<std::size_t>>& likes,
                   const Machines& unchanged)
       : likes_(alarm.likes), watched_(alarm.watched), sorted_(likes_.count() * watched_.size()) {
@@ -188,7 +200,8 @@ class RanksAmongLikes {
 
   const monitor::Likes& likes_;
   const std::vector<WatchedField>& watched_;
-  std::vector<std::vector<double>> sorted_;  ///< [like][measure]
+  /// [kind of move and measure] Values of the unchanged moves, in ascending order.
+  std::vector<std::vector<double>> sorted_;
 };
 
 monitor::ChangeExplanation Simulations::explained(std::vector<monitor::ChangeCandidate> candidates) const {
@@ -221,13 +234,15 @@ monitor::ChangeExplanation Simulations::explained(std::vector<monitor::ChangeCan
   return explanation;
 }
 
-/// The candidates that act on what is watched.
+/// Parameters whose change has an effect on the watched measures, with their simulated moves.
 struct Screening {
   std::vector<monitor::ChangeCandidate> candidates{};
-  std::vector<std::string> untried{};  ///< Parameters for which the effort was not enough.
+  /// Names of the parameters that were not tried, because the effort was not enough.
+  std::vector<std::string> untried{};
 };
 
-/// Whether the parameter acts on what is watched: its smallest or its largest change does.
+/// Whether the parameter has an effect on the watched measures: its smallest or its largest change alters
+/// simulated moves.
 bool acts(const Simulations& pilot, const Cause& cause) {
   return std::ranges::any_of(std::array{cause.changes.front(), cause.changes.back()}, [&](double change) {
     const std::optional<Machines> moves = pilot.changed(cause, change);
@@ -258,7 +273,8 @@ Screening screened(const Simulations& pilot, const Simulations& simulations, con
   return screening;
 }
 
-/// Simulates so many changes about the interval, with more trials, and takes the machines without a change.
+/// Simulates `count` further changes of the parameter around the interval `near`, with more trials, and
+/// replaces the unchanged machines of the candidate by those with as many trials.
 void refine(monitor::ChangeCandidate& candidate, const monitor::ParameterChange& near, const Cause& cause,
             std::size_t count, const Simulations& simulations) {
   const bool is_factor = candidate.kind == ChangeKind::factor;
@@ -285,7 +301,7 @@ void refine(monitor::ChangeCandidate& candidate, const monitor::ParameterChange&
   }
 }
 
-/// Most trials that an explanation takes.
+/// Maximum number of trials that the explanation of an alarm takes.
 std::int64_t max_trials_of(const Alarm& alarm, const std::vector<Cause>& causes) {
   const std::int64_t of_pilot = machines_of(alarm, pilot_trials).trials();
   const std::int64_t of_screening = machines_of(alarm, screened_trials).trials();
@@ -297,7 +313,9 @@ std::int64_t max_trials_of(const Alarm& alarm, const std::vector<Cause>& causes)
   return trials;
 }
 
-/// The explanation by more trials of those that are near. Keeps those among the candidates, and all that fit.
+/// Explanation of the alarm from more trials with changes near the likeliest ones. The candidates are then
+/// the parameters simulated again, and all others that fit the log.
+/// @param before explanation by the previous stage
 monitor::ChangeExplanation refined(const Alarm& alarm, const Refinement& refinement,
                                    const std::vector<Cause>& causes, const monitor::ChangeExplanation& before,
                                    std::vector<monitor::ChangeCandidate>& candidates) {

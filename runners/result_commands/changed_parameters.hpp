@@ -27,9 +27,9 @@ namespace zerocount::result_commands {
 /// The number of trials therefore depends on the study alone, and not on the computer. If the effort ends
 /// before, the answer is that of the previous stage, and ChangeExplanation::untried lists the parameters that
 /// were not tried.
-/// @param file results in one setting at one age
-/// @param moves moves of the file's baseline
-/// @param unchanged names from unchanged_names()
+/// @param file results in one setting (a condition at an age)
+/// @param moves which simulated moves of the file are the baseline
+/// @param unchanged names of parameters that cannot have changed, from unchanged_names()
 /// @throws trial::Interrupted if a stop is requested from outside
 monitor::ChangeExplanation explain_alarm(const reading::AllTrialsFile& file, const monitor::ModelMoves& moves,
                                          const monitor::MachineMonitor& machine, const monitor::MoveLog& log,

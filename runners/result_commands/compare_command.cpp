@@ -58,13 +58,14 @@ ExitCode code_of(comparison::GateVerdict verdict) {
   return comparison::fails(verdict) ? ExitCode::regression : ExitCode::inconclusive;
 }
 
-/// A format, and the file that it is written to.
+/// A format of the answer, and the file to which it is written; standard output if the path is "-".
 struct FormatPlace {
   std::string format;
   std::filesystem::path place;
 };
 
-/// Destinations of all formats. The format of --format goes to standard output, unless another format does.
+/// Formats in which the answer is written, each with its destination. The format of --format goes to standard
+/// output, unless another format does.
 std::vector<FormatPlace> places_of(const command_line::Arguments& arguments) {
   std::vector<std::filesystem::path> printed;
   if (arguments.has("format")) printed.emplace_back("-");
@@ -78,7 +79,7 @@ std::vector<FormatPlace> places_of(const command_line::Arguments& arguments) {
   return places;
 }
 
-/// The two design points of the only operand.
+/// Comparison of the two design points that the options name, in the results file that is the only operand.
 comparison::StudyComparison compare_points(const command_line::Arguments& arguments,
                                            const comparison::CompareOptions& options) {
   if (arguments.operands().size() > 1) arguments.refuse("option '--points' needs a single FILE");

@@ -51,7 +51,8 @@ std::filesystem::path database_of(const command_line::Arguments& arguments) {
   return arguments.value("database").value_or("history.sqlite");
 }
 
-/// Says that another process holds the database, so that the command does not seem to hang.
+/// How to wait while another process writes the database: a message is printed, so that the command does not
+/// seem to hang.
 history::Wait patience_with(const std::filesystem::path& database) {
   history::Wait wait;
   wait.notify = [database, seconds = wait.seconds] {
@@ -130,7 +131,7 @@ ExitCode plot_history(const command_line::Arguments& arguments) {
   return ExitCode::success;
 }
 
-/// An action on a history.
+/// An action of the command `history`, such as adding results, with its name and function.
 struct HistoryAction {
   std::string_view name;
   ExitCode (*run)(const command_line::Arguments&);

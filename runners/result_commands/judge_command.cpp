@@ -36,9 +36,11 @@ struct Judgement {
   const summary::StudySummary& summary;
   summary::JudgedPoint judged;
   std::optional<worlds::PointWorlds> worlds;
-  std::vector<summary::CellOfPoint> claims;  ///< All pairs of goal and setting.
-  std::vector<summary::CellOfPoint> ages;    ///< [age] Claims at each age; empty without ages.
-  /// Saturated moves of the worst goal and setting; nothing if met.
+  /// Counts and bounds of all claims (pairs of goal and setting, a condition at an age).
+  std::vector<summary::CellOfPoint> claims;
+  /// [age] Counts and bounds of the claims at each age; empty without ages.
+  std::vector<summary::CellOfPoint> ages;
+  /// Moves of the worst goal and setting in which the converter was saturated; nothing if the goal is met.
   std::optional<summary::SaturatedMoves> saturated;
 
   const std::string& label() const { return summary.labels[static_cast<std::size_t>(judged.chosen.point)]; }
@@ -52,7 +54,8 @@ struct Judgement {
     if (settings.empty()) return std::nullopt;
     return study::label_of(settings, static_cast<std::int64_t>(judged.verdict.setting));
   }
-  /// Proportion of the moves that miss the goal in which the converter clipped.
+  /// Proportion, 0 to 1, of the moves that miss the goal in which the converter clipped; nothing if not
+  /// known, or if no move misses.
   std::optional<double> missed_saturated() const {
     return saturated && saturated->missed > 0 ? std::optional(saturated->of_missed()) : std::nullopt;
   }
@@ -69,7 +72,7 @@ struct Judgement {
   }
 };
 
-/// A question with a claim, for the type of the answer.
+/// An example of a question with a claim, from which the type (schema) of the answer is made.
 goal::Question any_claim() {
   goal::Question question;
   question.parts.front().claim.emplace();
@@ -147,7 +150,8 @@ document::AnswerDescription<Judgement> judge_answer(const goal::Question& questi
   return answer;
 }
 
-/// The study of the file. Refuses what its description tells, before its trials are read.
+/// Study of the results file. Refuses a file that cannot be judged from its description, before its trials
+/// are read.
 study::Study judgeable_study(const command_line::Arguments& arguments) {
   const std::filesystem::path path = arguments.operands()[0];
   std::error_code error;

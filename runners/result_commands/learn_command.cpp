@@ -49,16 +49,20 @@ constexpr const char* learn_help =
     "Example: zerocount learn unknown-friction.h5\n"
     "         zerocount learn unknown-friction.h5 --point 2 --precision 0.05 --format json\n";
 
-/// Recommended next step.
+/// Next step that the command `learn` recommends. A world is one draw of the values that all machines share
+/// and nobody knows.
 enum class Next {
-  nothing,      ///< The goal is met in every world.
-  change_axis,  ///< The goal is missed in every world.
-  more_trials,  ///< The trials show no difference between the worlds and do not decide the goal.
-  measure,      ///< Measure the unknown that Outcome::best() names.
-  no_single     ///< Worlds differ, but no single measurement is shown to tell them apart.
+  nothing,      ///< The goal is met in every world: nothing needs to be done.
+  change_axis,  ///< The goal is missed in every world: the axis must be changed.
+  /// The trials show no difference between the worlds and do not decide the goal: run more trials.
+  more_trials,
+  measure,  ///< The unknown that Outcome::best() names should be measured next.
+  /// Worlds (draws of the values that nobody knows) differ in the verdict, but no single measurement is shown
+  /// to tell them apart.
+  no_single
 };
 
-/// Value of measuring one unknown.
+/// How much the measurement of one unknown would decide: a row of the table.
 struct Measurement {
   const worlds::Learned& learned;
   const worlds::WorldInput& input;
@@ -72,7 +76,7 @@ struct Measurement {
 struct Outcome {
   const summary::StudySummary& summary;
   summary::ChosenPoint chosen;
-  std::optional<summary::JudgedPoint> judged;  ///< Judged point, if the study has a goal.
+  std::optional<summary::JudgedPoint> judged;  ///< Judged design point; nothing if the study has no goal.
   double precision;
   worlds::PointWorlds worlds;
   std::vector<worlds::Learned> learned{};
@@ -84,15 +88,15 @@ struct Outcome {
     return static_cast<std::size_t>(std::count(worlds.bad.begin(), worlds.bad.end(), true));
   }
   bool worlds_differ() const { return bad() > 0 && bad() < worlds.bad.size(); }
-  /// The measurement that decides most, of those that are shown to decide more than chance, and do better
-  /// than no measurement.
+  /// The measurement that decides most worlds, among those that are shown to decide more than chance, and do
+  /// better than no measurement; null if there is none.
   const worlds::Learned* best() const {
     const auto found = std::ranges::find_if(learned, [](const worlds::Learned& one) {
       return one.p_value <= significance && one.does_better_than_no_measurement();
     });
     return found == learned.end() ? nullptr : &*found;
   }
-  /// Worlds of which the verdict says this; none without a goal.
+  /// Number of worlds (draws of the values that nobody knows) whose verdict is `status`; 0 without a goal.
   std::size_t worlds_that(goal::Status status) const {
     return static_cast<std::size_t>(std::ranges::count(worlds.statuses, status));
   }
@@ -112,12 +116,12 @@ struct Outcome {
   }
 };
 
-/// The words of Next, in its order.
+/// Words of Next in the answer's data, in the order of Next.
 constexpr std::array<const char*, 5> next_words{"nothing", "change_axis", "more_trials", "measure",
                                                 "no_single_measurement"};
 
-/// Text below the table: basis of the numbers, assumptions of the table, and definitions of its derived
-/// quantities, one line each.
+/// Text below the table of measurements: basis of the numbers, assumptions of the table, and definitions of
+/// its derived quantities, one line each.
 std::string text_below_table(const Outcome& outcome) {
   const std::size_t all = outcome.worlds.bad.size();
   std::string text =
@@ -171,7 +175,7 @@ std::string headline_of(const Outcome& outcome) {
       text::percent(significance));
 }
 
-/// The paragraph of `judge`; without a goal the worlds that fall short.
+/// Paragraph about the verdict, as `judge` has it; without a goal, about the worlds that fall short.
 std::string verdict_text(const Outcome& outcome) {
   if (outcome.judged) return summary::judgement_text(outcome.summary, *outcome.judged);
   return fmt::format(
@@ -252,8 +256,11 @@ document::AnswerDescription<Outcome> learn_answer() {
   return answer;
 }
 
-/// @throws Failure (bad_input) where no move is judged, or nothing differs between worlds. @param name of the
-/// study
+/// Checks that a study can be examined by `learn`.
+/// @param name name of the study, for messages
+/// @param differ whether some value differs between worlds
+/// @param open_loop whether the study has torque levels instead of targets, so that no move is judged
+/// @throws Failure (bad_input) if no move is judged, or nothing differs between worlds
 void require_worlds(const std::string& name, bool differ, bool open_loop) {
   const auto refuse = [&](const char* what, const char* expected) {
     throw Failure(ExitCode::bad_input, fmt::format("{}: {}; expected {}", name, what, expected));
@@ -280,7 +287,8 @@ Outcome outcome_of(const std::string& path, const summary::StudySummary& summary
   return outcome;
 }
 
-/// Inconclusive where the goal is undecided and no unknown is named.
+/// Exit code of `learn`: inconclusive if more trials are recommended, or if the goal is undecided and no
+/// single measurement is named; otherwise success.
 ExitCode exit_code_after(const Outcome& outcome) {
   const bool undecided = outcome.judged && outcome.judged->verdict.status == goal::Status::undecided;
   const Next next = outcome.next();

@@ -65,12 +65,13 @@ std::optional<std::int64_t> machine_of(const command_line::Arguments& arguments,
   return machines == 0 ? std::nullopt : arguments.whole_number("machine", 0, machines - 1);
 }
 
-/// Earlier moves, and the simulated study that they are of.
+/// Moves with which the log of a machine is compared: earlier measured moves, or those of a simulated study
+/// with its file.
 struct LoadedBaseline {
   monitor::Baseline moves;
   std::optional<reading::AllTrialsFile> file{};
   monitor::ModelMoves of_file{};
-  std::vector<std::string> unchanged{};  ///< Parameters of the study that cannot have changed.
+  std::vector<std::string> unchanged{};  ///< Names of parameters of the study that cannot have changed.
 };
 
 LoadedBaseline load_baseline(const command_line::Arguments& arguments) {
@@ -99,8 +100,8 @@ LoadedBaseline load_baseline(const command_line::Arguments& arguments) {
   return {std::move(baseline), std::move(file), moves, std::move(unchanged)};
 }
 
-/// Explanation of an alarm by changed parameters of the model. Nothing without an alarm, if the baseline
-/// consists of measured moves, or with a plugin.
+/// Explanation of an alarm: which parameter of the simulated study changed. Nothing without an alarm, if the
+/// baseline consists of measured moves, or for a controller plugin.
 std::optional<monitor::ChangeExplanation> explanation_of(const command_line::Arguments& arguments,
                                                          const LoadedBaseline& baseline,
                                                          const monitor::MachineMonitor& machine,
@@ -137,7 +138,8 @@ monitor::MonitorSettings settings_from(const command_line::Arguments& arguments)
   return settings;
 }
 
-/// Prints the state after all moves of the log, of a log that is followed as one line. @returns its exit code
+/// Prints the state of the monitor after all moves of the log; on one line if the log is followed.
+/// @returns exit code of the state
 ExitCode print_state(const command_line::Arguments& arguments, monitor::MachineMonitor& machine,
                      const monitor::MoveLog& log, const LoadedBaseline& baseline,
                      const std::stop_token& stop) {
@@ -158,7 +160,7 @@ ExitCode print_state(const command_line::Arguments& arguments, monitor::MachineM
   return code;
 }
 
-/// Follows the log until the alarm, an interruption, or so many seconds without new moves.
+/// Follows a growing log until an alarm, an interruption, or a time without new moves.
 ExitCode follow(const command_line::Arguments& arguments) {
   using Clock = std::chrono::steady_clock;
   const fs::path path = arguments.operands()[1];

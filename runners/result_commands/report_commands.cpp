@@ -64,7 +64,7 @@ constexpr const char* plot_help =
     "\n"
     "Example: zerocount plot gains.h5 --figure success -o success.svg\n";
 
-/// The runs of the file's study in a history; nothing if there are fewer than two.
+/// Earlier runs of the file's study in a history database; nothing if there are fewer than two.
 history::History history_of_study(const std::filesystem::path& database, const reading::AllTrialsFile& file) {
   std::vector<history::RunRecord> runs = history::read_runs(database);
   const std::string series = history::series_sha256(file);
@@ -90,7 +90,7 @@ report::StudyReport report_of(const command_line::Arguments& arguments, const re
   return commands::verified_report(file, std::move(options));
 }
 
-/// The output file. Its name must end in one of `extensions`.
+/// Path of the output file. Its name must end in one of `extensions`.
 std::filesystem::path picture_or_page(const command_line::Arguments& arguments,
                                       const std::vector<std::string>& extensions) {
   arguments.required("output");
@@ -105,14 +105,15 @@ std::filesystem::path picture_or_page(const command_line::Arguments& arguments,
   return output;
 }
 
-/// Puts the sections before what was run, which ends the page.
+/// Inserts the sections into a page, before the section about what was run, which stays the last one.
 void add_parts(report::ReportPage& page, std::vector<report::PageSection> sections) {
   const auto last = std::ranges::find(page.sections, "run", &report::PageSection::name);
   page.sections.insert(last, std::make_move_iterator(sections.begin()),
                        std::make_move_iterator(sections.end()));
 }
 
-/// `report FOLDER`: the index, and the pages that it needs.
+/// Runs `report FOLDER`: writes the index page of a folder of results files, and the pages of reports that it
+/// needs.
 ExitCode write_index(const command_line::Arguments& arguments, const std::filesystem::path& output) {
   for (const char* const option : {"with", "budget", "baseline", "history", "point"}) {
     if (arguments.has(option))
@@ -150,7 +151,8 @@ ExitCode write_report(const command_line::Arguments& arguments) {
   return stop.stop_requested() ? ExitCode::interrupted : ExitCode::success;
 }
 
-/// The file that shows the figure, by the extension of its name. @param title of a page
+/// Contents of the file that shows the figure, as the extension of its name asks: a picture or a page.
+/// @param title title of a page
 std::string figure_text(const report::Figure& figure, const std::string& title,
                         const std::string& extension) {
   if (extension == ".html") {
@@ -186,7 +188,7 @@ std::vector<command_line::OptionSpec> with_part_options(std::vector<command_line
   return own;
 }
 
-/// Options of both commands.
+/// Options that the commands `report` and `plot` have in common.
 /// @param own options of a single command, which come first
 std::vector<command_line::OptionSpec> options_of_report(std::vector<command_line::OptionSpec> own) {
   own.insert(

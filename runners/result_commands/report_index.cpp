@@ -22,18 +22,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A row of the index.
+/// A results file in the folder, as a row of the index page.
 struct IndexedFile {
   fs::path file;
   std::string study{};
-  std::string created{};  ///< Date as in layout::Header::created; empty if unknown.
+  /// Date on which the file was made, as in layout::Header::created; empty if unknown.
+  std::string created{};
   std::string goal{};
   std::string verdict{};
   bool has_report{false};
-  std::string page{};  ///< File name of the report's page; empty without a page.
+  std::string page{};  ///< File name of the page with the file's report; empty without a page.
 };
 
-/// The results files in the folder, and those that unfinished runs will write.
+/// Paths of the results files in the folder, and of those that unfinished runs will write.
 std::vector<fs::path> results_in_folder(const fs::path& folder) {
   constexpr std::string_view shards = ".h5.shards";
   std::vector<fs::path> files;
@@ -51,6 +52,7 @@ std::vector<fs::path> results_in_folder(const fs::path& folder) {
   return files;
 }
 
+/// Fills the row with the file's study, date and verdict.
 /// @throws Failure if the file cannot be read
 void describe(IndexedFile& row) {
   const layout::FileHeader header = shards::inspect_header(row.file, layout::Checksum::not_yet);

@@ -25,7 +25,7 @@
 namespace zerocount::result_commands {
 namespace {
 
-/// The point that the report speaks of, and its study.
+/// The design point that the report describes, with its study and summary.
 struct ReportedPoint {
   const reading::AllTrialsFile& file;
   const summary::StudySummary& summary;
@@ -35,7 +35,8 @@ struct ReportedPoint {
   std::string name() const { return file.path().string(); }
 };
 
-/// An answer, and what it is of where a part has several.
+/// An answer, with a title that tells it from the others if a part of the report has several; otherwise
+/// empty.
 struct TitledAnswer {
   std::string title;
   document::Answer answer;
@@ -54,7 +55,8 @@ Answers learn_part(const ReportedPoint& asked, const trials::Effort&) {
   return {{"", learned_of(asked.name(), asked.summary, asked.chosen)}};
 }
 
-/// The world that does worst by the goal.
+/// Index of the world in which the goal's success rate is lowest (a world is one draw of the values that all
+/// machines share and nobody knows); nothing without worlds.
 std::optional<std::int64_t> worst_world(const ReportedPoint& asked) {
   const study::Study& study = asked.study();
   if (study.worlds == 0) return std::nullopt;
@@ -67,8 +69,9 @@ std::optional<std::int64_t> worst_world(const ReportedPoint& asked) {
   return static_cast<std::int64_t>(goal::worst_worlds_first(study.goals[verdict.goal], verdict).front());
 }
 
-/// Part `rare` of the report: the probability that a move fails, as estimated for rare failures. One answer
-/// for each setting; a single answer without settings. With worlds: only in the worst world.
+/// Answers of the part `rare` of the report: the probability that a move fails, as estimated for rare
+/// failures. One answer for each setting (condition at an age); a single answer without settings. With worlds
+/// (draws of the values that nobody knows): only in the worst world.
 Answers rare_part(const ReportedPoint& asked, const trials::Effort& effort) {
   const study::Study& study = asked.study();
   const std::optional<std::int64_t> world = worst_world(asked);
@@ -89,9 +92,10 @@ Answers rare_part(const ReportedPoint& asked, const trials::Effort& effort) {
 struct Part {
   std::string_view name;
   const char* question;
-  bool judges_moves;  ///< Whether the part simulates moves, so that the study needs targets.
+  bool judges_moves;  ///< Whether the part simulates moves that are judged, so that the study needs targets.
   Answers (*answer)(const ReportedPoint&, const trials::Effort&);
-  std::int64_t (*trials)(const ReportedPoint&);  ///< Approximate or maximum number of its trials.
+  /// Approximate or maximum number of trials that the part simulates.
+  std::int64_t (*trials)(const ReportedPoint&);
 };
 
 constexpr std::array<Part, 4> all_parts{{
@@ -118,7 +122,7 @@ std::string all_names() {
   return fmt::format("{}", fmt::join(names, ","));
 }
 
-/// Section with the answers of a part, as HTML and figures.
+/// Section of the report with the answers of a part, as HTML and figures.
 report::PageSection section_of(const Part& part, const Answers& answers) {
   report::PageSection section{std::string(part.name), part.question, "", {}};
   for (const auto& [title, answer] : answers) {
@@ -135,7 +139,7 @@ report::PageSection section_of(const Part& part, const Answers& answers) {
   return section;
 }
 
-/// Answers of a part. If there are none, the reason.
+/// Section of the report with the answers of a part. If it cannot be answered, the section shows the reason.
 report::PageSection answered(const Part& part, const ReportedPoint& asked, const trials::Effort& effort) {
   const auto stopped = [&] {
     return std::string(effort.is_interrupted() ? "interrupted" : "the budget is not enough");
@@ -162,7 +166,7 @@ report::PageSection answered(const Part& part, const ReportedPoint& asked, const
           {}};
 }
 
-/// Trials/s of the study here; nothing where that cannot be measured.
+/// Speed with which this computer simulates the study, trials/s; nothing if it cannot be measured.
 std::optional<double> speed_of(const ReportedPoint& asked, const trials::Effort& effort) {
   try {
     commands::require_simulable(asked.file);

@@ -24,25 +24,28 @@ report::ReportPage folder_index(const std::filesystem::path& folder, const std::
                                 const std::function<void(const std::filesystem::path& file,
                                                          const std::filesystem::path& page)>& write_page);
 
-/// Options `--with`, which adds answers of other commands to a report, and `--budget` for these answers.
+/// Options `--with`, which adds the answers of other commands (parts) to a report, and `--budget` for these
+/// answers.
 std::vector<command_line::OptionSpec> part_options();
 
-/// Names in the option --with, in the order in which they are answered; empty without the option.
+/// Names of the parts (answers of other commands) that the option --with asks for, in the order in which they
+/// are answered; empty without the option.
 /// @throws Failure (bad_input) for another name
 std::vector<std::string_view> parts_option(const command_line::Arguments& arguments);
 
-/// Study and design point of the parts.
+/// Study and design point that the parts of a report are about.
 struct PartsSubject {
   const reading::AllTrialsFile& file;
-  std::optional<std::int64_t> point;  ///< Design point; nothing: the best point.
+  std::optional<std::int64_t> point;  ///< Index of the design point; nothing: the best point.
 };
 
-/// Answers of these commands on the file's study, each as a section under its question. A part that cannot be
-/// answered shows the reason.
+/// Answers of the named commands on the file's study, each as a section of the report under its question. A
+/// part that cannot be answered shows the reason.
 ///
 ///     tell the maximum duration of each part, from its number of trials and the measured speed
 ///     for each part: answer it within half of the remaining budget, the last part within all of it
 ///
+/// @param names names from parts_option()
 /// @param stop a stop request leaves out the current part and the later ones
 std::vector<report::PageSection> part_sections(const PartsSubject& subject,
                                                const std::vector<std::string_view>& names,

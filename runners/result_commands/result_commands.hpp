@@ -6,9 +6,10 @@
 
 namespace zerocount::result_commands {
 
-/// Answer of `learn` for a design point of a study.
+/// Answer of the command `learn` for a design point of a study: which unknown to measure next.
 /// @param name name of the file, for messages
-/// @throws Failure (bad_input) if nothing differs between worlds, or no move is judged
+/// @throws Failure (bad_input) if nothing differs between worlds (draws of the values that nobody knows), or
+/// no move is judged
 document::Answer learned_of(const std::string& name, const summary::StudySummary& summary,
                             const summary::ChosenPoint& chosen);
 

@@ -60,7 +60,8 @@ bool is_there(const fs::path& path) {
   return fs::exists(path, error);
 }
 
-/// The summary of the file, or of the unfinished run that writes it.
+/// Summary of a results file, or of the finished trials of the unfinished run that writes it.
+/// @param with_means whether to compute bounds of means, which takes time
 summary::StudySummary summary_of(const fs::path& path, double confidence, bool with_means) {
   if (!is_there(path) && shards::has_begun(path)) {
     try {
@@ -77,7 +78,8 @@ summary::StudySummary summary_of(const fs::path& path, double confidence, bool w
   return summary;
 }
 
-/// The run that the option --confirm asks for; nothing without it.
+/// Results of the new trials that the option --confirm asks for at a design point; nothing without the
+/// option.
 std::optional<summary_answer::Confirmation> confirmation_of(const command_line::Arguments& arguments,
                                                             const summary::StudySummary& summary,
                                                             std::int64_t point) {
@@ -94,19 +96,20 @@ std::optional<summary_answer::Confirmation> confirmation_of(const command_line::
   return study_run::confirm_point(file, point, *trials, commands::plugin_option(arguments));
 }
 
-/// Whether the answer is for data. Bounds of means take time to compute. So people are shown only the bounds
-/// for the true motion, whereas data contain the bounds for the points that are asked for.
+/// Whether the answer is written as data (JSON, CSV). Bounds of means take time to compute, so people are
+/// shown only the bounds for the true motion, whereas data contain the bounds for the points that are asked
+/// for.
 bool shows_data(const command_line::Arguments& arguments) {
   return answers::audience_of(arguments.choice("format")) != document::Audience::people;
 }
 
-/// The points that --sort, --where and --top ask for.
+/// Selection of design points by the options --sort, --where and --top.
 summary_answer::PointSelection selection_of(const command_line::Arguments& arguments) {
   return {arguments.value("sort"), arguments.values("where"),
           arguments.whole_number("top", 1, std::int64_t{1} << 40)};
 }
 
-/// Result of `select`. Errors in the selection are reported as errors of the options.
+/// Runs `select` and returns its result. Errors in the selection are reported as errors of the options.
 template <class Select>
 auto selected_by(const command_line::Arguments& arguments, const Select& select) {
   try {
@@ -117,7 +120,8 @@ auto selected_by(const command_line::Arguments& arguments, const Select& select)
   }
 }
 
-/// The summary of the points that the options ask for, where that takes less than one of all.
+/// Summary of the design points that the options ask for, computed without the others. Nothing if this does
+/// not save time or is not possible.
 std::optional<summary_answer::SelectedSummary> summary_of_selected(const command_line::Arguments& arguments,
                                                                    double confidence) {
   const fs::path path = arguments.operands()[0];
@@ -132,7 +136,7 @@ std::optional<summary_answer::SelectedSummary> summary_of_selected(const command
                      [&] { return summary_answer::summarise_selected(path, bootstrap, selection, point); });
 }
 
-/// The summary of all points.
+/// Summary of all design points, with the selection that the options ask for.
 summary_answer::SelectedSummary summary_of_all(const command_line::Arguments& arguments, double confidence) {
   const fs::path path = arguments.operands()[0];
   const bool table = !shows_data(arguments);

@@ -24,7 +24,8 @@ namespace {
 namespace fs = std::filesystem;
 using Time = fs::file_time_type;
 
-/// A run writes a shard every 20 s or more often.
+/// Age below which a shard (file with finished trials) counts as new. A run writes a shard every 20 s or more
+/// often.
 constexpr std::chrono::seconds recently{60};
 
 std::optional<Time> time_of(const fs::path& path) {
@@ -38,20 +39,21 @@ bool is_folder(const fs::path& path) {
   return fs::is_directory(path, ignored);
 }
 
-/// A file with finished trials.
+/// A file with finished trials of a run: a shard, or a complete part of an array job.
 struct Piece {
   fs::path path;
   layout::RowRange rows;
   Time written;
 };
 
-/// The files of the run, as far as they could be read.
+/// The files with finished trials of a run, as far as they could be read.
 struct Pieces {
   std::vector<Piece> pieces;
   std::vector<std::string> problems;
   std::string name;
   std::int64_t trials{0};
-  bool changed{false};  ///< Whether a file vanished, because it was joined to others.
+  /// Whether a file vanished while the files were read, because it was joined to others.
+  bool changed{false};
 };
 
 void read_piece(const fs::path& path, Pieces& found) {
@@ -81,7 +83,7 @@ Pieces read_pieces(const fs::path& output) {
   }
 }
 
-/// Trials that any of the pieces has.
+/// Number of trials that are in at least one of the files.
 std::int64_t finished_trials(std::vector<Piece> pieces) {
   std::sort(pieces.begin(), pieces.end(),
             [](const Piece& one, const Piece& other) { return one.rows.first < other.rows.first; });
@@ -99,8 +101,8 @@ fs::path lock_file(const fs::path& output) {
   return path += ".lock";
 }
 
-/// Rate of the process that writes `output`: trials of the shards written since it locked the output, over
-/// the time up to the newest of them. NaN: unknown
+/// Speed of the process that writes `output`, trials/s: the trials of the shards written since it locked the
+/// output, over the time up to the newest of these shards. NaN: unknown, because no shard was written.
 double rate_of(const fs::path& output, const std::vector<Piece>& pieces) {
   const std::optional<Time> begin = time_of(lock_file(output));
   if (!begin) return std::nan("");
@@ -115,7 +117,7 @@ double rate_of(const fs::path& output, const std::vector<Piece>& pieces) {
   return time.count() > 0.0 ? static_cast<double>(trials) / time.count() : std::nan("");
 }
 
-/// Adds the damaged files that a run has set aside in `directory`.
+/// Adds the damaged files that a run has set aside in `directory` to RunStatus::problems.
 void add_damaged(const fs::path& directory, RunStatus& status) {
   std::error_code error;
   for (fs::directory_iterator entry(directory, error), end; !error && entry != end; entry.increment(error)) {
@@ -124,7 +126,7 @@ void add_damaged(const fs::path& directory, RunStatus& status) {
   }
 }
 
-/// The outputs of which a shard was written lately.
+/// Paths of the output files whose run wrote a shard within the last minute.
 std::set<fs::path> written_lately(const std::vector<Piece>& pieces) {
   std::set<fs::path> outputs;
   for (const Piece& piece : pieces) {
@@ -140,7 +142,9 @@ bool is_running(const fs::path& output, const std::set<fs::path>& lately) {
   return lock == storage::LockState::held || (lock == storage::LockState::unknown && lately.contains(output));
 }
 
-/// Processes add up; those that have written no shard yet are left out.
+/// Adds the speed of one process to the speed of the whole job, trials/s. NaN (no shard written yet) is left
+/// out.
+/// @param rate speed of the process, trials/s; NaN: unknown
 void add_rate(double rate, RunStatus& status) {
   if (!std::isnan(rate)) status.rate = std::isnan(status.rate) ? rate : status.rate + rate;
 }
@@ -168,7 +172,8 @@ PartCounts count_parts(const fs::path& output, const Pieces& found, RunStatus& s
   return counts;
 }
 
-/// Whether the results file was made from the parts: all of them are complete, and none is newer.
+/// Whether the results file was made from the parts of the array job: all parts are complete, and none is
+/// newer than the file.
 bool is_merged(const fs::path& output, const RunStatus& status, const std::vector<Piece>& pieces) {
   const std::optional<Time> merged = time_of(output);
   if (!merged || !status.parts || status.parts->complete != status.parts->all || status.shards > 0)
@@ -197,7 +202,8 @@ RunStatus status_of_file(const fs::path& output) {
   return status;
 }
 
-/// The status of a file that was merged from the parts, or has been extended since.
+/// State of a results file that was merged from the parts of an array job, or was extended with more trials
+/// since.
 RunStatus status_of_merged(const fs::path& output, const RunStatus& of_parts) {
   RunStatus status = status_of_file(output);
   status.problems = of_parts.problems;

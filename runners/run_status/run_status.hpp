@@ -7,33 +7,37 @@
 #include <string>
 #include <vector>
 
-/// Progress of a run or an array job, from the files that it has written.
+/// Determines the progress of a run or an array job from the files that it has written.
 namespace zerocount::run_status {
 
-/// Counts of the parts of an array job, by their state.
+/// Numbers of the parts of an array job (a study whose parts run as separate processes), by their state.
 struct PartCounts {
   std::int64_t all{0};
   std::int64_t complete{0};
   std::int64_t running{0};
-  std::int64_t interrupted{0};  ///< Parts with finished trials that no process runs.
+  std::int64_t interrupted{0};  ///< Number of parts with finished trials that no process runs any more.
 
   std::int64_t waiting() const { return all - complete - running - interrupted; }
 };
 
-/// State of a run or an array job.
+/// State of a run of a study, or of an array job that runs its parts.
 struct RunStatus {
-  bool complete{false};      ///< Whether the results file exists and was made from the parts.
-  std::string name;          ///< Name of the study; empty if no file could be read.
-  std::int64_t trials{0};    ///< Trials of all points together; the maximum, if `stop` decides.
-  std::int64_t finished{0};  ///< Number of trials in complete files.
-  std::int64_t shards{0};    ///< Number of finished shards, without complete parts.
-  bool running{false};       ///< Whether a process runs the output or one of its parts.
-  bool stopped{false};       ///< Incomplete, no process runs it, and no part waits to begin.
+  /// Whether the results file exists with all trials. For an array job: whether it was made from the parts.
+  bool complete{false};
+  std::string name;  ///< Name of the study; empty if no file could be read.
+  /// Number of trials of all design points together; the maximum number if a stopping rule decides.
+  std::int64_t trials{0};
+  std::int64_t finished{0};  ///< Number of trials that are in files written completely.
+  std::int64_t shards{0};    ///< Number of shards (files with finished trials), without complete parts.
+  bool running{false};       ///< Whether a process runs the output or one of its parts at the moment.
+  bool stopped{false};  ///< Whether the run is incomplete, no process runs it, and no part waits to begin.
   std::optional<PartCounts> parts{};
-  std::vector<std::string> problems{};  ///< Files that cannot be read, or were set aside as damaged.
-  double rate{std::numeric_limits<double>::quiet_NaN()};  ///< Speed, trials/s; NaN: unknown.
+  /// Messages about files that cannot be read, or were set aside as damaged.
+  std::vector<std::string> problems{};
+  /// Speed of all running processes together, trials/s; NaN: unknown.
+  double rate{std::numeric_limits<double>::quiet_NaN()};
 
-  /// Remaining time at this speed, s.
+  /// Remaining time at the present speed, s; NaN if the speed is unknown.
   double remaining() const { return static_cast<double>(trials - finished) / rate; }
 };
 

@@ -5,23 +5,25 @@
 
 #include <fmt/format.h>
 
-/// Output of the commands. Names from manifests and files may contain control characters, which are not sent
-/// to a terminal.
+/// Writes the output of the commands to standard output. Names from manifests and files may contain control
+/// characters, which are not sent to a terminal.
 namespace zerocount::standard_output {
 
-/// Writes data (JSON, CSV, pictures) unchanged. On a terminal, control characters are replaced.
+/// Writes data (JSON, CSV, pictures) unchanged to standard output. On a terminal, control characters are
+/// replaced.
 /// @throws std::system_error if it cannot be written
 void write(std::string_view data);
 
-/// Writes tables and sentences for people, fitted by terminal::fitted_to().
+/// Writes tables and sentences for people to standard output, fitted to the width of a terminal
+/// (terminal::fitted_to()).
 /// @throws std::system_error if they cannot be written
 void write_fitted(std::string_view text);
 
-/// Flushes the output, so that readers get it before the command goes on.
+/// Flushes standard output, so that readers get the text before the command goes on.
 /// @throws std::system_error if it cannot be written
 void flush();
 
-/// Formats a text and writes it with write_fitted().
+/// Formats a text and writes it to standard output with write_fitted().
 template <class... Arguments>
 void print(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
   write_fitted(fmt::format(format, std::forward<Arguments>(arguments)...));

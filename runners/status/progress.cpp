@@ -16,7 +16,7 @@ namespace zerocount::status {
 
 namespace {
 
-/// The signals that end a run, without those that the process inherited as ignored, as SIGHUP with nohup.
+/// Signals that end a run, without those that the process inherited as ignored (such as SIGHUP under nohup).
 sigset_t watched_signals() {
   sigset_t signals;
   sigemptyset(&signals);
@@ -30,19 +30,19 @@ sigset_t watched_signals() {
 
 using Clock = std::chrono::steady_clock;
 
-/// Signals that arrive within this time after the first one are the same request. `timeout` of the GNU core
-/// utilities, for example, sends its signal to the process and then to the process group.
+/// Time after the first signal in which further signals belong to the same request to stop. `timeout` of the
+/// GNU core utilities, for example, sends its signal to the process and then to the process group.
 constexpr std::chrono::seconds one_request{1};
 
-/// Time in which work that loses nothing must stop by itself.
+/// Time that work without anything to keep has to stop by itself after a signal. Then the process is ended.
 constexpr std::chrono::milliseconds time_to_stop{500};
 
 [[noreturn]] void end_interrupted() {
   _exit(static_cast<int>(ExitCode::interrupted));
 }
 
-/// Whether somebody who sends the signal again wants the end at once. The system repeats SIGXCPU every
-/// second, and sends SIGHUP beside SIGTERM.
+/// Whether this signal, sent once more, means that the user wants the end at once. SIGINT and SIGTERM do. The
+/// system repeats SIGXCPU every second, and sends SIGHUP beside SIGTERM.
 bool is_of_user(int signal) {
   return signal == SIGINT || signal == SIGTERM;
 }

@@ -20,10 +20,10 @@ namespace zerocount::status {
 /// signals.
 class InterruptionWatch {
  public:
-  /// Treatment of work that does not stop soon after a request.
+  /// What happens to work that does not stop soon after a signal.
   enum class Unstopped : std::uint8_t {
-    wait,  ///< It goes on until it stops by itself, since something is to be kept or removed.
-    end    ///< The process ends, with the exit code of an interruption; nothing is lost.
+    wait,  ///< The work goes on until it stops by itself, because it has something to keep or to remove.
+    end    ///< The process is ended, with the exit code of an interruption. Nothing is lost by this.
   };
 
   /// @param before_end is called in the thread of the watch before this object ends the process
@@ -41,17 +41,19 @@ class InterruptionWatch {
   std::jthread watcher_;
 };
 
-/// Prints the progress of a run to stderr, and a final line.
+/// Prints the progress of a run of trials to stderr while it runs, and a final line.
 class Progress {
  public:
   /// @param total number of trials to run
   /// @param kept number of trials kept from earlier runs
-  /// @param samples mean number of samples per trial, for the rate
+  /// @param samples mean number of samples per trial, for the speed in samples/s
+  /// @param quiet whether to print nothing
+  /// @param listener gets each text as well; empty: none
   Progress(std::int64_t total, std::int64_t kept, double samples, bool quiet, Listener listener = {});
 
-  /// Sets a projected total, which may change again.
+  /// Replaces the total number of trials by a projection, which may change again.
   void project(std::int64_t total);
-  /// Tells that `done` trials of the total are finished.
+  /// Prints the progress, now that `done` trials of the total are finished.
   void update(std::int64_t done);
   void finish(std::int64_t done);
 
@@ -67,7 +69,8 @@ class Progress {
   Clock::time_point start_;
 };
 
-/// Text of a duration: "850 ms", "12 s", "3 min 20 s", "5 h 02 min".
+/// Text of a duration, such as "850 ms", "12 s", "3 min 20 s" or "5 h 02 min".
+/// @param seconds duration, s
 std::string duration_text(double seconds);
 
 }  // namespace zerocount::status

@@ -11,19 +11,20 @@
 /// Messages on standard error while the program works. If a message cannot be written, the program goes on.
 namespace zerocount::status {
 
-/// Writes `text` unchanged.
+/// Writes `text` unchanged to standard error.
 void write(std::string_view text);
 
-/// Writes sentences for people, fitted by terminal::fitted_to().
+/// Writes sentences for people to standard error, fitted to the width of a terminal (terminal::fitted_to()).
 void write_fitted(std::string_view text);
 
-/// Formats a text and writes it with write_fitted().
+/// Formats a text and writes it to standard error with write_fitted().
 template <class... Arguments>
 void tell(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
   write_fitted(fmt::format(format, std::forward<Arguments>(arguments)...));
 }
 
-/// Callback that receives the text of a StatusLine whenever it changes, whether or not there is a terminal.
+/// Callback that receives the text of a status line (progress of a command) whenever it changes, whether or
+/// not there is a terminal.
 using Listener = std::function<void(std::string text)>;
 
 /// Progress of a long command. On a terminal it is one line, fitted to the width and updated in place.
@@ -33,16 +34,18 @@ using Listener = std::function<void(std::string text)>;
 class StatusLine {
  public:
   explicit StatusLine(bool quiet = false, Listener listener = {});
-  /// Removes the line from a terminal.
+  /// Removes the status line from a terminal.
   ~StatusLine();
   StatusLine(const StatusLine&) = delete;
   StatusLine& operator=(const StatusLine&) = delete;
 
-  /// Shows the text, without a line break, if the last text has been shown long enough.
+  /// Shows a new text on the status line, if the last text has been shown long enough. The listener gets
+  /// every text.
+  /// @param text returns the text, without a line break; called only if the text is needed
   void show(const std::function<std::string()>& text);
-  /// Shows the final text, no matter when the last text was shown.
+  /// Shows the final text on the status line, no matter when the last text was shown.
   void finish(std::string_view text);
-  /// Removes the line from a terminal, so that other output can follow.
+  /// Removes the status line from a terminal, so that other output can follow.
   void clear();
 
  private:
@@ -50,9 +53,9 @@ class StatusLine {
 
   bool quiet_;
   Listener listener_;
-  bool terminal_;             ///< Whether the line is updated in place on a terminal.
-  Clock::duration interval_;  ///< Time between two texts.
-  bool shown_{false};         ///< Whether a text is shown on the terminal, with the cursor after it.
+  bool terminal_;             ///< Whether the line is updated in place, because standard error is a terminal.
+  Clock::duration interval_;  ///< Minimum time between two texts of the status line.
+  bool shown_{false};  ///< Whether a text stands on the terminal at the moment, with the cursor after it.
   Clock::time_point last_;
 };
 

@@ -54,22 +54,25 @@ constexpr const char* check_help =
 
 constexpr std::int64_t points_shown = 20;
 
-/// Theory of a design point in a setting.
+/// Results of the linear theory for a design point in a setting (condition at an age).
 struct SettingTheory {
   std::int64_t point{0};
   std::string label;
-  std::optional<std::string> name;     ///< Short label; nothing in a study with one point.
-  std::optional<std::string> setting;  ///< Name of the setting; nothing without settings.
+  std::optional<std::string> name;  ///< Short label of the design point; nothing in a study with one point.
+  /// Name of the setting (condition at an age); nothing without settings.
+  std::optional<std::string> setting;
   theory::PointTheory theory;
-  std::optional<theory::HuntingPrediction> hunting;  ///< Predicted hunting of trial 0.
+  /// Predicted hunting (limit cycle of friction and integral action) of trial 0; nothing without a
+  /// prediction.
+  std::optional<theory::HuntingPrediction> hunting;
   /// Targets of trial 0 as text, each in SI units and in counts, at most five. Nothing if the manifest gives
   /// the targets in counts.
   std::optional<std::string> targets;
 };
 
-/// A loop of a design point, for the table of loops.
+/// A control loop of a design point in a setting, as a row of the table of loops.
 struct PointLoop {
-  std::optional<std::string> point;  ///< Name of the design point.
+  std::optional<std::string> point;  ///< Short label of the design point; nothing in a study with one point.
   std::optional<std::string> setting;
   const theory::LoopRanges* loop;
 };
@@ -78,7 +81,7 @@ struct Plan {
   const study::Study& study;
   forecast::StudyCost cost;
   forecast::StudySize size;
-  std::vector<SettingTheory> points;  ///< Readings of the first design points.
+  std::vector<SettingTheory> points;  ///< Theory of the first design points in each setting, point by point.
 
   std::int64_t all_points() const { return study::point_count(study); }
   std::int64_t points_shown() const { return std::ssize(points) / study.settings.total(); }
@@ -107,12 +110,19 @@ std::string plan_headline(const Plan& plan) {
                      status::duration_text(plan.cost.seconds()));
 }
 
-/// Text such as "16 trials", the number of trials of each group.
+/// Text such as "16 trials", the number of trials in each of equally large groups.
+/// @param all number of trials of all groups
+/// @param groups number of groups
+/// @param noun word for the counted objects, such as "trial"
 std::string of_each(std::int64_t all, std::int64_t groups, std::string_view noun) {
   return text::counted(all / std::max<std::int64_t>(groups, 1), noun);
 }
 
-/// "3, 16 trials under each: warm, cold, …"; nothing where there are no such groups.
+/// Text such as "3, 16 trials under each: warm, cold, …" about groups of trials; nothing if there are no such
+/// groups.
+/// @param groups number of groups
+/// @param each text about the trials of each group
+/// @param names names of the groups; empty: not listed
 std::optional<std::string> groups_text(std::int64_t groups, std::string_view each,
                                        const std::vector<std::string>& names = {}) {
   if (groups == 0) return {};
@@ -166,7 +176,7 @@ std::string cost_text(const Plan& plan) {
       forecast::bytes_text(plan.size.memory_bytes));
 }
 
-/// Over what the theory is.
+/// Sentence that says which trials and design points the theory covers.
 std::string theory_text(const Plan& plan) {
   const std::int64_t trials = study::draw_count(plan.study);
   const std::string points = plan.points_left_out() == 0
@@ -189,7 +199,8 @@ std::string theory_text(const Plan& plan) {
       points, plan.study.settings.empty() ? "" : " under each condition", close);
 }
 
-/// Trials that the rule takes against a number fixed beforehand, at three success rates.
+/// Expected number of trials that the stopping rule takes, compared with a number of trials fixed beforehand,
+/// at three success rates. Empty without a stopping rule.
 std::vector<statistics::SequentialCost> stopping_costs(const Plan& plan) {
   std::vector<statistics::SequentialCost> costs;
   if (!plan.study.stop) return costs;
@@ -217,7 +228,8 @@ document::Description<statistics::SequentialCost> stopping_description() {
              &SequentialCost::ratio);
 }
 
-/// The names of the inputs that are drawn as often as this.
+/// Adds to the description an item with the names of the inputs that are drawn at one of these levels, for
+/// example once per machine.
 void add_inputs(document::Description<Plan>& description, document::Item item,
                 std::vector<study::DrawLevel> drawn) {
   description.value(std::move(item), [drawn = std::move(drawn)](const Plan& plan) {
@@ -229,7 +241,7 @@ void add_inputs(document::Description<Plan>& description, document::Item item,
   });
 }
 
-/// The assumptions of the study in this state.
+/// Texts of the study's assumptions whose fulfilment is in this state.
 std::vector<std::string_view> assumptions(const Plan& plan, study::PremiseState state) {
   std::vector<std::string_view> found;
   for (const study::Premise& premise : plan.study.premises) {
@@ -348,7 +360,8 @@ document::AnswerDescription<Plan> check_answer() {
           plan_description()};
 }
 
-/// "to the nearest of 3.9e-06 rad: 0.0001 rad = 26 counts"; nothing for targets in counts.
+/// Text about the targets of a trial, rounded to counts: "to the nearest of 3.9e-06 rad: 0.0001 rad = 26
+/// counts". Nothing if the manifest gives the targets in counts.
 std::optional<std::string> targets_text(const study::Study& study, const study::StudyTrial& trial) {
   constexpr std::size_t shown = 5;
   const std::size_t moves = trial.target_positions.size();
@@ -363,7 +376,8 @@ std::optional<std::string> targets_text(const study::Study& study, const study::
                      unit, text, moves > shown ? ", …" : "");
 }
 
-/// Warns of the first point whose moves may end before they arrive, and says how many there are.
+/// Prints a warning about the first design point at which moves may end before they arrive, because the loop
+/// is slow, and says how many such points there are.
 void warn_of_short_moves(std::span<const SettingTheory> points) {
   const auto is_short = [](const SettingTheory& point) { return point.theory.approach.exceeds_hold(); };
   const auto first = std::ranges::find_if(points, is_short);

@@ -52,7 +52,7 @@ constexpr const char* controller_help =
     "  zerocount controller my-axis.yaml --point 2 -o controller.c\n"
     "  zerocount controller tuned.h5 --point best --language st --precision single -o axis.st\n";
 
-/// Whether the written code depends on the value.
+/// Whether the written controller code depends on this input of the study.
 bool is_in_code(const study::InputColumn& column) {
   constexpr std::array<std::string_view, 10> sections{"controller.",
                                                       parameter::dac::bits,
@@ -69,7 +69,7 @@ bool is_in_code(const study::InputColumn& column) {
   });
 }
 
-/// Refuses a controller with drawn values, which has no gains of its own.
+/// Refuses a study in which values of the controller are drawn, because every machine would need other gains.
 void require_values(const command_line::Arguments& arguments, const study::Study& study) {
   for (const study::InputColumn& column : study.columns.inputs) {
     if (is_in_code(column) && column.level != study::DrawLevel::study)
@@ -80,7 +80,8 @@ void require_values(const command_line::Arguments& arguments, const study::Study
   }
 }
 
-/// Refuses values that differ between the settings and ages: each has a controller of its own.
+/// Refuses a study in which values of the controller differ between conditions or ages, because each needs a
+/// controller of its own.
 void require_one_controller(const command_line::Arguments& arguments, const study::Study& study,
                             std::int64_t point) {
   std::vector<std::vector<double>> inputs;  // [setting]
@@ -111,8 +112,10 @@ void require_one_controller(const command_line::Arguments& arguments, const stud
                       : ""));
 }
 
-/// The stem of the file, after which the written program is named.
-/// @param fits whether a program of the language can have the name @param example of a fitting file
+/// Name of the output file without its ending, after which the written program is named.
+/// @param what kind of the program, for the message: "a component"
+/// @param fits whether a program of the language can have the name
+/// @param example a file name that fits, for the message
 std::string stem_of(const command_line::Arguments& arguments, const std::filesystem::path& output,
                     std::string_view what, bool (*fits)(std::string_view stem), std::string_view example) {
   std::string stem = output == "-" ? "controller" : output.stem().string();
@@ -132,7 +135,8 @@ std::string component_name(const command_line::Arguments& arguments, const std::
       arguments, output, "a component", [](std::string_view) { return true; }, "axis_x.comp");
 }
 
-/// With a suffix, because many words are reserved.
+/// Name of the function block, from the name of the output file. It has a suffix, because many words are
+/// reserved in Structured Text.
 std::string function_block_name(const command_line::Arguments& arguments,
                                 const std::filesystem::path& output) {
   const auto fits = [](std::string_view stem) {
@@ -142,13 +146,15 @@ std::string function_block_name(const command_line::Arguments& arguments,
   return stem == "controller" ? "position_controller" : stem + "_controller";
 }
 
-/// The smallest margin over the trials.
+/// Text of the smallest value of a stability margin over the examined trials.
+/// @param none text if the range is empty
 std::string margin_text(const theory::Range& margin, std::string_view unit, std::string_view none) {
   return margin.empty() ? std::string(none) : fmt::format("{:.3g} {}", margin.low, unit);
 }
 
-/// Lines on each loop of the design point in each setting: its stability, and its smallest gain and
-/// phase margins over the examined machines. A heading comes first; empty if there is no loop.
+/// Lines of text on each control loop of the design point in each setting (condition at an age): its
+/// stability, and its smallest gain and phase margins over the examined machines. A heading comes first;
+/// empty if there is no loop.
 std::vector<std::string> margin_lines(const study::Study& study, std::int64_t point) {
   std::vector<std::string> lines;
   std::vector<theory::KnownRotor> rotors;

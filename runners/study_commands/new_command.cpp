@@ -86,8 +86,8 @@ double positive_number(const command_line::Arguments& arguments, std::string_vie
   return *number;
 }
 
-/// A positive option of --guide; nothing if it is missing.
-/// @param applies whether it has an effect on this guide
+/// Value of an option that needs --guide, a number above 0 and at most `high`; nothing without the option.
+/// @param applies whether the option has an effect on this guide; otherwise it is refused
 std::optional<double> guide_option(const command_line::Arguments& arguments, std::string_view option,
                                    const guides::Guide& guide, bool applies, double high) {
   const std::optional<std::string> text = arguments.value(option);
@@ -96,7 +96,8 @@ std::optional<double> guide_option(const command_line::Arguments& arguments, std
   return positive_number(arguments, option, *text, high);
 }
 
-/// Measured values of the spring, from the options; nothing without these options.
+/// Measured values of the friction spring of a guide, from the options --breakaway, --travel and --secant;
+/// nothing without these options.
 std::optional<guides::MeasuredSpring> measured_spring(const command_line::Arguments& arguments,
                                                       const guides::Guide& guide) {
   const bool applies = guides::has_load(guide);

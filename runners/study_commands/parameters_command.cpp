@@ -60,7 +60,7 @@ document::AnswerDescription<ParameterTables> parameters_answer() {
   return answer;
 }
 
-/// A number of a guide, and the load that it is of.
+/// A quantity of a linear guide, with the guide and the load (preload class) for which it is given.
 struct NumberOfGuide {
   const guides::Guide& guide;
   guides::GuideLoad load;

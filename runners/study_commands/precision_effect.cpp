@@ -23,10 +23,10 @@ constexpr double least_trials = 20.0;
 constexpr double most_trials = 500.0;
 constexpr std::int64_t trials_of_block = 4;
 
-/// How a trial ends.
+/// Result of a trial: whether it meets the goal, and when its moves have settled.
 struct End {
   bool meets{false};
-  double settled{0.0};  ///< Time at which the slowest move of the trial has settled, s.
+  double settled{0.0};  ///< Time at which the slowest move of the trial has settled, s; infinity: never.
 };
 
 std::vector<End> ends_of(const study::Study& study, std::int64_t point, std::int64_t count,
@@ -58,7 +58,9 @@ std::vector<End> ends_of(const study::Study& study, std::int64_t point, std::int
   return ends;
 }
 
-/// Text of a quantile of the times at which the slowest moves of the trials have settled.
+/// Text of a quantile, over the trials, of the time at which the slowest move of a trial has settled: "0.05
+/// s" or "never".
+/// @param p probability of the quantile, 0 to 1
 std::string settled_text(const std::vector<End>& ends, double p) {
   std::vector<double> settled;
   settled.reserve(ends.size());

@@ -55,7 +55,9 @@ constexpr const char* run_help =
     "  zerocount run study.yaml --shard 1/2 -o a.h5     on one machine, and on another\n"
     "  zerocount run study.yaml --shard 2/2 -o b.h5     then: zerocount merge a.h5 b.h5 -o all.h5\n";
 
-/// The rows of part `text` = "I/N", I from 1 to N: parts differ by at most one trial in size.
+/// Rows (numbers of the trials) that belong to one part of the study. Parts differ by at most one trial in
+/// size.
+/// @param text value of the option --shard, "I/N": part I of N, I from 1 to N
 layout::RowRange part_of(const command_line::Arguments& arguments, const std::string& text,
                          const study::Study& study) {
   const std::size_t slash = text.find('/');
@@ -74,14 +76,15 @@ layout::RowRange part_of(const command_line::Arguments& arguments, const std::st
   return {start(*part - 1), start(*part) - start(*part - 1)};
 }
 
-/// Request of a run.
+/// Request of the command `run`: the study to run, its output, and what else to write.
 struct RunRequest : study_run::FileRun {
   bool force{false};
-  std::optional<fs::path> page;          ///< --watch
-  std::optional<fs::path> trace_events;  ///< --timeline
+  std::optional<fs::path> page;          ///< Page of the option --watch; nothing: no page.
+  std::optional<fs::path> trace_events;  ///< File of the option --timeline; nothing: no timeline.
 };
 
-/// @throws Failure (bad_input) if --study names another study.
+/// Checks that the study is the one whose hash the option --study gives. Does nothing without the option.
+/// @throws Failure (bad_input) if it is another study.
 void require_study_of_option(const command_line::Arguments& arguments, const study::Study& study) {
   const std::optional<std::string> wanted = arguments.value("study");
   if (!wanted || *wanted == study.study_sha256) return;
@@ -116,14 +119,14 @@ RunRequest run_request(const command_line::Arguments& arguments) {
   return request;
 }
 
-/// The summary of the trials that are finished so far.
+/// Sections of a page with the summary of the trials that an unfinished run has finished so far.
 std::vector<report::PageSection> sections_so_far(const fs::path& output) {
   const summary::StudySummary summary =
       summary::summarise_unfinished(output, statistics::summary_confidence, false);
   return {report::answer_section("so-far", "The answer so far", summary_answer::summary_answer(summary))};
 }
 
-/// The page of the finished file: its report or, where it does not keep every trial, its summary.
+/// Page of a finished results file: its report or, if it does not keep every trial, its summary.
 report::ReportPage page_of(const fs::path& output) {
   if (shards::keeps_every_trial(output))
     return commands::verified_report(reading::AllTrialsFile(output)).page;

@@ -41,17 +41,18 @@ constexpr const char* status_help =
 
 constexpr const char* clear_screen = "\x1b[H\x1b[J";
 
-/// State of a run, with the summary of its finished trials.
+/// State of a run or an array job, with the summary of its finished trials.
 struct StatusResults {
   const run_status::RunStatus& status;
   const std::filesystem::path& output;
-  /// Summary of the finished trials; null without one.
+  /// Summary of the trials that are finished so far; null without one.
   const summary_answer::SummaryResults* summary{nullptr};
-  std::string no_summary{};  ///< Why there is no summary.
+  std::string no_summary{};  ///< Reason why there is no summary; empty if there is one, or if none was tried.
 };
 using Status = const StatusResults&;
 
-/// Headline such as "study: running, 12000 of 50000 trials (24.0 %), 812.4 trials/s, 46 s to go".
+/// First line of the answer of `status`, such as "study: running, 12000 of 50000 trials (24.0 %), 812.4
+/// trials/s, 46 s to go".
 std::string headline(Status s) {
   const run_status::RunStatus& status = s.status;
   std::string text = status.name.empty() ? "no trial is finished yet" : status.name;
@@ -113,7 +114,8 @@ document::Description<run_status::RunStatus> run_description() {
               parts_description(), &Run::parts);
 }
 
-/// @param summary what the summary is of; nothing: there is none
+/// Description of the answer of `status`.
+/// @param summary summary of the finished trials, which gives the columns of its table; null: there is none
 document::AnswerDescription<StatusResults> status_answer(const summary::StudySummary* summary = nullptr) {
   document::AnswerDescription<StatusResults> answer{
       {.name = "status", .meaning = "progress of a run or an array job"}, {}};
@@ -128,8 +130,9 @@ document::AnswerDescription<StatusResults> status_answer(const summary::StudySum
   return answer;
 }
 
-/// The summary of the finished trials, or in `reason` why it cannot be made: a damaged file, or a machine
-/// without a finished trial before the missing ones.
+/// Summary of the trials of an unfinished run that are finished so far; nothing if it cannot be made.
+/// @param reason is then set to the reason: a damaged file, or a machine without a finished trial before the
+/// missing ones
 std::optional<summary::StudySummary> summary_so_far(const std::filesystem::path& output,
                                                     std::string& reason) {
   try {
@@ -153,7 +156,8 @@ document::Answer answer_of(const run_status::RunStatus& status, const std::files
   return status_answer(&*summary).of(reading, ExitCode::success, audience);
 }
 
-/// @param watched it is printed again and again: JSON is one line
+/// Prints the state of the run of the first operand, and returns it.
+/// @param watched whether it is printed again and again; JSON is then on one line
 run_status::RunStatus print_status(const command_line::Arguments& arguments, bool watched) {
   const std::filesystem::path output = arguments.operands()[0];
   const std::string format = arguments.choice("format");

@@ -62,7 +62,9 @@ void require_loaded_plugin(const command_line::Arguments& arguments, const study
                   arguments.operands()[0], study.plugin->description.name));
 }
 
-/// Runs the trial, writes its samples, and returns the rest of its result.
+/// Simulates the trial, writes its samples to `sink`, and returns the rest of its result: inputs, jerks and
+/// measures.
+/// @param json whether to write JSON; otherwise CSV
 shards::TrialResult write_trace(const TraceSubject& subject, const TraceWriter::Sink& sink, bool json) {
   TraceWriter writer(sink, json);
   writer.begin(subject);
@@ -77,7 +79,9 @@ shards::TrialResult write_trace(const TraceSubject& subject, const TraceWriter::
   return result;
 }
 
-/// Writes the trace to standard output, or to a file that appears when it is complete.
+/// Simulates the trial and writes its trace (all samples) to standard output, or to a file that appears when
+/// it is complete.
+/// @param json whether to write JSON; otherwise CSV
 shards::TrialResult write_trace_to(const std::filesystem::path& place, const TraceSubject& subject,
                                    bool json) {
   if (yaml::is_standard_stream(place)) {
@@ -91,7 +95,8 @@ shards::TrialResult write_trace_to(const std::filesystem::path& place, const Tra
   return result;
 }
 
-/// Tells from which sample on the reference engine differs from the recorded trial.
+/// Prints to stderr from which sample on the reference engine differs from the recorded trial; nothing if it
+/// does not differ.
 void tell_parting(const std::string& input, const std::optional<verification::Parting>& parting) {
   if (!parting) return;
   status::tell(
@@ -101,7 +106,7 @@ void tell_parting(const std::string& input, const std::optional<verification::Pa
       input, verification::text_of(*parting));
 }
 
-/// Replays a trial of an estimate by 'zerocount rare'.
+/// Simulates a trial of a file by 'zerocount rare' again, and writes its trace.
 ExitCode trace_rare(const command_line::Arguments& arguments, const std::filesystem::path& place, bool json) {
   const std::string& input = arguments.operands()[0];
   for (const char* option : {"set", "point"}) {

@@ -21,7 +21,7 @@ std::vector<layout::RecordField<layout::TraceRecord>> columns_of(const study::St
   return columns;
 }
 
-/// JSON text of a field; null if its number is not finite.
+/// JSON text of one field of a record; null if its number is not finite.
 template <class Record>
 std::string json_text(const layout::RecordField<Record>& field, const Record& record) {
   if (!std::isfinite(layout::value_of(field, record))) return "null";

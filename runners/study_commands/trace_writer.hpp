@@ -12,7 +12,7 @@
 
 namespace zerocount::study_commands {
 
-/// Trial of a trace, with its study.
+/// The trial whose trace is written: its study, design point, number and parameters.
 struct TraceSubject {
   const study::Study& study;
   std::int64_t point{0};
@@ -20,14 +20,14 @@ struct TraceSubject {
   const study::StudyTrial& trial;
 };
 
-/// Writes the trace of one trial, record by record. The columns are the columns of /trace in the results file
-/// without `trial`, in the same order. The optional columns (Study::features) come last. Numbers read back to
-/// the same double. In JSON, non-finite values are null.
+/// Writes the trace of one trial (all its samples), record by record. The columns are the columns of /trace
+/// in the results file without `trial`, in the same order. The optional columns (Study::features) come last.
+/// Numbers read back to the same double. In JSON, non-finite values are null.
 class TraceWriter {
  public:
   using Sink = std::function<void(std::string_view)>;
 
-  /// @param sink receives the text in pieces
+  /// @param sink function that receives the text in pieces
   /// @param json true: a JSON object with the trial's inputs, samples and outcome; false: CSV, one line per
   /// sample
   TraceWriter(Sink sink, bool json) : sink_(std::move(sink)), json_(json) {}
@@ -39,8 +39,9 @@ class TraceWriter {
  private:
   Sink sink_;
   bool json_;
-  std::vector<layout::RecordField<layout::TraceRecord>> columns_;  ///< Set by begin().
-  std::vector<layout::RecordField<trial::MoveOutcome>> measures_;  ///< Set by begin().
+  std::vector<layout::RecordField<layout::TraceRecord>> columns_;  ///< Columns of the trace; set by begin().
+  /// Measures of a move that JSON has at its end; set by begin().
+  std::vector<layout::RecordField<trial::MoveOutcome>> measures_;
   bool first_{true};
 };
 

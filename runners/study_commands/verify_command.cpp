@@ -70,7 +70,7 @@ ExitCode code_of(const Reports& reports) {
   return all ? ExitCode::success : ExitCode::bad_data;
 }
 
-/// "2 of 3 files hold all their checks".
+/// First line of the answer of `verify`, such as "2 of 3 files hold all their checks".
 std::string headline_of(const Reports& reports) {
   const auto holding = std::ranges::count_if(reports, verification::holds);
   if (reports.size() == 1) return holding == 1 ? "all checks hold" : "not all checks hold";

@@ -13,7 +13,8 @@
 namespace zerocount::study_run {
 namespace {
 
-/// Writes the sums of all shards, and of the whole study the statistics that follow from them.
+/// Writes the sums of the shards, for a study that does not keep its trials. If the file has the whole study,
+/// also writes the statistics that follow from these sums.
 void write_summed(shards::MergedFile& file, const study::Study& study, layout::RowRange rows,
                   const std::stop_token& stop) {
   std::vector<layout::PointSums> sums;
@@ -36,7 +37,7 @@ void write_summed(shards::MergedFile& file, const study::Study& study, layout::R
       summary::stored_statistics(points, study, predictions, layout::measure_table(study.features)));
 }
 
-/// Writes the statistics of all trials in the file.
+/// Writes the statistics that follow from all trials in the file, for a study that keeps them.
 void write_statistics(shards::MergedFile& file, const study::Study& study, const AssembleSettings& settings) {
   try {
     summary::take_stored_statistics(

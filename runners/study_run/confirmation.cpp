@@ -19,7 +19,8 @@ namespace {
 
 constexpr std::int64_t trials_at_once = 256;
 
-/// The study of the file with `trials` independent trials at each point and another seed.
+/// The study of the file, but with `trials` independent Monte-Carlo trials at each design point, and with
+/// another seed.
 study::Study fresh_study(const reading::ResultsFile& file, std::int64_t trials,
                          std::shared_ptr<const plugin::ControllerPlugin> plugin) {
   const study::Study recorded = layout::recorded_study(file.header(), file.path(), plugin);
@@ -48,7 +49,8 @@ study::Study fresh_study(const reading::ResultsFile& file, std::int64_t trials,
   return layout::recorded_study(header, file.path(), std::move(plugin));
 }
 
-/// Counts the successes, and the moves that meet the goal, of the trials from `first` on.
+/// Counts the successful trials, and for each goal the moves that meet it.
+/// @param first number of the first trial of `outcomes`
 summary_answer::Confirmation counted_in(const study::Study& study, std::int64_t first,
                                         std::span<const trial::TrialOutcome> outcomes) {
   const std::vector<measures::CountedGoal> goals = measures::counted_goals(study);

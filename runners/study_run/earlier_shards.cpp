@@ -17,6 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Checks that a shard of this study was run with the controller of this study. Does nothing for shards of
+/// other studies or formats.
 /// @throws ForeignFile for a shard of this study that was run with another controller.
 void require_same_plugin(const fs::path& shard, const study::Study& study) {
   std::optional<layout::FileHeader> header;

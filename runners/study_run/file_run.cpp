@@ -31,7 +31,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The header without the number of trials that a stopping rule decided on.
+/// The header of a results file without the last override, if this is the number of trials that a stopping
+/// rule decided on. So it can be compared with the manifest's study.
 layout::FileHeader as_requested(layout::FileHeader header, const study::Study& study) {
   if (study.stop && !header.overrides.empty() && header.overrides.back().starts_with(decided_key))
     header.overrides.pop_back();
@@ -52,7 +53,8 @@ layout::FileHeader header_of(const fs::path& output) {
   }
 }
 
-/// @throws Failure (bad_input) if the file cannot be extended to the longer study.
+/// Checks that trials can be added to the results file `output` until it has those of the longer study.
+/// @throws Failure (bad_input) if the file cannot be extended
 void require_extensible(const fs::path& output, const layout::FileHeader& header, const study::Study& study) {
   const auto refuse_more = [&](std::string_view why) {
     refuse(output,
@@ -106,8 +108,10 @@ namespace {
 
 constexpr std::int64_t max_moves_at_once = 1 << 16;
 
-/// Copies trials of a finished file to shards of a study that differs only in having more trials: those in
-/// the ranges `missing` (rows of the study). Memory is bounded.
+/// Copies trials of a finished results file to shards (files with trials) of a study that differs only in
+/// having more trials. Memory is bounded.
+/// @param missing rows of the study (numbers of its trials) that are not in shards yet; of these, the ones in
+/// the file are copied
 /// @returns the written shards, in order of rows
 std::vector<shards::ShardInfo> copy_trials(const reading::AllTrialsFile& file, const study::Study& study,
                                            const std::filesystem::path& directory,
@@ -135,7 +139,8 @@ std::vector<shards::ShardInfo> copy_trials(const reading::AllTrialsFile& file, c
   return written;
 }
 
-/// Makes the folder of the shards. @returns the usable shards that exist before the first trial is run
+/// Makes the folder of the shards, the files with the trials of a running study.
+/// @returns the usable shards that exist before the first trial is run
 EarlierShards prepare_shards(const FileRun& request, const std::filesystem::path& directory,
                              ExistingUse existing) {
   EarlierShards earlier = earlier_shards(directory, request.study, request.wanted, request.foreign);

@@ -24,25 +24,28 @@
 
 namespace zerocount::study_run {
 
-/// Settings of assemble().
+/// Settings of assemble(), which joins shards into a results file.
 struct AssembleSettings {
-  std::span<const theory::PointPrediction> predictions{};  ///< Predictions (theory::study_predictions).
-  shards::Renumbering renumber{};                          ///< Renumbering of trials (shards::MergeOptions).
+  /// Predictions by theory for the design points (theory::study_predictions).
+  std::span<const theory::PointPrediction> predictions{};
+  /// Change of the trials' numbers when shards are joined (shards::MergeOptions).
+  shards::Renumbering renumber{};
   std::stop_token stop{};
-  timeline::Timeline* timeline{nullptr};  ///< Receives spans of the stages; null: none.
+  timeline::Timeline* timeline{nullptr};  ///< Records the times of the stages; null: not recorded.
 };
 
-/// Joins shards into the results file `output`. A file with the whole study gets the statistics of all design
-/// points.
+/// Joins shards (files with the trials of a run) into the results file `output`. A file with the whole study
+/// gets the statistics of all design points.
+/// @param rows rows of the study (numbers of its trials) that the file will have
 /// @throws Failure; see MergedFile.
 void assemble(std::span<const shards::ShardInfo> shards, const study::Study& study,
               const std::filesystem::path& output, layout::RowRange rows,
               const AssembleSettings& settings = {});
 
-/// Runs about `trials` new trials of a design point of a results file on all cores, without writing a file.
-/// Everything is drawn anew, including the draws made once per study, from a seed that follows from the
-/// study's seed. The design is monte_carlo, whatever the design of the file. Every machine is tried under
-/// every setting of the study.
+/// Runs about `trials` new trials of a design point of a results file on all cores, without writing a file,
+/// to confirm its success rate. Everything is drawn anew, including the draws made once per study, from a
+/// seed that follows from the study's seed. The design is monte_carlo, whatever the design of the file. Every
+/// machine is tried under every setting (condition at an age) of the study.
 ///
 /// In a study with machines, every trial has a machine of its own, so that Clopper–Pearson bounds hold.
 /// Exception: if the study has a goal, each new machine has as many trials as a machine of the file. The
@@ -53,82 +56,93 @@ summary_answer::Confirmation confirm_point(const reading::ResultsFile& file, std
                                            std::int64_t trials,
                                            std::shared_ptr<const plugin::ControllerPlugin> plugin);
 
-/// File name extension of damaged shards, which are kept.
+/// File name extension of damaged shards (files with trials of a run), which are renamed and kept.
 inline constexpr const char* damaged_extension = ".damaged";
 
-/// Shards of earlier runs.
+/// Shards (files with consecutive trials of a study) that earlier runs left.
 struct EarlierShards {
-  std::vector<shards::ShardInfo> usable;   ///< Usable shards in ascending order of rows, without overlaps.
-  std::vector<std::filesystem::path> all;  ///< Paths of all valid shards of the study.
+  /// Shards without overlaps whose trials need not be run again, in ascending order of rows.
+  std::vector<shards::ShardInfo> usable;
+  /// Paths of all valid shards of the study, also of those that are not used.
+  std::vector<std::filesystem::path> all;
 };
 
-/// Selects shards within `wanted` that do not overlap. Shards of runs with other parts may overlap or extend
-/// beyond `wanted`. Trials of unused shards are run again.
+/// Selects shards within `wanted` that do not overlap. Shards of runs that ran other parts of the study may
+/// overlap or extend beyond `wanted`. Trials of shards that are not selected are run again.
+/// @param sound valid shards in ascending order of rows
+/// @param wanted rows (numbers of the trials) of this run
 EarlierShards choose_shards(const std::vector<shards::ShardInfo>& sound, layout::RowRange wanted);
 
-/// Treatment of shards of another study.
+/// Treatment of shards of another study in the folder of this one: an error, or removal.
 enum class ForeignShards { refuse, remove };
 
-/// Finds the shards of earlier runs, and checks their checksums. Damaged shards are renamed, and their trials
-/// are run again.
+/// Finds the shards (files with trials) that earlier runs left in the folder, and checks their checksums.
+/// Damaged shards are renamed, and their trials are run again.
+/// @param wanted rows (numbers of the trials) of this run
 /// @throws Failure (bad_input) if the folder has shards of another study and `refuse` is given.
 EarlierShards earlier_shards(const std::filesystem::path& directory, const study::Study& study,
                              layout::RowRange wanted, ForeignShards foreign = ForeignShards::refuse);
 
-/// Removes the shards, and also their folder if it is empty afterwards.
+/// Removes these shard files, and also their folder if it is empty afterwards.
 void remove_shards(const std::filesystem::path& directory, const std::vector<std::filesystem::path>& shards);
 
-/// Positions of the retained trials' records in a file, by global row.
+/// Positions of the sample records (traces) of the retained trials in a file, by the row of the trial in the
+/// study.
 using RecordPlaces = std::map<std::int64_t, layout::RowRange>;
 
 RecordPlaces places_of_records(const reading::TrialTables& trials);
 
-/// Reads the kept trials among `rows` with all their stored data.
-/// @param first_row row that rows.first gets in the study for which the trials are read
+/// Reads from a results file the kept trials among `rows`, with all their stored data.
+/// @param first_row row that the trial rows.first of the file has in the study for which the trials are read
+/// @param records positions of the sample records of retained trials
 /// @throws Failure as TrialTables
 std::vector<shards::TrialResult> read_trials(const reading::TrialTables& trials, layout::RowRange rows,
                                              std::int64_t first_row, const RecordPlaces& records);
 
-/// Treatment of an existing output file.
+/// What a run finds at the path of its output file.
 enum class ExistingUse {
-  none,      ///< There is no file, or it is replaced.
-  complete,  ///< The file has all wanted trials.
-  extend     ///< The file is complete, and the study differs from it only by having more trials.
+  none,      ///< There is no output file, or the run replaces it.
+  complete,  ///< The file already has all wanted trials, so nothing is run.
+  /// The file is complete but has fewer trials than the study. The study is otherwise the same, so its trials
+  /// are kept.
+  extend
 };
 
-/// Use that a run makes of an existing output file.
-/// @param wanted rows of the run
-/// @throws Failure (bad_input) for any other file, with the differences
+/// Decides what a run does with an existing output file.
+/// @param wanted rows (numbers of the trials) that the run is to put into the file
+/// @throws Failure (bad_input) for a file that is neither complete nor can be extended, with the differences
 ExistingUse use_of_existing(const std::filesystem::path& output, const study::Study& study,
                             layout::RowRange wanted);
 
-/// Request to run a study into a results file.
+/// Request to run a study, or a part of it, into a results file.
 struct FileRun {
   study::Study study;
   std::filesystem::path output;
-  layout::RowRange wanted;  ///< Rows of the study that are to be in the file.
+  layout::RowRange wanted;  ///< Rows of the study (numbers of its trials) that are to be in the file.
   int threads{0};           ///< Number of threads; 0: all processors of the computer.
   bool quiet{false};
   ForeignShards foreign{ForeignShards::refuse};
-  bool check_room{true};  ///< Whether to refuse a run for which the disk has no room.
+  bool check_room{true};  ///< Whether to refuse a run whose file does not fit on the disk.
   status::Listener listener{};
-  timeline::Timeline* timeline{nullptr};  ///< Receives spans of the stages; null: none.
+  timeline::Timeline* timeline{nullptr};  ///< Records the times of the stages; null: not recorded.
 };
 
-/// Runs a study without `stop`: runs the missing trials into shards, and writes the results file.
+/// Runs a study without a stopping rule: runs the missing trials into shards, and writes the results file
+/// from them.
+/// @param existing what use_of_existing() found at the output path
 /// @throws Failure: interrupted if `stop` was requested; the finished trials are kept in shards
 void run_to_file(const FileRun& request, ExistingUse existing, const std::stop_token& stop);
 
-/// Beginning of the last override in the results file of a study with `stop`. The final number of trials
-/// follows.
+/// Beginning of the override that ends the header of a results file whose study has a stopping rule. The
+/// number of trials that the rule decided on follows.
 inline constexpr std::string_view decided_key = "stop.max_trials=";
 
-/// Runs a study with `stop`: blocks of trials at every point, until the stopping rule is met. The decision
-/// depends only on the trials, so an interrupted and resumed run gives the same result.
+/// Runs a study with a stopping rule: blocks of trials at every design point, until the rule is met. The
+/// decision depends only on the trials, so an interrupted and resumed run gives the same result.
 ///
-/// The output is the results file of the study with one more override, of `stop.max_trials` by the final
-/// number of trials. An existing file is replaced.
-/// @param request request with all rows of the study; the room on the disk is not checked
+/// The output is the results file of the study with one more override, which sets `stop.max_trials` to the
+/// final number of trials. An existing file is replaced.
+/// @param request request with all rows of the study; whether the disk has room is not checked
 /// @throws Failure (interrupted) if `stop` was requested.
 void run_sequential(const FileRun& request, const std::stop_token& stop);
 

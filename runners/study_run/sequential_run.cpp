@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The successes of every point by blocks.
+/// Counts the successful trials of every design point, in blocks of StoppingRule::block trials.
 class Successes {
  public:
   explicit Successes(const study::Study& study)
@@ -32,7 +32,8 @@ class Successes {
     }
   }
 
-  /// Number of successes among the first `trials` trials of the point.
+  /// Number of successful trials among the first `trials` trials of a design point. `trials` must be a whole
+  /// number of blocks.
   std::int64_t among(std::int64_t point, std::int64_t trials) const {
     const std::vector<std::int64_t>& blocks = by_block_[static_cast<std::size_t>(point)];
     std::int64_t sum = 0;
@@ -65,7 +66,7 @@ bool sure(const study::Study& study, const Successes& successes, std::int64_t tr
   return true;
 }
 
-/// Projected number of trials per point at the present rates.
+/// Projected number of trials per point that the stopping rule needs, at the success rates so far.
 std::int64_t projection(const study::Study& study, const Successes& successes, std::int64_t trials) {
   const study::StoppingRule& rule = *study.stop;
   std::int64_t most = std::max(trials, std::min(rule.min_trials, study.trials));
@@ -77,7 +78,8 @@ std::int64_t projection(const study::Study& study, const Successes& successes, s
   return most;
 }
 
-/// Rows of the first `trials` trials of each point, in a study with the maximum number of trials.
+/// Rows of the first `trials` trials of each design point. A row is the number of a trial in a study with the
+/// maximum number of trials.
 std::vector<layout::RowRange> first_trials(const study::Study& study, std::int64_t trials) {
   std::vector<layout::RowRange> ranges;
   for (std::int64_t point = 0; point < study::point_count(study); ++point) {
@@ -105,7 +107,8 @@ study::Study decided_study(const study::Study& study, std::int64_t trials) {
   return decided;
 }
 
-/// Joins the shards (rows of `study`) into the results file of the study `decided`.
+/// Joins the shards, whose rows are those of `study`, into the results file of `decided`, the study with the
+/// number of trials on which the stopping rule decided.
 void assemble_decided(const std::vector<shards::ShardInfo>& shards, const study::Study& study,
                       const study::Study& decided, const fs::path& output, const AssembleSettings& common) {
   const auto renumber = [&](std::int64_t row) {

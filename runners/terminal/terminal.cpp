@@ -12,7 +12,7 @@
 namespace zerocount::terminal {
 namespace {
 
-/// A variable of the environment; empty if it is not set.
+/// Value of a variable of the environment, such as TERM; empty if it is not set.
 std::string_view environment(const char* name) {
   const char* const value = std::getenv(name);
   return value == nullptr ? std::string_view() : value;

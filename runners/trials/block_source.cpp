@@ -73,50 +73,54 @@ void Turns::choose_point() {
 
 namespace {
 
-/// Limits of a block. A block takes a fraction of a second, so that interruptions are handled quickly. The
-/// batch engine needs many trials per block, because the last ones do not fill its lanes: blocks of 128
-/// trials take 4 % longer than blocks of 1024, blocks of 64 take 17 % longer.
+/// Limits of a block of trials, which one thread runs in one go. A block takes a fraction of a second, so
+/// that interruptions are handled quickly. The batch engine needs many trials per block, because the last
+/// ones do not fill its lanes: blocks of 128 trials take 4 % longer than blocks of 1024, blocks of 64 take 17
+/// % longer.
 struct BlockLimits {
-  double samples;  ///< Maximum number of samples.
+  double samples;  ///< Maximum number of samples of a block, over all its trials.
   std::int64_t max_trials;
-  std::int64_t min_trials;  ///< Minimum number of trials, unless these have too many samples.
-  double first_samples;     ///< Maximum number of samples of a block before the time of a trial is known.
+  /// Minimum number of trials of a block, unless these have more than `samples` samples.
+  std::int64_t min_trials;
+  /// Maximum number of samples of the first blocks, before it is known how long a trial takes.
+  double first_samples;
 };
 constexpr BlockLimits reference_block{1e5, 256, 16, 1.0};
 constexpr BlockLimits batch_block{1e7, 1024, 128, 1e6};
 
-/// Maximum time of a block, s, estimated from the time of the trials in an earlier block.
+/// Maximum time that one thread takes for a block of trials, s. It is estimated from the time per trial of
+/// earlier blocks.
 constexpr double max_block_seconds = 1.0;
 
 const BlockLimits& block_limits(const study::Study& study) {
   return study.engine == study::Engine::batch ? batch_block : reference_block;
 }
 
-/// Number of rows per block with which each thread gets two blocks of the remaining rows; at least
-/// BlockLimits::min_trials.
+/// Number of rows (trials) per block if the remaining rows are divided equally into two blocks for each
+/// thread; at least BlockLimits::min_trials.
 std::int64_t rows_for_each(const BlockLimits& limits, std::int64_t rows, int threads) {
   return std::max(rows / (std::int64_t{2} * threads), limits.min_trials);
 }
 
-/// Number of trials that together have this number of samples, at least one.
+/// Number of trials that together have about this number of samples, at least one.
 std::int64_t trials_with(double samples, const study::Study& study) {
   return std::max(static_cast<std::int64_t>(samples / std::max(samples_per_trial(study), 1.0)),
                   std::int64_t{1});
 }
 
-/// Maximum number of trials of a block before the time of a trial is known. Trials that the lanes cannot run
-/// may be slow.
+/// Maximum number of trials of a block before it is known how long a trial takes. The first blocks are
+/// smaller if the SIMD lanes of the batch engine cannot run the trials, because such trials may be slow.
 std::int64_t max_first_rows(const study::Study& study) {
   const bool in_lanes = study.engine == study::Engine::batch && lanes_run_first_trials(study);
   const BlockLimits& limits = in_lanes ? batch_block : reference_block;
   return std::min(trials_with(limits.first_samples, study), limits.min_trials);
 }
 
-/// Limit of the memory for the traces of a block, bytes. The block ends with the first trial at which its
-/// traces exceed the limit.
+/// Limit of the memory that the traces (all samples of retained trials) of a block take, bytes. The block
+/// ends with the first trial at which its traces exceed the limit.
 constexpr std::size_t max_trace_bytes_per_block = std::size_t{8} << 20;
 
-/// Bytes of the trace of a retained trial in memory.
+/// Memory that the trace of one retained trial takes, bytes; 0 if the study retains no traces.
 double bytes_of_trace(const study::Study& study) {
   return study.retained_trials.empty() ? 0.0 : samples_per_trial(study) * sizeof(trial::SampleRecord);
 }
@@ -159,16 +163,17 @@ std::optional<Block> BlockSource::next() {
   return Block{rows, begins_turn};
 }
 
-/// Value of TurnClock::progress() at which the turn ends before the next row. A turn that has finished a
-/// point ends early, so that short points share a turn, and a point that takes most of a turn has a shard of
-/// its own. Otherwise the turn ends preferably before a chunk, because shards that begin with a chunk are
-/// cheap to join (shards::concatenate).
+/// Value of TurnClock::progress() at which the turn of the current design point ends before the next row
+/// (trial). A turn that has finished a point ends early, so that short points share a turn, and a point that
+/// takes most of a turn has a shard file of its own. Otherwise the turn ends preferably before a chunk of the
+/// results file, because shards that begin with a chunk are cheap to join (shards::concatenate).
 double BlockSource::end_of_turn() const {
   if (turns_.is_at_new_point()) return 0.5;
   return next_row() % layout::chunk_elements == 0 ? 1.0 : 1.5;
 }
 
-/// Number of trials that take at most max_block_seconds, estimated from the blocks that have ended.
+/// Number of trials that take at most max_block_seconds, estimated from the time per trial of the blocks that
+/// have ended.
 std::int64_t BlockSource::max_quick_rows() const {
   const double seconds = trial_seconds_;
   if (seconds == 0.0) return max_first_rows_;

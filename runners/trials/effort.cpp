@@ -15,20 +15,23 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Longest time limit, s: about a century. The clock could not hold much longer times.
+/// Largest time limit of an effort, s: about a century. The clock could not represent much longer times.
 constexpr double longest = 3e9;
 
 }  // namespace
 
 struct Effort::Account {
-  std::shared_ptr<Account> whole;  ///< Account of which this one is a part; null: none.
+  /// Account of the effort of which this one is a part. Its trials are counted too; null: there is none.
+  std::shared_ptr<Account> whole;
   std::int64_t limit{std::numeric_limits<std::int64_t>::max()};
   std::int64_t spent{0};
   std::optional<Clock::time_point> end;
-  std::stop_token stopped;  ///< Stop request of the whole or from outside.
-  std::stop_source over;    ///< Requests a stop when the time is over.
+  std::stop_token stopped;  ///< Stop request from outside, or from the account of which this one is a part.
+  std::stop_source over;    ///< Requests a stop when the time limit is over or `stopped` requests one.
   std::optional<std::stop_callback<std::function<void()>>> passes_on;
-  std::jthread timer;  ///< Last member, so that it ends before the others are destroyed.
+  /// Thread that requests a stop when the time is over. Last member, so that it ends before the others are
+  /// destroyed.
+  std::jthread timer;
 
   void start_timer() {
     passes_on.emplace(stopped, [this] { over.request_stop(); });

@@ -88,21 +88,24 @@ void ShardCollector::append(KeptBlock&& block) {
   blocks_.push_back(std::move(block));
 }
 
-/// Number of the waiting rows up to the end of the last whole chunk of a whole study.
+/// Number of the waiting rows (finished trials that are not yet in a shard) up to the last boundary between
+/// chunks of the results file. Chunks are counted from the first row of the study. 0 if the shard has sums.
 std::int64_t ShardCollector::rows_in_chunks() const {
   if (!sums_.empty()) return 0;  // sums cannot be divided
   return std::max<std::int64_t>(rows_.end() - rows_.end() % layout::chunk_elements - rows_.first, 0);
 }
 
-/// Ends a shard with the waiting rows: those in whole chunks, or all where no chunk is whole.
+/// Ends a shard with the waiting rows (finished trials) up to the last boundary between chunks of the results
+/// file. The rows after it go on waiting. If there is no such boundary, all waiting rows go into the shard.
 void ShardCollector::end_whole_chunks() {
   if (rows_.count == 0) return;
   const std::int64_t in_chunks = rows_in_chunks();
   end(in_chunks > 0 ? in_chunks : rows_.count);
 }
 
-/// Ends a shard with the first `count` of the waiting rows: those before several whole chunks go into a shard
-/// of their own, so that the chunks can be compressed.
+/// Ends a shard with the first `count` of the waiting rows (finished trials). If several whole chunks of the
+/// results file follow the first boundary between chunks, the rows before this boundary go into a shard of
+/// their own, so that the chunks can be compressed.
 void ShardCollector::end(std::int64_t count) {
   constexpr std::int64_t chunk = layout::chunk_elements;
   const std::int64_t before_chunks = (chunk - rows_.first % chunk) % chunk;
@@ -176,7 +179,7 @@ void ShardWriter::wait() {
   if (failure_) std::rethrow_exception(failure_);
 }
 
-/// Any thread.
+/// Encodes and writes one shard file. Any thread may call it.
 void ShardWriter::write_shard(ShardContents&& contents) {
   const layout::RowRange rows = contents.rows;
   const auto timed = [&](std::string_view name, const auto& step) {

@@ -38,7 +38,8 @@ class Stopwatch {
   Clock::time_point begun_{Clock::now()};
 };
 
-/// The stages through which trials become shards. Made and used in the arena of its threads.
+/// The stages (compute, collect, encode, store) through which the results of trials become shard files. To be
+/// made and used in the arena of the threads that run trials.
 class ShardPipeline {
  public:
   ShardPipeline(const study::Study& study, const std::filesystem::path& directory,
@@ -51,7 +52,7 @@ class ShardPipeline {
     finished_.predictions.resize(static_cast<std::size_t>(study::point_count(study)));
   }
 
-  /// See run_trials().
+  /// Runs the trials of `ranges`, and writes them as shards, as the free function run_trials() describes.
   FinishedTrials run(std::span<const layout::RowRange> ranges, int threads, const std::stop_token& stop) {
     BlockSource source(study_, ranges, threads);
     namespace tbb = oneapi::tbb;
@@ -82,8 +83,9 @@ class ShardPipeline {
   }
 
  private:
-  /// Runs on any thread. @returns the block without the trials that have to be run again after an
-  /// interruption; null if it has no other
+  /// Runs one block of trials, on any thread.
+  /// @returns the block, reduced to the data that the study keeps. After an interruption it has only the
+  /// trials that ended; null if none did.
   std::shared_ptr<KeptBlock> run_block(BlockSource& source, const Block& block, const std::stop_token& stop) {
     const timeline::TimeSpan span(settings_.timeline, "compute", timeline::Work::parallel, block.rows.count);
     const Stopwatch stopwatch;
@@ -95,7 +97,9 @@ class ShardPipeline {
     return kept;
   }
 
-  /// One thread at a time, in the order of the turns.
+  /// Adds a finished block to the shards. Called by one thread at a time, in the order in which the blocks
+  /// began.
+  /// @param block null: no trial of the block ended
   void collect(const std::shared_ptr<KeptBlock>& block) {
     const timeline::TimeSpan span(settings_.timeline, "collect", timeline::Work::serial);
     writer_.require_working();
@@ -113,7 +117,7 @@ class ShardPipeline {
     for (ShardContents& contents : collector_.ended()) writer_.write(std::move(contents));
   }
 
-  /// Tells of the finished trials.
+  /// Tells the listener of the run how many trials have finished since the last report.
   void report() {
     // A thread that waits there must not begin another task meanwhile.
     if (settings_.finished)
@@ -125,8 +129,9 @@ class ShardPipeline {
   oneapi::tbb::enumerable_thread_specific<TrialRunner> runners_;
   ShardCollector collector_;
   FinishedTrials finished_;
-  std::int64_t unreported_{0};  ///< Number of finished trials that were not reported yet.
-  ShardWriter writer_;          ///< Destroyed before the members that its tasks use.
+  std::int64_t unreported_{0};  ///< Number of finished trials of which the listener was not told yet.
+  /// Writes the shards. Declared last and so destroyed first, because its tasks use the other members.
+  ShardWriter writer_;
 };
 
 /// Returns memory that the threads have freed to the operating system. Otherwise each thread would keep its
@@ -138,8 +143,9 @@ void return_freed_memory() {
 #endif
 }
 
-/// Bytes of what the statistics of a point keep of each machine: counts, and the distinct values of its
-/// moves, such as settling times.
+/// Memory that the statistics of a design point take for all machines, bytes. They keep of each machine
+/// counts, and the distinct values of its moves, such as settling times. 0 without machines, or if sums
+/// replace the trials.
 double memory_of_machines(const study::Study& study) {
   constexpr double of_machine = 1270.0,
                    of_value = 470.0;  // of a machine, and of a trial with values of its own; measured
@@ -149,7 +155,8 @@ double memory_of_machines(const study::Study& study) {
   return of_machine * static_cast<double>(study.machines) + of_value * values;
 }
 
-/// Bytes of the statistics of the points that are written together, when all trials have been run.
+/// Memory that the statistics of the design points take that are written together after all trials have been
+/// run, bytes.
 double memory_of_statistics(const study::Study& study) {
   constexpr double all_statistics = 4e6;  // of the few points that have them all; measured
   constexpr double copies = 2.0;          // as they grow and as they are written
@@ -163,7 +170,7 @@ double memory_of_statistics(const study::Study& study) {
              static_cast<double>(std::min(study::point_count(study), layout::chunk_elements));
 }
 
-/// The first trials of up to 64 points, spread over the settings.
+/// Parameters of the first trials of up to 64 design points, spread over the settings (conditions at ages).
 std::vector<trial::TrialParameters> first_trials(const study::Study& study) {
   const std::int64_t settings = study.settings.total();
   const std::int64_t count = std::min<std::int64_t>(study::point_count(study) * settings, 64);

@@ -45,7 +45,7 @@ bool has_ended(const shards::TrialResult& result) {
   return !result.outcome.moves.empty();
 }
 
-/// The predictions of consecutive trials.
+/// Sums of the theory's predictions for consecutive trials, one sum per design point.
 class BlockPredictions {
  public:
   explicit BlockPredictions(std::int64_t trials_of_point, std::int64_t first_row)

@@ -14,21 +14,23 @@
 /// Trials whose outcomes are counted and not stored: for searches, verdicts and estimates.
 namespace zerocount::trials {
 
-/// Trials divided into blocks. One thread draws a block and runs it with one engine.
+/// Trials divided into blocks. One thread draws the parameters of a block's trials and runs them with one
+/// engine.
 struct TrialSet {
   std::int64_t count{0};  ///< Number of trials in all blocks.
   std::size_t blocks{0};
-  /// Draws a block; called from any thread.
+  /// Draws the parameters of a block's trials; called from any thread.
   std::function<std::vector<trial::TrialParameters>(std::size_t block)> draw;
   study::Engine engine{study::Engine::batch};
 };
 
-/// Number of trials of a block. It is at most what lanes run together, and small enough that all threads have
-/// equally many blocks.
+/// Number of trials of a block. It is at most what the SIMD lanes of the batch engine run together, and small
+/// enough that all threads have equally many blocks.
 /// @param all number of trials of the set
 std::int64_t block_for_lanes(std::int64_t all);
 
-/// Set of the trials 0 to count − 1, each drawn by its number, in blocks of `block` trials.
+/// Set of the trials 0 to count − 1 in blocks of `block` trials. `draw` gives the parameters of a trial from
+/// its number.
 TrialSet numbered_trials(std::int64_t count, std::int64_t block,
                          std::function<trial::TrialParameters(std::int64_t number)> draw);
 
@@ -45,7 +47,8 @@ using TakeBlock = std::function<void(std::size_t block, std::span<const trial::T
 /// @throws trial::Interrupted if the time is over or a stop is requested
 void run(const TrialSet& set, const Effort& effort, const TakeBlock& take);
 
-/// [number] Results of of_outcome(outcome) for the trials of numbered_trials(). Runs them as run() does.
+/// [number] Result that of_outcome(outcome) gives for each trial of numbered_trials(). Runs the trials as
+/// run() does.
 template <class OfOutcome>
 auto results_of(std::int64_t count, std::int64_t block,
                 const std::function<trial::TrialParameters(std::int64_t number)>& draw, const Effort& effort,

@@ -18,7 +18,10 @@ namespace zerocount::trials {
 
 namespace {
 
-/// @throws Failure (bad_input) unless `wanted` is one of them
+/// Checks the value of a command-line option against what the study has.
+/// @param all the study's conditions or ages
+/// @param noun what `all` is, for the message
+/// @throws Failure (bad_input) unless `wanted` is one of `all`
 void require_one_of(const study::Study& study, const auto& all, const auto& wanted, std::string_view noun,
                     std::string_view option) {
   if (std::ranges::find(all, wanted) != all.end()) return;

@@ -19,8 +19,8 @@ constexpr double max_saturated = 0.01;
 constexpr double min_phase_margin = 30.0;  // degrees
 constexpr double max_noise_of_range = 0.1;
 
-/// Switches on the measures of the motion at rest, with a band as wide as the goals allow, unless the study
-/// already measures the motion.
+/// Switches on the measures of the true motion at rest in the parameters of a trial, unless the study already
+/// measures the motion. Rest is then a position error within the widest band or tolerance of the goals.
 void measure_motion(const study::Study& study, trial::TrialParameters& p) {
   if (p.verdict.motion) return;
   p.verdict.motion = true;
@@ -31,8 +31,9 @@ void measure_motion(const study::Study& study, trial::TrialParameters& p) {
   }
 }
 
-/// Text such as " of goal 'large' under condition loaded". It names the goal only if there are several, and
-/// the setting only if the row has one.
+/// Text such as " of goal 'large' under condition loaded", which names the goal and the setting (condition at
+/// an age) that a row of the table of move behaviour describes. It names the goal only if there are several,
+/// and the setting only if the row has one. " that no goal is about" for moves that no goal judges.
 std::string text_of_row(const MoveBehaviour& row, const study::Study& study) {
   const bool is_asked = row.number < study.goals.size();
   std::string text;
@@ -42,7 +43,8 @@ std::string text_of_row(const MoveBehaviour& row, const study::Study& study) {
   return text + study::setting_phrase(study.settings, *row.setting);
 }
 
-/// Largest overshoot that stays within the band or tolerance of the row's goal, counts.
+/// Largest overshoot that stays within the band or tolerance of the goal that the row describes, counts. 1 if
+/// the row has no goal; NaN for a tolerance if no move overshoots.
 double overshoot_in_band(const MoveBehaviour& row, const study::Study& study) {
   if (row.number >= study.goals.size()) return 1.0;
   const study::Goal& goal = study.goals[row.number];

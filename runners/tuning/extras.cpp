@@ -15,7 +15,8 @@ namespace {
 
 using Wanted = std::span<const Extra* const>;
 
-/// Plans the machines of a point and the maps.
+/// Plans the number of machines on which each point of the extras is simulated, and the trials of the maps,
+/// so that the budget is enough for all wanted extras.
 RestPlan plan_of(Wanted wanted, const TunedAxis& axis) {
   ExtraCost all;
   for (const Extra* one : wanted) {
@@ -50,7 +51,8 @@ double seconds_of(Wanted extras, const TunedAxis& axis) {
   return std::min(seconds, std::max(axis.effort.seconds_left(), 0.0));
 }
 
-/// Tells, before the first extra, the maximum duration of each.
+/// Prints, before the first extra, the maximum duration of each extra; "not within the budget" if it does not
+/// fit.
 void tell_all(Wanted wanted, const TunedAxis& axis, status::StatusLine& line) {
   std::vector<std::string> each;
   for (const Extra* one : wanted) {

@@ -19,15 +19,16 @@ namespace {
 constexpr std::int64_t max_proof_moves = 2'000'000;
 constexpr std::int64_t machines_of_frontier = 512;
 
-/// Maximum number of trials of a proof. With a budget of time, half of the search's speed is assumed, because
-/// the proof also writes a file.
+/// Maximum number of trials of a proof that the effort is enough for. With a budget of time, half of the
+/// search's speed is assumed, because the proof also writes a file.
 std::int64_t max_proof_trials(const Space& space) {
   constexpr double part = 0.5;
   const std::int64_t most = std::max<std::int64_t>(max_proof_moves / space.study.moves, 1);
   return std::min(most, affordable_trials(space.effort, part * space.speed));
 }
 
-/// Whether all free parameters are gains and theory excludes a goal for all their values.
+/// Whether all free parameters are controller gains and theory excludes that a goal is met with any values of
+/// them.
 bool is_out_of_reach(const study::Study& proven) {
   const auto is_of_controller = [](const study::FreeParameter& one) {
     return one.name.starts_with("controller.") && one.name != parameter::controller::delay &&
@@ -37,7 +38,7 @@ bool is_out_of_reach(const study::Study& proven) {
          !theory::goals_out_of_reach(proven).empty();
 }
 
-/// The verdict that `judge` gives on the results file of a proof.
+/// The verdict that `zerocount judge` gives on the results file of a proof.
 goal::Verdict verdict_in(const std::filesystem::path& path) {
   const summary::StudySummary summary = summary::summarise_file(path);
   return summary::judge_point(summary, summary::choose_point(summary)).verdict;

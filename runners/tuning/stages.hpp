@@ -15,29 +15,32 @@
 #include "runners/tuning/tune_plan.hpp"
 #include "runners/tuning/worst_machines/worst_machines.hpp"
 
-/// Stages of a tuning: the space, the search in it, the behaviour of the best values, and their proof. Each
-/// stage is a function of the results of the earlier stages.
+/// Stages of a tuning: what is tuned, the search for the best values, the behaviour of the best values, and
+/// their proof. Each stage is a function of the results of the earlier stages.
 namespace zerocount::tuning {
 
-/// A part of the answer that is missing because the effort was not enough.
+/// A part of the tuning's answer that is missing because the effort was not enough.
 struct LeftOut {
   std::string part;
-  std::string_view extra{};  ///< Name of the extra to which the part belongs; empty: no extra.
+  /// Name of the extra (optional part of the answer) to which the part belongs; empty: no extra.
+  std::string_view extra{};
 
   bool operator==(const LeftOut&) const = default;
 };
 
-/// Runs `work`. Returns whether it ended within the effort and without an interruption.
+/// Runs `work`, which spends the effort. Returns true if it ended; false if the effort was not enough, or if
+/// a stop was requested.
 bool ended(const trials::Effort& effort, const std::function<void()>& work);
 
-/// The tuned study, with the budget and the effort of its tuning.
+/// What a tuning works on: the study with its free parameters, the budget and the effort.
 struct Space {
-  const study::Study& study;  ///< Study whose machines are simulated.
+  const study::Study& study;  ///< Study that is tuned, on whose machines values are simulated.
   TuneBudget budget{};
-  trials::Effort effort{};  ///< Effort of all stages together.
-  /// Speed for planning a budget of time, trials/s; infinity without a limit of time.
+  trials::Effort effort{};  ///< Effort (trials and time) of all stages of the tuning together.
+  /// Simulation speed with which a budget of time is planned, trials/s; infinity without a limit of time.
   double speed{std::numeric_limits<double>::infinity()};
-  double measured_speed{0.0};  ///< Speed for estimating times, trials/s; 0 if it was not measured.
+  /// Simulation speed from which durations are estimated, trials/s; 0 if it was not measured.
+  double measured_speed{0.0};
 
   const std::vector<study::FreeParameter>& free() const { return study.tuning->free; }
   bool has_budget() const { return budget.trials || budget.seconds; }
@@ -48,46 +51,54 @@ struct Space {
 /// points
 void require_tunable(const study::Study& study);
 
-/// Space of a tuning. Its speed is measured if the budget has a time and no speed is known.
-/// @param known_speed speed measured by an earlier run, trials/s
-/// @throws trial::Interrupted
+/// Makes the space of a tuning. Its speed is measured if the budget has a time and no speed is known.
+/// @param known_speed speed measured by an earlier run, trials/s; nothing: none
+/// @throws trial::Interrupted if a stop is requested or the time is over
 Space space_of(const study::Study& study, const TuneBudget& budget, const trials::Effort& effort,
                const std::optional<double>& known_speed);
 
-/// Result of a search.
+/// Result of the search stage of a tuning.
 struct Searched {
-  SearchResult result{};               ///< Its points and trials include the searches for other controls.
-  std::vector<TriedPoint> frontier{};  ///< Frontier between success and speed (frontier_of()).
-  std::int64_t examined{0};            ///< Number of points whose margins were examined.
+  /// Result of search(). Its numbers of points and trials include the searches for other controls.
+  SearchResult result{};
+  /// Frontier between success and speed (frontier_of()), the fastest point first.
+  std::vector<TriedPoint> frontier{};
+  std::int64_t examined{0};  ///< Number of sets of values whose stability margins were examined.
   Landscape landscape{};
 };
 
-/// Searches for the best values. Sets the speed of the space to the measured one.
+/// Searches for the best values of the free parameters. Sets the speeds of the space to the speed that the
+/// search had.
 /// @param tell called after each generation
-/// @throws trial::Interrupted
+/// @throws trial::Interrupted if a stop is requested
 Searched search_values(Space& space, StudySearch& search, const SearchPlan& plan,
                        const std::function<void(const SearchProgress&)>& tell);
 
-/// Explanation for a search that found no values.
+/// Explanation for a search in which no values keep the margins.
 struct Unfound {
-  std::optional<NearestPoint> nearest{};  ///< Examined point closest to the wanted margins.
-  std::string refusal{};                  ///< Why no point at all was allowed; empty if some point was.
+  /// Examined set of values closest to the wanted stability margins; nothing if none was allowed.
+  std::optional<NearestPoint> nearest{};
+  std::string refusal{};  ///< Why no examined set of values was allowed; empty if some was.
 };
-/// Explains a search that found no values.
+/// Explains a search in which no values keep the margins: finds the closest ones, or why none was allowed.
 Unfound nearest_to_margins(const StudySearch& search);
 
-/// Margins and moves of values, on machines of the search.
+/// Stability margins of a set of values, and the behaviour of the moves, on machines of the search.
 struct Examined {
   Values values;
   std::optional<SmallestMargins> margins{};
-  std::optional<double> lowest_mode{};          ///< LoopExaminer::lowest_mode(), Hz.
-  bool slides{false};                           ///< Whether the margins include loops of sliding machines.
-  std::vector<summary::MoveBehaviour> moves{};  ///< Behaviour of the moves of some machines.
+  /// LoopExaminer::lowest_mode(), the lowest frequency of a load mode that leaves all loops stable, Hz;
+  /// nothing: not known.
+  std::optional<double> lowest_mode{};
+  bool slides{false};  ///< Whether the margins include the loops of sliding machines.
+  /// Behaviour of the moves of some machines, such as their overshoot.
+  std::vector<summary::MoveBehaviour> moves{};
 };
 
-/// Sets the margins and the lowest mode of `examined`.
+/// Computes the stability margins and the lowest load mode for examined.values, and stores them in
+/// `examined`.
 /// @param slides whether the machines slide with these values
-/// @throws trial::Interrupted
+/// @throws trial::Interrupted if `stop` is requested
 void examine_margins(const StudySearch& search, bool slides, const std::stop_token& stop, Examined& examined);
 
 /// Behaviour of the moves of the first `count` machines, each with one trial in each setting. The torque
@@ -98,29 +109,36 @@ std::vector<summary::MoveBehaviour> simulated_behaviour(const study::Study& stud
                                                         const trials::Replicates& machines,
                                                         std::int64_t count, const trials::Effort& effort);
 
-/// Results of the tuned study on machines that the search did not use.
+/// Results of the tuned study on machines that the search did not use (proof that the values meet the goals).
 struct Proof {
   study::Study study;
-  goal::Verdict verdict;  ///< Verdict of `judge` on the results file; its confidence allows for all attempts.
-  std::optional<goal::Needs> needs{};  ///< Study size that would decide an undecided verdict.
-  /// Number of attempts (candidates or sizes), including this one.
+  /// Verdict that `judge` gives on the results file. The confidence of its bounds allows for all attempts.
+  goal::Verdict verdict;
+  /// Study size that would decide an undecided verdict; nothing otherwise.
+  std::optional<goal::Needs> needs{};
+  /// Number of attempts to prove values (with other candidates or more machines), including this one.
   int attempts{1};
-  std::vector<summary::CellOfPoint> claims{};  ///< Claims with bounds that allow for all attempts.
-  double criterion{0.0};                       ///< Estimate::criterion; infinity for "never".
-  /// Quantile of the criterion's values of the worst goal in its worst setting, at the probability
-  /// study::Goal::moves.
+  /// Claims (goals in settings) with confidence bounds that allow for all attempts.
+  std::vector<summary::CellOfPoint> claims{};
+  /// Estimate::criterion, the quantity that the tuning minimises; infinity for "never".
+  double criterion{0.0};
+  /// Value that the criterion's measure does not exceed in the proportion of moves that the goal asks for
+  /// (study::Goal::moves), for the worst goal in its worst setting.
   double late_limit{0.0};
   std::optional<WorstMachine> worst{};
-  std::vector<std::string> obstacles{};  ///< Reasons from theory why a goal is not met.
+  /// Reasons from theory why a goal is not met; empty if there are none.
+  std::vector<std::string> obstacles{};
   std::vector<summary::MoveBehaviour> moves{};
-  bool keeps_margins{true};  ///< ProvenFinalist::keeps_margins
-  bool all_tried{true};      ///< ProvenFinalist::all_tried
+  /// ProvenFinalist::keeps_margins: whether the values keep the wanted stability margins.
+  bool keeps_margins{true};
+  /// ProvenFinalist::all_tried: whether every finalist that may meet the goals was run.
+  bool all_tried{true};
 
-  /// Whether the values are not an answer, because they miss a goal or violate a margin.
+  /// Whether the values cannot be the answer, because they miss a goal or violate a stability margin.
   bool fails() const { return !keeps_margins || verdict.status == goal::Status::missed; }
 };
 
-/// Evaluates a finished proof.
+/// Evaluates a finished proof, the simulation of the tuned study on fresh machines.
 /// @param study study with one design point
 /// @param machines machines of the study
 /// @param results results of these machines
@@ -128,22 +146,22 @@ struct Proof {
 Proof proof_of(study::Study study, const trials::Replicates& machines, std::span<const MachineResult> results,
                const reading::AllTrialsFile& file);
 
-/// Results file of a proof, and the number of threads that make it.
+/// Results file that a proof writes, and the number of threads that run it.
 struct ProofPlace {
   std::filesystem::path output;
   int threads{0};
 };
 
-/// The proof that prove_values() ended with.
+/// The last attempt of prove_values() to prove a finalist of the search.
 struct Proven {
-  std::size_t finalist{0};  ///< Index in SearchResult::finalists.
-  bool slid{false};         ///< Whether machines slid in the search or in the proof.
+  std::size_t finalist{0};  ///< Index in SearchResult::finalists of the finalist that was run.
+  bool slid{false};         ///< Whether machines slid with these values in the search or in the proof.
   Proof proof;
 };
 
-/// Proves the finalists of a search (prove()).
+/// Proves on fresh machines that finalists of a search meet the goals (prove()).
 /// @returns the last attempt; nothing if the time ended before the first attempt
-/// @throws Failure (interrupted)
+/// @throws Failure (interrupted) if a stop was requested
 std::optional<Proven> prove_values(const Space& space, StudySearch& search, const SearchResult& found,
                                    const ProofPlace& place, status::StatusLine& line);
 

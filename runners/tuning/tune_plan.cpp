@@ -34,7 +34,7 @@ std::int64_t min_search_trials(const study::Study& study, std::span<const study:
   return first_race_machines(smallest_search(scope), scope.faces) * search_trials_of_machine(study);
 }
 
-/// Trials as a whole number; the largest where there is no limit.
+/// A number of trials as a whole number; the largest std::int64_t if it is infinite or too large.
 std::int64_t whole_trials(double trials) {
   constexpr double largest = 1e15;
   return static_cast<std::int64_t>(std::min(trials, largest));

@@ -23,7 +23,9 @@ namespace fs = std::filesystem;
 
 constexpr std::int64_t machines_of_behaviour = 128;  // simulated before the proof, to describe the moves
 
-/// Opens the journal, and refuses to overwrite what another run made.
+/// Opens the journal from which an interrupted tuning resumes. Fails if the output or an unfinished run of
+/// another study is there already, unless settings.force is set.
+/// @throws Failure (bad_input) in this case
 TuningJournal open_journal(const study::Study& study, const TuneSettings& settings) {
   const layout::Provenance build = layout::current_provenance();
   const std::string all_that_decides = study.study_sha256 + build.zerocount_version + build.git_commit;
@@ -37,8 +39,9 @@ TuningJournal open_journal(const study::Study& study, const TuneSettings& settin
                             settings.output.string(), exists ? "exists already" : "has an unfinished run"));
 }
 
-/// Effort of the whole tuning. A little of the time is kept for the start and end of the program and for the
-/// page.
+/// Effort of the whole tuning, from its budget. A little of the time is kept for the start and end of the
+/// program and for the page.
+/// @param elapsed time that earlier, interrupted runs of the tuning took, s
 trials::Effort whole_effort(const TuneSettings& settings, double elapsed, const std::stop_token& stop) {
   const TuneBudget& budget = settings.budget;
   if (!budget.seconds) return trials::Effort(stop).limited_to(budget.trials, {});
@@ -54,7 +57,7 @@ Failure out_of_time(TuningJournal& journal, const TuneBudget& budget, const std:
                       seconds, what, 2.0 * seconds)};
 }
 
-/// State of a tuning; its answer grows from stage to stage.
+/// State of a running tuning; its answer grows from stage to stage.
 struct Work {
   const TuneSettings& settings;
   TuningJournal& journal;
@@ -63,7 +66,8 @@ struct Work {
   TuneAnswer answer{.free = space.free(), .budget = space.budget, .blind = search.examiner().is_blind()};
   status::StatusLine line{settings.quiet, settings.listener};
 
-  /// Makes an unproven part of the answer. If the effort is not enough, the part is listed as left out.
+  /// Runs `work`, which adds an unproven part to the answer. If the effort is not enough, `name` is listed as
+  /// left out.
   void find_part(const std::string& name, const std::function<void()>& work) {
     line.show([&] { return name; });
     const bool found = ended(space.effort, work);
@@ -78,7 +82,7 @@ struct Work {
   }
 };
 
-/// If there is no budget, tells how long the search may take on this computer.
+/// If there is no budget, prints how long the search may take on this computer.
 void tell_default(Work& work) {
   if (work.space.has_budget() || work.settings.quiet) return;
   status::tell("no --budget: the search takes at most {}, as measured here, then the proof and the extras\n",
@@ -100,7 +104,8 @@ void find_values(Work& work, const SearchPlan& plan) {
   });
 }
 
-/// Explains a search in which no candidate keeps the margins, and sets the status of the answer.
+/// Explains in the answer a search in which no candidate keeps the stability margins, and sets the status of
+/// the answer.
 /// @throws Failure (inconclusive) if the search ended too soon to say that there are no such values
 void explain_missing(Work& work, const SearchPlan& plan) {
   const Searched& searched = work.answer.searched;
@@ -123,7 +128,8 @@ void examine_margins(Work& work, bool slides) {
                  [&] { examine_margins(work.search, slides, work.space.effort.stop(), work.answer.tuned); });
 }
 
-/// Examines the margins and moves of a finalist, on machines of the search.
+/// Examines the stability margins and moves of a finalist of the search, on machines of the search, and
+/// stores them in the answer.
 void examine(Work& work, const Candidate& finalist) {
   work.answer.tuned = {finalist.values};
   work.answer.extras.left_out.clear();  // of another finalist
@@ -141,7 +147,7 @@ void examine(Work& work, const Candidate& finalist) {
   });
 }
 
-/// Puts a proof into the answer. If the proof did not measure the torque at rest, the value from the machines
+/// Stores a proof in the answer. If the proof did not measure the torque at rest, the value from the machines
 /// of the search is kept.
 void take_proof(Proof proof, TuneAnswer& answer) {
   for (summary::MoveBehaviour& row : proof.moves) {
@@ -169,7 +175,7 @@ void prove(Work& work) {
   take_proof(std::move(proven->proof), work.answer);
 }
 
-/// Passes on the proven answer, then makes the extras.
+/// Calls settings.proven with the proven answer, then computes the wanted extras.
 void add_extras(Work& work) {
   TuneAnswer& answer = work.answer;
   work.count_effort();
@@ -207,7 +213,9 @@ TuneAnswer tuned(const study::Study& study, const TuneSettings& settings, const 
   return std::move(work.answer);
 }
 
-/// Adds the margins of the answer's values, on the machines of the study.
+/// Computes the stability margins of the answer's values on the machines of `study`, and stores them in the
+/// answer.
+/// @param slides whether machines slide with these values
 void add_margins_in(const study::Study& study, bool slides, const trials::Effort& effort,
                     TuningJournal& journal, TuneAnswer& answer) {
   const StudySearch search(study, answer.free, default_search_size(study), journal, effort);

@@ -45,7 +45,9 @@ void compare_header(const layout::FileHeader& header, const study::Study& study,
     require_equal("study_sha256", header.study_sha256, study.study_sha256, problems);
 }
 
-/// Every drawn parameter of the kept trials has a value that the table of parameters allows.
+/// Checks that every drawn parameter of the kept trials has a value that the table of parameters allows.
+/// @param positions positions of the trials in the file's tables
+/// @throws Failure (bad_data) if one has not
 void require_allowed_inputs(const reading::TrialTables& trials, const study::StudyPlan& plan,
                             layout::RowRange positions) {
   const std::size_t columns = std::min(trials.input_columns().size(), plan.inputs.size());
@@ -63,10 +65,10 @@ void require_allowed_inputs(const reading::TrialTables& trials, const study::Stu
   }
 }
 
-/// Checks that the inputs, measures and jerks of the trials in the file are possible. If the file has sums,
-/// checks also that they are possible for the number of trials at each design point and, if the file keeps
-/// the failed trials, that the failures counted in the sums are as many as these trials.
-/// @throws Failure (bad_data)
+/// Checks that the inputs, measures and jerks of the trials in the file are possible values. If the file has
+/// sums, checks also that they are possible for the number of trials at each design point and, if the file
+/// keeps the failed trials, that the failures counted in the sums are as many as these trials.
+/// @throws Failure (bad_data) if a value is impossible
 void check_contents(const reading::ResultsFile& file, const study::Study& study) {
   if (file.trials()) {
     file.trials()->require_valid_values();
@@ -86,9 +88,9 @@ void check_contents(const reading::ResultsFile& file, const study::Study& study)
   }
 }
 
-/// Checks that the sample records belong to the retained trials in their order, each starting with its first
-/// sample. This must be checked here, because a file that is made again takes over the numbers of the
-/// records.
+/// Checks that the sample records (traces) in the file belong to the retained trials in their order, each
+/// starting with its first sample. Adds a problem otherwise. This must be checked here, because a file that
+/// is made again takes over the numbers of the records.
 void check_records(const reading::ResultsFile& file, const study::Study& study, ProblemList& problems) {
   if (!file.trials() || study.retained_trials.empty()) return;
   std::vector<std::int64_t> expected;
@@ -118,7 +120,7 @@ void check_records(const reading::ResultsFile& file, const study::Study& study, 
                   expected.size()));
 }
 
-/// A file of failures alone keeps no trial that succeeded.
+/// Checks that a file which keeps only failed trials keeps no trial that succeeded. Adds a problem for each.
 void check_failures(const reading::ResultsFile& file, const study::Study& study, ProblemList& problems) {
   if (!file.trials() || !layout::has_sums(study.retention)) return;
   const reading::TrialTables& trials = *file.trials();
@@ -134,7 +136,8 @@ void check_failures(const reading::ResultsFile& file, const study::Study& study,
   });
 }
 
-/// The sentence for a difference between the file and the rebuilt one.
+/// Sentence about a difference between the checked file and the file that was made again from its manifest
+/// and trials.
 std::string sentence(const reading::DatasetDifference& difference, const hdf5::Group& file) {
   if (difference.kind != reading::DatasetDifference::Kind::in_one_file_only)
     return fmt::format("{}: {} from what its manifest and its trials give", difference.path, difference.how);
@@ -142,7 +145,8 @@ std::string sentence(const reading::DatasetDifference& difference, const hdf5::G
                      file.contains(difference.path) ? "not a dataset of this study" : "missing");
 }
 
-/// Makes the file `rebuilt`. Messages about wrong trials do not name this temporary file.
+/// Makes the results file again from its manifest and its trials, at the path `rebuilt`. Messages about wrong
+/// trials do not name this temporary file.
 void rebuild(const reading::ResultsFile& file, const study::Study& study,
              const std::filesystem::path& rebuilt, const std::stop_token& stop) {
   const std::array<shards::ShardInfo, 1> trials{{{file.path(), file.rows()}}};
@@ -155,7 +159,7 @@ void rebuild(const reading::ResultsFile& file, const study::Study& study,
   }
 }
 
-/// Removes the folder at the end of its scope.
+/// Removes the folder for temporary files at the end of the object's scope.
 struct RemovedAtEnd {
   storage::ScratchFolder& scratch;
   ~RemovedAtEnd() { scratch.remove(); }
@@ -183,7 +187,7 @@ std::size_t datasets_in(const hdf5::Group& group) {
   return count;
 }
 
-/// Text about the extent of the check of the statistics.
+/// Text that says what the check of the statistics covered, such as the number of trials.
 std::string detail_of(const reading::ResultsFile& file, const study::Study& study) {
   const layout::FileHeader& header = file.header();
   std::string values;

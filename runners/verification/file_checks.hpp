@@ -10,17 +10,19 @@
 
 namespace zerocount::verification {
 
-/// Checks by the checksum trailer that the bytes are the ones that were written.
+/// Checks by the checksum at the end of the file that its bytes are the ones that were written. Adds the
+/// check to the report.
 /// @return whether the check holds, so that the file may be opened
 bool check_checksum(CheckReport& report);
 
-/// Header of a results file, and the study that it describes.
+/// Header of a results file, and the study that the header's manifest describes.
 struct Described {
   layout::FileHeader header;
   study::Study study;
 };
 
-/// Checks everything that can be checked without running a trial.
+/// Checks everything in a results file that can be checked without simulating a trial, and adds the checks to
+/// the report.
 ///
 /// The file must be finished, and its attributes must follow from its manifest. Inputs, measures, jerks and
 /// sums must be possible. The file is made again from its manifest and its trials, as a merge makes it, and
@@ -28,7 +30,7 @@ struct Described {
 /// rows and statistics follow from the trials and the manifest.
 ///
 /// The folder for temporary files needs as much room as the file takes.
-/// @param plugin as for recorded_study
+/// @param plugin the user's controller, as for recorded_study; null: none is given
 /// @return header and study; nothing if the trials cannot be read, so that none can be run again
 std::optional<Described> check_statistics(CheckReport& report,
                                           const std::shared_ptr<const plugin::ControllerPlugin>& plugin);

@@ -39,13 +39,13 @@ double allowed_in(const layout::Column& column) {
   return column.unit == "count" ? 1e-3 : 0.0;
 }
 
-/// How records are compared: `what` names one in messages.
+/// How recorded and replayed values are compared; `what` is the word for one record in messages.
 struct Comparison {
   std::string_view what;
   Equality equality;
 };
 
-/// Compares two lists of records field by field.
+/// Compares two lists of records field by field, and appends a line to `lines` for each difference.
 template <class Record>
 void compare(const std::vector<layout::RecordField<Record>>& fields, const std::vector<Record>& recorded,
              const std::vector<Record>& replayed, const Comparison& comparison,
@@ -84,7 +84,7 @@ constexpr std::size_t tasks_at_once = 64;  // bounds the memory
 
 using Results = std::vector<shards::TrialResult>;
 
-/// A file whose trials are compared with those that are run again.
+/// A results file whose recorded trials are compared with those that are simulated again.
 struct RecordedFile {
   const reading::ResultsFile& file;
   study_run::RecordPlaces records;
@@ -111,7 +111,8 @@ void compare_range(const RecordedFile& recorded, layout::RowRange rows, const Re
   }
 }
 
-/// Runs trials in parallel, and gives the results range by range in order of rows.
+/// Simulates trials in parallel, and calls `take` with the results of each range of rows, in ascending order.
+/// @param rows numbers of the trials in the study, ascending
 template <class Take>
 void run_in_tasks(const study::Study& study, std::span<const std::int64_t> rows, const std::stop_token& stop,
                   const Take& take) {
@@ -128,7 +129,9 @@ void run_in_tasks(const study::Study& study, std::span<const std::int64_t> rows,
   }
 }
 
-/// The chosen rows, and as many failures: where few trials fail, hardly any is among the rows.
+/// Rows of the trials to simulate again, for a file that keeps only failures: the chosen rows, and as many of
+/// the recorded failures, drawn with equal probability. If few trials fail, hardly any failure is among the
+/// chosen rows.
 std::vector<std::int64_t> with_failures(const ChosenTrials& chosen, const reading::TrialTables& failures) {
   std::set<std::int64_t> rows(chosen.rows.begin(), chosen.rows.end());
   for (const std::int64_t position : sample_below(failures.count(), std::ssize(chosen.rows), chosen.seed))
@@ -241,7 +244,7 @@ void check_trials(CheckReport& report, const reading::ResultsFile& file, const s
 
 namespace {
 
-/// Encoder count and converter code of a loop at one sample.
+/// Encoder count and code of the digital-to-analogue converter in a loop at one sample.
 struct LoopSample {
   std::int64_t count{0};
   std::int64_t code{0};

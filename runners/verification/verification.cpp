@@ -50,19 +50,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A file that was opened without problems so far, so that its trials can be run again.
+/// A file with the checks made so far. If it could be opened and described, its trials can be simulated
+/// again.
 struct OpenedFile {
   CheckReport report;
-  std::optional<Described> described;  ///< Description of the file; nothing if it cannot be read.
+  std::optional<Described> described;  ///< Header and study of the file; nothing if it cannot be read.
 };
 
-/// A shard whose header was read.
+/// A shard (file with some trials of a study) whose header was read.
 struct ShardHeader {
   fs::path path;
   layout::FileHeader header;
 };
 
-/// The study hash of most shards; of several that are as frequent, the first of the folder.
+/// Hash of the study to which most of the shards belong. If several studies have equally many, the one of the
+/// first shard in the folder.
 std::string common_study(std::span<const ShardHeader> shards) {
   std::map<std::string, std::int64_t> counts;
   for (const ShardHeader& shard : shards) ++counts[shard.header.study_sha256];
@@ -72,7 +74,7 @@ std::string common_study(std::span<const ShardHeader> shards) {
   return std::max_element(shards.begin(), shards.end(), fewer)->header.study_sha256;
 }
 
-/// The first reason why the shard cannot be of one run with `first`; empty if it can.
+/// First reason why the shard cannot be of the same run as the shard `first`; empty if it can.
 std::string stranger(const layout::FileHeader& shard, const layout::FileHeader& first) {
   if (shard.study_sha256 != first.study_sha256)
     return fmt::format("from another study ('{}') than most", shard.name);
@@ -95,7 +97,9 @@ void check_overlaps(std::span<const shards::ShardInfo> sorted, ProblemList& prob
   }
 }
 
-/// A run that goes on, or was interrupted, has not run all trials yet.
+/// Skipped check that says how many trials are missing in the shards, because the run goes on or was
+/// interrupted.
+/// @param gaps ranges of rows (numbers of trials) that no shard has
 Check unfinished(std::span<const layout::RowRange> gaps) {
   return {.name = "all trials",
           .detail = fmt::format("{} are in none of the shards yet, from trial {} on",
@@ -103,8 +107,8 @@ Check unfinished(std::span<const layout::RowRange> gaps) {
           .skipped = true};
 }
 
-/// Checks that the shards of a folder belong to one study, build and engine, and that they contain each trial
-/// of the study once. The study is the study of most shards.
+/// Checks that the shards (files with trials) of a folder belong to one study, build and engine, and that
+/// they contain each trial of the study once. The study is that to which most of the shards belong.
 /// @param stops whether the study has a stopping rule, so that there may be fewer trials than its manifest
 /// allows
 void check_shard_set(CheckReport& report, std::span<const ShardHeader> shards, bool stops) {
@@ -140,7 +144,7 @@ void require_plugin(const fs::path& path, const study::Study& study, const Verif
                   path.string(), study.plugin->description.name));
 }
 
-/// All checks of one file except running its trials again.
+/// Makes all checks of one file that do not simulate its trials again.
 OpenedFile check_stored(const fs::path& path, const VerifySettings& settings) {
   OpenedFile opened{{.path = path, .stop = settings.stop, .scratch = settings.scratch}, {}};
   CheckReport& report = opened.report;
@@ -150,8 +154,10 @@ OpenedFile check_stored(const fs::path& path, const VerifySettings& settings) {
   return opened;
 }
 
-/// Runs trials of a file again. @param chosen numbers of the trials from the first of the file on; as many
-/// failures are added, drawn with the seed, where the file keeps those alone
+/// Simulates trials of a file again, and adds the comparison with their records to its report.
+/// @param chosen numbers of the trials, counted from the first trial of the file; if the file keeps only
+/// failures, as many of these are added
+/// @param seed seed for the random choice of these failures
 void run_again(OpenedFile& opened, std::vector<std::int64_t> chosen, std::uint64_t seed) {
   if (!opened.described || chosen.empty()) return;
   const auto& [header, study] = *opened.described;
@@ -165,14 +171,15 @@ void run_again(OpenedFile& opened, std::vector<std::int64_t> chosen, std::uint64
   }
 }
 
-/// True if the file is a piece of the study of its folder: a shard, or a part in a folder of shards.
+/// Whether the file has only some trials of the study of its folder: a shard, or a part in a folder of
+/// shards.
 bool is_piece(const OpenedFile& opened) {
   if (!opened.described || opened.described->header.complete) return false;
   return opened.described->header.kind == layout::FileKind::shard ||
          opened.report.path.parent_path().extension() == ".shards";
 }
 
-/// Runs a sample of the trials of all shards again.
+/// Simulates a random sample of the trials of all shards of a folder again.
 void run_shards_again(std::vector<OpenedFile>& files, const VerifySettings& settings) {
   std::int64_t total = 0;
   for (const OpenedFile& file : files) total += is_piece(file) ? file.described->header.rows.count : 0;

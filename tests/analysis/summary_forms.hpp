@@ -9,7 +9,7 @@
 
 namespace zerocount::testing {
 
-/// The answer of a summary in each format.
+/// The answer of the command `summary` as text.
 inline std::string summary_text(const summary::StudySummary& summary,
                                 const summary_answer::SummaryForm& form = {}) {
   return document::text(summary_answer::summary_answer(summary, form));

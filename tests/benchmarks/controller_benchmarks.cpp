@@ -20,7 +20,8 @@ constexpr double ki = 3.85e-5;  // N m/count
 constexpr double zone = 20.0;   // counts
 constexpr int samples_per_turn = 20'000;
 
-/// Counts that ring about a target, some of them beyond the zone of the integrator.
+/// Encoder counts that oscillate about a target; some of them are outside the zone in which the integrator
+/// acts.
 std::vector<std::int64_t> ringing_counts() {
   std::mt19937_64 random(15);
   std::normal_distribution<double> noise(0.0, 2.0);
@@ -53,7 +54,7 @@ double thread_time() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// One trial's decisions by a controller, with the check that each torque is finite.
+/// The decisions of a controller in one trial, with the check that each torque is finite.
 struct Decisions {
   double seconds{0.0};
   double sum{0.0};  ///< sum of the torques, N m

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::int64_t trials_checked = 200;  // that do not break away
 
-/// An engine on one workload, checked once however often it is timed.
+/// An engine on one workload whose agreement with the reference is checked once, however often it is timed.
 struct CheckedEngine {
   TimedEngine engine;
   std::optional<EngineAgreement> agreement;

@@ -12,8 +12,8 @@ namespace zerocount::testing {
 /// An engine that simulates whole trials and is timed on one thread.
 struct TimedEngine {
   std::string name;
-  /// Simulates the trials of the workload, with all their measures. Whoever needs the study instead of the
-  /// drawn parameters takes its first workload.trials.size() trials.
+  /// Simulates the trials of the workload, with all their measures. An engine that needs the study instead of
+  /// the drawn parameters takes the study's first workload.trials.size() trials.
   std::function<void(const Workload&)> simulate;
   /// The samples of one trial by this engine, which are checked before it is timed; empty for the reference.
   TrialRecorder record;

@@ -9,8 +9,9 @@
 namespace zerocount::testing {
 namespace {
 
-/// The sample at which the trial is first seen to have broken away, or their number. A slide may begin and
-/// end between two samples; a contact that is new has lost its hardening.
+/// Index of the first sample at which the trial is seen to have broken away; the number of samples if it
+/// never does. A slide may begin and end between two samples; a new contact is recognised because it has lost
+/// its hardening.
 std::size_t first_breakaway(const std::vector<trial::SampleRecord>& records) {
   for (std::size_t i = 0; i < records.size(); ++i) {
     if (records[i].mode == trial::HookMode::slide) return i;

@@ -13,16 +13,18 @@ namespace zerocount::testing {
 
 using TrialRecorder = std::function<std::vector<trial::SampleRecord>(const trial::TrialParameters&)>;
 
-/// All samples of a trial by the scalar reference.
+/// All samples of a trial, simulated by the scalar reference engine.
 std::vector<trial::SampleRecord> reference_records(const trial::TrialParameters& parameters);
 
 /// Agreement of an engine with the scalar reference on the trials of a study.
 struct EngineAgreement {
   Agreement samples;              ///< agreement up to the first breakaway of each trial
-  std::int64_t calm_trials{0};    ///< compared trials that never break away
-  std::int64_t broken_trials{0};  ///< trials compared up to their first breakaway
+  std::int64_t calm_trials{0};    ///< number of compared trials that never break away
+  std::int64_t broken_trials{0};  ///< number of trials that were compared up to their first breakaway
 
-  bool holds() const;        ///< no failure, and at most one trial in fifty cut short on an encoder edge
+  /// Whether the engine agrees: no failure, and at most one trial in fifty cut short because its angle stands
+  /// on an encoder edge.
+  bool holds() const;
   std::string text() const;  ///< figures in one line, and one line for each failure
 };
 

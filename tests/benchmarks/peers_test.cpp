@@ -14,7 +14,7 @@
 namespace zerocount::testing {
 namespace {
 
-/// A short look at each kind of trial that the benchmarks time.
+/// A few trials of one kind that the benchmarks time, to check the other libraries' integrators quickly.
 struct Sight {
   std::string manifest;
   std::int64_t calm_trials;

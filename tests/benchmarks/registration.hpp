@@ -11,10 +11,11 @@ namespace zerocount::testing {
 /// The settings that all benchmarks of a run have in common.
 struct BenchmarkRun {
   std::vector<Workload> workloads;
-  bool failed{false};  ///< an engine does not agree with the reference
+  bool failed{false};  ///< set if an engine does not agree with the reference engine
 };
 
-/// The figure of a benchmark, its counter per_sample: time per sample of a trial, over `samples` of them.
+/// Sets the benchmark's counter per_sample: the time per sample of a trial.
+/// @param samples number of samples that one iteration simulates
 inline void count_samples(benchmark::State& state, double samples) {
   state.counters["per_sample"] =
       benchmark::Counter(samples, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);

@@ -15,7 +15,8 @@ namespace {
 constexpr std::int64_t trials_for_threads = 200000;  // whose last lanes, each alone, are a small part
 constexpr std::int64_t samples_per_run = 1200000;    // where the length of the trial varies
 
-/// A run but for its last step, joining the shards: drawing, the trials with their measures, writing.
+/// Times a whole run except its last step, the joining of shards: drawing, the trials with their measures,
+/// writing.
 void time_run(benchmark::State& state, const study::Study& study, int threads) {
   const layout::RowRange rows{0, study::trial_count(study)};
   double samples = 0.0;

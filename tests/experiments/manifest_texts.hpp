@@ -22,21 +22,22 @@ std::string extended_manifest();
 /// The message with which the text is refused; empty if it is accepted. The text is named "m.yaml".
 std::string refusal_of(const std::string& text, const std::vector<std::string>& overrides = {});
 
-/// The study that parse_study() makes of the text under the name "m.yaml".
+/// The study that parse_study() makes of the manifest `text`, under the file name "m.yaml".
 study::Study study_of(const std::string& text, const std::vector<std::string>& overrides = {});
 
 /// Index of the input column with this name.
 std::size_t column_of(const study::Study& study, const std::string& name);
 
-/// The premises about encoder noise, delay and amplifier lag that the study assumes without being told.
+/// The assumptions about encoder noise, delay and amplifier lag being absent that the study makes because the
+/// manifest does not mention them.
 std::vector<std::string_view> unstated_premises(const study::Study& study);
 
-/// Whether a message has these faults, one per line. "6:9: plant.inertai | inertia" is a line that begins
-/// with "m.yaml:6:9: plant.inertai: " and has the word "inertia" behind it; there may be several words. A
+/// Whether a message has these faults, one per line. "6:9: plant.inertai | inertia" means a line that begins
+/// with "m.yaml:6:9: plant.inertai: " and contains the word "inertia" after it; there may be several words. A
 /// fault that does not begin with a digit names its source, such as "--set trials=x: trials | number".
 ::testing::AssertionResult has_faults(const std::string& message, std::string_view faults);
 
-/// Whether these warnings have these faults, one per warning.
+/// Whether these warnings have these faults, one per warning, in the notation "line:column: path | word".
 ::testing::AssertionResult has_faults(const std::vector<std::string>& warnings, std::string_view faults);
 
 }  // namespace zerocount

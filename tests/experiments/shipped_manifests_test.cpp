@@ -9,7 +9,8 @@ study::Study shipped(const std::string& name) {
   return manifest::load_study(std::filesystem::path(ZEROCOUNT_MANIFESTS) / (name + ".yaml"));
 }
 
-/// The work that benchmarks time: beside the studies that one would start from, not among them.
+/// The folder with the manifests that the benchmarks time. They are beside the shipped manifests, not among
+/// them, because nobody would start from them.
 std::filesystem::path benchmark_folder() {
   return std::filesystem::path(ZEROCOUNT_MANIFESTS).parent_path();
 }
@@ -158,7 +159,7 @@ struct Block {
   std::string text;
 };
 
-/// All pages, the first one first.
+/// The text of all documentation pages, the first one first.
 std::string pages() {
   std::ostringstream text;
   for (const char* name : {"README", "controller-and-command", "random-numbers", "trials", "values"}) {
@@ -169,7 +170,7 @@ std::string pages() {
   return text.str();
 }
 
-/// The fenced blocks of the pages, each with the word after the opening fence.
+/// The fenced code blocks of the documentation pages, each with the word after the opening fence.
 std::vector<Block> fenced_blocks() {
   std::vector<Block> blocks;
   std::istringstream text(pages());
@@ -189,7 +190,7 @@ bool starts_with(const std::string& text, std::string_view start) {
   return text.rfind(start, 0) == 0;
 }
 
-/// A manifest with the required keys that `part` lacks.
+/// The manifest `part` from the documentation, with the required keys that it lacks.
 std::string completed(const std::string& part) {
   std::string manifest;
   std::istringstream required(minimal_manifest());
@@ -206,7 +207,7 @@ std::size_t index_of_block(const std::vector<Block>& blocks, std::string_view st
   return static_cast<std::size_t>(found - blocks.begin());
 }
 
-/// The study of a manifest in the pages, whose samples are the table in it.
+/// The study of a manifest in the documentation pages, whose joint samples are the table there.
 study::Study study_in_pages(const std::string& text) {
   const std::vector<Block> blocks = fenced_blocks();
   const auto table =
@@ -256,7 +257,8 @@ TEST(ManifestPages, ShowTheErrorsThatTheirBadManifestGives) {
             refusal_by([&] { manifest::parse_study(blocks[bad].text, "bad.yaml"); }) + "\n");
 }
 
-/// The lines of the rows with the Sobol dimensions from `first` on, in their order, as far as there are any.
+/// The source lines of the table rows with the Sobol dimensions from `first` on, in the order of the
+/// dimensions, up to the first dimension without a row.
 std::string lines_in_order_of_dimension(std::size_t first) {
   std::map<std::size_t, std::string_view> names;
   for (const parameters::Parameter& parameter : parameters::parameter_table()) {

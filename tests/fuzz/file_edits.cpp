@@ -48,7 +48,8 @@ std::uint64_t bits_of(double value) {
   return std::bit_cast<std::uint64_t>(value);
 }
 
-/// The value itself, a small whole number as integer or as real, or a special value.
+/// The number that an edit stores: its value itself, a small whole number as integer or as real, or a special
+/// value.
 std::uint64_t number_of(const Edit& edit) {
   using Limits = std::numeric_limits<double>;
   static const std::array special{bits_of(Limits::quiet_NaN()),
@@ -74,7 +75,7 @@ std::uint64_t number_of(const Edit& edit) {
   }
 }
 
-/// One of some texts that files have, or the value's bytes.
+/// The text that an edit stores: one of some texts that occur in files, or the bytes of the edit's value.
 std::string text_of(const Edit& edit) {
   static const std::array<std::string_view, 39> texts{"",
                                                       "rad",
@@ -149,7 +150,7 @@ void edit_with_library(const SampleFile& sample, std::span<const Edit> edits, co
   }
 }
 
-/// Overwrites up to 8 bytes, from one that is not 0 in the sample.
+/// Overwrites up to 8 bytes of the file, starting at a byte that is not 0 in the sample.
 void overwrite_bytes(const SampleFile& sample, std::span<const Edit> edits, std::string& bytes) {
   for (const Edit& edit : edits) {
     if (edit.kind != overwrite) continue;

@@ -10,18 +10,18 @@
 
 namespace zerocount::fuzz {
 
-/// An attribute of a group or dataset.
+/// Place of an attribute in a results file: its group or dataset, and its name.
 struct AttributePlace {
-  std::string object;  ///< path of the group or dataset
+  std::string object;  ///< path of the group or dataset that has the attribute
   std::string name;
 };
 
 /// A valid results file without its checksum trailer, with lists of its parts that can be changed.
 struct SampleFile {
   std::string bytes;
-  std::vector<std::string> objects;  ///< paths of groups and datasets
+  std::vector<std::string> objects;  ///< paths of all groups and datasets in the file
   std::vector<AttributePlace> attributes;
-  std::vector<std::size_t> used;  ///< offsets of the bytes that are not 0
+  std::vector<std::size_t> used;  ///< offsets in the file of the bytes that are not 0
 };
 
 /// One change of a file. The fuzzer finds useful changes faster in this form than by changing bytes of a
@@ -30,11 +30,11 @@ struct Edit {
   std::uint8_t kind{0};     ///< kind of the edit, modulo edit_kinds; see file_edits.cpp
   std::uint8_t choice{0};   ///< choice of a value or type
   std::uint16_t object{0};  ///< index of an object or attribute, modulo their number
-  std::uint32_t place{0};   ///< index of an element or byte
+  std::uint32_t place{0};   ///< index of the element or byte to be changed, modulo their number
   std::uint64_t value{0};
 };
 
-/// The files of sample_files(target).
+/// The sample files of the fuzz target `target`, prepared for edits.
 std::vector<SampleFile> editable_files(const std::string& target);
 
 /// The edits that these bytes encode, 16 bytes each; at most 32.

@@ -8,7 +8,7 @@
 namespace zerocount::fuzz {
 namespace {
 
-/// An identifier of the library; an invalid one may be passed on, and the library refuses it.
+/// Owner of an identifier of the HDF5 library. It may be invalid; the library then refuses it.
 class Id {
  public:
   Id(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
@@ -45,7 +45,8 @@ void set_attribute(hid_t file, const AttributePlace& attribute, hid_t type, cons
 }
 
 /// Writes one element of a dataset.
-/// @param type type of the value in memory
+/// @param type HDF5 type of the value in memory
+/// @param place index of the element
 void write_element(hid_t dataset, hid_t type, std::uint64_t place, const void* value) {
   const Id space(H5Dget_space(dataset), H5Sclose);
   const int rank = H5Sget_simple_extent_ndims(space);

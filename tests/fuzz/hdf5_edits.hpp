@@ -20,7 +20,8 @@ class EditedHdf5 {
   void set_text(const AttributePlace& attribute, const std::string& value) const;
   void remove(const AttributePlace& attribute) const;
 
-  /// Changes element `place`, modulo the size, of a dataset of numbers or of texts.
+  /// Changes one element of a dataset of numbers or of texts: the element with the index `place` modulo the
+  /// number of elements.
   void set_element(const std::string& dataset, std::uint64_t place, std::uint64_t bits) const;
   void set_element(const std::string& dataset, std::uint64_t place, const std::string& text) const;
   void resize(const std::string& dataset, std::uint64_t rows) const;
@@ -32,7 +33,7 @@ class EditedHdf5 {
   void replace_by_dataset(const std::string& path, std::uint8_t type, unsigned rank,
                           std::uint64_t size) const;
 
-  /// Adds the paths of all objects and their attributes to `sample`.
+  /// Adds the paths of all objects of the file and of their attributes to `sample`.
   void list(SampleFile& sample) const;
 
  private:

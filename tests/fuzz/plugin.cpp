@@ -26,7 +26,8 @@ namespace {
 
 using namespace zerocount;
 
-/// The message that the controller writes at its start. The C function has no argument to pass it.
+/// The message that the plugin's controller returns when it starts. It is global because the C function has
+/// no argument to pass it.
 std::string& message_of_start() {
   static std::string message;
   return message;
@@ -42,14 +43,14 @@ double step(void*, const zerocount_setup*, const zerocount_sample* sample) {
   return 1e-4 * sample->error;
 }
 
-/// A description with the memory that it points to.
+/// A plugin's description made from fuzzer input, with the memory that its pointers refer to.
 struct Description {
   std::list<std::string> texts;
   std::vector<zerocount_parameter> parameters;
   zerocount_controller controller{};
 };
 
-/// A text of the input up to a byte 0; often nothing wrong, rarely a null pointer.
+/// A text from the fuzzer's input up to a byte 0; often the valid text `usual`, rarely a null pointer.
 const char* text_from(FuzzedDataProvider& input, std::list<std::string>& texts, const char* usual) {
   const int form = input.ConsumeIntegralInRange(0, 15);
   if (form == 0) return nullptr;
@@ -66,8 +67,8 @@ double number_from(FuzzedDataProvider& input, double usual) {
   return form == 4 ? input.PickValueInArray(special) : input.ConsumeFloatingPoint<double>();
 }
 
-/// The number of parameters may be beyond the limit, but not beyond the list otherwise: nobody could see
-/// that.
+/// Fills a plugin description from the fuzzer's input. The number of parameters may exceed the allowed
+/// maximum, but not the length of the list: the program could not notice that.
 void describe(FuzzedDataProvider& input, Description& made) {
   constexpr const char* usual_names[] = {"kp", "ki", "gain", "limit_2"};
   const auto count = input.ConsumeIntegralInRange<std::size_t>(0, 4);
@@ -104,7 +105,8 @@ study::Study study_with(const sections::PluginLoader& loader, const std::string&
       "study.yaml", {}, {.plugin = loader});
 }
 
-/// A study with the controller: its parameters, its listing, its record, and the start of a trial.
+/// Uses a study with the plugin's controller: its parameters, its listing, its record, and the start of a
+/// trial.
 void use_controller(const Description& made, const std::string& parameters) {
   const study::Study study = study_with([&](const std::string&) { return load(made); }, parameters);
   fuzz::use_study(study);

@@ -11,7 +11,7 @@
 namespace zerocount::fuzz {
 namespace {
 
-/// The first of a range of `count` and the last.
+/// The indices of the first and the last of `count` items.
 std::set<std::int64_t> ends_of(std::int64_t count) {
   return {0, count - 1};
 }

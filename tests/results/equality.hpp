@@ -6,7 +6,7 @@
 
 namespace zerocount::testing {
 
-/// Whether both are equal in every bit of every field, NaN included.
+/// Expects that two lists of records are equal in every bit of every field, NaN included.
 template <class Record>
 void expect_equal_records(const std::vector<layout::RecordField<Record>>& fields,
                           const std::vector<Record>& left, const std::vector<Record>& right) {

@@ -227,7 +227,7 @@ layout::StoredStatistics sample_statistics(const reading::AllTrialsFile& file) {
   return stored;
 }
 
-/// The largest holding torque of every move at every design point.
+/// Table of a statistic: the largest holding torque of every move at every design point.
 layout::StatisticTable sample_table(const reading::AllTrialsFile& file) {
   const std::int64_t trials = file.header().trials;
   const auto moves = static_cast<std::size_t>(file.moves());
@@ -253,7 +253,8 @@ std::filesystem::path write_sample_file(const std::filesystem::path& directory, 
   return path;
 }
 
-/// A study with seven worlds. Of the 40 trials at a point, five worlds have six each and two have five each.
+/// A made-up study with seven worlds (possible sets of the values that all machines share). Of the 40 trials
+/// at a design point, five worlds have six each and two have five each.
 study::Study sample_study_in_worlds() {
   study::Study study = sample_study(3, 40, 2);
   study.worlds = 7;

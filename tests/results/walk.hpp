@@ -11,8 +11,7 @@ namespace zerocount::testing {
 void for_each_dataset(const std::filesystem::path& path,
                       const std::function<void(const hdf5::Dataset&)>& visit);
 
-/// Opens a results file (a part or a shard too) and reads every dataset, so that HDF5's checksums are
-/// compared.
+/// Opens a results file, a part or a shard, and reads every dataset, so that HDF5's checksums are verified.
 /// @throws Failure (bad_data) for the first dataset that cannot be read
 void read_everything(const std::filesystem::path& path);
 

@@ -6,7 +6,7 @@
 namespace zerocount::testing {
 namespace {
 
-/// The part of the README under this heading.
+/// The section of the README under this heading.
 std::string section(const std::string& heading) {
   std::ifstream file(ZEROCOUNT_README);
   std::ostringstream text;
@@ -17,7 +17,7 @@ std::string section(const std::string& heading) {
   return all.substr(start, all.find("\n## ", start + 1) - start);
 }
 
-/// The first fenced block of the language in the text.
+/// The first fenced code block of the given language in the text.
 std::string block(const std::string& text, const std::string& language) {
   const std::string fence = "```" + language + "\n";
   const std::size_t start = text.find(fence);
@@ -39,7 +39,7 @@ class FirstStudy : public ProgramTest {
   FirstStudy() : text_(section("A first study of your own")) {
     folder_.write("my-axis.yaml", block(text_, "yaml"));
   }
-  /// The points of the summary.
+  /// The design points in the JSON summary of a results file.
   nlohmann::json points_of(const std::string& file) const {
     return nlohmann::json::parse(program({"summary", file, "--format", "json"}).out)["points"];
   }
@@ -55,12 +55,12 @@ TEST_F(FirstStudy, IsReadWithoutWarnings) {
   EXPECT_TRUE(says(checked.out, "8 design points × 2000 trials", "1000, 2 trials of each"));
 }
 
-/// A proportion in %, as the README has it.
+/// A proportion as percentage, formatted as in the README.
 std::string percent(double proportion) {
   return fmt::format("{:.1f}", 100.0 * proportion);
 }
 
-/// The success rate of a point with its bounds, as the table and the README have it.
+/// The success rate of a design point with its bounds, formatted as in the table and the README.
 std::string success_of(const nlohmann::json& point) {
   const auto part = [&point](const char* name) { return point[name].get<double>(); };
   return fmt::format("{} % [{}]", percent(part("success_rate")),
@@ -89,7 +89,7 @@ TEST_F(FirstStudy, ItsCommandsPrintWhatTheReadmeSays) {
   ASSERT_EQ(points.size(), 8U);
   // Only the numbers are compared, so that the sentences may be reworded.
   std::string text = text_.substr(text_.find("The goal is met at the best"));
-  text = text.substr(0, text.find("\n\n"));
+  text.resize(text.find("\n\n"));
   std::replace(text.begin(), text.end(), '\n', ' ');
   const auto expect_said = [&text](const std::string& words) { EXPECT_TRUE(says(text, words)) << words; };
   const auto expect_percent = [&](const std::string& number) { expect_said(" " + number + " %"); };
@@ -106,7 +106,7 @@ TEST_F(FirstStudy, ItsCommandsPrintWhatTheReadmeSays) {
   EXPECT_EQ(points[2]["zero_count"].get<int>() + points[2]["one_count"].get<int>(), 2000);
 }
 
-/// The best gain alone.
+/// Override that keeps only the best gain of the sweep.
 constexpr const char* best_gain = "sweep={grid: {controller.ki: [1.1768e+4]}}";
 
 // Premises that docs/reliability.md names, by night: of the position the answer survives them, of the reading

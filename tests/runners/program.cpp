@@ -16,7 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Starts the program with its output going to these files.
+/// Starts the program with these words of the command line; its output goes to the files `out` and `err`.
+/// @return process id
 pid_t start(const std::vector<std::string>& words, const fs::path& directory, const fs::path& out,
             const fs::path& err, const std::vector<std::string>& environment = {}) {
   const pid_t process = fork();

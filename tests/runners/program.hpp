@@ -29,10 +29,10 @@ class ProgramTest : public ::testing::Test {
   ProgramResult program(const std::vector<std::string>& words) const {
     return zerocount_program(words, folder_.path());
   }
-  /// The program's JSON output.
+  /// Runs the program and returns its output, parsed as JSON.
   /// @param code expected exit code; empty: any
   nlohmann::json json_of(std::vector<std::string> words, std::optional<int> code = {}) const;
-  /// The error message of a command that ends with this exit code.
+  /// Runs a command that must end with this exit code, and returns its error message.
   std::string refusal(const std::vector<std::string>& words, int code = 2) const;
 
   TemporaryFolder folder_;
@@ -41,6 +41,7 @@ class ProgramTest : public ::testing::Test {
 /// A running `zerocount` process.
 class RunningProgram {
  public:
+  /// Starts `zerocount` with these words in `directory`.
   /// @param out file for its standard output
   RunningProgram(const std::vector<std::string>& words, const std::filesystem::path& directory,
                  const std::filesystem::path& out = "/dev/null");

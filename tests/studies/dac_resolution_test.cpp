@@ -144,7 +144,7 @@ std::int64_t stable_moves(const study::Study& study, const std::string& label) {
                     [](const trial::MoveOutcome& move) { return move.stable; });
 }
 
-/// All jerks of the first derivative_trials at a point.
+/// All jerks of the first `derivative_trials` trials at the design point with this label.
 std::vector<trial::Jerk> jerks_at(const study::Study& study, const std::string& label) {
   std::vector<trial::Jerk> jerks;
   for (std::int64_t index = 0; index < derivative_trials; ++index) {

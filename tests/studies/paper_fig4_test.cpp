@@ -21,7 +21,7 @@ double position_tolerance(const trial::TrialParameters& parameters) {
   return 2.0 * lag / parameters.friction.uniform.k1;
 }
 
-/// Calls `look` with the parameters and the moves of the first trials.
+/// Calls `look` with the parameters and the moves of each of the first trials.
 template <class Look>
 void look_at_trials(const Look& look) {
   const study::Study study = shipped_study("paper-fig4");
@@ -131,7 +131,7 @@ TEST(PaperFig4, TheRecordHasTangentsBetweenTheTwoStiffnesses) {
 // paper-fig6: creep and work hardening at held torques (paper, eq. 2 and Fig. 6) against the closed forms of
 // dxh/dt = α·(|σ|ⁿ/λ − xh).
 
-/// Hardening that a torque asks for, rad.
+/// Hardening (rad) up to which the contact creeps under a torque (N m).
 double asked(const trial::TrialParameters& parameters, double torque) {
   const friction::FrictionParameters& friction = parameters.friction.uniform;
   return std::pow(std::abs(torque), friction.n) / friction.lambda;

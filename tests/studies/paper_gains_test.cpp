@@ -124,7 +124,7 @@ TEST(BetaFromOutcomes, TheGainWithKpFailsAtALargeBetaBecauseOfSampling) {
 // What docs/the-paper.md says of the overshoot in paper-fig7 and paper-fig8: the simulated moves reach beyond
 // the axes of the figures, and with a k1 of 150 N m/rad they do not.
 
-/// Highest counts that the 200 trials of a move reach.
+/// Highest counts that the 200 trials reach during one move.
 struct Peaks {
   double median{0.0};
   std::int64_t max{0};

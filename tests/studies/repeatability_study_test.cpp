@@ -18,7 +18,7 @@
 namespace zerocount::testing {
 namespace {
 
-/// One axis of the study and its moves.
+/// One axis of the repeatability study, with the moves that it made.
 struct MeasuredAxis {
   trial::TrialParameters parameters;
   std::vector<trial::MoveOutcome> moves;
@@ -193,7 +193,7 @@ std::string open_loop(int trials) {
 struct RandomStudy {
   const char* name;
   std::string (*manifest)(int trials);
-  int trials;  ///< for a run of a quarter of a second or so
+  int trials;  ///< number of trials, chosen so that a run takes about a quarter of a second
 };
 
 void PrintTo(const RandomStudy& study, std::ostream* out) {

@@ -22,7 +22,7 @@ trial::TrialParameters trial_of(const study::Study& study, const std::string& la
 std::vector<trial::TrialOutcome> outcomes_of(const study::Study& study, const std::string& label,
                                              std::int64_t trials);
 
-/// A trial with everything that can be observed of it.
+/// A simulated trial with everything that can be observed during it.
 struct WatchedTrial {
   trial::TrialParameters parameters;
   trial::TrialOutcome outcome;
@@ -32,7 +32,7 @@ struct WatchedTrial {
 
 WatchedTrial watched(const trial::TrialParameters& parameters);
 
-/// Number of moves of the trials for which the predicate `what` is true.
+/// Number of moves of these trials for which the predicate `what` is true.
 template <class Predicate>
 std::int64_t moves_with(const std::vector<trial::TrialOutcome>& trials, const Predicate& what) {
   std::int64_t count = 0;

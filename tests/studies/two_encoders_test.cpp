@@ -13,7 +13,7 @@
 namespace zerocount::testing {
 namespace {
 
-/// Counts of the fine encoder from where the rotor truly is to the middle of the target's count.
+/// Distance in fine counts from the true position of the rotor to the middle of the target's count.
 double true_miss(const trial::TrialParameters& parameters, const trial::MoveOutcome& move) {
   const double resolution = 2.0 * std::numbers::pi / parameters.encoder.fine;
   const auto target = static_cast<double>(parameters.command.targets.back());
@@ -57,8 +57,8 @@ TEST_P(WithEncoderFault, TheSecondEncoderNoticesInManyMoves) {
       0.93, moves_with(outcomes, [](const trial::MoveOutcome& move) { return move.stable; }), trials));
 }
 
-/// Whether two ideal encoders with this phase read such counts at one place: the ranges in which they do,
-/// in revolutions, overlap by more than rounding.
+/// Whether two ideal encoders with this phase can read these counts at one position: the position ranges of
+/// the counts, in revolutions, overlap by more than rounding.
 bool one_place_has_both(const trial::TrialParameters& parameters, std::int64_t fine, std::int64_t coarse) {
   const auto edge = [&parameters](std::int64_t count, double per_revolution) {
     return (static_cast<double>(count) - parameters.initial.encoder_phase) / per_revolution;
@@ -162,7 +162,7 @@ TEST(TwoEncoders, NoiseCostsZeroCountsButMissedCoarseCountsDoNot) {
 // sliding (paper, practical issue 2), and without an integral the rotor stalls away from its target (paper,
 // section 2).
 
-/// The last `duration` (s) of a trial.
+/// The samples of the last `duration` (s) of a trial.
 std::vector<trial::SampleRecord> last_part(const WatchedTrial& trial, double duration) {
   const auto samples = trial::samples_in(duration, trial.parameters.controller.sample_rate);
   return {trial.samples.end() - samples, trial.samples.end()};

@@ -39,15 +39,17 @@ TEST(WhyPresliding, JerksComeFromCreepAndASpringAloneHasNone) {
   EXPECT_TRUE(proportion_above(0.3, moves_with(outcomes_of(study, "presliding", trials), jerks), trials));
 }
 
-/// One leap of a Coulomb plant, from the position where the hook stuck to where it sticks again.
+/// One leap (stick-slip jump) of a plant with Coulomb friction, from the position where the contact stuck to
+/// where it sticks again.
 struct CoulombLeap {
-  std::int64_t from{0};  ///< error before the leap, counts
-  std::int64_t to{0};    ///< error after the leap, counts
+  std::int64_t from{0};  ///< position error before the leap, counts
+  std::int64_t to{0};    ///< position error after the leap, counts
   double torque{0.0};    ///< torque at breakaway, N m
   double peak{0.0};      ///< largest |torque| during the leap, N m
 };
 
-/// The leaps that begin after a rest of at least two samples, and end in another rest.
+/// The leaps (stick-slip jumps) in the samples that begin after a rest of at least two samples, and end in
+/// another rest.
 std::vector<CoulombLeap> leaps_of(const std::vector<trial::SampleRecord>& samples) {
   std::vector<CoulombLeap> leaps;
   for (std::size_t k = 2; k < samples.size(); ++k) {

@@ -2,9 +2,9 @@
 
 #include "tests/support/test.hpp"
 
-/// TEST_EACH_SEED(Fixture, Name) { body } defines the test Fixture.Name. It runs the body as a member
-/// function of Fixture(seed) with each seed from 1 to Fixture::seeds. This is one CTest test, because with
-/// one test per seed most of the time would be the start of processes.
+/// Macro for a test with random data: TEST_EACH_SEED(Fixture, Name) { body } defines the test Fixture.Name.
+/// It runs the body as a member function of Fixture(seed) with each seed from 1 to Fixture::seeds. This is
+/// one CTest test, because with one test per seed most of the time would be spent on starting processes.
 #define TEST_EACH_SEED(Fixture, Name)                         \
   struct Fixture##_##Name : Fixture {                         \
     using Fixture::Fixture;                                   \

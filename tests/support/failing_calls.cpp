@@ -61,7 +61,7 @@ std::atomic<long> calls{0};
 
 enum class Kind { read, write, other };
 
-/// Counts a call; the errno with which it is to fail, or 0.
+/// Counts a system call of this kind. Returns the errno with which it is to fail, or 0 if it is not to fail.
 int failure_of(Kind kind) {
   if ((kind == Kind::read) != plan().reads) return 0;
   const long number = ++calls;

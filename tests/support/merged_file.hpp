@@ -10,11 +10,11 @@
 
 namespace zerocount::testing {
 
-/// The statistics of all points of a file that holds all trials.
+/// Function that computes the statistics of all design points from a file that has all trials.
 using StatisticsOfPoints = std::function<layout::StoredStatistics(const reading::AllTrialsFile&)>;
 
-/// Makes the results file from shards.
-/// @param statistics statistics of a whole study that keeps every trial; may be empty
+/// Merges shards to a results file.
+/// @param statistics computes the statistics of a whole study that keeps every trial; may be empty
 void merge_shards(std::span<const shards::ShardInfo> shards, const study::Study& study,
                   const std::filesystem::path& output, layout::RowRange rows,
                   const StatisticsOfPoints& statistics = {}, const shards::MergeOptions& options = {});

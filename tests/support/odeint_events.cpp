@@ -18,7 +18,7 @@ using Real = OdeintMotion::Real;
 constexpr Real still = 1e-17L;  // δ of the rest rule, rad
 constexpr Real never = std::numeric_limits<Real>::infinity();
 
-/// Location of the extremum of the parabola through three points.
+/// Position of the extremum of the parabola through three points.
 Real vertex_of(Real x0, Real y0, Real x1, Real y1, Real x2, Real y2) {
   const Real left = (x1 - x0) * (y1 - y2);
   const Real right = (x1 - x2) * (y1 - y0);
@@ -161,7 +161,7 @@ void OdeintMotion::happen(Event event) {
   }
 }
 
-/// Duration for which a Coulomb contact stands from now on, at most `longest`, s.
+/// Duration (s) for which a contact with Coulomb friction stays at rest from now on, at most `longest`.
 Real OdeintMotion::standing_time(Real longest) const {
   const auto excess = [this](Real time) { return std::abs(torque_at(time)) - contact_.breakaway; };
   if (excess(0) > 0) return 0;

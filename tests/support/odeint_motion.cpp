@@ -48,10 +48,10 @@ OdeintMotion::OdeintMotion(const trial::TrialParameters& parameters, const std::
   }
 }
 
-/// The contact after its spring was taken from virgin to these torques in turn. Wiping-out as a rule for
-/// sequences, with no spring moved: what is remembered are the last of the largest magnitude, and after it by
-/// turns the last of the lowest and the last of the highest (Mayergoyz, "Mathematical Models of Hysteresis",
-/// section I.2: the alternating series of dominant extrema).
+/// Brings the spring to its state after it was loaded, from the virgin state, to these torques in turn. No
+/// spring is simulated; the wiping-out rule is applied to the sequence: what is remembered are the last
+/// torque of the largest magnitude, and after it alternately the last lowest and the last highest (Mayergoyz,
+/// "Mathematical Models of Hysteresis", section I.2: the alternating series of dominant extrema).
 void OdeintMotion::stretch(const std::vector<double>& torques) {
   std::size_t at = 0;
   for (std::size_t i = 0; i < torques.size(); ++i) {

@@ -11,7 +11,7 @@
 
 namespace zerocount::testing {
 
-/// Counts of the contact's events so far.
+/// Numbers of the friction contact's events so far, by kind.
 struct EventCounts {
   std::int64_t reversals{0};
   std::int64_t closures{0};
@@ -33,14 +33,15 @@ struct EventCounts {
 class OdeintMotion {
  public:
   using Real = long double;
-  /// Travel since the contact formed (rad), ω (rad/s), xp (rad), xh (rad).
+  /// State of the motion: travel since the contact formed (rad), ω (rad/s), xp (rad), xh (rad).
   using State = std::array<Real, 4>;
 
-  /// u(t) = settled + (now − settled)·exp(−rate·t), N m.
+  /// Torque in an interval, with the exponential lag of an amplifier: u(t) = settled + (now −
+  /// settled)·exp(−rate·t), N m.
   struct Torque {
     Real now{0};
     Real settled{0};
-    Real rate{0};  ///< 1/s
+    Real rate{0};  ///< rate of the amplifier, 1/s; 0: the torque stays at `now`
   };
 
   /// @param history torques (N m) to which the spring was loaded before t = 0, after the preload; finally it
@@ -72,7 +73,7 @@ class OdeintMotion {
   using Guards =
       std::array<Real, event_count>;  ///< each falls below zero at its event; +∞ if the event cannot occur
 
-  struct Contact {  ///< parameters as in core/friction/parameters.hpp
+  struct Contact {  ///< present friction contact: its parameters, as in core/friction/parameters.hpp
     Real k1, k2, beta, alpha, lambda, n, breakaway, coulomb_ratio, stribeck_velocity;
   };
   struct Crossing {
@@ -117,22 +118,22 @@ class OdeintMotion {
   friction::FrictionAlongRotor friction_;
   Real position_;
   Contact contact_{};
-  Real frequency_{0};  ///< ω₀, rad/s
-  Torque torque_;      ///< torque since the start of the interval, N m
-  Real clock_{0};      ///< time since the start of the interval, s
-  Real origin_{0};     ///< θ where the contact formed, rad
-  Real offset_{0};     ///< elongation where the contact formed, rad
+  Real frequency_{0};  ///< frequency ω₀ = √((k1 + k2)/J) of the rotor on the spring, rad/s
+  Torque torque_;      ///< torque on the rotor since the start of the interval, N m
+  Real clock_{0};      ///< time since the start of the present torque's interval, s
+  Real origin_{0};     ///< rotor angle θ at which the contact formed, rad
+  Real offset_{0};     ///< elongation of the spring when the contact formed, rad
   State state_{};
   std::vector<std::pair<Real, Real>> stack_;  ///< (elongation, torque) of the surviving reversal points
   int direction_{0};    ///< direction of the elongation or slide; 0 before the first motion
-  int virgin_sign_{1};  ///< side of the virgin curve
+  int virgin_sign_{1};  ///< sign of the elongation on the virgin curve: 1 or −1
   bool coulomb_{false};
   bool sliding_{false};
   bool resting_{false};
   bool frozen_{false};
   bool creeping_{true};
-  Real held_torque_{0};  ///< spring torque at breakaway, N m
-  Real step_{0};         ///< step length to try next, s
+  Real held_torque_{0};  ///< spring torque at the last breakaway, N m
+  Real step_{0};         ///< length of the next integration step to be tried, s
   EventCounts events_;
 };
 

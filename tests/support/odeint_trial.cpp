@@ -16,8 +16,8 @@ std::int64_t read_encoder(long double theta, double counts_per_revolution, doubl
   return static_cast<std::int64_t>(std::floor(theta / resolution + phase));
 }
 
-/// Error, trapezoidal integral, PID and DAC: double precision, one rounding an operation, in the stated
-/// order.
+/// The sampled part of the loop: error, trapezoidal integral, PID and DAC, in double precision, with one
+/// rounding per operation, in the stated order.
 class SampledLoop {
  public:
   explicit SampledLoop(const trial::TrialParameters& p)

@@ -53,7 +53,7 @@ friction::FrictionAlongRotor random_friction(Draws& draws) {
   return friction;
 }
 
-/// Samples up to `most`, half of them whole.
+/// A random delay of up to `most` samples; in half of the cases a whole number.
 double random_delay(Draws& draws, double most) {
   const double delay = draws.uniform(0.0, most);
   return draws.chance(0.5) ? std::round(delay) : delay;
@@ -90,8 +90,8 @@ void choose_loop(Draws& draws, TrialKind kind, trial::TrialParameters& p) {
   }
 }
 
-/// A machine with nothing in common with the paper's: every number over orders of magnitude, the gains scaled
-/// to stay near the stability bounds.
+/// A random machine that has nothing in common with the paper's: every number varies over orders of
+/// magnitude, and the gains are scaled to stay near the stability bounds.
 trial::TrialParameters unlike_the_paper(Draws& draws) {
   trial::TrialParameters p;
   p.plant = {draws.log_uniform(5e-5, 5e-2), draws.log_uniform(0.01, 3.0),
@@ -153,7 +153,7 @@ trial::TrialParameters any_machine(Draws& draws) {
   return draws.chance(0.25) ? unlike_the_paper(draws) : any_like_the_paper(draws);
 }
 
-/// Gains with which the torque passes the breakaway within the trial, again and again.
+/// A random trial with gains at which the torque exceeds the breakaway torque again and again (hunting).
 trial::TrialParameters hunting(Draws& draws) {
   trial::TrialParameters p = any_like_the_paper(draws);
   p.friction.model = friction::FrictionModel::coulomb;

@@ -8,16 +8,18 @@ namespace zerocount::testing {
 
 /// Kinds of random trials, by the behaviour of the loop.
 enum class TrialKind {
-  calm,              ///< a few counts at low gain: settles, creeps, jerks; the hook holds
-  ringing,           ///< gains around and above the stability bounds
-  breaking_away,     ///< thousands of counts or large gains: breakaway, slides, re-sticks
+  /// Moves of a few counts at low gain: the axis settles, creeps and jerks, and the contact does not slide.
+  calm,
+  ringing,  ///< gains around and above the stability bounds
+  /// Moves of thousands of counts or large gains: the contact breaks away, slides and sticks again.
+  breaking_away,
   unlike_the_paper,  ///< other machines: every parameter over orders of magnitude
-  spring_alone,      ///< one of the first three with creep off by the friction model
+  spring_alone,      ///< one of the first three kinds, with creep switched off by the friction model
   coulomb,           ///< Amonton–Coulomb friction, which hunts under integral control
   amplified,         ///< an amplifier of finite bandwidth, with each of the friction models
-  arriving,          ///< a rotor that moves at the start, with the hook sticking or sliding
-  remembering,       ///< a random history of the spring before the start
-  loaded             ///< a second mass, the encoder at either; some with an amplifier or arriving
+  arriving,          ///< the rotor moves at the start, with the contact sticking or sliding
+  remembering,       ///< the spring has a random history of loading before the start
+  loaded  ///< a second mass, with the encoder on either mass; some with an amplifier or a moving start
 };
 
 /// The parameters of random trial `index` of a kind: always the same for the same arguments. All parameters

@@ -93,7 +93,7 @@ herr_t visit_numbers(hid_t file, const char* name, const H5O_info_t* info, void*
   return 0;
 }
 
-/// Flips the last bit of an element; a NaN becomes 0.5.
+/// Flips the last bit of an element's bytes; a NaN (if `real`) becomes 0.5.
 void change_bytes(char* element, std::size_t size, bool real) {
   double number = 0.0;
   if (real) std::memcpy(&number, element, sizeof number);
@@ -180,7 +180,8 @@ std::map<std::string, std::size_t> sizes_of_numbers(const std::filesystem::path&
 
 namespace {
 
-/// `change` gets the bytes of the element, their number and whether it is a floating-point number.
+/// Rewrites the element `index` of the dataset `name`. `change` gets the bytes of the element, their number
+/// and whether it is a floating-point number.
 void rewrite_element(const std::filesystem::path& path, const std::string& name, std::size_t index,
                      const std::function<void(char*, std::size_t, bool)>& change) {
   std::string elements = elements_of(path, name).value();

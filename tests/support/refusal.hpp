@@ -5,7 +5,8 @@
 
 namespace zerocount {
 
-/// The message with which an action is refused with this exit code; empty if it is not refused.
+/// The message with which an action is refused (by a Failure with this exit code); empty if it is not
+/// refused.
 template <class Action>
 std::string refusal_by(const Action& action, ExitCode code = ExitCode::bad_input) {
   try {

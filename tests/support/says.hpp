@@ -6,8 +6,8 @@
 
 namespace zerocount {
 
-/// Whether a text contains all of these parts. The failure message shows the text and the missing part; if
-/// the text should not contain them, it shows the text.
+/// Whether a text contains all of these parts. If not, the test's failure message shows the text and the
+/// missing part.
 template <class... Parts>
 ::testing::AssertionResult says(std::string_view text, const Parts&... parts) {
   std::string_view missing;

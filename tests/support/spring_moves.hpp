@@ -6,7 +6,7 @@
 
 namespace zerocount::testing {
 
-/// Moves a spring to the elongation x (rad) through all branches between.
+/// Moves a hysteretic spring to the elongation x (rad), through all branches on the way.
 inline void move_to(friction::HystereticSpring& spring, double x) {
   if (x == spring.elongation()) return;
   spring.set_direction(x > spring.elongation() ? 1 : -1);

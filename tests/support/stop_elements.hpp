@@ -26,7 +26,7 @@ class StopElements {
   /// Stretches the spring to the elongation x (rad), monotonically from its present elongation.
   void move_to(double x);
 
-  double torque() const;  ///< σ, N m
+  double torque() const;  ///< torque σ of the spring at its present elongation, N m
   double energy() const;  ///< stored energy: ½k1·x² + Σ ½wᵢ·eᵢ², J
 
   /// Bound on the error of the torque (N m) after a history that leaves `depth` reversal points: ε on
@@ -37,9 +37,9 @@ class StopElements {
 
  private:
   struct Element {
-    double threshold;   ///< r, rad
-    double stiffness;   ///< w, N m/rad
-    double elongation;  ///< e, rad
+    double threshold;   ///< elongation r at which the element slips, rad
+    double stiffness;   ///< stiffness w of the element, N m/rad
+    double elongation;  ///< present elastic elongation e of the element, rad
   };
   double k1_;
   double x_{0.0};

@@ -11,15 +11,16 @@ namespace {
 
 using document::in_data;
 
-/// Difference of the information criterion that is strong evidence (Kass & Raftery, J. Am. Stat. Assoc. 90,
-/// 1995, 773: 6 to 10 strong, above 10 very strong).
+/// Difference of the Bayesian information criterion between two laws that counts as strong evidence (Kass &
+/// Raftery, J. Am. Stat. Assoc. 90, 1995, 773: 6 to 10 strong, above 10 very strong).
 constexpr double strong_evidence = 10.0;
 
 std::string_view to_string(const IdentifiedLaw& law) {
   return friction::traits_of(law.law).word;
 }
 
-/// The lead of the best law that explains the records over the next one that does.
+/// Text that says by how much the best friction law that explains the records leads over the next one that
+/// does.
 std::string lead_of(const LawComparison& comparison) {
   const IdentifiedLaw& best = comparison.laws.front();
   const IdentifiedLaw& next = comparison.laws[1];
@@ -35,7 +36,8 @@ std::string lead_of(const LawComparison& comparison) {
       to_string(best), to_string(best), to_string(next), next.information_criterion);
 }
 
-/// The law that explains the records best, or the nearest one.
+/// Headline of the answer: the friction law that explains the records best or, if none explains them, the
+/// nearest one.
 std::string laws_headline(const LawComparison& comparison) {
   const IdentifiedLaw& best = comparison.laws.front();
   const bool alone = comparison.laws.size() == 1;
@@ -47,7 +49,7 @@ std::string laws_headline(const LawComparison& comparison) {
   return alone ? fmt::format("{} explains the records", to_string(best)) : lead_of(comparison);
 }
 
-/// The laws that could not be fitted, a line each.
+/// Text with the friction laws that could not be fitted, one per line.
 std::string laws_left_out_text(const LawComparison& comparison) {
   std::string text;
   for (const LawLeftOut& law : comparison.left_out)
@@ -56,7 +58,7 @@ std::string laws_left_out_text(const LawComparison& comparison) {
   return text;
 }
 
-/// The parts that were left out of the records, a line for each record.
+/// Text with the parts that were left out of the records, one line for each record.
 std::string left_out_of_records_text(const LawComparison& comparison) {
   std::string text;
   for (const RecordExtent& record : comparison.records) {

@@ -17,10 +17,10 @@ namespace zerocount::fit {
 
 namespace {
 
-/// Steps of a fit that is continued to its end.
+/// Maximum number of steps of a fit that is continued to its end.
 constexpr int last_steps = 60;
 
-/// Steps that a hopeless law still takes.
+/// Maximum number of steps for a law that fits so badly that it cannot win (see `hopeless`).
 constexpr int hopeless_steps = 15;
 
 FitSetting setting_of(const FitModel& model) {
@@ -37,9 +37,10 @@ FitSetting with_steps(FitSetting setting, int steps) {
   return setting;
 }
 
-/// Random points about `centres`, taken in turn. Of the free coordinates except the time offset, about half
-/// move far, the others little. Most coordinates are logarithms of a parameter. If the slow parts of the
-/// records have fixed the stiffness, such points try other orders of magnitude of inertia and damping.
+/// Random starting points about `centres`, which are taken in turn. Of the free coordinates except the time
+/// offset, about half move far, the others little. Most coordinates are logarithms of a parameter. If the
+/// slow parts of the records have fixed the stiffness, such points try other orders of magnitude of inertia
+/// and damping.
 std::vector<Point> scattered(const FitModel& model, const std::vector<Point>& centres) {
   constexpr std::size_t points = 96;
   constexpr double near = 0.1;
@@ -58,11 +59,11 @@ std::vector<Point> scattered(const FitModel& model, const std::vector<Point>& ce
   return found;
 }
 
-/// Rounds in which scattered points are followed.
+/// Rounds of a search from scattered starting points: {number of points, steps for each} per round.
 constexpr SearchRounds wide_search{{12, 3}, {6, 4}};
 
-/// The best fits from the law's starting points; if none of these can be simulated, from points scattered
-/// about them.
+/// The best of short fits from the law's starting points; if none of these points can be simulated, from
+/// random points about them.
 std::vector<FitResult> first_minima(Records records, const FitModel& model, const Observations& readings,
                                     const FitSetting& setting) {
   std::vector<FitResult> minima = promising_fits(records, readings, model.starts, setting);
@@ -76,8 +77,9 @@ std::vector<FitResult> first_minima(Records records, const FitModel& model, cons
                   friction::traits_of(model.law).word));
 }
 
-/// The fit to all readings from `minima`. The time offset is free only in the last steps, because far from a
-/// minimum it would compensate for a wrong inertia.
+/// The fit of the law to all readings, started from `minima` (results of short fits). The time offset is free
+/// only in the last steps, because far from a minimum it would compensate for a wrong inertia.
+/// @param least_squares smallest sum of squares of the laws fitted before
 FitResult fit_all_readings(Records records, const FitModel& model, const Observations& readings,
                            std::vector<FitResult> minima, double least_squares) {
   const FitSetting setting = setting_of(model);
@@ -92,9 +94,9 @@ FitResult fit_all_readings(Records records, const FitModel& model, const Observa
   return std::isfinite(delayed.squares) ? delayed : found;
 }
 
-/// The fit to the observations, starting from a fit to all readings. If that fit leaves residuals above the
-/// rounding of the readings, it is returned unchanged: the law causes them, and finer observations take most
-/// of the time.
+/// The fit to observations with independent errors (observe()), starting from a fit to all readings. If that
+/// fit leaves residuals above the rounding of the readings, it is returned unchanged: the law causes them,
+/// and observations would take most of the time. @param rough the fit to all readings
 LawFit refined(Records records, const FitModel& model, const FitResult& rough) {
   LawFit fit;
   fit.setting = setting_of(model);
@@ -150,11 +152,13 @@ LawFit search_again(Records records, const FitModel& model, double least_squares
 
 namespace {
 
-/// Largest half-widths of an interval that was widened because the law does not fit.
+/// Largest half-width (of a logarithm, then of other coordinates) that an interval may have after it was
+/// widened because the law does not fit.
 constexpr double max_widened_log_halfwidth = 2.3;  // a factor of 10 to each side
 constexpr double max_widened_halfwidth = 2.0;
 
-constexpr std::size_t replicates = 300;  ///< Number of simulated replicates of the readings.
+/// Number of simulated replicates of the readings, from which the errors of a fit are estimated.
+constexpr std::size_t replicates = 300;
 
 ParameterEstimate estimate_of(const Quantity& quantity, const FitErrors& errors) {
   const QuantityEstimate found = interval_of_errors(quantity, errors.errors, errors.checks.widening);
@@ -172,7 +176,8 @@ ParameterEstimate estimate_of(const Quantity& quantity, const FitErrors& errors)
   return estimate;
 }
 
-/// Root mean square of the residuals over all records, rad, and the same over the travel.
+/// Sets the misfit of the law: the root mean square of the residuals over all records, rad, and the same
+/// divided by the travel.
 void set_misfit(Records records, const LawFit& fit, IdentifiedLaw& law) {
   double squares = 0.0;
   double relative = 0.0;
@@ -195,7 +200,7 @@ double mean_square(const std::vector<double>& residuals) {
   return squares / static_cast<double>(residuals.size());
 }
 
-/// A fit with its law.
+/// A friction law with its fit to the records.
 struct FittedLaw {
   FitModel model;
   LawFit fit;
@@ -203,7 +208,8 @@ struct FittedLaw {
   IdentifiedLaw law;
 };
 
-/// [record] Number of independent residuals, from the residuals of the law with the smallest sum of squares.
+/// [record] Number of independent residuals, computed from the residuals of the law with the smallest sum of
+/// squares for this record.
 std::vector<double> effective_readings(Records records, const std::vector<FittedLaw>& fitted) {
   std::vector<double> effective;
   for (std::size_t r = 0; r < records.size(); ++r) {
@@ -229,7 +235,7 @@ double information_criterion(const FittedLaw& fitted, const std::vector<double>&
   return criterion + parameters * std::log(all);
 }
 
-/// Refuses a record that starts in a state that the law does not have.
+/// Throws a Failure if a record starts in a state of the contact that the law does not have.
 void require_start(Records records, friction::FrictionModel law) {
   const friction::LawTraits& traits = friction::traits_of(law);
   for (const TestRecord& record : records) {
@@ -242,14 +248,14 @@ void require_start(Records records, friction::FrictionModel law) {
   }
 }
 
-/// The reasons, a line each.
+/// Text with the reasons why laws were left out, one per line.
 std::string reasons_of(const std::vector<LawLeftOut>& laws) {
   std::string text;
   for (const LawLeftOut& law : laws) text += (text.empty() ? "" : "\n") + law.reason;
   return text;
 }
 
-/// The law as a fragment of a manifest.
+/// The fitted law with its parameters as text for a manifest.
 std::string law_fragment(Records records, const FittedLaw& fitted) {
   const IdentifiedLaw& law = fitted.law;
   Fragment fragment;
@@ -283,7 +289,8 @@ FittedLaw fitted_law(Records records, friction::FrictionModel law, bool series_c
   return result;
 }
 
-/// The fits of the laws. Laws that cannot be fitted are left out.
+/// The fits of the chosen laws to the records. Laws that cannot be fitted are appended to `left_out`.
+/// @param enter called with the name of each stage
 std::vector<FittedLaw> first_fits(Records records, const LawChoice& choice, const StageReport& enter,
                                   std::vector<LawLeftOut>& left_out) {
   enter("starting values");
@@ -305,8 +312,8 @@ std::vector<FittedLaw> first_fits(Records records, const LawChoice& choice, cons
   return fitted;
 }
 
-/// Searches again for the laws that do not explain the records. If another law does, laws with more than a
-/// hundred times the smallest sum of squares are not searched again.
+/// Searches again for a better fit of the laws that do not explain the records. If another law does explain
+/// them, laws with more than a hundred times the smallest sum of squares are not searched again.
 void search_failed_again(Records records, const StageReport& enter, std::vector<FittedLaw>& fitted) {
   double least_squares = std::numeric_limits<double>::infinity();
   for (const FittedLaw& one : fitted) least_squares = std::min(least_squares, one.fit.squares);
@@ -326,7 +333,7 @@ void search_failed_again(Records records, const StageReport& enter, std::vector<
   }
 }
 
-/// Sets the reported results of the fit.
+/// Sets the reported results of a fitted law: its estimates, misfit and checks.
 void describe(Records records, FittedLaw& fitted) {
   IdentifiedLaw& found = fitted.law;
   found.axis = records.front().axis;

@@ -18,41 +18,46 @@
 
 namespace zerocount::fit {
 
-/// Ranges of the coordinates of a law: a fit may change each by a factor of 1000. The last coordinate is the
-/// time offset.
+/// Ranges of the coordinates (fitted unknowns) of a law: a fit may change each by a factor of 1000. The last
+/// coordinate is the time offset. @param dimension number of coordinates
 std::vector<CoordinateRange> law_coordinates(std::size_t dimension);
 
-/// Properties of the records from which the starting points follow.
+/// Orders of magnitude in the records, from which the starting points of a law's fit follow.
 struct RecordScales {
-  Point contact;                 ///< starting point of the pre-sliding model
-  double creep_torque{1.0};      ///< σ0 of the coordinates of `contact`, N m.
+  Point contact;                 ///< Starting point of the fit of the pre-sliding model.
+  double creep_torque{1.0};      ///< Torque σ0 to which the creep coordinates of `contact` refer, N m.
   double largest_torque{0.0};    ///< Largest |torque| of the records, N m.
-  double secant_stiffness{0.0};  ///< range of the torque over travel, N m/rad
+  double secant_stiffness{0.0};  ///< Secant stiffness: range of the torque divided by travel, N m/rad.
 };
 
 RecordScales scales_of(Records records);
 
-/// The laws that move before they slide, and can be fitted to records without sliding.
+/// The friction laws that allow motion before sliding, and can therefore be fitted to records without
+/// sliding.
 std::span<const friction::FrictionModel> fitted_laws();
 
-/// The model of a law. `law` is one of fitted_laws().
+/// The fit model of a friction law. @param law one of fitted_laws() @param scales orders of magnitude for its
+/// starting points
 FitModel law_model(friction::FrictionModel law, const RecordScales& scales, Records records);
 
-/// The model with the compliance of a fixture in series. The logarithm of the compliance becomes the
-/// coordinate before the time offset. The reading is then the rotor's angle plus compliance times torque.
+/// The model extended by the compliance of a fixture in series with the friction contact. The logarithm of
+/// the compliance becomes the coordinate before the time offset. The reading is then the rotor's angle plus
+/// compliance times torque.
 FitModel with_series_compliance(FitModel model, const RecordScales& scales);
 
-/// The Maxwell-slip model: parallel elements that stick or slip, with the rotor's inertia and damping.
+/// The fit model of the Maxwell-slip law: parallel elements that stick or slip, with the rotor's inertia and
+/// damping.
 FitModel maxwell_slip_model(const RecordScales& scales, Records records);
 
-/// Ratio of a law's sum of squares to that of the best other law above which the law is not searched further.
+/// If the sum of squares of a law exceeds that of the best other law by this factor, the law is not searched
+/// further.
 inline constexpr double hopeless = 100.0;
 
-/// A law fitted to records.
+/// A friction law fitted to records.
 struct LawFit : Fit {
-  /// [record] Residuals of the fit to all readings that are not masked, in the record's unit.
+  /// [record][sample] Residuals of the fit to all readings that are not masked, in the record's unit.
   std::vector<std::vector<double>> residuals;
-  /// Sum of squared residuals of the fit to all readings, over the variance of a count.
+  /// Sum of squared residuals of the fit to all readings, divided by the variance of the rounding to counts.
   double squares{0.0};
   bool converged{false};
 };
@@ -66,28 +71,30 @@ struct LawFit : Fit {
 LawFit fit_law(Records records, const FitModel& model, double least_squares);
 
 /// Repeats the fit of a law whose fit `found` does not explain the records. It starts from many more points,
-/// scattered at random about the starting points of the law and about `found`.
-/// @returns the better of both fits.
+/// scattered at random about the starting points of the law and about `found`. @param least_squares smallest
+/// sum of squares of the laws fitted before @returns the better one of the old and the new fit
 LawFit search_again(Records records, const FitModel& model, double least_squares, LawFit found);
 
 /// A friction law identified from records.
 struct IdentifiedLaw : FitReport {
   friction::FrictionModel law{friction::FrictionModel::presliding};
-  std::size_t fitted{0};              ///< Number of fitted coordinates, including the time offset.
-  double misfit{0.0};                 ///< Root mean square of the residuals of all readings, rad or m.
-  double misfit_over_travel{0.0};     ///< `misfit` over the travel of the records, dimensionless.
-  double information_criterion{0.0};  ///< BIC minus the BIC of the best law.
+  std::size_t fitted{0};           ///< Number of fitted coordinates (unknowns), including the time offset.
+  double misfit{0.0};              ///< Root mean square of the residuals of all readings, rad or m.
+  double misfit_over_travel{0.0};  ///< Misfit divided by the travel of the records, dimensionless.
+  /// Bayesian information criterion (BIC) minus that of the best law; 0 for the best law, larger is worse.
+  double information_criterion{0.0};
   ResidualChecks checks;
   bool converged{true};
 };
 
-/// A law that could not be fitted to the records. Such a failure says nothing about the contact.
+/// A friction law that could not be fitted to the records, with the reason. Such a failure says nothing about
+/// the friction contact.
 struct LawLeftOut {
   friction::FrictionModel law{friction::FrictionModel::presliding};
   std::string reason;
 };
 
-/// The laws that were fitted to the same records.
+/// Comparison of the friction laws that were fitted to the same records.
 struct LawComparison {
   parameters::AxisKind axis{parameters::AxisKind::rotary};
   /// The fitted laws. Laws that explain the records come first; within both groups they are sorted by the
@@ -95,21 +102,23 @@ struct LawComparison {
   std::vector<IdentifiedLaw> laws;
   std::vector<LawLeftOut> left_out;
   std::vector<RecordExtent> records;
-  double effective_readings{0.0};  ///< number of independent residuals
+  double effective_readings{0.0};  ///< Number of independent residuals in all records.
   std::size_t readings{0};
-  double sample_time{0.0};  ///< Sampling interval that is the unit of the time offsets, s.
+  double sample_time{0.0};  ///< Sampling interval, s, in which the time offsets are expressed.
 };
 
-/// The words for the laws that compare_laws() can fit: the laws that move before they slide.
+/// The manifest's words for the friction laws that compare_laws() can fit: the laws that allow motion before
+/// sliding.
 std::vector<std::string> law_words();
 
-/// The law for one of law_words().
+/// The friction law that one of law_words() names.
 friction::FrictionModel law_of(const std::string& word);
 
-/// The laws that are fitted.
+/// The choice of the friction laws that are fitted.
 struct LawChoice {
   std::vector<friction::FrictionModel> laws;
-  bool series_compliance{false};  ///< fits the compliance of a fixture beside each law
+  /// True: the compliance of a fixture in series with the contact is fitted with each law.
+  bool series_compliance{false};
 };
 
 /// Fits friction laws to material tests, all of the same contact, and compares them by Schwarz's information
@@ -130,7 +139,8 @@ struct LawChoice {
 LawComparison compare_laws(std::vector<TestRecord> records, const LawChoice& choice,
                            const StageReport& report = {});
 
-/// The answer: the comparison, the parameters of every law, and a fragment of a manifest for the best law.
+/// Description of the answer: the comparison, the parameters of every law, and a fragment of a manifest for
+/// the best law.
 document::AnswerDescription<LawComparison> laws_answer();
 
 }  // namespace zerocount::fit

@@ -49,7 +49,7 @@ std::vector<CoordinateRange> law_coordinates(std::size_t dimension) {
 
 namespace {
 
-/// The pre-sliding model, with creep or without.
+/// The fit model of the pre-sliding law, with creep or without.
 FitModel spring_based_model(const RecordScales& scales, Records records, friction::FrictionModel law) {
   const bool creeps = friction::has_creep(law);
   FitModel model = contact_model(scales.creep_torque);
@@ -75,24 +75,28 @@ FitModel spring_based_model(const RecordScales& scales, Records records, frictio
   return model;
 }
 
-/// Coordinates of a bristle with its rotor. Records without sliding show one level, g(0): the laws are fitted
-/// with Fc = Fs.
+/// Coordinates (fitted unknowns) of a bristle model, Dahl or LuGre, with its rotor. Records without sliding
+/// show only one friction level, g(0): the laws are fitted with Coulomb friction Fc equal to static friction
+/// Fs.
 enum BristleCoordinate : Eigen::Index {
-  bristle_stiffness,  ///< ln σ0, of N m/rad
-  bristle_level,      ///< q of Fs = T·(1 + exp q), with the largest torque T: the rotor does not slide
-  bristle_damping,    ///< ln c (Dahl) or ln σ1 (LuGre), of N m s/rad
-  bristle_inertia,    ///< ln J, of kg m²
-  /// cs/(0.1·σ1) (LuGre): σ1 fades where the bristle yields, cs does not. Not a logarithm, which would be
-  /// stuck near cs = 0.
+  bristle_stiffness,  ///< ln σ0: logarithm of the bristle stiffness in N m/rad
+  /// q in Fs = T·(1 + exp q): static friction Fs above the largest torque T of the records, so that the rotor
+  /// does not slide
+  bristle_level,
+  bristle_damping,  ///< logarithm of the damping in N m s/rad: c (Dahl), or σ1 of the bristle (LuGre)
+  bristle_inertia,  ///< ln J: logarithm of the inertia in kg m²
+  /// LuGre only: ratio cs/(0.1·σ1) of the sliding damping cs to the bristle damping σ1. σ1 fades where the
+  /// bristle yields, cs does not. Not a logarithm, because a fit would be stuck near cs = 0.
   bristle_sliding_damping,
-  bristle_offset,  ///< time offset, samples
+  bristle_offset,  ///< time by which the torque acts later than recorded, samples
   bristle_dimension
 };
 
 constexpr double sliding_damping_scale = 0.1;
 constexpr double start_of_sliding_damping = 0.1;
 
-/// Starting points over stiffness and level, each with the J and the damping that its ring-down shows.
+/// Starting points of a fit over a grid of stiffness and friction level, each with the inertia J and the
+/// damping that its ring-down shows.
 std::vector<Point> bristle_starts(const RecordScales& scales, Records records) {
   std::vector<Point> starts;
   for (const double stiffness : {1.0, 1.4, 2.5}) {

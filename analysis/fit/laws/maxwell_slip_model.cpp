@@ -17,26 +17,30 @@ namespace zerocount::fit {
 
 namespace {
 
-/// Elements that slip, in the order of the travel at which they do, and one more that sticks throughout.
+/// Number of elements that slip, in the order of the travel at which they do. One more element sticks
+/// throughout.
 constexpr std::size_t slipping_elements = 3;
 
-/// Coordinates: the stiffness of all elements (ln κ, of N m/rad); the travel at which the slipping ones slip
-/// (ln of rad); damping (ln cs, of N m s/rad); inertia (ln J, of kg m²); time offset (samples).
+/// Coordinates of the fit, in this order: stiffness of all elements (ln κ, of N m/rad); travel at which the
+/// slipping ones slip (ln of rad); damping (ln cs, of N m s/rad); inertia (ln J, of kg m²); time offset
+/// (samples). This constant is the index of the first travel.
 constexpr Eigen::Index element_travel = slipping_elements + 1;
 constexpr Eigen::Index element_damping = element_travel + slipping_elements;
 constexpr Eigen::Index element_inertia = element_damping + 1;
 constexpr Eigen::Index element_dimension = element_inertia + 2;
 
-/// Level of the sticking element over the largest torque of the records, which it never reaches.
+/// Friction level of the sticking element as a multiple of the largest torque of the records, so that it is
+/// never reached.
 constexpr double never_reached = 10.0;
 
-/// C of the slipping elements, N m/s. At the paper's torques it is the default of a manifest.
+/// Attraction parameter C of the slipping elements, N m/s. At the torques of the paper it is the default of a
+/// manifest. @param largest_torque largest |torque| of the records, N m
 double attraction_at(double largest_torque) {
   constexpr double rate = 200.0;  // 1/s
   return rate * largest_torque;
 }
 
-/// The levels W of the elements, N m.
+/// The friction levels W (torques at which they slip) of the elements at the point, N m.
 std::vector<double> levels_at(const Point& point, double largest_torque) {
   std::vector<double> levels;
   for (std::size_t i = 0; i < slipping_elements; ++i) {
@@ -56,7 +60,7 @@ std::vector<friction::GmsElement> elements_at(const Point& point, const std::vec
   return elements;
 }
 
-/// Travels at which elements may slip, from a thousandth of the records' range to half of it, rad.
+/// Candidate travels at which elements may slip, from a thousandth of the records' range to half of it, rad.
 Eigen::VectorXd possible_travels(Records records) {
   constexpr Eigen::Index count = 24;
   constexpr double smallest = 1e-3;
@@ -72,9 +76,10 @@ Eigen::VectorXd possible_travels(Records records) {
 /// strain z_i of an element follows the axis within ± its slip travel. With the travels, J and c given, it is
 /// linear in κ (equation error; Rizos & Fassois, Chaos 14, 2004, 431).
 struct TorqueAlongPath {
-  Eigen::MatrixXd
-      strains;  ///< products of the strains of all possible elements, and of the sticking one, last
-  Eigen::VectorXd torque;  ///< Products of the strains with the torque that the elements carry.
+  /// Products of the strains of all possible elements with each other; the sticking element is the last one.
+  Eigen::MatrixXd strains;
+  /// Products of the strains of all possible elements with the torque that the elements together carry.
+  Eigen::VectorXd torque;
 };
 
 TorqueAlongPath torque_along_path(Records records, const Eigen::VectorXd& travels,
@@ -101,8 +106,9 @@ TorqueAlongPath torque_along_path(Records records, const Eigen::VectorXd& travel
   return sums;
 }
 
-/// The elements whose torque along the measured path is closest to the applied torque, for each smallest slip
-/// travel. None is softer than a thousandth of the stiffest, because a fit could not make it stiffer again.
+/// Starting points with the elements whose torque along the measured path is closest to the applied torque,
+/// one for each smallest slip travel. No element is softer than a thousandth of the stiffest, because a fit
+/// could not make it stiffer again.
 std::vector<Point> nearest_elements(const RecordScales& scales, Records records) {
   constexpr double faint = 1e-3;
   const motion::PlantParameters plant = contact_at(scales.contact, scales.creep_torque).plant;
@@ -132,7 +138,7 @@ std::vector<Point> nearest_elements(const RecordScales& scales, Records records)
   return starts;
 }
 
-/// The elements in the order of the travels at which they slip, the sticking one last.
+/// Indices of the elements in the order of the travels at which they slip, the sticking one last.
 std::vector<Eigen::Index> in_order_of_slip(const Point& point) {
   std::vector<Eigen::Index> order(slipping_elements + 1);
   std::iota(order.begin(), order.end(), Eigen::Index{0});

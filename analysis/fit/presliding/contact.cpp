@@ -11,7 +11,8 @@ namespace zerocount::fit {
 
 namespace {
 
-/// Breakaway torque in multiples of σ0, above all torques of a record, so that the hook never slides.
+/// Breakaway torque of a fitted contact, in multiples of the torque scale σ0: above all torques of a record,
+/// so that the contact never slides.
 constexpr double breakaway_factor = 1e3;
 
 }  // namespace
@@ -32,7 +33,7 @@ ContactParameters contact_at(const Point& point, double creep_torque) {
 
 namespace {
 
-/// A quantity that is a coordinate itself.
+/// A reported quantity that is a coordinate of the fit itself, not its exponential.
 Quantity of_coordinate(const std::string& name, const std::string& unit, Coordinate coordinate,
                        const Point& point) {
   return coordinate_quantity(name, std::string(coordinate_keys[coordinate]), unit, point, coordinate);
@@ -109,7 +110,8 @@ Point point_of(const ContactParameters& contact, double creep_torque) {
 
 namespace {
 
-/// The coordinates of the same contact with another σ0.
+/// The coordinates of the same contact for another torque scale σ0 of the creep. @param before, after old and
+/// new σ0, N m
 Point with_creep_torque(Point point, double before, double after) {
   point[log_limit] += point[creep_exponent] * std::log(after / before);
   return point;
@@ -138,8 +140,8 @@ class ProfileLikelihood {
     follow_ = covariance.col(coordinate) / variance_;
   }
 
-  /// The change of the coordinate at which the sum exceeds its minimum by distance²/variance; nothing if that
-  /// is not found within `max_distance`.
+  /// The change of the coordinate at which the minimum sum of squares exceeds that of the fit by
+  /// distance²/variance; null if this is not found within a change of `max_distance`.
   std::optional<double> end(double distance, double max_distance) {
     const double target = distance * distance / variance_;
     constexpr int max_tries = 10;

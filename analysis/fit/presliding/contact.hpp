@@ -16,7 +16,7 @@ namespace zerocount::fit {
 
 struct ContactFit;
 
-/// The identified parameters of a rotor and its contact.
+/// The parameters of a rotor and its friction contact that an identification estimates.
 struct ContactParameters {
   motion::PlantParameters plant;
   friction::FrictionParameters friction;
@@ -25,15 +25,16 @@ struct ContactParameters {
 /// The coordinates in which a contact is fitted. The parameters of the contact are logarithms, except for n,
 /// because they are positive and their uncertainty is relative. The last coordinate belongs to the records.
 enum Coordinate : std::size_t {
-  log_k1,          ///< ln k1, of N m/rad
-  log_k2,          ///< ln k2, of N m/rad
-  log_beta,        ///< ln β, of 1/rad
-  log_damping,     ///< ln c, of N m s/rad
-  log_inertia,     ///< ln J, of kg m²
-  log_alpha,       ///< ln α, of 1/s
-  log_limit,       ///< ln(σ0ⁿ/λ), of rad: the hardening at which creep ends under the torque σ0
-  creep_exponent,  ///< n; a fit may pass through values below 1
-  time_offset      ///< samples by which the torque acts later than recorded; common to all records
+  log_k1,       ///< ln k1: logarithm of the contact's tangent stiffness k1 long after a reversal, in N m/rad
+  log_k2,       ///< ln k2: logarithm of the additional stiffness k2 just after a reversal, in N m/rad
+  log_beta,     ///< ln β: logarithm of the rate β at which the stiffness falls from k1 + k2 to k1, in 1/rad
+  log_damping,  ///< ln c: logarithm of the pre-sliding damping c in N m s/rad
+  log_inertia,  ///< ln J: logarithm of the inertia J in kg m²
+  log_alpha,    ///< ln α: logarithm of the creep rate α in 1/s
+  /// ln(σ0ⁿ/λ), of rad: logarithm of the creep extension (hardening) at which creep ends under the torque σ0
+  log_limit,
+  creep_exponent,  ///< creep exponent n; a fit may pass through values below 1
+  time_offset  ///< time offset: samples by which the torque acts later than recorded; common to all records
 };
 inline constexpr std::size_t coordinate_count = 9;
 /// coordinate_count as an Eigen index.
@@ -52,23 +53,26 @@ inline constexpr std::array<std::string_view, coordinate_count> coordinate_keys{
     parameter::friction::n,
     "time_offset"};
 
-/// @param creep_torque σ0, N m. It should be near the torques at which creep was observed; otherwise limit
-/// and exponent are strongly correlated. @returns parameters whose breakaway torque is never reached.
+/// Converts the coordinates of a fit to parameters of the contact. @param creep_torque torque scale σ0 of the
+/// coordinates, N m. It should be near the torques at which creep was observed; otherwise limit and exponent
+/// are strongly correlated. @returns parameters whose breakaway torque is never reached
 ContactParameters contact_at(const Point& point, double creep_torque);
 
-/// The pre-sliding model as a function of these coordinates. Its quantities, in the order of the report, are
-/// k1, k2, k1_plus_k2, beta, presliding_damping, inertia, alpha, lambda, n and time_offset.
+/// The fit model of the pre-sliding law in the coordinates of Coordinate. Its quantities, in the order of the
+/// report, are k1, k2, k1_plus_k2, beta, presliding_damping, inertia, alpha, lambda, n and time_offset.
+/// @param creep_torque torque scale σ0 of the coordinates, N m
 FitModel contact_model(double creep_torque);
 
-/// The inverse of contact_at, except for the breakaway torque, with a time offset of 0.
+/// Converts parameters of a contact to the coordinates of a fit: the inverse of contact_at(), except for the
+/// breakaway torque, with a time offset of 0.
 Point point_of(const ContactParameters& contact, double creep_torque);
 
-/// The coordinate that a quantity depends on: the first of several.
+/// The coordinate on which a quantity depends; the first one if there are several.
 Coordinate coordinate_of(const Quantity& quantity);
 
-/// The interval by profile likelihood. At its ends the minimum sum of squares exceeds the sum of squares of
-/// the fit as much as a linear model does at the ends of `estimate`. An end that is not found within a factor
-/// of 4 (n: ± 2) is infinite. Only for quantities that are parameters of the manifest.
+/// The 95 % interval of a quantity by profile likelihood. At its ends the minimum sum of squares exceeds the
+/// sum of squares of the fit as much as a linear model does at the ends of `estimate`. An end that is not
+/// found within a factor of 4 (n: ± 2) is infinite. Only for quantities that are parameters of the manifest.
 QuantityEstimate interval_by_profile(Records records, const ContactFit& fit, const Quantity& quantity,
                                      const QuantityEstimate& estimate);
 

@@ -27,19 +27,22 @@ constexpr double fit_paths = 400.0;
 
 constexpr int max_rounds = 6;
 
-/// The rounds end when the fit changes by less than this many (textbook) standard deviations.
+/// The rounds of a fit to observations end when the fit changes by less than this many (textbook) standard
+/// deviations.
 constexpr double small_change = 0.05;
 
-/// The coordinate of a parameter with a value in its own unit; λ at σ0 = 1 N m.
+/// The coordinate that corresponds to a value of the parameter in its own unit. For λ the torque scale σ0 is
+/// 1 N m.
 double coordinate_value(Coordinate coordinate, double value) {
   if (coordinate == creep_exponent || coordinate == time_offset) return value;
   return coordinate == log_limit ? -std::log(value) : std::log(value);
 }
 
-/// The setting of a fit, and the points where it may start.
+/// The settings of a fit, and the points from which it may start.
 struct FitStart {
   FitSetting setting;
-  std::vector<Point> points;  ///< the best first, which is the mean of the setting's prior
+  /// Starting points, the best one first. It is also the mean of the prior in the settings.
+  std::vector<Point> points;
 };
 
 FitStart start_for(Records records, const std::vector<KnownParameter>& known, double creep_torque) {
@@ -75,10 +78,10 @@ bool can_be_followed(const FittedModel& model) {
   return std::all_of(model.motions.begin(), model.motions.end(), is_finite);
 }
 
-/// The setting in which only the coordinates that the observations determine are free. The others keep their
-/// values; far from a minimum, or if the law is not exact, they would diverge to fit the residuals of a wrong
-/// spring. Residuals that are larger and longer correlated than the errors of the observations count as
-/// errors.
+/// The settings of a fit in which only the coordinates that the observations determine are free. The others
+/// keep their values; far from a minimum, or if the law is not exact, they would diverge to fit the residuals
+/// of a wrong spring. Residuals that are larger and longer correlated than the errors of the observations
+/// count as errors.
 FitSetting with_told_coordinates(const FittedModel& model, const Observations& observations,
                                  const FitSetting& setting) {
   // Standard deviations from which a coordinate counts as not determined.
@@ -111,8 +114,8 @@ FitSetting with_told_coordinates(const FittedModel& model, const Observations& o
   return told;
 }
 
-/// The fit from the starting point. If the test consists of slow parts only, the starting point is already
-/// their best fit, and only the remaining coordinates that the readings determine are free.
+/// The first fit, from the starting point. If the records consist of slow parts only, the starting point is
+/// already their best fit, and only the remaining coordinates that the readings determine are free.
 FitResult first_fit(Records records, const Observations& observations, const FitPoint& start,
                     const FitSetting& setting) {
   if (!are_slow_alone(records)) return fit_jointly(records, observations, start, setting);
@@ -121,8 +124,8 @@ FitResult first_fit(Records records, const Observations& observations, const Fit
   return fit_jointly(records, observations, start, with_told_coordinates(model, observations, setting));
 }
 
-/// Frees the time offset, if `setting` does, after the other coordinates. Far from a minimum the offset would
-/// make up for a wrong inertia.
+/// Continues a fit with the time offset free, if `setting` allows it, after the other coordinates have been
+/// fitted. Far from a minimum the offset would compensate for a wrong inertia.
 FitResult with_time_offset(Records records, const Observations& observations, const FitResult& from,
                            FitSetting setting) {
   if (!setting.free[time_offset]) return from;
@@ -131,9 +134,9 @@ FitResult with_time_offset(Records records, const Observations& observations, co
   return found.squares < from.squares ? found : from;
 }
 
-/// The points with another inertia and damping that explain the observations better than the model, with the
-/// other coordinates adapted. Slow parts contain little information on the inertia, and a fit adapts the
-/// others to a wrong one.
+/// Points with another inertia and damping that explain the observations better than the model, with the
+/// other coordinates adapted. Slow parts of records contain little information on the inertia, and a fit
+/// adapts the other coordinates to a wrong one.
 std::vector<FitResult> with_other_inertia(Records records, const Observations& observations,
                                           const FittedModel& model, const FitSetting& setting) {
   if (!setting.free[log_inertia] || !setting.free[log_damping]) return {};
@@ -147,7 +150,7 @@ std::vector<FitResult> with_other_inertia(Records records, const Observations& o
   return better_points(records, observations, model, others, changes);
 }
 
-/// The starting points with the coordinates that are not free as in the prior.
+/// The starting points, in which each coordinate that is not free has the value of the prior's mean.
 std::vector<Point> with_fixed(const std::vector<Point>& starts, const FitSetting& setting) {
   std::vector<Point> points(starts.size(), setting.prior);
   for (std::size_t i = 0; i < starts.size(); ++i) {
@@ -166,7 +169,7 @@ bool has_spent_effort(const FitSetting& setting, double effort) {
   return static_cast<double>(setting.model.simulated->load()) > effort * usual_effort;
 }
 
-/// The records with the torque delayed by the given number of samples.
+/// Copies of the records in which the torque acts later by this number of samples.
 std::vector<TestRecord> with_later_torque(Records records, int samples) {
   std::vector<TestRecord> shifted(records.begin(), records.end());
   for (TestRecord& record : shifted) {
@@ -182,8 +185,8 @@ std::vector<TestRecord> with_later_torque(Records records, int samples) {
   return shifted;
 }
 
-/// The rough fit to all readings with equal weights, from the starting point, or from other points if that
-/// fit explains too little.
+/// The rough fit of the contact to all readings with equal weights. It starts from the first starting point,
+/// and from other points if that fit explains too little.
 FitPoint fit_roughly(Records records, const FitStart& start, double creep_torque, double effort) {
   const FitSetting& setting = start.setting;
   const Observations observations = all_readings(records);
@@ -272,22 +275,24 @@ FittedModel followed_model(Records records, const FitPoint& point, const FitSett
   return model;
 }
 
-/// The largest component of the remaining Gauss–Newton step, in textbook standard deviations.
+/// The largest component of the remaining Gauss–Newton step, in textbook standard deviations; small if the
+/// fit has converged.
 double remaining_step(const ContactFit& fit, const FitSetting& setting) {
   const Eigen::MatrixXd covariance = textbook_covariance(fit.model, fit.observations, setting);
   const Eigen::VectorXd step = covariance * normal_equations(fit.model, fit.observations, setting).gradient;
   return (step.array().abs() / covariance.diagonal().array().sqrt()).maxCoeff();
 }
 
-/// The coordinates that are free in a fit: all free coordinates of its setting, or only those that the
-/// readings determine.
+/// Selection of the coordinates that are free in a fit: all free coordinates of its settings, or only those
+/// of them that the readings determine.
 enum class Freedom { all, told };
 
 Freedom usual_freedom(Records records) {
   return are_slow_alone(records) ? Freedom::told : Freedom::all;
 }
 
-/// Alternates observe() and fit, starting at `from`.
+/// Refines a fit: starting at `from`, alternates observe(), which converts readings to observations along the
+/// modelled path, and a fit to these observations. @param rounds largest number of rounds
 void refine(Records records, const FitPoint& from, int rounds, Freedom freedom, ContactFit& fit) {
   fit.model = followed_model(records, from, fit.setting);
   for (int round = 0; round < rounds; ++round) {
@@ -321,9 +326,9 @@ void improve_inertia(Records records, ContactFit& fit) {
   if (spread(other) < spread(fit)) fit = other;
 }
 
-/// Takes a few steps with all coordinates free from the point of `fit` plus each of `changes`, and fits the
-/// best result to the end.
-/// @returns false if that is not better than `fit`, which then stays unchanged.
+/// Tries to improve a fit: takes a few steps with all coordinates free from the point of `fit` plus each of
+/// `changes`, and fits the best result to the end. @returns false if that is not better than `fit`, which
+/// then stays unchanged.
 bool improve_from(Records records, std::span<const Point> changes, ContactFit& fit) {
   if (has_spent_effort(fit.setting, fit.effort)) return false;
   std::vector<Point> starts;
@@ -413,13 +418,13 @@ bool improve_softening(Records records, ContactFit& fit) {
 
 namespace {
 
-/// Maximum residual, as a fraction of a record's travel.
+/// Largest root mean square of the residuals that is accepted, as a fraction of a record's travel.
 constexpr double max_unexplained = 0.02;
 
-/// Maximum residual spread, as a multiple of the expected one.
+/// Largest accepted spread of the residuals, as a multiple of the expected one.
 constexpr double max_spread = 30.0;
 
-/// Hint if the search stopped at its effort limit.
+/// Sentence that tells the user that the search stopped at its effort limit; empty if it did not.
 std::string early_end_text(const ContactFit& fit) {
   if (!has_ended_early(fit)) return "";
   return ". " + left_out_text(fit.effort);
@@ -485,10 +490,11 @@ void refuse_gross_misfit(Records records, const ContactFit& fit, const ResidualC
 
 namespace {
 
-/// A hold in which the rotor creeps.
+/// A part of a record with constant torque in which the rotor creeps.
 struct CreepingHold {
-  double torque{0.0};  ///< magnitude, N m
-  double creep{0.0};   ///< fitted travel from a quarter of the hold to its end, in units of the readings
+  double torque{0.0};  ///< Magnitude of the torque, N m.
+  /// Fitted creep travel from a quarter of the hold to its end, in units of the readings.
+  double creep{0.0};
 };
 
 std::vector<CreepingHold> creeping_holds(Records records, const ContactFit& fit) {

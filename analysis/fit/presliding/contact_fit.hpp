@@ -12,27 +12,28 @@
 
 namespace zerocount::fit {
 
-/// A parameter with a value given by the user.
+/// A friction or plant parameter whose value the user has given, so that it is not fitted.
 struct KnownParameter {
-  Coordinate coordinate{log_k1};  ///< Coordinate of the parameter, see coordinate_keys.
-  double value{0.0};              ///< Value in the parameter's own unit.
+  /// Coordinate of the fit that belongs to the parameter, see coordinate_keys.
+  Coordinate coordinate{log_k1};
+  double value{0.0};  ///< Value in the parameter's own unit.
 };
 
 /// Called with the name of each stage of a computation when it begins, for messages; may be empty.
 using StageReport = std::function<void(std::string_view)>;
 
-/// A contact fitted to records.
+/// A friction contact fitted to records.
 struct ContactFit : Fit {
-  double creep_torque{1.0};  ///< σ0 of the coordinates, N m
-  double effort{1.0};        ///< Factor on the search effort, see fit_contact().
+  double creep_torque{1.0};  ///< Torque scale σ0 to which the creep coordinates refer, N m.
+  double effort{1.0};        ///< Factor on the search effort (1: usual), see fit_contact().
 };
 
 /// Root mean square of the residuals of a record's readings, in the record's unit. Quantisation alone gives
 /// 0.29.
 double misfit_of(Records records, const Fit& fit, std::size_t record);
 
-/// σ0 of the coordinates for these records, N m: 1 N m if λ is known, because the coordinate is then ln(1/λ)
-/// for every n; otherwise 0.7 of the largest torque.
+/// Torque scale σ0 of the creep coordinates for these records, N m: 1 N m if λ is known, because the
+/// coordinate is then ln(1/λ) for every n; otherwise 0.7 of the largest torque.
 double creep_torque_for(Records records, const std::vector<KnownParameter>& known);
 
 /// Fits the contact to all records together. First a rough fit from the starting point, to all readings with
@@ -44,10 +45,11 @@ double creep_torque_for(Records records, const std::vector<KnownParameter>& know
 ContactFit fit_contact(Records records, const std::vector<KnownParameter>& known,
                        const StageReport& report = {}, double effort = 1.0);
 
-/// True if the search for other starting points ended because of the effort.
+/// True if the search for other starting points ended at its effort limit.
 bool has_ended_early(const ContactFit& fit);
 
-/// Repeats the fit with a time offset of 0, the given delay.
+/// Repeats the fit with the time offset fixed at 0, so that the torque acts with the delay that the record
+/// states.
 void keep_time_offset(Records records, ContactFit& fit);
 
 /// Repeats the fit from other values of β and keeps the fit with the smallest spread of residuals. A spring
@@ -61,21 +63,21 @@ bool improve_softening(Records records, ContactFit& fit);
 /// completes "because …".
 std::string missing_information(Records records, const ContactFit& fit, Coordinate coordinate);
 
-/// Sentence for a search that stopped at its effort limit, without the full stop.
+/// Sentence that says that the search stopped at this effort limit, without the full stop.
 std::string left_out_text(double effort);
 
 // Checks of the records after a fit. Each throws Failure (bad_data) with the record, the place in it and
 // the reason.
 
-/// Refuses records with a single outlier (see find_glitch()).
+/// Throws a Failure if a record has a single reading that is an outlier (see find_glitch()).
 void refuse_glitches(Records records, const FitPoint& point, const FitSetting& setting);
 
-/// Refuses residuals whose root mean square exceeds 2 % of a record's travel and 2 counts.
-/// @param tolerance factor on these limits
+/// Throws a Failure if the root mean square of the residuals exceeds 2 % of a record's travel and 2 counts.
+/// @param tolerance factor on both limits
 void refuse_unexplained(Records records, const ContactFit& fit, double tolerance);
 
-/// Refuses residuals whose spread is more than 30 times the spread of the simulated replicates.
-/// @param cause a sentence that names a likely cause, without its full stop; may be empty
+/// Throws a Failure if the spread of the residuals is more than 30 times the spread of the simulated
+/// replicates. @param cause a sentence that names a likely cause, without its full stop; may be empty
 void refuse_gross_misfit(Records records, const ContactFit& fit, const ResidualChecks& checks,
                          const std::string& cause);
 

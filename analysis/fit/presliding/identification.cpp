@@ -17,10 +17,11 @@ namespace {
 
 constexpr std::size_t min_reversals = 2;
 
-/// Largest half-width (of a logarithm) of an interval that was widened because the model does not fit.
+/// Largest half-width (of a logarithm) that an interval may have after it was widened because the model does
+/// not fit.
 constexpr double widest_widened = 7.0;  // a factor of 1000 to each side
 
-/// Half-width above which the interval is computed by profile likelihood.
+/// Half-width (of a logarithm) above which the interval is computed by profile likelihood.
 constexpr double max_linear_halfwidth = 0.05;
 
 bool is_known(const IdentificationOptions& options, Coordinate coordinate) {
@@ -63,7 +64,7 @@ bool is_time_offset(const Quantity& quantity) {
   return coordinate_of(quantity) == time_offset;
 }
 
-/// True for k1 + k2, the only quantity without a coordinate of its own.
+/// True if the quantity is the sum k1 + k2, the only quantity without a coordinate of its own.
 bool is_sum(const Quantity& quantity) {
   return quantity.key.empty() && !is_time_offset(quantity);
 }
@@ -89,14 +90,15 @@ ParameterEstimate given(const Quantity& quantity, const IdentificationOptions& o
   return parameter_of(quantity, EstimateStatus::known, {value, 0.0, value, value});
 }
 
-/// The source of the estimate of a quantity.
+/// The results of a fit from which the estimates of all quantities are computed.
 struct Estimation {
   Records records;
   const ContactFit& fit;
   const FitErrors& errors;
   const IdentificationOptions& options;
 
-  /// @param jointly collects what is estimated, except for k1 + k2
+  /// The estimate of a quantity. @param jointly the estimated quantities, to which this one is appended,
+  /// except for k1 + k2
   ParameterEstimate estimate(const Quantity& quantity, std::vector<EstimatedQuantity>& jointly) const {
     const Coordinate coordinate = coordinate_of(quantity);
     if (is_sum(quantity) ? is_known(options, log_k1) && is_known(options, log_k2)
@@ -123,7 +125,8 @@ struct Estimation {
     return reported(quantity, found);
   }
 
-  /// The estimate of a quantity that the readings would determine if the model fitted.
+  /// The estimate of a quantity that the readings would determine if the model fitted, but which is not
+  /// identifiable because it does not.
   ParameterEstimate beyond_the_model(const Quantity& quantity) const {
     ParameterEstimate parameter = open(quantity);
     parameter.reason =
@@ -132,7 +135,8 @@ struct Estimation {
     return parameter;
   }
 
-  /// The estimate of the time offset, the only coordinate that a fit keeps by itself.
+  /// The estimate of the time offset if it was kept fixed. It is the only coordinate that an identification
+  /// fixes by itself.
   ParameterEstimate kept(const Quantity& quantity) const {
     ParameterEstimate parameter =
         parameter_of(quantity, EstimateStatus::kept, {quantity.value, 0.0, quantity.value, quantity.value});
@@ -170,8 +174,8 @@ bool shows_no_time_offset(const ContactFit& fit, const FitErrors& errors) {
   return is_open(offset, interval_of_errors(offset, errors.errors, 1.0));
 }
 
-/// Draws the parameters of a manifest together. Fits beyond n ≥ 1 are replaced by more replicates; a tenth of
-/// valid ones is enough.
+/// Draws the estimated parameters jointly, for a manifest. Fits beyond the limit n ≥ 1 are replaced by more
+/// replicates; a tenth of valid ones is enough.
 JointDraws draw_jointly(const Estimation& from, std::vector<EstimatedQuantity> estimated) {
   std::erase_if(estimated, [](const EstimatedQuantity& one) { return is_time_offset(one.quantity); });
   JointDraws draws;
@@ -186,7 +190,8 @@ JointDraws draw_jointly(const Estimation& from, std::vector<EstimatedQuantity> e
   return draws;
 }
 
-/// A fit, and the standard errors of its parameters by replicates of the readings.
+/// A fit, with the standard errors of its parameters from replicates of the readings, and the checks of its
+/// residuals.
 struct CheckedFit {
   ContactFit fit;
   FitErrors errors;
@@ -198,7 +203,8 @@ CheckedFit checked_fit(Records records, ContactFit fit, const IdentificationOpti
   return {std::move(fit), std::move(errors)};
 }
 
-/// Repeats the fit in other ways until encoder and noise explain the residuals, or no way is left.
+/// Fits the contact, and repeats the fit in other ways until encoder resolution and noise explain the
+/// residuals, or no way is left.
 CheckedFit explained_fit(Records records, const IdentificationOptions& options) {
   const auto enter = [&](std::string_view stage) {
     if (options.report) options.report(stage);
@@ -216,7 +222,8 @@ CheckedFit explained_fit(Records records, const IdentificationOptions& options) 
   return best;
 }
 
-/// Frequencies of the fitted rotor's free oscillation: slow and large on k1, small on k1 + k2.
+/// Frequencies of the fitted rotor's free oscillation, Hz: of large oscillations on the stiffness k1 (low),
+/// of small ones on k1 + k2 (high).
 FrequencyRange own_ringing_of(const ContactFit& fit) {
   const ContactParameters contact = contact_at(fit.model.point.axis, fit.creep_torque);
   const auto frequency = [&](double stiffness) {
@@ -304,7 +311,8 @@ namespace {
 
 constexpr double min_exponent = 1.0;
 
-/// [replicate, quantity] errors of the quantities on their own scales.
+/// [replicate, quantity] Errors of the quantities, each on its own scale (Quantity::value). @param errors
+/// [replicate, coordinate] errors of the coordinates
 Eigen::MatrixXd errors_of(std::span<const EstimatedQuantity> quantities, const Eigen::MatrixXd& errors) {
   Eigen::MatrixXd found(errors.rows(), static_cast<Eigen::Index>(quantities.size()));
   for (std::size_t j = 0; j < quantities.size(); ++j) {
@@ -314,7 +322,7 @@ Eigen::MatrixXd errors_of(std::span<const EstimatedQuantity> quantities, const E
   return found;
 }
 
-/// Ratio of two distances from the value; 1 if the second is not positive.
+/// Ratio of two distances from the estimated value; 1 if the second one is not positive.
 double ratio_of(double distance, double of_replicates) {
   return of_replicates > 0.0 ? distance / of_replicates : 1.0;
 }

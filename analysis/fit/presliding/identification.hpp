@@ -18,7 +18,7 @@
 
 namespace zerocount::fit {
 
-/// A sample of the joint distribution of the estimated parameters.
+/// A sample of joint draws of the estimated parameters, which shows their correlations.
 struct JointDraws {
   std::vector<std::string> keys;          ///< [column] Manifest key of the parameter.
   std::vector<std::vector<double>> rows;  ///< [draw][column] Value in the parameter's own unit.
@@ -47,7 +47,8 @@ std::string reason_of_missing_draws(const JointDraws& draws, std::size_t wanted)
 /// n and the time offset.
 struct JointErrors {
   std::vector<std::string> names;
-  Eigen::MatrixXd covariance;  ///< [names, names] Covariance of the errors.
+  /// [parameter, parameter] Covariance of the errors, in the order of the names.
+  Eigen::MatrixXd covariance;
 
   double correlation(Eigen::Index one, Eigen::Index other) const;
 };
@@ -56,32 +57,33 @@ struct JointErrors {
 JointErrors joint_errors(std::span<const EstimatedQuantity> quantities, const Eigen::MatrixXd& errors,
                          double widening);
 
-/// The detected parts of a record, and the quality of the fit.
+/// The parts detected in a record, and the quality of the fit to it.
 struct RecordSummary : RecordExtent {
   double duration{0.0};  ///< Duration of the record, s.
   bool counted{false};
-  double unit{0.0};  ///< Unit of the readings, rad or m.
+  double unit{0.0};  ///< Unit of the readings, rad or m: the size of a count if they are counts.
   std::size_t branches{0};
   std::size_t reversals{0};
   std::size_t holds{0};
   std::size_t ring_downs{0};
-  double misfit{0.0};  ///< root mean square of the residuals, in the readings' unit
+  double misfit{0.0};  ///< Root mean square of the residuals, in the readings' unit.
   double noise{0.0};   ///< Standard deviation of the readings' noise, in the readings' unit.
 };
 
 /// Result of an identification: the parameters k1, k2, k1_plus_k2, beta, presliding_damping, inertia, alpha,
 /// lambda, n and time_offset, and the quality of the fit.
 struct Identification : FitReport {
-  double sample_time{0.0};  ///< Sampling interval of the first record, s: the unit of the time offset.
+  double sample_time{0.0};  ///< Sampling interval of the first record, s; it is the unit of the time offset.
   std::vector<RecordSummary> records;
-  std::vector<FittedRecord> fitted;  ///< [record] Readings and fitted values, for figures.
+  std::vector<FittedRecord> fitted;  ///< [record] Readings and fitted values of each sample, for figures.
   ResidualChecks checks;
-  /// Frequencies at which the fitted rotor rings: on k1 after large steps, on k1 + k2 after small ones.
+  /// Frequencies at which the fitted rotor rings, Hz: on the stiffness k1 after large steps (low), on k1 + k2
+  /// after small ones (high).
   FrequencyRange own_ringing;
-  /// Peak in the spectrum of the residuals. It is searched only if the checks failed, below
-  /// own_ringing.low/1.2 and above 1.2·own_ringing.high.
+  /// Peak in the spectrum of the residuals, a sign of a second mass; null if there is none. It is searched
+  /// only if the checks failed, below own_ringing.low/1.2 and above 1.2·own_ringing.high.
   std::optional<ResidualLine> residual_line;
-  double effort{1.0};  ///< Factor on the search effort, see fit_contact().
+  double effort{1.0};  ///< Factor on the search effort (1: usual), see fit_contact().
   /// True if the residuals are not explained and no more starting points were tried because of the effort
   /// limit.
   bool search_ended{false};
@@ -92,20 +94,21 @@ struct Identification : FitReport {
     double value{0.0};
   };
   std::vector<Correlation> correlations;
-  JointErrors errors;  ///< Errors of all estimated parameters except k1 + k2.
-  JointDraws draws;    ///< As many draws as IdentificationOptions::draws.
+  JointErrors errors;  ///< Covariance of the errors of all estimated parameters except k1 + k2.
+  /// Joint draws of the parameters, as many as IdentificationOptions::draws asks for, if possible.
+  JointDraws draws;
 };
 
 struct IdentificationOptions {
   std::vector<KnownParameter> known;
   std::size_t replicates{500};
-  std::size_t draws{0};  ///< Number of joint draws of the parameters.
-  double effort{1.0};    ///< Factor on the search effort, see fit_contact().
+  std::size_t draws{0};  ///< Number of joint draws of the parameters that are wanted; 0: none.
+  double effort{1.0};    ///< Factor on the search effort (1: usual), see fit_contact().
   StageReport report{};
 };
 
-/// Refuses a record that is given twice: it would have twice its weight.
-/// @throws Failure: bad_data; bad_input if the records are of a rotary and a linear axis
+/// Throws a Failure if a record is given twice, because it would have twice its weight. @throws Failure:
+/// bad_data; bad_input if the records are of a rotary and a linear axis
 void check_different(Records records);
 
 /// Identifies a rotor and its contact from material tests, all of the same contact.
@@ -123,18 +126,19 @@ void check_different(Records records);
 /// reading is an outlier, or the model does not explain the records.
 Identification identify(std::vector<TestRecord> records, const IdentificationOptions& options = {});
 
-/// A sentence that names the line of the residuals and its likely cause, without the full stop; empty if
-/// there is none.
+/// A sentence on the peak in the spectrum of the residuals and its likely cause (a second mass), without the
+/// full stop; empty if there is no peak.
 std::string second_mass_text(const Identification& identification);
 
-/// The identified parameters as a fragment of a manifest, with the strong correlations as comments.
+/// The identified parameters as text for a manifest, with the strong correlations as comments.
 std::string manifest_fragment(const Identification& identification);
 
-/// The joint draws as a table for the key `samples` of a manifest: comments with #, a header with the keys of
-/// the parameters, and a line of comma-separated numbers for each draw.
+/// The joint draws as a text table for the key `samples` of a manifest: comments with #, a header with the
+/// keys of the parameters, and a line of comma-separated numbers for each draw.
 std::string posterior_table(const Identification& identification);
 
-/// The parameters, the parts of the records, the checks of the residuals and the fragment of a manifest.
+/// Description of the answer: the parameters, the parts of the records, the checks of the residuals and the
+/// fragment of a manifest.
 document::AnswerDescription<Identification> identification_answer();
 
 }  // namespace zerocount::fit

@@ -124,7 +124,8 @@ document::Description<ResidualChecks> checks_description() {
 
 using Matrix = std::vector<std::vector<double>>;
 
-/// [row][column] of a square matrix over the names.
+/// [row][column] A square matrix over the estimated parameters, as nested vectors for the answer.
+/// @param value function that returns the element of a row and a column
 template <class Value>
 Matrix matrix_of(const JointErrors& errors, Value value) {
   const auto size = static_cast<std::size_t>(errors.covariance.rows());

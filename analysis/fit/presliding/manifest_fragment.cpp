@@ -17,31 +17,33 @@ namespace {
 
 constexpr double two_sided_95 = 1.959963984540054;  // Φ⁻¹(0.975)
 
-/// Whether the correlation is between λ and n.
+/// Whether the correlation is that between the creep parameters λ and n.
 bool is_of_creep(const Identification::Correlation& pair) {
   const auto is_one = [](const std::string& name) { return name == "lambda" || name == "n"; };
   return is_one(pair.one) && is_one(pair.other);
 }
 
-/// The middle of the interval on the scale of the parameter's distribution. For n it is the mean of the ends,
-/// or the value if the interval was cut at 1. For other parameters it is the geometric mean of the ends.
+/// The middle of a parameter's 95 % interval on the scale of its distribution. For n it is the mean of the
+/// ends, or the value if the interval was cut at 1. For other parameters it is the geometric mean of the
+/// ends.
 double middle_of(const ParameterEstimate& parameter) {
   if (parameter.name != "n") return std::sqrt(parameter.low * parameter.high);
   const bool cut = parameter.low <= 1.0;  // so the middle of the rest is not the estimate
   return cut ? parameter.value : 0.5 * (parameter.low + parameter.high);
 }
 
-/// Creep as an extension under a torque (friction.measured.creep).
+/// Creep described by the extension that it reaches under a torque, as the manifest's friction.measured.creep
+/// does.
 struct MeasuredCreep {
-  /// Torque T at which the errors of ln(extension) and n do not correlate, N m.
+  /// Torque T at which the errors of ln(extension) and of the exponent n do not correlate, N m.
   double torque{0.0};
   ParameterEstimate extension, rate, exponent;
 };
 
-/// The creep as an extension, so that its parameters can be drawn independently. With x = ln λ, ln(extension)
-/// = n·ln T − x. The error of ln(extension) does not correlate with that of n at ln T = cov(n, x)/var(n),
-/// where its variance is var(x) − cov(n, x)²/var(n). Nothing if λ or n is not estimated, or if their errors
-/// do not correlate strongly: λ and n are then drawn independently as well.
+/// The creep as an extension under a torque, so that its parameters can be drawn independently. With x = ln
+/// λ, ln(extension) = n·ln T − x. The error of ln(extension) does not correlate with that of n at ln T =
+/// cov(n, x)/var(n), where its variance is var(x) − cov(n, x)²/var(n). Null if λ or n is not estimated, or if
+/// their errors do not correlate strongly: λ and n are then drawn independently as well.
 std::optional<MeasuredCreep> measured_creep(const Identification& found) {
   const auto estimate = [&](std::string_view name) {
     const auto place = std::ranges::find(found.parameters, name, &ParameterEstimate::name);
@@ -67,7 +69,7 @@ std::optional<MeasuredCreep> measured_creep(const Identification& found) {
   return creep;
 }
 
-/// The lines of friction.measured in the map `friction`.
+/// The manifest lines of friction.measured for the creep, indented for the map `friction`.
 std::string creep_lines(const MeasuredCreep& creep, parameters::AxisKind axis) {
   const std::string indent = "    ";
   return fmt::format("  measured:\n{}creep:\n{}  torque: {}   # {}\n{}{}{}{}{}{}", indent, indent,
@@ -76,7 +78,7 @@ std::string creep_lines(const MeasuredCreep& creep, parameters::AxisKind axis) {
                      indent, manifest_line(creep.exponent, "exponent"));
 }
 
-/// Whether some line of a map is not a comment. Comments alone do not form a map.
+/// Whether the text of a map has a line that is not a comment. Comments alone do not form a map.
 bool has_values(const std::string& lines) {
   for (std::size_t start = 0; start < lines.size(); start = lines.find('\n', start) + 1) {
     if (!lines.substr(start).starts_with("  #")) return true;
@@ -212,7 +214,7 @@ std::string units_line(const Identification& identification) {
   return fmt::format("# Units: {}\n", fmt::join(units, ", "));
 }
 
-/// The parameters that have no column, with the reason.
+/// Comment lines that name the parameters without a column in the table of joint draws, each with the reason.
 std::string left_out_lines(const Identification& identification) {
   std::string lines;
   for (const ParameterEstimate& parameter : identification.parameters) {

@@ -11,14 +11,17 @@ namespace zerocount::fit {
 
 namespace {
 
-/// Torque over travel of one branch, from its reversal point.
+/// Torque against travel along one branch of a record (a part with monotonic torque), from its reversal
+/// point.
 struct Chord {
-  std::vector<double> travel;  ///< Travel from the reversal point, rad.
-  std::vector<double> torque;  ///< Torque from the reversal point, N m.
+  std::vector<double> travel;  ///< [sample] Travel from the reversal point, rad.
+  std::vector<double> torque;  ///< [sample] Torque from the reversal point, N m.
 };
 
-/// @param doubled whether the branch is the virgin curve sgn(x)·½·f(2|x|); doubling travel and torque gives
-/// the branch law.
+/// The torque–travel curve of a branch.
+/// @param angle [sample] angle of the rotor without creep, rad
+/// @param doubled whether the branch is the virgin curve sgn(x)·½·f(2|x|); doubling travel and torque then
+/// gives the law f of other branches
 Chord chord_of(const TestRecord& record, const LoadingBranch& branch, const Eigen::VectorXd& angle,
                bool doubled) {
   Chord chord;
@@ -38,7 +41,7 @@ struct Line {
   double intercept{0.0};
 };
 
-/// Least-squares line through the points with a travel of at least `from`.
+/// Least-squares line through those points of the chord whose travel is at least `from`.
 Line line_through(const Chord& chord, double from) {
   double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
   for (std::size_t i = 0; i < chord.travel.size(); ++i) {
@@ -55,7 +58,8 @@ Line line_through(const Chord& chord, double from) {
   return {slope, (y - slope * x) / n};
 }
 
-/// The travel at which the chord reaches the fraction `proportion` of the line's intercept, at least `least`.
+/// The travel at which the torque of the chord reaches the fraction `proportion` of the line's intercept,
+/// rad; at least `least`.
 double softening_travel(const Chord& chord, const Line& line, double proportion, double least) {
   for (std::size_t i = 0; i < chord.travel.size(); ++i) {
     if (chord.torque[i] - line.slope * chord.travel[i] >= proportion * line.intercept) {
@@ -65,8 +69,8 @@ double softening_travel(const Chord& chord, const Line& line, double proportion,
   return least;
 }
 
-/// Estimate without a slow branch: from the softest step, or from the ratio of the largest torque and angle,
-/// with assumed values of β and k2.
+/// Estimate of the spring if no record has a slow branch: from the softest step, or from the ratio of the
+/// largest torque and angle, with assumed values of β and k2.
 SpringEstimate secant_estimate(Records records) {
   constexpr double softened = 20.0;  // β times the travel
   constexpr double offset = 0.05;    // of the torque
@@ -124,16 +128,17 @@ namespace {
 constexpr std::array exponents{1.0, 1.5, 2.0, 2.5, 3.0, 4.0};
 constexpr int rates = 14;  // number of values of α tried, by factors of 2 from the smallest
 
-/// Samples at the beginning of a hold in which the rotor may oscillate; at most a quarter of the hold.
+/// Largest number of samples at the beginning of a hold (constant torque) in which the rotor may oscillate;
+/// at most a quarter of the hold.
 constexpr std::size_t oscillation_samples = 100;
 
-/// Samples at the beginning of a hold that may be those of an oscillation.
+/// Number of samples at the beginning of a hold (constant torque) that may be those of an oscillation.
 std::size_t oscillating_samples(const TorqueHold& hold) {
   return std::min((hold.last - hold.first + 1) / 4, oscillation_samples);
 }
 
-/// Longest time of all holds in which the rotor may oscillate, s. Creep can be distinguished from an
-/// oscillation only if it is slower. If there are longer holds, shorter ones are left out.
+/// Longest time in which the rotor may oscillate at the beginning of any hold, s. Creep can be distinguished
+/// from an oscillation only if it is slower. If there are longer holds, shorter ones are left out.
 double longest_oscillation(Records records) {
   double longest = 0.0;
   for (const TestRecord& record : records) {
@@ -145,8 +150,8 @@ double longest_oscillation(Records records) {
   return longest;
 }
 
-/// Sums over the samples of the holds, each about its own mean. x: the law with a limit of 1 rad; y:
-/// measured.
+/// Sums over the samples of the holds, each about the mean of its hold. x: creep law with a limit of 1 rad;
+/// y: measured angle.
 struct HoldSums {
   double xx{0.0};
   double xy{0.0};

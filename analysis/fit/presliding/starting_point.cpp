@@ -21,7 +21,7 @@ namespace zerocount::fit {
 
 namespace {
 
-/// A ring-down and its record.
+/// A ring-down (oscillation after a step of the torque), with the record that contains it.
 struct RingDown {
   const TestRecord* record{nullptr};
   TorqueHold hold;
@@ -40,7 +40,8 @@ RingDown largest_ring_down(Records records) {
   return largest;
 }
 
-/// Sum of squares of the residuals about their mean, in units of the readings.
+/// Sum of squares of the residuals of a record's readings about their mean, in units of the readings, for the
+/// contact at the point. @param creep_torque torque scale σ0 of the coordinates, N m
 double misfit(const TestRecord& record, const Point& point, double creep_torque) {
   const Eigen::VectorXd path = modelled_path(record, contact_model(creep_torque), point);
   const Eigen::VectorXd residual = readings_of(record) - path;
@@ -56,8 +57,8 @@ double misfit(const ChosenRecords& records, const Point& point, double creep_tor
   return sum;
 }
 
-/// The best of the point and its variations by `changes`. A variation must reduce the sum of squares below
-/// the fraction `proportion`.
+/// The best of the point and its variations by `changes`, by the sum of squares. A variation must reduce the
+/// sum below the fraction `proportion`.
 Point best_of(const ChosenRecords& records, const Point& point, double creep_torque,
               std::span<const Point> changes, double proportion = 1.0) {
   const std::size_t unchanged = changes.size();
@@ -75,7 +76,8 @@ Point best_of(const ChosenRecords& records, const Point& point, double creep_tor
   return best;
 }
 
-/// Variations of β with constant k2/β: the chord determines β least.
+/// Variations of the softening rate β with constant k2/β; β is the parameter about which the estimate from
+/// the branches is least certain.
 std::vector<Point> softening_changes() {
   std::vector<Point> changes;
   for (const double factor : {0.3, 0.55, 1.8, 3.3})
@@ -89,7 +91,7 @@ ChosenRecords all_of(Records records) {
   return all;
 }
 
-/// The records with a ring-down.
+/// The records that have a ring-down (oscillation after a step of the torque).
 ChosenRecords ringing_records(Records records) {
   ChosenRecords ringing;
   for (std::size_t r = 0; r < records.size(); ++r) {
@@ -98,9 +100,9 @@ ChosenRecords ringing_records(Records records) {
   return ringing;
 }
 
-/// Searches J and c around those of the point, far and then near, with the records that have a ring-down.
-/// Without a ring-down it searches a wider range with all records, because the response to DAC steps may show
-/// the inertia.
+/// Searches the inertia J and the damping c around those of the point, far and then near, with the records
+/// that have a ring-down. Without a ring-down it searches a wider range with all records, because the
+/// response to DAC steps may show the inertia.
 Point with_best_ringing(Records records, const Point& point, double creep_torque) {
   constexpr double much = 0.8;
   const ChosenRecords ringing = ringing_records(records);
@@ -117,7 +119,8 @@ Point with_best_ringing(Records records, const Point& point, double creep_torque
                  inertia_changes({1.0, 10.0, 100.0, 1e3, 1e4}, {0.5, 2.0, 8.0}), much);
 }
 
-/// Estimates the spring, J and c for a given creep law, without simulating.
+/// A starting point for a given creep law: estimates the spring, the inertia J and the damping c without
+/// simulating.
 Point point_with_creep(Records records, const CreepEstimate& creep, double creep_torque) {
   const SpringEstimate spring = estimate_spring(records, creep, creep_torque);
   ContactParameters contact;
@@ -275,33 +278,34 @@ std::vector<Point> starts_with_other_creep(Records records, const Point& start, 
 
 namespace {
 
-/// Samples of a record that are compared.
+/// Largest number of samples of a record that are compared with a model.
 constexpr std::size_t max_samples = 1500;
 
 /// Relative change of a coordinate for a difference quotient.
 constexpr double slope_step = 1e-6;
 
-/// Softening travel (units of the readings) below which the readings cannot tell it.
+/// Softening travel 1/β (in units of the readings) below which the readings do not show it.
 constexpr double min_slow_travel = 0.3;
 
-/// Largest change of a coordinate from its start, and largest n.
+/// Largest change of a coordinate from its start, and largest creep exponent n.
 constexpr double max_change = 8.0;
 constexpr double max_exponent = 6.0;
 
-/// Slow parts of a record: the torques that matter in the order of time, and for some of them the responding
-/// angle.
+/// The slow parts of a record, reduced to points: the torques that matter in the order of time, and for some
+/// of them the angle that responds.
 struct SlowParts {
   struct Point {
     double torque{0.0};     ///< Torque, N m.
-    std::size_t sample{0};  ///< Sample whose reading is the response to the torque.
-    /// True if the reading is compared; otherwise the point is only a turning point of the torque.
+    std::size_t sample{0};  ///< Index of the sample whose reading is the response to the torque.
+    /// True if the reading is compared with the model; false if the point is only a turning point of the
+    /// torque.
     bool read{false};
   };
   std::vector<Point> points;
-  std::size_t read{0};  ///< Number of points with a reading.
+  std::size_t read{0};  ///< Number of points whose reading is compared.
 };
 
-/// The torque (N m) whose answer is the reading at sample k.
+/// The torque to which the reading at sample k is the response, N m.
 double torque_before(const TestRecord& record, std::size_t k) {
   return k == 0 ? 0.0 : record.torque[k - 1].now;
 }
@@ -336,8 +340,8 @@ SlowParts slow_parts_of(const TestRecord& record) {
   return parts;
 }
 
-/// Residuals (measured − modelled)/unit of all samples read, about the mean of each record, as a function of
-/// a Point.
+/// Residuals (measured − modelled)/unit of all compared samples, about the mean of each record, as a function
+/// of a Point.
 class SlowPartsResiduals {
  public:
   SlowPartsResiduals(Records records, double creep_torque) : records_(records), creep_torque_(creep_torque) {
@@ -386,7 +390,8 @@ class SlowPartsResiduals {
   std::size_t read_{0};
 };
 
-/// Levenberg–Marquardt over the coordinates `moved` that are `free`.
+/// Fits the slow parts by the Levenberg–Marquardt method. Only those coordinates change that are in `moved`
+/// and are `free`. @param max_log_beta largest ln β @param steps largest number of steps
 SlowFit fit_coordinates(const SlowPartsResiduals& residuals, const Point& start, const FreeCoordinates& free,
                         std::span<const Coordinate> moved, double max_log_beta, int steps) {
   Point point = start;
@@ -428,7 +433,8 @@ double squares_at(const SlowPartsResiduals& residuals, const Point& point) {
   return residuals(&coordinates, all.data()) ? all.squaredNorm() : std::numeric_limits<double>::infinity();
 }
 
-/// Fits all starts, in parallel; the best of them, at most `most`.
+/// Runs `fit` from the point of each of `fits`, in parallel, and returns the best results, at most `most`,
+/// the best one first.
 std::vector<SlowFit> best_fits(std::vector<SlowFit> fits, std::size_t most,
                                const std::function<SlowFit(const Point&)>& fit) {
   parallel::for_each_index(fits.size(), [&](std::size_t i) { fits[i] = fit(fits[i].point); });

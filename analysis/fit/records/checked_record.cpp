@@ -12,14 +12,15 @@ namespace zerocount::fit {
 
 namespace {
 
-/// Unit of angles that are not counts, as a proportion of the record's travel.
+/// Unit of readings that are angles and not counts, as a proportion of the record's travel.
 constexpr double travel_per_unit = 1e-3;
 
-/// A record is cut where it begins to slide. What is left is then checked like any other.
+/// Smallest number of samples that must be left when a record is cut where it begins to slide. What is left
+/// is then checked like any other record.
 constexpr std::size_t min_samples_before_sliding = 100;
 
-/// The resolution of angles that are encoder counts converted to rad: all differences are multiples of one
-/// step, and most are 0. Nothing for other angles.
+/// The step between the values of angles that are encoder counts converted to rad: all differences are
+/// multiples of one step, and most are 0. Null for other angles.
 std::optional<double> step_of(const std::vector<double>& angles) {
   std::size_t changes = 0;
   double least = 0.0;
@@ -68,7 +69,8 @@ void set_readings(const RawSeries& series, TestRecord& record) {
   }
 }
 
-/// Puts straight lines in place of masked readings, for the starting values; the fit does not use them.
+/// Replaces masked readings by straight lines between their neighbours, for the starting values; the fit does
+/// not use them.
 void bridge_masked(TestRecord& record) {
   if (used_samples(record) < sample_count(record)) record.recorded = record.reading;
   const std::size_t samples = record.reading.size();
@@ -89,13 +91,14 @@ void bridge_masked(TestRecord& record) {
   }
 }
 
-/// The beginning of sliding in a series, and the note on the cut there.
+/// Sample at which a series begins to slide and the record is cut, and the note that says so.
 struct SlidingCut {
   std::size_t sample{0};
   std::string note;
 };
 
-/// The cut of a series that slides, by its own flag or, without one, by torque and angle.
+/// The cut of a series that slides, by its own flag or, without one, by torque and angle. Null if it does not
+/// slide.
 std::optional<SlidingCut> sliding_in(const RawSeries& series) {
   if (!series.sliding.empty()) {
     const auto slides = std::find(series.sliding.begin(), series.sliding.end(), true);
@@ -117,7 +120,7 @@ std::optional<SlidingCut> sliding_in(const RawSeries& series) {
                   found->travel_before * unit, parameters::unit_on(axis_of(series), "rad"))};
 }
 
-/// The first samples of the series.
+/// The first `samples` samples of the series.
 RawSeries first_samples(RawSeries part, std::size_t samples) {
   part.time.resize(samples);
   part.torque.resize(samples);
@@ -129,7 +132,7 @@ RawSeries first_samples(RawSeries part, std::size_t samples) {
   return part;
 }
 
-/// @throws Failure (bad_data) if too little is left before the cut.
+/// Requires that enough samples are left before the cut. @throws Failure (bad_data) if too little is left
 void check_cut(const RawSeries& series, const SlidingCut& cut) {
   if (cut.sample >= min_samples_before_sliding) return;
   refuse(
@@ -218,7 +221,8 @@ constexpr double min_counts_before = 5.0;  // below, quantisation and noise are 
 constexpr double onset = 0.3;              // of the travel in the window, more than that before the slide
 constexpr std::size_t slide_over_run = 3;  // duration of the slide over that from the onset
 
-/// The angles; masked ones are replaced by the last one before, or by the first one that is not masked.
+/// [sample] The angles of the series; a masked angle is replaced by the last one before that is not masked,
+/// or by the first such one.
 std::vector<double> used_angles(const records::RawSeries& series) {
   std::vector<double> angles = series.angle;
   if (series.excluded.empty()) return angles;
@@ -232,7 +236,7 @@ std::vector<double> used_angles(const records::RawSeries& series) {
   return angles;
 }
 
-/// [sample] Maximum − minimum of `start` and all values up to a sample.
+/// [sample] Range (maximum − minimum) of `start` and all values up to this sample.
 std::vector<double> growing_ranges(const std::vector<double>& values, double start) {
   std::vector<double> ranges;
   ranges.reserve(values.size());
@@ -246,17 +250,20 @@ std::vector<double> growing_ranges(const std::vector<double>& values, double sta
   return ranges;
 }
 
-/// The course of a test, as the criterion needs it.
+/// Angle, travel and torque of a test as the criterion for gross sliding needs them.
 struct Course {
-  std::vector<double> angle;         ///< [sample] Angle, masked readings replaced.
-  std::vector<double> travel;        ///< [sample] Range of the angle up to this sample.
-  std::vector<double> torque_range;  ///< [sample] Range of the torque up to this sample, N m.
-  /// Smallest travel before a slide with which sliding can be distinguished from pre-sliding.
+  std::vector<double> angle;  ///< [sample] Angle, in which masked readings are replaced by neighbouring ones.
+  std::vector<double> travel;  ///< [sample] Range (maximum − minimum) of the angle up to this sample.
+  /// [sample] Range (maximum − minimum) of the torque up to this sample, N m.
+  std::vector<double> torque_range;
+  /// Smallest travel before a slide, with which sliding can be distinguished from pre-sliding; in the unit of
+  /// the angle.
   double min_travel{0.0};
-  std::size_t lag{0};  ///< Number of samples until a torque has acted on the rotor.
+  std::size_t lag{0};  ///< Number of samples until a torque of the series has acted on the rotor.
 };
 
-/// Samples from a torque in the series until the amplifier has reached it to exp(−3).
+/// Number of samples from a torque in the series until the amplifier has reached it, except for a fraction
+/// exp(−3).
 std::size_t lag_of(const records::RawSeries& series) {
   const double duration = series.time.back() - series.time.front();
   const double rate = duration > 0.0 ? static_cast<double>(series.time.size() - 1) / duration : 0.0;
@@ -293,9 +300,10 @@ bool is_sliding(const Course& course, std::size_t from, std::size_t to) {
   return true;
 }
 
-/// The window ends inside the slide, but may begin long before it. From the onset on, the rotor certainly
-/// slides. A distance that grows with the square of the time reaches the onset after 0.55 of the slide's
-/// duration, one that grows with its cube, as under a rising torque, after 0.67.
+/// Locates gross sliding that was found in the window from sample `from` to sample `to`. The window ends
+/// inside the slide, but may begin long before it. From the onset on, the rotor certainly slides. A distance
+/// that grows with the square of the time reaches the onset after 0.55 of the slide's duration, one that
+/// grows with its cube, as under a rising torque, after 0.67.
 GrossSliding located(const Course& course, std::size_t from, std::size_t to) {
   const double travel = std::abs(course.angle[to] - course.angle[from]);
   std::size_t run = to;

@@ -15,22 +15,20 @@ using records::place_of;
 using records::RawSeries;
 using records::TorqueKind;
 
-/// Kind of the axis from which a series was recorded.
+/// Kind of the axis (rotary or linear) on which a series was recorded.
 inline parameters::AxisKind axis_of(const RawSeries& series) {
   return series.linear ? parameters::AxisKind::linear : parameters::AxisKind::rotary;
 }
 
-/// Checks the series and converts it to a record for the fit. The record ends where the hook begins to slide,
-/// and its note says so: where the series flags it, or, in a series without flags, where find_gross_sliding()
-/// finds it.
-/// @param any_magnitude whether to accept values that suggest other units
-/// @throws Failure (bad_data) with the reason if one of the checks below fails.
+/// Checks a series of torques and angles, and converts it to a record for the fit. The record ends where the
+/// contact begins to slide, and its note says so: where the series flags it, or, in a series without flags,
+/// where find_gross_sliding() finds it. @param any_magnitude whether to accept values that suggest other
+/// units @throws Failure (bad_data) with the reason if a check fails.
 TestRecord checked_record(const RawSeries& series, bool any_magnitude);
 
-/// The torque over each sample interval. If the motor torque was sampled behind an amplifier of known
-/// bandwidth, its samples u and u′ at both ends of an interval are two points of one exponential, which gives
-/// the commanded torque.
-/// @param record its sampling intervals
+/// [sample] The course of the torque over each sample interval. If the motor torque was sampled behind an
+/// amplifier of known bandwidth, its samples u and u′ at both ends of an interval are two points of one
+/// exponential, which gives the commanded torque. @param record record whose sampling intervals are used
 std::vector<motion::TorqueCourse> courses_of(const RawSeries& series, const TestRecord& record);
 
 // Requirements on a series. Each check throws Failure (bad_data) with the place and the reason.
@@ -56,7 +54,7 @@ std::vector<double> uneven_intervals(const RawSeries& series);
 /// | range of the torque or force over travel | 1 … 2e4 N m/rad | 100 … 1e10 N/m |
 void check_magnitudes(const RawSeries& series, const TestRecord& record);
 
-/// Requires a torque that is not always 0, and an angle that changes.
+/// Throws a Failure unless the torque is different from 0 at some sample, and the angle changes.
 void check_change(const RawSeries& series, const TestRecord& record);
 
 /// Requires a travel of at least 5 counts, in the direction of the torque. Friction takes energy: where the
@@ -64,42 +62,45 @@ void check_change(const RawSeries& series, const TestRecord& record);
 /// not rise with the torque all the same, the axis slides.
 void check_motion(const RawSeries& series, const TestRecord& record);
 
-/// Refuses a step of the angle by a quarter of the travel or more that stays, 50 times as long as all others
-/// within 10 samples, without a step of the torque: no motion is like that.
+/// Throws a Failure if the angle has a step of a quarter of the travel or more that stays, and is 50 times as
+/// long as all other steps within 10 samples, without a step of the torque: no motion is like that.
 void check_jumps(const RawSeries& series);
 
-/// Refuses a single reading whose distance from its neighbours is more than ten times that of all others.
+/// Throws a Failure if a single reading is an outlier: its distance from its neighbours is more than ten
+/// times that of all other readings.
 void check_glitches(const RawSeries& series, const TestRecord& record);
 
-/// Refuses a clipped torque: a DAC code that stays at the end of its range for 3 samples, or a torque that
-/// stays at its extreme after a slow rise while the angle continues and returns.
+/// Throws a Failure if the torque is clipped: a DAC code stays at the end of its range for 3 samples, or the
+/// torque stays at its extreme after a slow rise while the angle continues and returns.
 void check_clipping(const RawSeries& series, const TestRecord& record);
 
-/// A record beside the fit, sample by sample. Readings are in the record's unit.
+/// The readings of a record with the values of the fit, sample by sample. Readings are in the record's unit.
 struct FittedRecord {
   std::vector<double> time;     ///< [sample] Time as recorded, s.
   std::vector<double> torque;   ///< [sample] Motor torque, N m, without the fitted time offset.
   std::vector<double> reading;  ///< [sample] Readings as recorded, including masked ones.
   /// [sample] Expected reading: the fitted angle, minus half a count if the readings are counts.
   std::vector<double> fitted;
-  std::vector<bool> excluded;  ///< [sample] masked readings
+  std::vector<bool> excluded;  ///< [sample] Whether the reading is masked, so that the fit does not use it.
 };
 
-/// @param path [sample] fitted angle with the encoder's offset, in the record's unit
+/// The readings of a record with the values of its fit. @param path [sample] fitted angle with the encoder's
+/// offset, in the record's unit
 FittedRecord fitted_record(const TestRecord& record, const Eigen::VectorXd& path);
 
-/// Reading minus fitted value of a sample, in the record's unit.
+/// Residual of a sample: reading minus fitted value, in the record's unit.
 inline double residual(const FittedRecord& record, std::size_t sample) {
   return record.reading[sample] - record.fitted[sample];
 }
 
-/// A stretch in which the rotor slides, seen from torque and angle.
+/// A part of a series in which the rotor slides, found from torque and angle.
 struct GrossSliding {
-  std::size_t first{0};  ///< Sample at or shortly before the breakaway.
-  std::size_t seen{0};   ///< Sample at which sliding is certain.
-  /// Travel in the window that ends at `seen`, in the unit of the series' angle.
+  std::size_t first{0};  ///< Index of a sample at or shortly before the breakaway.
+  std::size_t seen{0};   ///< Index of the sample at which sliding is certain.
+  /// Travel in the window of samples that ends at `seen`, in the unit of the series' angle.
   double travel{0.0};
-  /// Maximum − minimum angle before that window, in the unit of the series' angle.
+  /// Range (maximum − minimum) of the angle before the window that ends at `seen`, in the unit of the series'
+  /// angle.
   double travel_before{0};
 };
 

@@ -40,15 +40,16 @@ double travel(const TestRecord& record) {
   return *high - *low;
 }
 
-/// Half the median time between every other sample, which is insensitive to jitter.
+/// Usual sampling interval, s: half the median time between every other sample, which is insensitive to
+/// jitter.
 double usual_interval(const std::vector<double>& time) {
   std::vector<double> over_two;
   for (std::size_t k = 2; k < time.size(); ++k) over_two.push_back(0.5 * (time[k] - time[k - 2]));
   return statistics::upper_median(std::move(over_two));
 }
 
-/// Refuses gaps, in which the torque is unknown, and samples so close together that their times cannot be
-/// right.
+/// Throws a Failure if the series has gaps, in which the torque is unknown, or samples so close together that
+/// their times cannot be right.
 void check_gaps(const RawSeries& series) {
   constexpr double gap = 1.75;  // of the interval: more than the jitter of two samples
   constexpr double min_interval = 0.1;
@@ -76,7 +77,7 @@ struct RegularGrid {
   double interval{0.0};
 };
 
-/// Least-squares fit of a regular grid.
+/// Least-squares fit of a regular time grid to the times of the samples.
 RegularGrid nearest_grid(const std::vector<double>& time) {
   const auto samples = static_cast<double>(time.size());
   const double middle = 0.5 * (samples - 1.0);
@@ -90,14 +91,15 @@ RegularGrid nearest_grid(const std::vector<double>& time) {
   return {time.front() + mean - middle * interval, interval};
 }
 
-/// The last code of a converter of `bits` bits, on the side of `code`.
+/// The code at the end of the range of a converter with `bits` bits: the lowest one if `code` is negative,
+/// otherwise the highest one.
 double last_code(int bits, double code) {
   const double half = std::ldexp(1.0, bits - 1);
   return code < 0.0 ? -half : half - 1.0;
 }
 
-/// The shortest word of at least 12 bits that contains the codes `low` to `high`. For an unknown converter,
-/// only this word length can be at the end of its range.
+/// Word length in bits, at least 12, of the smallest converter whose range contains the codes `low` to
+/// `high`. For an unknown converter, only with this word length can the codes be at the end of its range.
 int shortest_word(double low, double high) {
   int bits = 12;
   while (low < last_code(bits, -1.0) || high > last_code(bits, 1.0)) ++bits;
@@ -137,9 +139,10 @@ bool is_masked(const RawSeries& series, std::size_t k) {
   return !series.excluded.empty() && (series.excluded[k] || series.excluded[k - 1]);
 }
 
-/// Steps and torque in the 10 samples to both sides of a step of the angle.
+/// Steps of the angle and of the torque in the 10 samples on both sides of a step of the angle.
 struct Surroundings {
-  double longest_step{0.0};  ///< Longest step of the angle below a limit, in its unit.
+  /// Longest step of the angle that is shorter than a limit, in the unit of the angle.
+  double longest_step{0.0};
   double torque_range{0.0};
 };
 
@@ -159,7 +162,8 @@ Surroundings surroundings_of(const RawSeries& series, std::size_t k, double limi
   return about;
 }
 
-/// Refuses an angle that continues and returns while the torque stays at its extreme.
+/// Throws a Failure if the angle continues and returns during a hold while the torque stays at its extreme:
+/// the torque was clipped.
 void check_flat_top(const RawSeries& series, const TestRecord& record, const TorqueHold& hold) {
   const double sign = hold.torque > 0.0 ? 1.0 : -1.0;
   const double noticeable = std::max(record.counted ? min_counts : 0.0, 0.01 * travel(record));

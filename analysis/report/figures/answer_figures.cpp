@@ -17,7 +17,7 @@ using nlohmann::ordered_json;
 
 constexpr std::size_t max_bars = 60;
 
-/// A measure at a point.
+/// The comparison of one measure (a success rate or a time, say) at one design point.
 struct ComparedMeasure {
   const comparison::PointComparison* point{nullptr};
   const comparison::Judgement* measure{nullptr};
@@ -37,7 +37,8 @@ std::vector<ComparedMeasure> worst_first(const comparison::StudyComparison& comp
   return all;
 }
 
-/// Changes of all measures, as multiples of their margins.
+/// Figure of the changes of all measures between two studies, each as a multiple of the margin that a change
+/// must not exceed.
 Figure margins_figure(const comparison::StudyComparison& comparison,
                       const std::vector<ComparedMeasure>& measures) {
   FigureData data{"effects",
@@ -72,7 +73,8 @@ Figure margins_figure(const comparison::StudyComparison& comparison,
   return figure_of("margins", "margins", "All measures against their margins", caption, {std::move(data)});
 }
 
-/// Figure of the change at each point of the success rate, or of the proportion of moves that meet the goal.
+/// Figure of the change of the success rate, or of the proportion of moves that meet the goal, at each design
+/// point.
 Figure success_change(const comparison::StudyComparison& comparison,
                       const std::vector<ComparedMeasure>& measures) {
   const bool by_goal = !comparison.goals.empty();
@@ -127,10 +129,11 @@ namespace {
 
 constexpr std::size_t max_factors = 12;
 
-/// Sensitivities of one output at one point, in each setting.
+/// Sensitivities of one output at one design point, in each setting (condition at an age).
 struct OutputAtPoint {
   std::vector<const sensitivity::PointSensitivity*> points;
-  std::vector<const sensitivity::OutputSensitivity*> outputs;  ///< [point] Sensitivity of the output.
+  /// [setting] Sensitivity of the output at the point.
+  std::vector<const sensitivity::OutputSensitivity*> outputs;
 };
 
 std::vector<OutputAtPoint> outputs_at_points(const sensitivity::StudySensitivity& study) {
@@ -162,14 +165,14 @@ std::string label_text(std::string name) {
   return name;
 }
 
-/// The label of a point without its setting.
+/// The label of a design point, without the name of the setting (condition at an age).
 std::string label_of_point(const sensitivity::PointSensitivity& point) {
   const std::string under = point.setting ? ", " + *point.setting : "";
   return point.label.ends_with(under) ? point.label.substr(0, point.label.size() - under.size())
                                       : point.label;
 }
 
-/// The names of the settings, in order.
+/// The names of the settings (conditions at ages) of the study, in order.
 std::vector<std::string> settings_of(const sensitivity::StudySensitivity& study) {
   std::vector<std::string> names;
   for (const sensitivity::PointSensitivity& point : study.points) {

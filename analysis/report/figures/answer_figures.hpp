@@ -20,25 +20,26 @@ struct Identification;
 struct RecordSummary;
 }  // namespace zerocount::fit
 
-/// Answers with their figures, for pages.
+/// Answers of other commands, completed with figures for an HTML page.
 namespace zerocount::report {
 
-/// comparison::comparison_answer() with figures of all measures against their margins, and of the success
-/// rate or the goal of each point.
+/// comparison::comparison_answer() with a figure of the changes of all measures relative to their margins,
+/// and one of the success rate or the goal at each design point.
 document::AnswerDescription<comparison::StudyComparison> comparison_answer();
 
-/// sensitivity::sensitivity_answer() with a figure of the Sobol' indices of each output.
+/// sensitivity::sensitivity_answer() with a figure of the Sobol' indices for each output.
 document::AnswerDescription<sensitivity::StudySensitivity> sensitivity_answer();
 
-/// history::history_answer() with a figure of each series, at most `max_figures`, those that changed first.
-/// The caption of the first figure says how many others there are.
+/// history::history_answer() with a figure for each series of results over time, at most `max_figures`.
+/// Series that changed come first. The caption of the first figure says how many series have no figure.
 document::AnswerDescription<history::History> history_answer(std::size_t max_figures = 48);
 
-/// The torque of a designed experiment, and the readings that the median machine would give.
+/// Figure of a designed experiment: its torque over time, and the encoder readings that the median machine
+/// would give.
 document::Figure experiment_figure(const experiment_design::ExperimentDesign& design);
 
-/// A figure for each record: the readings and the fit over time, the residuals over time with the band of
-/// rounding and noise, and the torque over both angles.
+/// Figures for each measured record of an identification: the readings and the fit over time, the residuals
+/// over time with the band of rounding and noise, and the torque over the measured and the fitted angle.
 std::vector<Figure> identification_figures(const fit::Identification& identification);
 
 /// The samples of a record that a figure needs. The record is divided into at most `buckets` groups of equal

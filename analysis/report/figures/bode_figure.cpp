@@ -21,7 +21,7 @@ using nlohmann::ordered_json;
 
 constexpr std::int64_t shown_trial = 0;
 
-/// A loop of the trial with its margins and its curve.
+/// An open control loop of the trial, with its stability margins and its Bode curve.
 struct LoopCurve {
   std::string label;
   theory::StabilityMargins margins;
@@ -40,7 +40,7 @@ double decibels(double factor) {
   return 20.0 * std::log10(factor);
 }
 
-/// "16.2 dB", with a minus sign as the axes have it; "–" for NaN.
+/// A number with its unit as text: "16.2 dB", with a true minus sign as on the axes; "–" for NaN.
 std::string value_with_unit(double value, const char* unit) {
   if (std::isnan(value)) return "–";
   return fmt::format("{}{:.3g}{}", value < 0.0 ? "−" : "", std::abs(value), unit);
@@ -58,7 +58,7 @@ const char* stability_label(theory::LoopStability stability) {
   return ", unstable";
 }
 
-/// "at k1: 16.2 dB, 49.4°".
+/// Label of a loop in the legend, with its margins: "at k1: 16.2 dB, 49.4°".
 std::string label_of_loop(const theory::TrialLoop& loop, const theory::StabilityMargins& margins,
                           double hold) {
   return fmt::format("{}: {}, {}{}", loop.name,
@@ -68,8 +68,8 @@ std::string label_of_loop(const theory::TrialLoop& loop, const theory::Stability
                      stability_label(theory::stability_of(loop.loop, hold)));
 }
 
-/// The curves of the loops. They begin a decade below the lowest crossover, or below the lowest natural
-/// frequency on a spring if that is lower. A loop without gain has no curve.
+/// The Bode curves of the loops. They begin a decade below the lowest crossover, or below the lowest natural
+/// frequency of the inertia on a contact spring if that is lower. A loop without gain has no curve.
 std::vector<LoopCurve> loop_curves(const trial::TrialParameters& parameters) {
   double corner = 0.5 * parameters.controller.sample_rate;
   const std::vector<theory::TrialLoop> loops = theory::trial_loops(parameters);
@@ -110,8 +110,9 @@ const theory::BodePoint& point_at(const LoopCurve& curve, double frequency) {
                            });
 }
 
-/// The points of the margins on the curves. A line leads from each to where |L| = 1 (`unity`) and to where L
-/// is negative (`reversal`).
+/// Dataset of the points on the Bode curves at which the stability margins are read. In the figure, a line
+/// leads from each point to the level from which the margin counts: 0 dB (`unity`), or the phase at which L
+/// is real and negative (`reversal`).
 FigureData margin_data(const std::vector<LoopCurve>& curves) {
   FigureData data{"margins",
                   {{"label", "loop", ""},
@@ -140,7 +141,8 @@ FigureData margin_data(const std::vector<LoopCurve>& curves) {
   return data;
 }
 
-/// The phase −180°, and the phases that differ from it by whole turns within the range of the curves.
+/// Dataset of the phases at which the open loop L is real and negative: −180°, and within the range of the
+/// curves the phases that differ from it by multiples of 360°.
 FigureData reversal_levels(const theory::Range& phases) {
   FigureData data{"levels", {{"level", "", "°"}}};
   data.rows.push_back(ordered_json::array({-180}));
@@ -151,8 +153,8 @@ FigureData reversal_levels(const theory::Range& phases) {
   return data;
 }
 
-/// Range of the shown magnitudes, dB. It is limited because a deep antiresonance or an undamped resonance
-/// would flatten the rest.
+/// Range of the magnitudes that the Bode figure shows, dB. It is limited because a deep antiresonance or an
+/// undamped resonance would flatten the rest.
 theory::Range shown_magnitudes(const std::vector<LoopCurve>& curves) {
   constexpr double largest = 80.0;
   constexpr double step = 20.0;
@@ -165,7 +167,8 @@ theory::Range shown_magnitudes(const std::vector<LoopCurve>& curves) {
           step * std::ceil(std::min(all.high, largest) / step)};
 }
 
-/// "at k1 of 110 N m/rad, …, while sliding none".
+/// The stiffnesses with which the friction contact holds the axis, for the caption: "at k1 of 110 N m/rad, …,
+/// while sliding none".
 std::string springs_text(const trial::TrialParameters& parameters, std::string_view unit) {
   std::string text;
   for (const theory::TrialLoop& loop : theory::trial_loops(parameters)) {

@@ -16,14 +16,15 @@ using nlohmann::ordered_json;
 constexpr std::int64_t max_moves = 50;
 constexpr std::int64_t max_jerks_of_a_row = 120;
 
-/// A move with jerks.
+/// A move with jerks (excursions of the position error from 0 after arrival), for a figure.
 struct JerkingMove {
   std::int64_t row{0};
   std::int64_t move{0};
   trial::MoveOutcome outcome;
 };
 
-/// The shown moves with jerks of a point.
+/// The moves with jerks (excursions of the position error from 0 after arrival) at a design point that
+/// figures show.
 struct ShownMoves {
   std::int64_t all{0};
   std::vector<JerkingMove> shown;
@@ -69,7 +70,8 @@ std::int64_t add_jerks(FigureData& data, const reading::AllTrialsFile& file, con
   return left_out;
 }
 
-/// The cause of the jerks that their directions suggest.
+/// Sentence on the cause of the jerks (excursions of the position error from 0 after arrival) that their
+/// directions suggest.
 std::string direction_sentence(const statistics::ClusteredProportion& agreement) {
   const std::string proportion = text::percentage(agreement.hits, agreement.events);
   if (agreement.hits == agreement.events)
@@ -82,7 +84,8 @@ std::string direction_sentence(const statistics::ClusteredProportion& agreement)
       proportion, agreement.events);
 }
 
-/// Whether the intervals of a move grow, and whether the rate falls: only both show that jerks become rarer.
+/// Sentence on whether the intervals between the jerks of a move grow, and whether the rate of jerks falls:
+/// only both together show that jerks become rarer.
 std::string trend_sentence(const jerks::JerkStatistics& jerks) {
   if (jerks.slowing.moves == 0) return "";
   constexpr double level = 0.05;

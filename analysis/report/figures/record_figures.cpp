@@ -16,11 +16,11 @@ using fit::Identification;
 using fit::RecordSummary;
 using nlohmann::ordered_json;
 
-/// 95 % of a normal distribution lie within so many standard deviations.
+/// Half-width of the interval with 95 % of a normal distribution, in standard deviations.
 constexpr double normal_95 = 1.96;
 
-/// Largest number of groups of samples per record: about two pixels each. Many records share `all_buckets`,
-/// so that the page stays below 5 MB.
+/// Largest number of groups of samples drawn per record: about two pixels each. If there are many records,
+/// they share `all_buckets`, so that the page stays below 5 MB.
 constexpr std::size_t max_buckets = 400;
 constexpr std::size_t min_buckets = 20;
 constexpr std::size_t all_buckets = 6000;
@@ -28,7 +28,7 @@ constexpr std::size_t all_buckets = 6000;
 /// The unit in which a figure shows the readings of a record.
 struct ShownUnit {
   std::string name;
-  double size{1.0};  ///< Factor from the record's unit to this unit.
+  double size{1.0};  ///< Factor from the record's unit of readings to this unit.
 };
 
 ShownUnit shown_unit(const RecordSummary& record) {
@@ -37,7 +37,8 @@ ShownUnit shown_unit(const RecordSummary& record) {
   return {"µ" + parameters::unit_on(record.axis, "rad"), record.unit / micro};
 }
 
-/// Range of the fit and of the readings without the masked ones, which may be far off.
+/// Range of the angles in a figure: of the fitted values and of the readings, without the masked readings,
+/// which may be far off.
 theory::Range angle_range(const FittedRecord& record, const ShownUnit& unit) {
   theory::Range range;
   for (std::size_t k = 0; k < record.time.size(); ++k) {
@@ -66,7 +67,7 @@ FigureData samples_data(const FittedRecord& record, const ShownUnit& unit, param
         [&](std::size_t k) { return used(k) ? datum(unit.size * residual(record, k)) : ordered_json(); }}});
 }
 
-/// The masked intervals, each up to the next sample that is used.
+/// Dataset of the time intervals with masked (unused) readings, each up to the next sample that is used.
 FigureData masks_data(const FittedRecord& record) {
   FigureData data{"masks", {{"from", "", "s"}, {"to", "", "s"}}};
   const std::size_t samples = record.time.size();

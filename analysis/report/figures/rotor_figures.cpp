@@ -23,7 +23,8 @@ struct EndOnRotor {
   std::int64_t trial{0};  ///< Index of the trial within the point.
   double angle{0.0};      ///< Final position, rad or m, in [0, period).
   trial::Outcome outcome{trial::Outcome::zero_count};
-  bool met{true};  ///< True if the trial meets the question.
+  /// True if the trial meets the question by which the study is judged: its goal or, without a goal, success.
+  bool met{true};
 };
 
 double on_rotor(double angle, double period) {
@@ -31,7 +32,7 @@ double on_rotor(double angle, double period) {
   return within < 0.0 ? within + period : within;
 }
 
-/// The input column with the start position of each trial.
+/// Index of the input column with the start position of each trial; nothing if there is none.
 std::optional<std::size_t> position_column(const reading::AllTrialsFile& file) {
   const std::vector<study::InputColumn>& inputs = file.input_columns();
   for (std::size_t i = 0; i < inputs.size(); ++i) {
@@ -46,7 +47,9 @@ struct ShownTrials {
   std::optional<std::int64_t> machine{};
 };
 
-/// The trials with their final positions. A trial with a non-finite state is shown at its start position.
+/// Final positions of the shown trials. A trial that ended with a non-finite state is shown at its start
+/// position.
+/// @param column index of the input column with the start positions
 std::vector<EndOnRotor> ends_of(const ReportedStudy& reported, const ShownTrials& shown, std::size_t column) {
   const layout::RowRange rows = rows_of(reported, shown.point);
   const std::vector<double> starts = reported.file.input(column, rows);
@@ -65,7 +68,8 @@ std::vector<EndOnRotor> ends_of(const ReportedStudy& reported, const ShownTrials
   return ends;
 }
 
-/// The design point of a profile: the point in its name, otherwise the chosen point.
+/// The design point to which a stored parameter profile along the rotor belongs: the point in its name,
+/// otherwise the chosen point.
 std::int64_t point_of_profile(const ReportedStudy& reported, const std::string& profile) {
   const std::size_t at = profile.find('@');
   return at == std::string::npos ? reported.chosen.point : std::stoll(profile.substr(at + 1));
@@ -89,7 +93,8 @@ FigureData profile_data(const reading::StoredProfile& profile) {
   return data;
 }
 
-/// Rate of the trials that meet the question in equal sectors of the rotor. @param period rad or m
+/// Dataset of the proportion of trials that meet the question (goal or success) in equal sectors of the
+/// rotor. @param period length of the rotor's position range, rad or m
 FigureData sector_data(const std::vector<EndOnRotor>& ends, double period, std::size_t sectors,
                        const goal::QuestionWords& words) {
   FigureData data{"sectors",
@@ -117,7 +122,8 @@ FigureData sector_data(const std::vector<EndOnRotor>& ends, double period, std::
   return data;
 }
 
-/// The machine that meets the question least often at the point.
+/// Index of the machine with the fewest moves or trials that meet the question (goal or success) at the
+/// design point.
 std::int64_t worst_machine(const ReportedStudy& reported, std::int64_t point) {
   const std::vector<statistics::MachineMoves> machines =
       counts_of(question_of(reported), point_of(reported, point)).machines;

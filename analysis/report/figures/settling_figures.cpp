@@ -16,9 +16,11 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// Largest number of curves of a figure. With settings there is at least one curve for each.
+/// Largest number of curves of a figure. With settings (conditions at ages) there is at least one curve for
+/// each.
 constexpr std::int64_t max_curves = 6;
-constexpr std::int64_t max_steps = 160;  ///< Largest number of steps of a curve.
+/// Largest number of steps that a curve of a distribution function has.
+constexpr std::int64_t max_steps = 160;
 
 /// Half-width of the simultaneous confidence band of a distribution function: √(ln(2M/α)/2n) for n
 /// independent clusters (trials or machines) of M dependent moves each. (Dvoretzky, Kiefer and Wolfowitz 1956
@@ -32,7 +34,7 @@ double band_of(const ReportedStudy& reported, const measures::PointSummary& poin
                    (2.0 * static_cast<double>(clusters)));
 }
 
-/// The judged moves, and the times from which they are settled.
+/// Numbers of moves that a goal judges, and the times from which they are settled.
 struct SettledMoves {
   statistics::Histogram<double> times{};
   std::int64_t asked{0};
@@ -62,7 +64,8 @@ std::vector<SettledMoves> settled_by_world(const ReportedStudy& reported, std::i
   return settled;
 }
 
-/// The settling time of a move for a goal, counted from the same instant as the goal's limit.
+/// Function that gives the settling time of a move for a goal. The time counts from the same instant as the
+/// goal's time limit: the start of the move, or the end of its motion profile.
 SettlingTime time_in(const measures::CountedGoal& goal) {
   return [&goal](const trial::MoveOutcome& move) -> std::optional<double> {
     if (!measures::asks(goal, move)) return std::nullopt;
@@ -75,13 +78,14 @@ std::optional<double> arrival_time(const trial::MoveOutcome& move) {
   return move.arrived ? move.arrival_time : std::nan("");
 }
 
-/// The latest settling time, s; 0 if no move settles.
+/// The latest settling time of the moves, s; 0 if no move settles.
 double end_of(const SettledMoves& moves) {
   return moves.times.size > 0 ? statistics::largest(moves.times) : 0.0;
 }
 
-/// The distribution function of the times as at most about `most` steps {time, proportion}, from 0 to
-/// the last time.
+/// The distribution function of the settling times as steps {time in s, proportion of judged moves}, from 0
+/// to the last time.
+/// @param most approximate largest number of steps
 std::vector<std::pair<double, double>> steps_of(const SettledMoves& moves, std::int64_t most) {
   std::vector<std::pair<double, double>> steps{{0.0, 0.0}};
   std::int64_t settled = 0;
@@ -99,8 +103,9 @@ const measures::MeasureStatistics& settling_of(const ReportedStudy& reported, st
   return point_of(reported, point).of(&trial::MoveOutcome::arrival_time);
 }
 
-/// The points with arrivals; if there are too many, evenly spaced ones from the best to the worst, of which
-/// the nearest ones are replaced by the leading points.
+/// Indices of the design points with a curve: those in which moves arrive. If there are too many, evenly
+/// spaced ones from the best to the worst are taken, and the nearest of them are replaced by
+/// leading_points().
 std::vector<std::int64_t> points_with_curves(const ReportedStudy& reported) {
   const std::int64_t most =
       std::max<std::int64_t>(max_curves / std::max<std::int64_t>(std::ssize(reported.settings), 1), 1);
@@ -126,7 +131,9 @@ std::vector<std::int64_t> points_with_curves(const ReportedStudy& reported) {
   return shown;
 }
 
-/// Adds a curve with its confidence band. Both continue to the time `end`.
+/// Adds to the dataset the distribution curve of settling times with its confidence band. Both continue to
+/// the time `end`, s.
+/// @param half_width half-width of the band, a proportion of moves
 void add_curve(FigureData& data, const std::string& label, const SettledMoves& moves, double half_width,
                double end) {
   std::vector<std::pair<double, double>> steps = steps_of(moves, max_steps);
@@ -204,13 +211,14 @@ std::optional<Figure> arrival_figure(const ReportedStudy& reported) {
   return figure;
 }
 
-/// A goal or an error band in which moves settle.
+/// A goal or an error band in which moves settle, whose settling times a figure shows.
 struct SettledSubject {
   std::string name;       ///< Name of the goal, or of the band: "±1 count".
   std::string precision;  ///< Precision as text: "1 count", "10 nm".
   /// Selects the judged moves, and the band or tolerance in which they settle.
   measures::CountedGoal counted;
-  std::optional<study::Goal> claim{};  ///< Goal whose lines are drawn.
+  /// Goal whose limits of time and proportion are drawn as lines; nothing for an error band without a goal.
+  std::optional<study::Goal> claim{};
 };
 
 std::vector<SettledSubject> settled_subjects(const ReportedStudy& reported) {
@@ -229,7 +237,8 @@ std::vector<SettledSubject> settled_subjects(const ReportedStudy& reported) {
   return subjects;
 }
 
-/// Adds the curves of a subject, one for each setting; returns whether a move settles.
+/// Adds to the dataset the curves of a goal or error band, one for each setting; returns whether any move
+/// settles.
 bool add_settled(FigureData& data, const ReportedStudy& reported, const SettledSubject& subject) {
   std::vector<SettledMoves> settled;
   const std::vector<ReportedPart> parts = parts_of(reported);
@@ -250,7 +259,7 @@ bool add_settled(FigureData& data, const ReportedStudy& reported, const SettledS
   return true;
 }
 
-/// The times of the goals and their proportions of moves, as rules across the figure.
+/// Adds the goals' time limits and required proportions of moves to the figure, as straight lines across it.
 void add_goals(Figure& figure, const std::vector<SettledSubject>& subjects) {
   FigureData goals{"goals",
                    {{"within", "within", "s"}, {"moves", "proportion of moves", "1"}, {"subject", "", ""}}};
@@ -259,7 +268,7 @@ void add_goals(Figure& figure, const std::vector<SettledSubject>& subjects) {
   if (!goals.rows.empty()) figure.data.push_back(std::move(goals));
 }
 
-/// "large: ±10 nm after 30 ms in 95 % of the moves".
+/// A goal as text: "large: ±10 nm after 30 ms in 95 % of the moves".
 std::string goal_text(const SettledSubject& subject) {
   const study::TimeLimit& within = subject.claim->within;
   return fmt::format("{}{}±{} {} in {} of the moves", subject.name, subject.name.empty() ? "" : ": ",
@@ -267,7 +276,8 @@ std::string goal_text(const SettledSubject& subject) {
                      text::percent(subject.claim->moves));
 }
 
-/// A curve for each goal, or band, and setting: goals, and bands with settings, in panels of their own.
+/// Figure with a curve of settling times for each goal, or error band, and each setting (condition at an
+/// age). Goals, and bands if there are settings, have panels of their own.
 std::optional<Figure> settled_figure(const ReportedStudy& reported) {
   FigureData data{"steps",
                   {{"label", has_settings(reported) ? "condition" : "of", ""},
@@ -324,15 +334,19 @@ std::vector<Figure> distribution_figures(const ReportedStudy& reported) {
 namespace {
 
 constexpr std::size_t max_parameters = 6;
-constexpr std::size_t max_world_curves = 200;  ///< Largest number of worlds with a curve.
-constexpr std::int64_t max_world_steps = 80;   ///< Largest number of steps of a world's curve.
+/// Largest number of worlds (draws of what all machines share) that have a curve.
+constexpr std::size_t max_world_curves = 200;
+/// Largest number of steps of the distribution curve of a world.
+constexpr std::int64_t max_world_steps = 80;
 
-/// Index of the parameter in the rule; without a rule, of the first parameter.
+/// Index of the world parameter in the first condition of the rule that separates good worlds from bad ones;
+/// 0 (the first parameter) without a rule.
 std::size_t leading_input(const worlds::PointWorlds& point) {
   return point.rule ? point.rule->conditions.front().input : 0;
 }
 
-/// One curve of settled moves for each world ("horsetail").
+/// Figure with one distribution curve of settling times for each world, a draw of what all machines share and
+/// nobody knows.
 std::optional<Figure> curves_figure(const ReportedStudy& reported, const worlds::PointWorlds& point) {
   const goal::Question& question = reported.summary.question;
   if (!question.claim() && reported.study.features.bands.count == 0) return std::nullopt;
@@ -377,7 +391,8 @@ std::optional<Figure> curves_figure(const ReportedStudy& reported, const worlds:
   return figure;
 }
 
-/// The rate of each world over a parameter that differs between them.
+/// Figure of the rate (success or goal) in each world over a parameter that differs between worlds.
+/// @param input index of this parameter
 Figure rate_figure(const ReportedStudy& reported, const worlds::PointWorlds& point, std::size_t input) {
   const worlds::WorldInput& parameter =
       summary::world_inputs_of(reported.summary, reported.chosen.point)[input];

@@ -17,13 +17,15 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::int64_t max_lines = 60;  ///< Largest number of points with a line of their own.
-constexpr std::int64_t max_series = 8;  ///< Largest number of series: the number of colours.
+/// Largest number of design points that have a row or line of their own.
+constexpr std::int64_t max_lines = 60;
+constexpr std::int64_t max_series = 8;  ///< Largest number of lines in one panel: the number of colours.
 
-/// The trials that have their own row or line in a figure: for one goal and one setting.
+/// Results that have a row or line of their own in a figure: those for one goal in one setting (condition at
+/// an age).
 struct ShownLine {
   std::string goal;     ///< Name of the goal; empty unless the study has several goals.
-  std::string setting;  ///< Name of the setting; empty without settings.
+  std::string setting;  ///< Name of the setting (condition at an age); empty without settings.
   const ReportedStudy& study;
   goal::Question question;
 
@@ -42,7 +44,7 @@ struct ShownLine {
     rate.events = std::ssize(shown.goals[question.parts.front().number].sum({.world = world}).machines);
     return rate;
   }
-  /// Required proportion.
+  /// Proportion that the goal requires; null without a goal.
   ordered_json asked() const {
     if (!question.claim()) return nullptr;
     return question.claim()->machines.value_or(question.claim()->moves);
@@ -60,7 +62,7 @@ std::vector<ShownLine> shown_lines(const ReportedStudy& reported) {
   return lines;
 }
 
-/// Words for the quantities that a figure shows.
+/// Words for the quantities that a figure of success rates shows.
 struct RateWords {
   std::string rate;     ///< Rate, such as "proportion of machines that meet the goal".
   std::string hits;     ///< Counted successes, such as "machines in goal".
@@ -81,7 +83,8 @@ RateWords words_of_rate(const ReportedStudy& reported) {
   return {"proportion that the goal is about", "in goal", "of", "machines, or moves, that meet the goal"};
 }
 
-/// Label of a line: "kp=400 ★, large, loaded"; "large, loaded" if the study has one point.
+/// Label of a row or line in a figure: "kp=400 ★, large, loaded"; "large, loaded" if the study has one design
+/// point.
 /// @param with_goal whether the goals have no panels of their own
 std::string label_of_line(const ReportedStudy& reported, std::int64_t point, const ShownLine& line,
                           bool with_goal) {
@@ -119,7 +122,9 @@ std::string bounds_note(const ReportedStudy& reported, std::string_view line, st
       bounds, shown_bounds(reported));
 }
 
-/// The points by decreasing rate; evenly spaced points of that order if there are too many.
+/// Indices of the design points by decreasing rate of success; if there are too many, evenly spaced ones of
+/// that order.
+/// @param lines_of_each number of rows or lines that each point takes
 std::vector<std::int64_t> points_with_lines(const ReportedStudy& reported, std::int64_t lines_of_each) {
   std::vector<std::int64_t> order(reported.summary.points.size());
   std::iota(order.begin(), order.end(), std::int64_t{0});
@@ -139,7 +144,8 @@ std::vector<std::int64_t> points_with_lines(const ReportedStudy& reported, std::
   return shown;
 }
 
-/// A row for each point in each setting.
+/// Figure with a row for each design point in each setting (condition at an age): its success rate with
+/// bounds.
 Figure row_per_point(const ReportedStudy& reported) {
   const std::vector<ShownLine> lines = shown_lines(reported);
   const bool alone = reported.names.size() == 1;
@@ -175,13 +181,14 @@ Figure row_per_point(const ReportedStudy& reported) {
   return figure;
 }
 
-/// "controller.ki (N m/count)".
+/// Title of the axis of a swept parameter, with its unit: "controller.ki (N m/count)".
 std::string axis_title(const study::SweepAxis& axis) {
   if (axis.unit.empty() || axis.unit == "1") return axis.name;
   return fmt::format("{} ({})", axis.name, axis.unit);
 }
 
-/// Evenly spaced groups. The group nearest to that of the chosen point is replaced by it.
+/// Indices of the groups of design points to show, at most `most`, evenly spaced. The shown group nearest to
+/// that of the chosen point is replaced by it.
 std::vector<std::int64_t> groups_shown(const ReportedStudy& reported, const std::vector<PointGroup>& groups,
                                        std::int64_t most) {
   std::vector<std::int64_t> shown = statistics::spread_over(std::ssize(groups), most);
@@ -245,8 +252,8 @@ namespace {
 
 constexpr std::int64_t max_maps = 4;
 
-/// A swept number as an axis of a map. The cell of a value extends half-way to both neighbours; the first and
-/// the last cell end at their values.
+/// A swept parameter as an axis of a map with one rectangular cell for each point. A cell extends half-way to
+/// both neighbouring values; the first and the last cell end at their own values.
 struct MapAxis {
   const study::SweepAxis& axis;
   std::vector<double> values;
@@ -268,7 +275,7 @@ struct MapAxis {
   theory::PlaneAxis of_criteria() const { return {axis.name, values.front(), values.back(), by_ratio}; }
 };
 
-/// Points that differ only in two swept numbers.
+/// Map of design points that differ only in two swept numbers: one along x, one along y.
 struct MapOfPoints {
   const ReportedStudy& reported;
   const PointGroup& group;
@@ -310,7 +317,7 @@ FigureData cells_of(const MapOfPoints& map) {
   return cells;
 }
 
-/// Whether the observed rates meet every goal in every setting.
+/// Whether the observed rates at the design point meet every goal in every setting, without regard to bounds.
 bool seems_met(const ReportedStudy& reported, std::int64_t point) {
   return std::ranges::all_of(shown_lines(reported), [&](const ShownLine& line) {
     return line.rate(point).value >= line.asked().get<double>();
@@ -417,7 +424,7 @@ std::vector<Figure> stability_maps(const ReportedStudy& reported) {
 
 namespace {
 
-/// A curve over the ages.
+/// A curve of a proportion over the ages of the machines.
 struct AgeSeries {
   std::string name;
   std::optional<goal::BoundedProportion> (*of)(const summary::CellOfPoint&);

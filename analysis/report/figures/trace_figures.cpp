@@ -14,10 +14,11 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// Number of groups of samples of a trial, because several trials share the figure.
+/// Number of groups into which the samples of a trial are thinned for drawing. It is smaller than usual
+/// because several trials share the figure.
 constexpr std::int64_t buckets = 250;
 
-/// [trial] Trials of the chosen point in one setting, with their badness.
+/// Indices of trials at the chosen design point in one setting, each with the badness by which it is ranked.
 using RankedTrials = std::vector<std::pair<goal::Badness, std::int64_t>>;
 
 std::vector<RankedTrials> ranked_trials(const ReportedStudy& reported) {
@@ -33,7 +34,8 @@ std::vector<RankedTrials> ranked_trials(const ReportedStudy& reported) {
   return ranked;
 }
 
-/// "settles in the goal's band after 27.5 ms at first; 4 of 4 moves meet the goals".
+/// Course of a trial as text, for a caption: "settles in the goal's band after 27.5 ms at first; 4 of 4 moves
+/// meet the goals".
 std::string course_of(const goal::Question& question, std::span<const trial::MoveOutcome> moves) {
   const double time = settling_time(question, moves.first(1));
   const std::string_view settles = words_of(question).settles;
@@ -43,7 +45,7 @@ std::string course_of(const goal::Question& question, std::span<const trial::Mov
                      moves.size() == 1 ? "" : " at first", goal::ending_text(question, moves));
 }
 
-/// The first sample of each move, and the end of the last.
+/// Indices of the first sample of each move, and then one past the last sample of the last move.
 std::vector<std::int64_t> starts_of_moves(const trial::TrialParameters& parameters) {
   std::vector<std::int64_t> starts{0};
   for (std::size_t move = 0; move < trial::move_count(parameters); ++move)
@@ -51,17 +53,17 @@ std::vector<std::int64_t> starts_of_moves(const trial::TrialParameters& paramete
   return starts;
 }
 
-/// A mass whose response is shown.
+/// A mass (motor or load) whose position error over time is shown.
 struct ShownMass {
   /// Mass; nothing: the mass whose encoder closes the loop.
   std::optional<motion::EncoderPlace> mass{};
   /// True to show the position error (trial::PositionError), not the error of the readings.
   bool of_position{false};
-  std::vector<goal::JudgedPart> parts{};  ///< Parts of the goals that judge the mass.
+  std::vector<goal::JudgedPart> parts{};  ///< Parts of the goals that judge this mass.
 };
 
-/// The masses whose response is shown: the mass of the first goal, and the other mass if a goal or an encoder
-/// refers to it.
+/// The masses (motor, load) whose response is shown: the mass that the first goal judges, and the other mass
+/// if a goal or an encoder refers to it.
 std::vector<ShownMass> shown_masses(const goal::Question& question, const trial::TrialParameters& p) {
   using enum motion::EncoderPlace;
   const auto mass_of = [](const goal::JudgedPart& part) {
@@ -84,7 +86,7 @@ std::vector<ShownMass> shown_masses(const goal::Question& question, const trial:
   return shown;
 }
 
-/// Errors of the samples, rad.
+/// Position errors of a repeated trial, rad or m: one for each sample.
 std::vector<double> errors_of(const ReplayedTrial& replayed, const ShownMass& shown) {
   const trial::TrialParameters& p = replayed.parameters;
   const double resolution = loop::fine_resolution(p.encoder);
@@ -105,13 +107,16 @@ std::vector<double> errors_of(const ReplayedTrial& replayed, const ShownMass& sh
   return errors;
 }
 
-/// Half the width of a goal's band or tolerance, rad. A band ends halfway to the next reading.
+/// Half the width of the error band or tolerance of a goal, rad or m. A band in counts ends halfway to the
+/// next reading.
+/// @param resolution size of an encoder count
 double half_width(const std::optional<study::Goal>& goal, double resolution) {
   if (goal && goal->tolerance) return *goal->tolerance;
   return (static_cast<double>(goal ? goal->band : 0) + 0.5) * resolution;
 }
 
-/// Goals as boxes: one for each move that a goal judges, from the allowed time to the end of the move.
+/// Dataset of boxes that show the goals over time: one for each move that a goal judges, from the allowed
+/// time to the end of the move.
 FigureData boxes_of(const std::vector<goal::JudgedPart>& parts, const ReplayedTrial& replayed) {
   const trial::TrialParameters& parameters = replayed.parameters;
   FigureData data{"goals",
@@ -138,7 +143,8 @@ FigureData boxes_of(const std::vector<goal::JudgedPart>& parts, const ReplayedTr
   return data;
 }
 
-/// The scale of an error in one unit that is linear within `smallest` and logarithmic beyond.
+/// Vega-Lite scale for errors of one unit that is linear between −`smallest` and `smallest`, and logarithmic
+/// beyond.
 ordered_json error_scale(double smallest, double largest) {
   return {{"type", "symlog"}, {"constant", datum(smallest)}, {"domain", {datum(-largest), datum(largest)}}};
 }
@@ -173,7 +179,8 @@ std::vector<SampleTrial> sample_trials(const ReportedStudy& reported) {
 
 namespace {
 
-/// "trial 12, settles in the goal's band after 27.5 ms" of each shown trial.
+/// Courses of all shown trials as text, for the caption: "trial 12, settles in the goal's band after 27.5
+/// ms".
 std::string courses_of(const goal::Question& question, const std::vector<SampleTrial>& trials,
                        const std::vector<ReplayedTrial>& replayed) {
   std::string courses;
@@ -184,8 +191,8 @@ std::string courses_of(const goal::Question& question, const std::vector<SampleT
   return courses + ".";
 }
 
-/// Figure of the response of a mass.
-/// @param one_of_two whether the mass is one of two that are shown
+/// Figure of the position error of one mass (motor or load) over time, in the sample trials.
+/// @param one_of_two whether figures of both masses are shown, so that the title must name the mass
 Figure response_figure(const ReportedStudy& reported, const std::vector<SampleTrial>& trials,
                        const std::vector<ReplayedTrial>& replayed, const ShownMass& shown, bool one_of_two) {
   const goal::Question& question = question_of(reported);
@@ -266,15 +273,16 @@ namespace {
 
 constexpr const char* targets_axis = "command.targets.0";
 
-/// Whether the study can reproduce Fig. 7, which needs points with one move each that differ only in the
-/// target.
+/// Whether the study can reproduce Fig. 7 of the paper. It needs design points with one move each that differ
+/// only in the target.
 bool shows_targets(const ReportedStudy& reported) {
   const std::vector<study::SweepAxis>& axes = reported.summary.axes;
   return axes.size() == 1 && axes[0].name == targets_axis && reported.file.moves() == 1 &&
          !numeric_axes(reported, 3).empty() && axes[0].numbers.size() <= 30;
 }
 
-/// Whether the study can reproduce Fig. 8, which needs one point with one move, and jerks in most trials.
+/// Whether the study can reproduce Fig. 8 of the paper. It needs one design point with one move, and jerks in
+/// most trials.
 bool shows_jerks(const ReportedStudy& reported) {
   const measures::PointSummary& point = reported.summary.points.front();
   return reported.summary.points.size() == 1 && reported.file.moves() == 1 &&
@@ -285,7 +293,7 @@ SampleTrial first_trial(std::int64_t point) {
   return {.name = "first", .point = point};
 }
 
-/// The trial with the median number of jerks.
+/// The trial with the median number of jerks (excursions of the position error from 0 after arrival).
 SampleTrial typical_trial(const ReportedStudy& reported) {
   SampleTrial typical = first_trial(0);
   bool found = false;
@@ -332,15 +340,17 @@ Figure jerks_in_time(const ReplayedTrial& trial) {
       {data_of("samples", trial.samples, {time_column, count_column, torque_column})});
 }
 
-/// A position quantity of an open-loop trial over which the torque is drawn.
+/// A position (of rotor or contact) over which the torque of an open-loop trial is drawn, as a member of the
+/// samples and of the levels' results.
 struct LoadedPlace {
   const char* field;
   const char* title;
   double trial::SampleRecord::*of_sample;
-  double trial::MoveOutcome::*at_end;  ///< Value at the end of a torque level.
+  double trial::MoveOutcome::*at_end;  ///< Position at the end of a torque level.
 };
 
-/// The ends of the torque levels. Levels that end at the same point share a row.
+/// Dataset of the position and torque at the end of each torque level. Levels that end at the same point
+/// share a row.
 FigureData level_ends(const ReplayedTrial& trial, const LoadedPlace& place) {
   FigureData data{
       "levels", {{"levels", "levels", ""}, {place.field, place.title, "µrad"}, {"torque", "$torque", "N m"}}};
@@ -364,7 +374,7 @@ FigureData level_ends(const ReplayedTrial& trial, const LoadedPlace& place) {
   return data;
 }
 
-/// The torque over a position that it loads.
+/// Figure of the torque over a position that this torque displaces, in an open-loop trial.
 /// @param meaning sentence on what the curve shows
 Figure loading_figure(const ReplayedTrial& trial, const char* name, const char* title,
                       const LoadedPlace& place, const char* meaning) {
@@ -400,7 +410,7 @@ Figure plastic_extension(const ReplayedTrial& trial) {
       "smaller $torque of either sign adds no extension.");
 }
 
-/// Whether the contact of the first trial creeps.
+/// Whether the friction contact of the first trial creeps (goes on moving under a constant torque).
 bool creeps(const ReportedStudy& reported) {
   const trial::TrialParameters parameters = study::study_trial(reported.study, 0, 0).parameters;
   return friction::has_creep(parameters.friction.model) &&

@@ -25,7 +25,7 @@ namespace {
 
 using boost::algorithm::replace_all_copy;
 
-/// "20, 21, 20, 0 µm", or of many or drawn values their range.
+/// The targets of the moves as text: "20, 21, 20, 0 µm"; if they are many or random, their range.
 std::string moves_text(const PointValues& values) {
   constexpr std::size_t max_listed = 4;
   const study::StudyPlan& plan = *values.study().plan;
@@ -42,7 +42,8 @@ std::string moves_text(const PointValues& values) {
   return fmt::format("{}, {}", text::counted(plan.list.count, "move"), range_text(all.low, all.high, unit));
 }
 
-/// Names in axis.html that are not parameters: computed values, and an empty text for each part that is on.
+/// Values for names in the template axis.html that are not parameters: computed texts, and an empty text for
+/// each component that is switched on.
 using Facts = std::map<std::string, std::string, std::less<>>;
 
 void add(Facts& facts, const std::string& name, bool is_on) {
@@ -82,7 +83,8 @@ void add_friction(Facts& facts, const PointValues& values, friction::FrictionMod
   }
 }
 
-/// The masses of the axis, and the encoders that the loops read.
+/// Adds what the diagram says about the masses of the axis and about the encoders that the control loops
+/// read.
 void add_masses(Facts& facts, const PointValues& values, const trial::TrialParameters& p) {
   if (!motion::has_load(p.plant)) return;
   const auto name = [](motion::EncoderPlace mass) { return std::string(study::mass_text(mass)); };
@@ -138,12 +140,12 @@ std::vector<std::string> divided(std::string_view text, const char* separator) {
   return parts;
 }
 
-/// Fills axis.html, line by line:
+/// Fills the template axis.html with the values of a study, line by line:
 ///
 ///     {NAME}             the value of the parameter, over all trials and settings, or the fact
-///     {NAME>0}, {NAME?}  likewise, where the parameter can be above 0; where it is not the word "none"
-///     {if NAME}          nothing, where this value would be shown; {unless NAME} where it would not
-///     {if NAME=a,b}      nothing, where it is one of these words
+///     {NAME>0}, {NAME?}  the same, only if the value can be above 0; only if it is not the word "none"
+///     {if NAME}          no text: keeps the part only if NAME has a value; {unless NAME} only if it has none
+///     {if NAME=a,b}      no text: keeps the part only if the value is one of these words
 ///     #                  0, 1, …: lines that follow each other, for each element of a list
 ///     head | a | b       a part that cannot be filled is left out; a head that ends with a colon needs one
 ///     ~                  a space without a line break
@@ -184,7 +186,7 @@ class AxisTemplate {
     return (text->starts_with('<') ? *text : fmt::format("<span>{}</span>", *text)) + "\n";
   }
 
-  /// The part with its names replaced; nothing where one has no value.
+  /// The pattern with its names replaced by their values; nothing if one of the names has no value.
   std::optional<std::string> part(std::string_view pattern) const {
     std::string text;
     for (std::size_t open = pattern.find('{'); open != std::string_view::npos; open = pattern.find('{')) {

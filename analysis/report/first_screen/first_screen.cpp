@@ -24,15 +24,16 @@ using rules::ValueSource;
 using summary::CellOfPoint;
 using summary::MoveBehaviour;
 
-/// The parameter in the section tune; null where tune does not change it.
+/// The parameter as the manifest's section `tune` lists it, with the range to search; null if `tune` does not
+/// change it.
 const study::FreeParameter* free_parameter(const study::Study& study, std::string_view name) {
   if (!study.tuning) return nullptr;
   const auto found = std::ranges::find(study.tuning->free, name, &study::FreeParameter::name);
   return found == study.tuning->free.end() ? nullptr : &*found;
 }
 
-/// Whether the value is chosen by the designer, not a property of the axis: gains and blocks of the
-/// controller, and what tune may change.
+/// Whether the parameter is chosen by the designer, rather than a property of the axis: gains and function
+/// blocks of the controller, and what tune may change.
 bool is_chosen(const study::Study& study, std::size_t slot) {
   const std::string_view name = study.plan->table.rows[slot].name;
   if (free_parameter(study, name) != nullptr) return true;
@@ -40,20 +41,21 @@ bool is_chosen(const study::Study& study, std::size_t slot) {
          name != parameter::controller::jitter && name != parameter::controller::missed;
 }
 
-/// "default", or the range in which tune seeks the value.
+/// Note on a value that the designer chooses, HTML: "default", or the range in which `tune` searches for it.
 std::string note_of(const study::Study& study, const rules::SourcedValue& value) {
   const study::FreeParameter* const free = free_parameter(study, study.plan->table.rows[value.slot].name);
   if (free != nullptr) return range_text(free->low, free->high, "");
   return value.source == rules::ValueSource::assumed ? "default" : "";
 }
 
-/// "kp" for "controller.kp".
+/// The last part of a dotted parameter path: "kp" for "controller.kp".
 std::string short_name(std::string_view name) {
   constexpr std::string_view section = "controller.";
   return std::string(name.starts_with(section) ? name.substr(section.size()) : name);
 }
 
-/// "11.3 … 11.5 dB" on one line; "–" where no trial has one.
+/// A range of stability margins as text: "11.3 … 11.5 dB", without line breaks; "–" if no trial has this
+/// margin.
 std::string margin_text(const theory::Range& range, std::string_view unit) {
   if (range.empty()) return "–";
   const auto number = [](double value) { return fmt::format("{:.3g}", value); };
@@ -62,8 +64,8 @@ std::string margin_text(const theory::Range& range, std::string_view unit) {
   return (low == high ? low : low + "\u00a0…\u00a0" + high) + std::string(unit);
 }
 
-/// The values at a design point that are chosen, all of them: those that the manifest gives and the defaults
-/// that act; with the range in which tune seeks them.
+/// HTML of all values at a design point that the designer chooses: those that the manifest gives and the
+/// defaults in effect, with the range in which `tune` searches for them.
 std::string gains_html(const study::Study& study, std::int64_t point) {
   const PointValues values(study, point);
   document::TableBlock table{
@@ -78,8 +80,8 @@ std::string gains_html(const study::Study& study, std::int64_t point) {
   return document::html(table);
 }
 
-/// The margins of the linear loops at a design point in each setting, as `check` prints them; empty
-/// where no loop is linear.
+/// HTML of the stability margins of the linear loops at a design point in each setting (condition at an age),
+/// as the command `check` prints them; empty where no loop is linear.
 std::string loops_html(const study::Study& study, std::int64_t point) {
   if (theory::has_no_linear_loop(study::study_trial(study, point, 0).parameters)) return "";
   const bool has_settings = !study.settings.empty();
@@ -103,8 +105,9 @@ std::string loops_html(const study::Study& study, std::int64_t point) {
   return document::html(table);
 }
 
-/// "plant.inertia 3.2 … 4.6 kg", with how often a drawn value is drawn. The section is left out after another
-/// value of it. @param section of the value before
+/// A parameter with its value as HTML: "plant.inertia 3.2 … 4.6 kg", and how often it is drawn if it is
+/// random. The section ("plant.") is omitted if the preceding value has the same one.
+/// @param section section of the preceding value; updated
 std::string value_html(const PointValues& values, std::size_t slot, std::string& section) {
   std::string name(values.study().plan->table.rows[slot].name);
   const std::size_t key = name.rfind('.') + 1;
@@ -115,7 +118,8 @@ std::string value_html(const PointValues& values, std::size_t slot, std::string&
                      document::markup(values.text(slot)), drawn.empty() ? "" : ", " + drawn);
 }
 
-/// A source and what comes from it. @param items HTML; without any there is no row
+/// HTML row with a source of assumptions and the values that come from it. @param items values as HTML; if
+/// there are none, the row is empty
 std::string source_html(const std::string& source, const std::vector<std::string>& items) {
   if (items.empty()) return "";
   std::string html = fmt::format("<tr><th>{}</th><td>", document::markup(source));
@@ -159,7 +163,7 @@ std::string assumptions_html(const study::Study& study, std::int64_t point) {
          source_html("assumed away", absent(study, study::PremiseState::assumed)) + "</tbody></table>\n";
 }
 
-/// "true overshoot ≤ 1 µm".
+/// A limit of a goal as text: "true overshoot ≤ 1 µm".
 std::string limit_text(const study::GoalLimit& limit, const study::Study& study) {
   std::string words = limit.measure;
   std::ranges::replace(words, '_', ' ');
@@ -173,7 +177,8 @@ std::string limit_text(const study::GoalLimit& limit, const study::Study& study)
   return fmt::format("{} ≤ {}", words, quantity_text(limit.largest, unit));
 }
 
-/// A row: a goal in a setting, or moves that no goal asks.
+/// A row of the table of requirements: a goal in a setting (condition at an age), or the moves that no goal
+/// judges.
 struct RequirementRow {
   std::optional<CellOfPoint> claim{};
   std::optional<MoveBehaviour> moves{};
@@ -216,10 +221,10 @@ std::string peak_cell(const MoveBehaviour& moves, std::string_view unit) {
                      100.0 * moves.peak_of_range.max);
 }
 
-/// The head of a column and what a row has there, HTML.
+/// The head of a table column, and the content of one row in it, both HTML.
 using Cell = std::pair<std::string, std::string>;
 
-/// The columns that all rows have.
+/// The cells of the columns that all rows of the requirements table have.
 std::vector<Cell> cells_of(const RequirementRow& row, const ReportedStudy& reported) {
   const parameters::AxisKind axis = reported.study.units.axis;
   std::vector<Cell> cells;
@@ -249,7 +254,8 @@ std::vector<Cell> cells_of(const RequirementRow& row, const ReportedStudy& repor
   return cells;
 }
 
-/// The rows of the goal with this number; the number of goals for moves that none asks.
+/// The table rows of the goal `number`, one for each setting; if `number` is the number of goals, the rows
+/// for moves that no goal judges.
 std::vector<RequirementRow> rows_of_goal(std::size_t number, const ReportedStudy& reported,
                                          const std::vector<CellOfPoint>& claims,
                                          const std::vector<MoveBehaviour>& behaviour) {
@@ -267,7 +273,7 @@ std::vector<RequirementRow> rows_of_goal(std::size_t number, const ReportedStudy
   return rows;
 }
 
-/// Head of the rows below it: their goal.
+/// Title above the table rows of a goal: the requirement in words.
 std::string title_of(std::size_t number, const ReportedStudy& reported) {
   const std::vector<study::Goal>& goals = reported.study.goals;
   if (number < goals.size()) {
@@ -278,7 +284,7 @@ std::string title_of(std::size_t number, const ReportedStudy& reported) {
   return goals.empty() ? "No goal is stated: what the moves do" : "Moves that no goal is about";
 }
 
-/// A part with its head; empty without content.
+/// HTML of a part of the first screen with its heading; empty if it has no content.
 std::string part_html(const char* head, const std::string& content) {
   return content.empty() ? "" : fmt::format("<div><h3>{}</h3>\n{}</div>\n", head, content);
 }
@@ -294,7 +300,7 @@ std::vector<summary::CellOfPoint> claims_of_chosen(const ReportedStudy& reported
                                   static_cast<std::size_t>(reported.chosen.chosen_from));
 }
 
-/// The class of the headline: "good" where all claims are met, "bad" where one is missed, else none.
+/// CSS class of the headline: "good" if all claims are met, "bad" if one is missed, otherwise empty.
 std::string_view style_of(const std::vector<summary::CellOfPoint>& claims) {
   const auto has = [&](goal::Status status) {
     return std::ranges::find(claims, status, &summary::CellOfPoint::status) != claims.end();

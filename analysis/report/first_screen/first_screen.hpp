@@ -25,7 +25,8 @@ std::string quantity_text(double value, std::string_view unit);
 std::string range_text(double low, double high, std::string_view unit);
 std::string list_text(std::span<const double> values, std::string_view unit);
 
-/// The values of parameters at a design point, over all trials and settings.
+/// The values of parameters at a design point, over all trials and all settings (conditions at ages), as
+/// ranges and text.
 class PointValues {
  public:
   PointValues(const study::Study& study, std::int64_t point) : study_(study), point_(point) {}
@@ -36,43 +37,45 @@ class PointValues {
   /// The range of the parameter with this dotted path, in its unit in the manifest.
   study::ParameterRange limits(std::string_view name) const;
   study::ParameterRange limits(std::size_t slot) const;
-  /// Whether the value can be above 0 in some trial.
+  /// Whether the parameter is above 0 in some trial.
   bool can_be_positive(std::string_view name) const { return limits(name).high > 0.0; }
 
-  /// Whether the value is the word "none" in all trials.
+  /// Whether the parameter is the word "none" in all trials.
   bool is_none(std::string_view name) const;
 
   /// Whether the study has a parameter or a list with this dotted path.
   bool has(std::string_view name) const;
 
-  /// The value as text: "3.2 … 4.6 kg", "presliding", "none"; for a distribution without ends "about 130 N
-  /// m/rad"; for a list its values.
+  /// The value of the parameter as text: "3.2 … 4.6 kg", "presliding", "none"; for a distribution without
+  /// limits "about 130 N m/rad"; for a list its values.
   std::string text(std::string_view name) const;
   std::string text(std::size_t slot) const;
 
-  /// Unit of sampling of a drawn value: "per machine", "per trial", …; empty if the value is not drawn.
+  /// How often a random value is drawn: "per machine", "per trial", …; empty if the value is not random.
   std::string draw_text(std::size_t slot) const;
 
  private:
   std::size_t slot_of(std::string_view name) const;
-  std::vector<double> typical_values(std::size_t slot) const;  ///< [setting] Typical value.
+  /// [setting] Typical value of the parameter, in its unit, in each setting (condition at an age).
+  std::vector<double> typical_values(std::size_t slot) const;
 
   const study::Study& study_;
   std::int64_t point_;
 };
 
-/// The axis of a design point as an HTML diagram, made from axis.html. Its blocks contain the parts that are
-/// on in some trial in some setting. page.css joins them by arrows, from left to right on wide screens
-/// and paper, from top to bottom on phones.
+/// The axis at a design point as a block diagram in HTML, made from axis.html. Its blocks contain the
+/// components that are switched on in some trial in some setting (condition at an age). page.css joins them
+/// by arrows, from left to right on wide screens and paper, from top to bottom on phones.
 std::string diagram_html(const study::Study& study, std::int64_t point);
 
-/// A goal in SI units: "±10 nm for good after 30 ms; true overshoot ≤ 1 µm; in 95 % of moves 0, 3 of 95 % of
-/// the machines, with 95 % confidence".
+/// A goal in words, in SI units: "±10 nm for good after 30 ms; true overshoot ≤ 1 µm; in 95 % of moves 0, 3
+/// of 95 % of the machines, with 95 % confidence".
 std::string requirement_text(const study::Goal& goal, const study::Study& study);
 
-/// Table of each goal in each setting at the chosen point: the verdict with bounds, and overshoot, peak
-/// torque and saturation of the moves. Without a goal only the latter.
-/// @param claims by goal and setting
+/// HTML table of each goal in each setting (condition at an age) at the chosen design point: the verdict with
+/// bounds, and overshoot, peak torque and saturation of the moves. Without a goal it has only overshoot,
+/// torque and saturation.
+/// @param claims verdicts by goal, then by setting
 std::string requirements_html(const ReportedStudy& reported, const std::vector<summary::CellOfPoint>& claims);
 
 /// Parts of the first screen that the results file does not contain. A part that is not given is made from
@@ -80,15 +83,16 @@ std::string requirements_html(const ReportedStudy& reported, const std::vector<s
 struct FirstScreenParts {
   std::string warnings{};  ///< Warnings as HTML, placed above everything else.
   std::string headline{};
-  std::vector<summary::CellOfPoint> claims{};  ///< Claims by goal, then by setting.
-  std::string margins{};                       ///< Margins as HTML, in place of the loops of `check`.
+  std::vector<summary::CellOfPoint> claims{};  ///< Verdicts on the goals by goal, then by setting.
+  /// Stability margins as HTML, shown instead of the margins that `check` prints; empty: those.
+  std::string margins{};
 };
 
 /// The first screen of a page: the verdict, the axis as a diagram, the requirements with their verdicts, the
 /// gains with the margins of the loops, and the assumptions.
 PageSection first_screen(const ReportedStudy& reported, const FirstScreenParts& parts);
 
-/// The axis and the assumptions of a study without results.
+/// HTML of the axis diagram and the assumptions, for a study that has no results yet.
 std::string axis_html(const study::Study& study, std::int64_t point);
 
 }  // namespace zerocount::report

@@ -27,7 +27,8 @@ std::string_view level_text(study::DrawLevel level) {
   return "per contact";
 }
 
-/// The text with non-breaking spaces, so that lines break only after a comma and beside "…".
+/// The text of a list of values with non-breaking spaces, so that lines break only after a comma and beside
+/// "…".
 std::string unbroken(std::string text) {
   constexpr std::string_view no_break_space = "\u00a0", to = "…";
   const auto may_break = [&](std::size_t at) {

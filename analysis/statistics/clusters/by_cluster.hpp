@@ -14,7 +14,7 @@ namespace zerocount::statistics {
 template <class Sum = std::int64_t>
 class ByCluster {
  public:
-  /// The sum of a cluster, as a reference to add to.
+  /// The sum of the cluster with this index, as a reference to add to.
   Sum& sum_of(std::int64_t cluster) {
     hold(cluster, cluster + 1);
     return sums_[at(cluster)];
@@ -32,12 +32,12 @@ class ByCluster {
   Sum operator[](std::int64_t cluster) const {
     return cluster < first_ || cluster >= end() ? Sum{} : sums_[at(cluster)];
   }
-  /// The cluster after the last one that was added to; 0 without any.
+  /// One past the highest index of a cluster that was added to; 0 if none was.
   std::int64_t end() const { return first_ + std::ssize(sums_); }
   std::int64_t first() const { return first_; }
-  /// The sums of the clusters from first() on.
+  /// [cluster − first()] The sums of the clusters from first() on.
   const std::vector<Sum>& sums() const { return sums_; }
-  /// The sums of the clusters from 0 on.
+  /// [cluster] The sums of all clusters from index 0 on, zero for those before first().
   std::vector<Sum> from_zero() const {
     std::vector<Sum> sums(static_cast<std::size_t>(first_));
     sums.insert(sums.end(), sums_.begin(), sums_.end());

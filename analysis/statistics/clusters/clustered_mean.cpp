@@ -17,7 +17,8 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// ClusterTotals as doubles.
+/// [cluster] Sum and number of the values of each cluster as doubles; clusters that nothing was added to are
+/// left out.
 struct Clusters {
   std::vector<double> sums;
   std::vector<double> numbers;
@@ -37,7 +38,9 @@ struct Estimate {
   double error{0.0};
 };
 
-/// @param drawn [cluster] number of times that the resample contains the cluster, its weight
+/// Mean of a resample of the clusters, with its standard error by linearisation.
+/// @param drawn [cluster] number of times that the resample contains the cluster @param clusters number m of
+/// clusters
 Estimate estimate_of(const Clusters& totals, const std::vector<std::int32_t>& drawn, double clusters) {
   double sum = 0.0, number = 0.0, sum_sum = 0.0, sum_number = 0.0, number_number = 0.0;
   for (std::size_t i = 0; i < drawn.size(); ++i) {
@@ -58,7 +61,9 @@ Estimate estimate_of(const Clusters& totals, const std::vector<std::int32_t>& dr
   return {mean, std::sqrt(clusters / (clusters - 1.0) * squares) / number};
 }
 
-/// (θ* − θ)/e*; infinite for a resample without spread, NaN for one without values.
+/// Studentised deviation (θ* − θ)/e* of a resample: its mean minus the sample's mean, over its standard
+/// error. Infinite for a resample without spread, NaN for one without values.
+/// @param mean the sample's mean θ @param drawn [cluster] number of times in the resample
 double studentised(const Clusters& totals, double mean, const std::vector<std::int32_t>& drawn) {
   const Estimate estimate = estimate_of(totals, drawn, static_cast<double>(drawn.size()));
   const double difference = estimate.mean - mean;
@@ -66,14 +71,15 @@ double studentised(const Clusters& totals, double mean, const std::vector<std::i
   return difference > 0.0 ? infinite : -infinite;
 }
 
-/// Quantiles of (θ* − θ)/e*.
+/// Lower and upper quantile of the studentised deviation (θ* − θ)/e* of resamples, see studentised().
 struct Tails {
   double low{unknown};
   double high{unknown};
 };
 
-/// The distribution of (θ* − θ)/e* over all samples of m clusters drawn with replacement. A sample has the
-/// probability m!/(Π kᵢ!·mᵐ), where kᵢ is the number of times that cluster i is drawn.
+/// The exact distribution of the studentised deviation (θ* − θ)/e* over all samples of m clusters drawn with
+/// replacement. A sample has the probability m!/(Π kᵢ!·mᵐ), where kᵢ is the number of times that cluster i is
+/// drawn.
 class EverySample {
  public:
   EverySample(const Clusters& totals, double mean)
@@ -82,7 +88,8 @@ class EverySample {
     std::sort(values_.begin(), values_.end());
   }
 
-  /// The smallest value below or at which the probability is at least `tail`, and 1 − `tail`.
+  /// The quantiles of the deviation: the smallest values at or below which the probability is at least
+  /// `tail`, and at least 1 − `tail`.
   Tails tails(double tail) const {
     constexpr double rounding = 1e-12;
     double all = 0.0;
@@ -98,7 +105,8 @@ class EverySample {
   }
 
  private:
-  /// @param left to be drawn among the clusters from this one on @param weight 1/Π kᵢ! of those before
+  /// Enumerates the ways to draw the remaining clusters. @param cluster first cluster that may still be drawn
+  /// @param left number of draws left @param weight 1/Π kᵢ! of the clusters before
   void draw(std::size_t cluster, std::int32_t left, double weight) {
     const bool is_last = cluster + 1 == drawn_.size();
     for (std::int32_t times = is_last ? left : 0; times <= left; ++times) {
@@ -115,10 +123,12 @@ class EverySample {
   const Clusters& totals_;
   double mean_;
   std::vector<std::int32_t> drawn_;
-  std::vector<std::pair<double, double>> values_;  ///< Values of (θ* − θ)/e* with their weights.
+  /// Values of (θ* − θ)/e* of all samples with their probabilities (not normalised).
+  std::vector<std::pair<double, double>> values_;
 };
 
-/// (θ* − θ)/e* of every resample, sorted.
+/// Studentised deviations (θ* − θ)/e* of random resamples of the clusters, sorted.
+/// @param mean the sample's mean θ @param resamples their number
 std::vector<double> studentised_means(const Clusters& totals, double mean, const random::RandomStream& stream,
                                       std::int64_t resamples) {
   const std::size_t clusters = totals.sums.size();
@@ -163,14 +173,15 @@ double sum_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-/// Variance of the mean divided by that of a Poisson number; at least 1.
+/// Variance of the mean of a count, divided by the variance that it would have as a Poisson number; at least
+/// 1.
 double overdispersion(const Clusters& totals, const Estimate& estimate) {
   const double number = sum_of(totals.numbers);
   const double of_poisson = estimate.mean / number;
   return of_poisson > 0.0 ? std::max(1.0, estimate.error * estimate.error / of_poisson) : 1.0;
 }
 
-/// See clustered_mean_bounds of ClusterTotals.
+/// clustered_mean_bounds() for sums that were converted from ClusterTotals.
 ConfidenceInterval mean_bounds(const Clusters& totals, const random::RandomStream& stream, double confidence,
                                std::int64_t resamples) {
   constexpr ConfidenceInterval none{unknown, unknown};

@@ -23,18 +23,19 @@ inline constexpr std::int64_t max_enumerated_clusters = 7;
 /// Sum and number of the values of each cluster. The mean is Σ sums/Σ numbers. Totals of parts of a sample,
 /// added in any order, equal the totals of the whole sample.
 struct ClusterTotals {
-  ByCluster<ExactSum> sums;  ///< Sum of the values of each cluster, in the values' unit.
-  ByCluster<> numbers;       ///< Number of values of each cluster.
-  /// Number of calls of add() for each cluster, including calls without values.
+  ByCluster<ExactSum> sums;  ///< [cluster] Sum of the values, in the values' unit.
+  ByCluster<> numbers;       ///< [cluster] Number of values.
+  /// [cluster] Number of calls of add(), including calls without values.
   ByCluster<> added;
-  std::int64_t highest{-1};  ///< Highest number of a cluster before grouping; −1 without clusters.
+  /// Highest index passed to add(), before the reduction mod max_clusters; −1 without clusters.
+  std::int64_t highest{-1};
 
   /// Adds values to a cluster, which belongs to group `cluster` mod max_clusters. A cluster to which no
   /// values were ever added does not count as a cluster.
   void add(std::int64_t cluster, std::span<const double> values);
   ClusterTotals& operator+=(const ClusterTotals& other);
-  /// Number of clusters before grouping. It is correct if each cluster was added to once, or if no cluster
-  /// below the highest is missing.
+  /// Number of clusters before they were merged into groups. It is correct if each cluster was added to once,
+  /// or if no cluster below the highest is missing.
   std::int64_t clusters() const;
 
   template <class Self, class Archive>
@@ -63,14 +64,12 @@ ConfidenceInterval clustered_mean_bounds(const ClusterTotals& totals, const rand
                                          double confidence = summary_confidence,
                                          std::int64_t resamples = bootstrap_resamples);
 
-/// Bounds of the mean of a count in clusters, such as the jerks of a trial: sums are the counts, numbers the
-/// trials. If at least min_counting_clusters clusters have a count above 0: clustered_mean_bounds().
-/// Otherwise Garwood's bounds for k/φ events, scaled by φ, where k = Σsᵢ and φ ≥ 1 is the variance of the
-/// mean divided by that of a Poisson number, t-adjusted like adjusted_events().
-///
-/// If all counts are 0, the
-/// upper bound is Garwood's −ln(tail) per cluster, as if all trials of a cluster were equal: 3.7/m at 95 %
-/// for m clusters.
+/// Smallest number of clusters with a count above 0 at which clustered_count_bounds() uses
+/// clustered_mean_bounds(). The function gives bounds of the mean of a count in clusters, such as the jerks
+/// of a trial: sums are the counts, numbers the trials. With fewer such clusters they are Garwood's bounds
+/// for k/φ events, scaled by φ, where k = Σsᵢ and φ ≥ 1 is the variance of the mean divided by that of a
+/// Poisson number, t-adjusted like adjusted_events(). If all counts are 0, the upper bound is Garwood's
+/// −ln(tail) per cluster, as if all trials of a cluster were equal: 3.7/m at 95 % for m clusters.
 inline constexpr std::int64_t min_counting_clusters = 20;
 ConfidenceInterval clustered_count_bounds(const ClusterTotals& totals, const random::RandomStream& stream,
                                           double confidence = summary_confidence,

@@ -10,7 +10,8 @@
 namespace zerocount::statistics {
 namespace {
 
-/// Whether the variance between clusters can be estimated.
+/// Whether the variance of the proportion between clusters can be estimated: there are several clusters, and
+/// hits as well as misses.
 bool variance_is_known(const ClusterSums& sums) {
   return sums.clusters > 1 && sums.hits > 0 && sums.hits < sums.events;
 }
@@ -19,21 +20,23 @@ bool are_single_events(const ClusterSums& sums) {
   return sums.clusters == sums.events;
 }
 
-/// Events whose clusters are each taken as one: n²/Σnᵢ², the number of clusters if they are of one size.
+/// Effective number of events if all events of a cluster are taken as one: n²/Σnᵢ², which is the number of
+/// clusters if they are of one size.
 double events_of_whole_clusters(const ClusterSums& sums) {
   const auto n = static_cast<double>(sums.events);
   return n * n / sums.events_squared;
 }
 
-/// The most that the clusters can show of the proportion (most_shown_by_clusters()). Of single events
-/// Clopper–Pearson shows no more.
+/// Largest lower bound of the proportion that so few clusters can show (most_shown_by_clusters()); for
+/// clusters of one event 1, because Clopper–Pearson does not exceed it.
 double most_shown(const ClusterSums& sums, double proportion, double tail) {
   if (are_single_events(sums)) return 1.0;
   return most_shown_by_clusters(events_of_whole_clusters(sums), proportion, 1.0 - tail);
 }
 
-/// Clopper–Pearson bounds for any number of events, not only whole ones, and no better than the number of
-/// clusters allows.
+/// Lower Clopper–Pearson bound for any number of effective events, not only whole ones, limited to what the
+/// number of clusters can show.
+/// @param tail probability beyond the bound
 double lower_bound(const ClusterSums& sums, double events, double tail) {
   const double proportion = rate(sums.hits, sums.events);
   if (!(proportion > 0.0)) return 0.0;

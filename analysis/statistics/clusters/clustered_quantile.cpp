@@ -11,7 +11,8 @@
 namespace zerocount::statistics {
 namespace {
 
-/// Adds values of which many are equal: those seen last are counted before they are looked for in the map.
+/// Adds values to a histogram, quickly if many are equal: values seen recently are counted before they are
+/// looked up in the map.
 void add_repeated(Histogram<double>& histogram, std::span<const double> values) {
   struct Seen {
     double value{0.0};
@@ -33,7 +34,9 @@ void add_repeated(Histogram<double>& histogram, std::span<const double> values) 
     if (seen.times > 0) histogram.add(seen.value, seen.times);
 }
 
-/// The effective number of independent values at a quantile, rounded down.
+/// The effective number of independent values for bounds of a quantile, rounded down, at least 1. @param
+/// sample_quantile observed quantile; NaN: among the censored values @param tail probability beyond each
+/// bound
 std::int64_t whole_values(const ClusteredSample& sample, double sample_quantile, double tail) {
   const double at = std::isnan(sample_quantile) ? largest(sample.observed()) : sample_quantile;
   const double events = adjusted_events(sample.at_most(at), tail);
@@ -41,8 +44,8 @@ std::int64_t whole_values(const ClusteredSample& sample, double sample_quantile,
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(events * (1.0 + 1e-12)));
 }
 
-/// The observation at `rank` of `whole` independent values, scaled to the rank among all values. Rounded away
-/// from the quantile.
+/// The lower bound of a quantile: the observation whose rank among all values corresponds to `rank` among
+/// `whole` independent values. The rank is rounded down, away from the quantile.
 double scaled_low(const ClusteredSample& sample, std::int64_t rank, std::int64_t whole) {
   const double scale = static_cast<double>(sample.size()) / static_cast<double>(whole);
   return order_statistic(sample.observed(),

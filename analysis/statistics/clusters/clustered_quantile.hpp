@@ -21,9 +21,11 @@ namespace zerocount::statistics {
 /// of clusters.
 class ClusteredSample {
  public:
-  /// Adds a cluster of `size` values: those in `observed`; the others are censored.
+  /// Adds a cluster of `size` values: those in `observed`; the others are censored (larger than all observed
+  /// ones).
   void add_cluster(const Histogram<double>& observed, std::int64_t size);
-  /// @param observed in any order; they are sorted
+  /// Adds a cluster of `size` values. @param observed its observed values in any order; they are sorted; the
+  /// other values are censored
   void add_cluster(std::span<double> observed, std::int64_t size);
   /// Adds clusters of one value each: the observed ones, in any order. @param censored number of further
   /// clusters, whose only value is censored
@@ -31,12 +33,12 @@ class ClusteredSample {
   /// Adds the clusters of another sample.
   ClusteredSample& operator+=(const ClusteredSample& other);
 
-  /// The observed values.
+  /// The values that are not censored.
   const Histogram<double>& observed() const { return observed_; }
   /// Number of all values, including the censored ones.
   std::int64_t size() const { return totals_.events; }
 
-  /// Hits and events of the clusters, where a hit is a value ≤ x.
+  /// Sums over the clusters of hits and events, where a hit is a value ≤ x and every value is an event.
   ClusterSums at_most(double x) const;
 
   template <class Self, class Archive>
@@ -60,16 +62,18 @@ class ClusteredSample {
   void count_in_steps();
   void add_step(double value, std::int64_t before, std::int64_t count, std::int64_t size);
 
-  /// True while every cluster has one value. The increments then follow from the histogram.
+  /// True while every cluster has a single value. The increments of the sums then follow from the histogram
+  /// alone.
   bool single_values_{true};
   Histogram<double> observed_;
   std::map<double, Step> steps_;
   ClusterSums totals_;
 };
 
-/// The sample quantile (the smallest value x such that a proportion of at least `probability` of all values
-/// is ≤ x) with order-statistic bounds. Their ranks are those for adjusted_events() independent values,
-/// scaled to the number of values; a hit of a cluster is a value ≤ the sample quantile.
+/// The sample quantile of clustered values (the smallest value x such that a proportion of at least
+/// `probability` of all values is ≤ x) with order-statistic bounds. Their ranks are those for
+/// adjusted_events() independent values, scaled to the number of values; a hit of a cluster is a value ≤ the
+/// sample quantile.
 ///
 /// value, low and high
 /// are NaN if they fall among the censored values, or if there are too few values for a bound. Sources:

@@ -10,17 +10,20 @@
 namespace zerocount::statistics {
 namespace {
 
-/// The c of a mark is the lowest with ε(c) ≤ `wrong`, or n; its b the highest with 1 − ε(b) ≤ `left_out`.
+/// Rule that places one mark (threshold on a machine's number of moves that meet a requirement). The mark's c
+/// is the lowest with ε(c) ≤ `wrong`, or n; its b the highest with 1 − ε(b) ≤ `left_out` (see MachineBound).
 struct MarkRule {
   double wrong;
   double weight;
-  double left_out{0.0};  ///< 0: b = 0
+  double left_out{0.0};  ///< Probability with which a machine on q may show fewer than b moves; 0: b = 0.
 };
 
-/// Chosen for sharp bounds in populations of many kinds.
+/// The marks of MachineBound as {wrong, weight, left_out}, chosen for sharp bounds in populations of many
+/// kinds.
 constexpr MarkRule rules[] = {{0.1, 0.35}, {0.35, 0.25}, {0.6, 0.15}, {0.85, 0.15}, {0.35, 0.1, 0.1}};
 
-/// ε of the highest mark, not so large that it takes more than half of what the number of machines leaves.
+/// Largest ε (chance of a machine below q to pass) of the highest mark. It is limited so that it takes at
+/// most half of the margin between the bound that all machines passing would give and the wanted proportion.
 double strictest(const MachineStudy& study, const MachineClaim& claim) {
   const double room = proportion_at_least(study.machines, study.machines, claim.confidence) - claim.wanted;
   return room > 0.0 ? std::min(rules[0].wrong, room / (2.0 * (1.0 - claim.wanted))) : rules[0].wrong;
@@ -45,14 +48,15 @@ std::int64_t passing(std::span<const MachineMoves> machines, std::int64_t met) {
                        [met](const MachineMoves& machine) { return machine.met >= met; });
 }
 
-/// Reduces every machine to `moves` moves. The moves left out are taken to be moves that met the requirement.
+/// Shortens every machine to `moves` moves for a cautious bound: the moves left out are taken to be moves
+/// that met the requirement.
 std::vector<MachineMoves> without_further_moves(std::span<const MachineMoves> machines, std::int64_t moves) {
   std::vector<MachineMoves> shortened(machines.begin(), machines.end());
   for (MachineMoves& machine : shortened) machine.met -= machine.moves - moves;
   return shortened;
 }
 
-/// The machines with the moves that miss the requirement in place of the moves that meet it.
+/// The machines with met and missed moves exchanged: `met` counts the moves that miss the requirement.
 std::vector<MachineMoves> missing(std::span<const MachineMoves> machines) {
   std::vector<MachineMoves> missed(machines.begin(), machines.end());
   for (MachineMoves& machine : missed) machine.met = machine.moves - machine.met;

@@ -12,7 +12,7 @@ namespace zerocount::statistics {
 
 /// Numbers of moves of one machine, and of those that meet a requirement.
 struct MachineMoves {
-  std::int64_t trials{0};  ///< Number of trials. They are independent given the machine.
+  std::int64_t trials{0};  ///< Number of trials of the machine. They are independent given the machine.
   std::int64_t moves{0};   ///< Number of moves of all trials; every trial has the same number.
   std::int64_t met{0};
 
@@ -34,7 +34,8 @@ struct MachineMoves {
 /// q of their moves. The proportion p_r of machine r in infinitely many moves is not known, because the
 /// machine was seen in only n moves.
 struct MachineProportion {
-  std::int64_t meeting{0};  ///< Number of observed machines with met/moves ≥ q.
+  /// Number of observed machines whose observed proportion met/moves is at least q.
+  std::int64_t meeting{0};
   double low{0.0};
   double high{1.0};
 };
@@ -42,16 +43,16 @@ struct MachineProportion {
 /// The claim on machines: the proportion `wanted` of them meets the requirement in the proportion q of
 /// their moves.
 struct MachineClaim {
-  double proportion;  ///< q
+  double proportion;  ///< Proportion q of its moves in which a machine must meet the requirement.
   double wanted;
   double confidence;  ///< Confidence of each one-sided bound.
-  /// True if the requirement must be met in each of several settings. A machine then counts with the
-  /// fewest moves met under any of them. These numbers may depend on each other, so the ratio of two tails is
-  /// not known. Used only for `low`.
+  /// True if the requirement must be met in each of several settings (conditions at ages). A machine then
+  /// counts with the fewest moves met in any of them. These numbers may depend on each other, so the ratio of
+  /// two tails is not known. Used only for `low`.
   bool of_least{false};
 };
 
-/// The size of a study on machines.
+/// The size of a study on machines: numbers of machines, trials and moves.
 struct MachineStudy {
   std::int64_t machines{0};
   std::int64_t trials{0};  ///< Number of trials of each machine.
@@ -61,20 +62,22 @@ struct MachineStudy {
   bool all_alike{true};
 };
 
-/// Largest probability with which a machine that meets the requirement in the proportion p of its moves shows
-/// `met` or more moves that do: ε of MachineBound. It is exact for trials of one move.
+/// Largest probability with which a machine that meets the requirement in the proportion p of its moves is
+/// observed with `met` or more such moves: ε of MachineBound. It is exact for trials of one move.
 double chance_to_show(const MachineStudy& study, double p, std::int64_t met);
 
-/// Machines that pass a mark: c or more of their n moves meet the requirement.
+/// A threshold on machines: a machine passes if c or more of its n moves meet the requirement.
 struct MachineMark {
-  std::int64_t met{0};  ///< c
-  /// b: only machines that show b or more moves are considered; 0: all machines.
+  std::int64_t met{0};  ///< Number c of moves that a machine must meet to pass.
+  /// Number b: only machines that show b or more met moves are considered; 0: all machines.
   std::int64_t among{0};
-  /// ρ: largest proportion of passing machines among the machines below q that show b or more moves.
+  /// ρ: largest proportion of passing machines among the machines whose true proportion is below q and that
+  /// show b or more met moves.
   double wrong{1.0};
 };
 
-/// The lower bound of π from the numbers of machines that pass some marks.
+/// Computes the lower bound of π, the proportion of all machines that meet the requirement in at least the
+/// proportion q of their moves, from the numbers of machines that pass some marks (thresholds).
 ///
 /// A machine with p_r < q shows c or more moves of n with a probability of at most ε(c), that of a machine on
 /// q. For trials of one move it is the tail of the binomial distribution (n, q). Moves of one trial may be
@@ -111,26 +114,29 @@ class MachineBound {
  public:
   MachineBound(const MachineStudy& study, const MachineClaim& claim);
 
-  /// The lower bound of π.
-  /// @param passing number of machines that show `met` or more moves
+  /// The lower bound of π, the proportion of all machines that meet the requirement in the proportion q of
+  /// their moves.
+  /// @param passing returns the number of machines that show `met` or more moves that meet the requirement
   double at_least(const std::function<std::int64_t(std::int64_t met)>& passing) const;
 
-  /// A result that suffices for the wanted proportion: at least `machines` machines show `met` or more moves.
+  /// An observed result that suffices to show the wanted proportion: at least `machines` machines show `met`
+  /// or more moves that meet the requirement.
   struct Enough {
     std::int64_t met{0};
     /// Number of machines. If it exceeds the number of machines in the study, no number suffices.
     std::int64_t machines{0};
   };
-  /// [mark] The sufficient results, for the marks that consider all machines.
+  /// [mark] The results that suffice, one for each mark (threshold) that considers all machines.
   std::vector<Enough> enough() const;
 
  private:
-  /// A mark that is tested in a stage, and its proportion of the error 1 − γ.
+  /// A mark (threshold on machines) that is tested, and the part of the error probability 1 − γ that it may
+  /// use.
   struct Tested {
     MachineMark mark;
     double error;
   };
-  /// A range of proportions that are tested by the same marks.
+  /// A range of proportions π₀, up to `reach`, that are tested by the same marks (thresholds).
   struct Stage {
     std::vector<Tested> marks;
     double reach;
@@ -143,12 +149,14 @@ class MachineBound {
   std::vector<Stage> stages_{};
 };
 
-/// The upper bound is 1 − the lower bound of the machines that miss the requirement in more than 1 − q of
-/// their moves.
-/// @param machines with moves each @param confidence of each bound
+/// Bounds of the proportion of machines that meet the requirement in at least the proportion q of their
+/// moves. The upper bound is 1 minus the lower bound of the proportion of machines that miss the requirement
+/// in more than 1 − q of their moves.
+/// @param machines machines with at least one move each
 MachineProportion machine_proportion(std::span<const MachineMoves> machines, const MachineClaim& claim);
 
-/// The complementary claim: on the machines that do not meet the requirement.
+/// The complementary claim, with misses in place of met moves: on the machines that do not meet the
+/// requirement.
 MachineClaim of_missing(const MachineClaim& claim);
 
 }  // namespace zerocount::statistics

@@ -15,9 +15,10 @@ namespace {
 constexpr double min_allowance = 0.25;  // δ
 constexpr std::int64_t machines_per_worst = 20;
 
-/// r and δ of machine_tolerance().
+/// Rank r of the observed proportion that machine_tolerance() uses, and the error probability δ (allowance)
+/// that it leaves for the machine's own moves.
 struct RankAndAllowance {
-  std::int64_t rank{0};  ///< 0: too few machines
+  std::int64_t rank{0};  ///< Rank r of the observed proportion that is used, from 1; 0: too few machines.
   double allowance{0.0};
 };
 
@@ -35,7 +36,8 @@ RankAndAllowance rank_and_allowance(std::int64_t machines, double content, doubl
   return chosen;
 }
 
-/// The q < y for which trials·KL(y‖q) = −ln(allowance).
+/// Chernoff–Hoeffding lower bound: the q < y with trials·KL(y‖q) = −ln(allowance).
+/// @param y observed mean @param allowance probability of an error
 double chernoff_lower(double y, std::int64_t trials, double allowance) {
   const double limit = -std::log(allowance) / static_cast<double>(trials);
   if (!(y > 0.0)) return 0.0;

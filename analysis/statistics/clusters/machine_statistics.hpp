@@ -34,8 +34,9 @@ struct MachineTrials {
 struct MachineTolerance {
   double content{0.9};
   double confidence{summary_confidence};
-  double zero_at_least{unknown};  ///< NaN if there are too few machines
-  std::int64_t min_machines{0};   ///< minimum number of machines for such a statement
+  /// Lower bound of the proportion of moves with zero error; NaN if there are too few machines.
+  double zero_at_least{unknown};
+  std::int64_t min_machines{0};  ///< Smallest number of machines for which such a statement is possible.
 };
 
 /// The bound of a MachineTolerance from R machines, for any distribution between machines. The trials of one
@@ -59,18 +60,18 @@ struct MachineTolerance {
 MachineTolerance machine_tolerance(std::span<const MachineTrials> machines, double content,
                                    double confidence);
 
-/// The minimum number of machines for a MachineTolerance; and δ for a number of machines, 0 below that
-/// minimum.
+/// The smallest number of machines for a MachineTolerance (first function); and the allowance δ of the
+/// statement for a number of machines, 0 below that minimum (second function).
 std::int64_t min_machines_for_tolerance(double content, double confidence);
 double tolerance_allowance(std::int64_t machines, double content, double confidence);
 
-/// "with 95 % confidence at least 90 % of machines hold zero in at least 97 % of moves", the last number
-/// rounded down; or the number of machines that such a statement needs.
+/// Sentence for a tolerance statement: "with 95 % confidence at least 90 % of machines hold zero in at least
+/// 97 % of moves", the last number rounded down; or the number of machines that such a statement needs.
 std::string tolerance_sentence(const MachineTolerance& tolerance);
 
 /// Differences between machines at a design point. NaN without machines.
 struct MachineStatistics {
-  std::int64_t n{0};  ///< machines
+  std::int64_t n{0};  ///< Number of machines.
   /// Standard deviation between machines of the probability of success: the moment estimate of the
   /// beta-binomial distribution, √max(0, S² − Σp̂ᵢ(1 − p̂ᵢ)/(R·(m − 1))) with S² the variance of the machines'
   /// success rates p̂ᵢ of m trials each. NaN for one trial per machine. Source: Kleinman, J. Amer. Statist.
@@ -84,18 +85,20 @@ struct MachineStatistics {
   /// their true success probability, because the selection favours machines with bad luck.
   double worst_5_percent{unknown};
   ClusterSums successes;  ///< Sums of the trials' successes; each machine is a cluster.
-  std::vector<std::int64_t> successes_of_machines;  ///< [machine] Number of successful trials.
+  std::vector<std::int64_t> successes_of_machines;  ///< [machine] Number of successful trials on the machine.
   std::int64_t trials_of_machine{0};                ///< Number of trials on each machine.
   MachineTolerance tolerance;
 };
 
-/// @param machines each with the same number of trials, 1 or more
+/// Statistics of the differences in success between machines. @param machines machines with the same number
+/// of trials, 1 or more
 /// @throws Failure (bad_input) for a confidence outside (0, 1).
 MachineStatistics machine_statistics(std::span<const MachineTrials> machines,
                                      double confidence = summary_confidence);
 
-/// Tolerance statement for a trial on any machine, from the one-sided Korn–Graubard bounds.
-/// @param successes of the trials; each machine is a cluster
+/// Tolerance statement for a trial on any machine (success rate over trials and machines together), from the
+/// one-sided Korn–Graubard bounds.
+/// @param successes sums of the trials' successes; each machine is a cluster
 SuccessClaim success_claim_on_machines(const ClusterSums& successes, double confidence);
 
 }  // namespace zerocount::statistics

@@ -22,7 +22,8 @@ void require_counts(const Successes& counts) {
                             counts.successes, counts.trials, max_trials));
 }
 
-/// P(x), x = 0 … n, of the number of successes among n trials taken from all of them (hypergeometric).
+/// Probabilities P(x), x = 0 … n, that x of n trials succeed which are taken at random, without replacement,
+/// from the trials `all` (hypergeometric).
 ///
 /// By the ratio of neighbours, P(x + 1)/P(x) = (K − x)·(n − x)/((x + 1)·(N − K − n + x + 1)), from the mode
 /// outwards, where the terms fall, so that nothing overflows; then divided by their sum. This takes one
@@ -57,7 +58,8 @@ double fisher_p(const Successes& observed, const Successes& simulated) {
   return std::min(1.0, p);
 }
 
-/// Σ P(H_i = x) over the machines, x = 0 … n.
+/// [x] Sum over the machines of the probability P(H_i = x) that x of n of its trials succeed, x = 0 … n.
+/// @param successes [machine] successful trials @param trials number of trials per machine
 std::vector<double> mixture(std::int64_t n, std::span<const std::int64_t> successes, std::int64_t trials) {
   std::map<std::int64_t, double> machines;  // with so many successes
   for (const std::int64_t each : successes) machines[each] += 1.0;

@@ -6,19 +6,23 @@
 /// Whether counts on a real machine are consistent with a simulation. Exact, two-sided.
 namespace zerocount::statistics {
 
-/// k successes in n trials.
+/// Number k of successes in n independent trials.
 struct Successes {
-  std::int64_t successes{0};  ///< k
-  std::int64_t trials{0};     ///< n
+  std::int64_t successes{0};  ///< Number k of successes.
+  std::int64_t trials{0};     ///< Number n of trials.
 };
 
 struct ObservedTest {
-  double p{1.0};         ///< probability of counts as unlikely as those observed, if both have the same cause
-  double lowest_p{1.0};  ///< lowest p that as many observed trials could have
+  /// p-value: probability of counts at least as unlikely as those observed, if real and simulated trials have
+  /// the same cause.
+  double p{1.0};
+  /// Lowest p-value that any result with the same number of observed trials could have.
+  double lowest_p{1.0};
 };
 
-/// Fisher's exact test of k of n observed trials against K of N simulated ones, all independent. Given k + K
-/// successes among all, k has the hypergeometric distribution if both have the same success probability;
+/// Fisher's exact test of k successes in n observed trials against K successes in N simulated ones, all
+/// independent. Given k + K successes among all, k has the hypergeometric distribution if both have the same
+/// success probability;
 ///
 ///   p = Σ P(x) over all x with P(x) ≤ P(k)
 ///
@@ -37,7 +41,8 @@ ObservedTest fisher_test(const Successes& observed, const Successes& simulated);
 /// This is the rank test of exchangeable observations (Vovk, Gammerman and Shafer, Algorithmic Learning in a
 /// Random World, 2005, section 2.2), averaged over the choice of the n trials. p is never below 2/(R + 1): it
 /// takes 39 machines to find a difference at 5 %.
-/// @param successes [machine] K_i, @param trials m
+/// @param successes [machine] number K_i of successful trials @param trials number m of trials of each
+/// simulated machine
 /// @throws Failure (bad_data) for impossible counts, or n > m.
 ObservedTest machine_rank_test(const Successes& observed, std::span<const std::int64_t> successes,
                                std::int64_t trials);

@@ -22,16 +22,17 @@ class TrialClusters {
 
   /// Adds a trial with `size` values: those in `observed`; the others are censored (larger than all observed
   /// ones).
-  /// @param observed in any order; the call may sort them
+  /// @param trial index of the trial @param observed observed values in any order; the call may sort them
   void add_trial(std::int64_t trial, std::vector<double>& observed, std::int64_t size);
   /// Adds consecutive trials with `of_trial` values each.
   /// @param trial index of the first trial
-  /// @param values [trial, value] NaN: no value, or a censored value if `nan_is_late`
+  /// @param values [trial, value] NaN means no value or, if `nan_is_late`, a censored value (larger than all
+  /// observed ones)
   void add_trials(std::int64_t trial, std::span<const double> values, std::size_t of_trial, bool nan_is_late);
   /// Adds the trials of another collection with the same number of machines.
   TrialClusters& operator+=(const TrialClusters& other);
 
-  /// The sample of all trials added so far.
+  /// All values added so far, with the cluster of each.
   ClusteredSample sample() const;
   std::int64_t size() const;  ///< Number of all values, including the censored ones.
 
@@ -46,7 +47,7 @@ class TrialClusters {
   }
 
  private:
-  /// Number of times that a machine has a value.
+  /// Number of times that a certain value occurs on a certain machine.
   struct Count {
     std::int64_t machine{0};
     double value{0.0};
@@ -59,7 +60,7 @@ class TrialClusters {
   };
 
   void add(const Count& count);
-  /// Sorts the counts by machine and value, and adds counts of the same machine and value.
+  /// Sorts the counts by machine and value, and merges counts of the same machine and value.
   void combine();
 
   /// Writes for each machine from 0 on: the number of distinct values, each value with its count, the sum of
@@ -98,11 +99,11 @@ class TrialClusters {
   }
 
   std::int64_t machines_in_all_;
-  /// Counts of the values of machines. The first `combined_` of them are combined.
+  /// Numbers of occurrences of values on machines. The first `combined_` of them are sorted and merged.
   std::vector<Count> counts_;
-  std::size_t combined_{0};  ///< Number of elements of `counts_` that are combined.
-  ByCluster<> sizes_;        ///< Number of values of each machine, including the censored ones.
-  ClusteredSample trials_;   ///< The clusters if there are no machines: every trial is one.
+  std::size_t combined_{0};  ///< Number of elements at the beginning of `counts_` that are sorted and merged.
+  ByCluster<> sizes_;        ///< [machine] Number of values, including the censored ones.
+  ClusteredSample trials_;   ///< The clusters if there are no machines, so that every trial is a cluster.
 };
 
 }  // namespace zerocount::statistics

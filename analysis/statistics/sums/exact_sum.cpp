@@ -18,18 +18,21 @@ using boost::multiprecision::cpp_int;
 constexpr int digit_bits = 32;
 constexpr std::int64_t digit_base = std::int64_t{1} << digit_bits;
 constexpr std::int64_t digit_mask = digit_base - 1;
-/// Weight of digit 0: below that of the last bit of the square of the smallest double, 2^(−2·1074).
+/// Binary exponent of digit 0. Its weight is below that of the last bit of the square of the smallest double,
+/// 2^(−2·1074).
 constexpr std::int64_t min_exponent = -2176;
-/// An addition changes a digit by less than 2^32.
+/// Number of additions before digits must be carried. An addition changes a digit by less than 2^32, so a
+/// digit of 64 bits cannot overflow.
 constexpr std::int64_t additions_without_carry = std::int64_t{1} << 30;
 
-/// |value| = whole·2^exponent.
+/// A double as an integer times a power of 2: |value| = whole·2^exponent.
 struct Scaled {
   std::int64_t whole{0};
   std::int64_t exponent{0};
 };
 
-/// The fields of an IEEE 754 double: 52 bits of the mantissa, whose first is not stored, and the exponent.
+/// Divides a double into integer and exponent, by the fields of IEEE 754: 52 bits of the mantissa, whose
+/// first bit is not stored, and the exponent.
 Scaled scaled(double value) {
   constexpr int stored_bits = 52;
   constexpr std::int64_t first_bit = std::int64_t{1} << stored_bits;
@@ -40,7 +43,7 @@ Scaled scaled(double value) {
   return field == 0 ? Scaled{stored, 1 - bias} : Scaled{stored | first_bit, field - bias};
 }
 
-/// Σ digits[i]·2^(32·i).
+/// The integer that the digits represent: Σ digits[i]·2^(32·i).
 cpp_int whole_number(const std::vector<std::int64_t>& digits) {
   cpp_int number = 0;
   for (auto digit = digits.rbegin(); digit != digits.rend(); ++digit) {
@@ -50,7 +53,8 @@ cpp_int whole_number(const std::vector<std::int64_t>& digits) {
   return number;
 }
 
-/// number·2^exponent/divisor. The quotient has more bits than a double before it is rounded.
+/// number·2^exponent/divisor, rounded to the nearest double. The quotient is computed with more bits than a
+/// double before it is rounded.
 double rounded(const cpp_int& number, std::int64_t exponent, std::int64_t divisor) {
   using Wide = boost::multiprecision::cpp_bin_float_100;
   const Wide quotient = Wide(number) / Wide(divisor);
@@ -93,7 +97,8 @@ void ExactSum::add_to_digits(double value) {
   digit[2] += sign * (high >> digit_bits);
 }
 
-/// With whole = a·2^32 + b: its square is a²·2^64 + 2·a·b·2^32 + b², of which each of four digits is shifted.
+/// Adds the square of the value. With whole = a·2^32 + b, the square is a²·2^64 + 2·a·b·2^32 + b²; it is
+/// shifted and spread over four digits.
 void ExactSum::add_square_to_digits(double value) {
   const Scaled number = scaled(value);
   if (number.whole == 0) return;

@@ -14,7 +14,7 @@ namespace zerocount::statistics {
 template <typename Value>
 struct Histogram {
   std::map<Value, std::int64_t> counts;
-  std::int64_t size{0};  ///< number of observations
+  std::int64_t size{0};  ///< Number of observations.
 
   void add(Value value, std::int64_t times = 1) {
     counts[value] += times;
@@ -63,7 +63,7 @@ double standard_deviation(const Histogram<Value>& histogram) {
   return std::sqrt(squares / static_cast<double>(histogram.size - 1));
 }
 
-/// Sum, in the values' unit.
+/// Sum of all observations, in the values' unit.
 template <typename Value>
 Value total(const Histogram<Value>& histogram) {
   Value sum{};
@@ -71,7 +71,7 @@ Value total(const Histogram<Value>& histogram) {
   return sum;
 }
 
-/// Smallest and largest value; NaN of an empty histogram.
+/// Smallest and, in the next function, largest observation; NaN for an empty histogram.
 template <typename Value>
 double smallest(const Histogram<Value>& histogram) {
   return histogram.size > 0 ? static_cast<double>(histogram.counts.begin()->first) : unknown;

@@ -12,12 +12,12 @@ namespace zerocount::statistics {
 /// Mean, spread and extremes of the finite values of a sample, in the values' unit; NaN without values.
 /// Constant memory (Welford 1962).
 struct Moments {
-  std::int64_t n{0};          ///< finite values
-  std::int64_t nonfinite{0};  ///< values left out because they are not finite
+  std::int64_t n{0};          ///< Number of finite values.
+  std::int64_t nonfinite{0};  ///< Number of values left out because they are infinite or NaN.
   double mean{unknown};
   double min{unknown};
   double max{unknown};
-  double squares{0.0};  ///< sum of the squared deviations from the mean, in the square of the unit
+  double squares{0.0};  ///< Sum of the squared deviations from the mean, in the square of the unit.
 
   void add(double value) {
     if (!std::isfinite(value)) {
@@ -32,7 +32,7 @@ struct Moments {
     max = n == 1 ? value : std::max(max, value);
   }
 
-  /// Root of the mean square; NaN of no values.
+  /// Root mean square of the values; NaN without values.
   double rms() const { return std::sqrt(mean * mean + squares / static_cast<double>(n)); }
 
   /// Standard deviation with divisor n − 1; NaN of fewer than two values.
@@ -42,12 +42,12 @@ struct Moments {
 /// Sums of a sample from which Moments are computed. They are exact: sums of parts of a sample, added in any
 /// order, equal the sums of the whole sample.
 struct MomentSums {
-  std::int64_t n{0};          ///< finite values
-  std::int64_t nonfinite{0};  ///< values left out because they are not finite
+  std::int64_t n{0};          ///< Number of finite values.
+  std::int64_t nonfinite{0};  ///< Number of values left out because they are infinite or NaN.
   double min{unknown};
   double max{unknown};
   ExactSum sum;
-  ExactSum squares;  ///< sum of the squared values
+  ExactSum squares;  ///< Sum of the squared values, in the square of the unit.
 
   void add(double value) {
     if (!std::isfinite(value)) {

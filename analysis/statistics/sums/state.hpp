@@ -16,7 +16,7 @@
 /// A vector or map is preceded by the number of its elements.
 namespace zerocount::statistics {
 
-/// Whether no count is negative or above `most`.
+/// Whether all numbers are possible counts: none is negative or above `most`.
 bool are_counts(std::span<const std::int64_t> counts, std::int64_t most);
 
 struct State {
@@ -61,7 +61,7 @@ class StateWriter {
 /// of a map do not rise; from require_end() if numbers are left
 class StateReader {
  public:
-  /// @param whole, real must outlive the reader
+  /// @param whole integer numbers and flags @param real floating-point numbers; both must outlive the reader
   StateReader(std::span<const std::int64_t> whole, std::span<const double> real)
       : whole_(whole), real_(real) {}
 
@@ -75,7 +75,7 @@ class StateReader {
   }
   void require_end() const;
 
-  /// The remaining numbers.
+  /// The integer numbers (and, in the next function, the floating-point numbers) that were not read yet.
   std::span<const std::int64_t> whole() const { return whole_; }
   std::span<const double> real() const { return real_; }
 
@@ -83,7 +83,7 @@ class StateReader {
   [[noreturn]] static void fail();
   std::int64_t next_whole();
   double next_real();
-  /// Number of elements of a vector. It is at most the number of remaining numbers.
+  /// Reads the number of elements of the next vector. It is at most the number of remaining numbers.
   std::size_t next_size();
 
   void read(std::int64_t& number) { number = next_whole(); }

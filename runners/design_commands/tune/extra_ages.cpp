@@ -17,8 +17,8 @@ using document::Visibility;
 using tuning::LostAges;
 using tuning::LostClaim;
 
-/// Machines of one age, as many as take the trials of the planned machines, and enough to show that the goals
-/// are met if no move misses them.
+/// Machines on which each age is simulated. They are as many as take the trials of the planned machines, and
+/// enough to show that the goals are met if no move misses them.
 trials::Replicates machines_of_ages(const tuning::TunedAxis& axis) {
   const std::int64_t each = tuning::trials_of_machine(axis.study);
   const std::int64_t least = tuning::min_proof_trials(axis.study, 1) / each;

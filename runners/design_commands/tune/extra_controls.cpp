@@ -23,7 +23,8 @@ using Alternatives = std::vector<Alternative>;
 
 constexpr std::int64_t trials_of_control = 125'000;
 
-/// Searches take what there is.
+/// Cost of the searches for other control laws. They never fail to fit, because they take whatever effort
+/// there is (usual_part is 0).
 tuning::ExtraCost cost_of_controls(const TunedAxis& axis) {
   std::int64_t least = 0;
   std::int64_t searches = 0;
@@ -58,7 +59,8 @@ tuning::SearchResult search_control(TunedAxis& axis, const study::Study& study, 
   return found;
 }
 
-/// Runs it on fresh machines.
+/// Simulates the control law with its tuned values on fresh machines, and stores its verdict and criterion in
+/// `alternative`.
 void judge_control(const TunedAxis& axis, const study::Study& study, const OtherControl& control,
                    const Values& values, const trials::Effort& effort, Alternative& alternative) {
   alternative.gains = named(control.free, values);
@@ -75,7 +77,9 @@ void judge_control(const TunedAxis& axis, const study::Study& study, const Other
   alternative.verdict = std::move(judged.verdict);
 }
 
-/// @param tuned controls that are tuned already; gets this one
+/// Tunes another control law and judges it on fresh machines.
+/// @param tuned values of the control laws tuned so far, from which the search starts; the values found are
+/// appended
 Alternative find_control(TunedAxis& axis, const OtherControl& control, const trials::Effort& effort,
                          std::vector<TunedValues>& tuned) {
   const study::Study study = trials::variant_of(axis.study, control.overrides);
@@ -133,8 +137,8 @@ document::Description<Alternative> alternative_columns() {
       });
 }
 
-/// Whether the control does clearly better than the proven values, which could be the same: its other
-/// parameters are 0 in their ranges.
+/// Whether the control law, in which some parameters are 0, does clearly better than the proven values. Its
+/// parameters are in their ranges, so the tuning could have found it.
 bool is_better_within_ranges(const Alternative& one, const Tuning& tuning) {
   constexpr double clearly = 0.95;
   if (one.fixed.empty() || !one.verdict || !tuning.answer.proof) return false;

@@ -21,7 +21,7 @@ tuning::ExtraCost cost_of_delay(const tuning::TunedAxis& axis) {
   return {.points = points_of_delay, .trials = points_of_delay * axis.trials_of_point()};
 }
 
-/// controller.delay of the first machine in each setting, samples.
+/// [setting] Value of controller.delay of the first machine in each setting (condition at an age), samples.
 std::vector<double> delays_of(const study::Study& study) {
   const study::TrialIndices indices = study::trial_indices(study);
   std::vector<double> delays;
@@ -30,7 +30,8 @@ std::vector<double> delays_of(const study::Study& study) {
   return delays;
 }
 
-/// Every machine gets as much more delay in each setting.
+/// Finds the additional delay of the controller at which a goal is lost. Every machine gets the same
+/// additional delay in each setting.
 void find_lost_delay(const tuning::TunedAxis& axis, MoreDelay& found) {
   const auto holds = [&](double more) {
     const tuning::Change later = [&](trial::TrialParameters& p) { p.controller.delay += more; };
@@ -49,7 +50,9 @@ void find_lost_delay(const tuning::TunedAxis& axis, MoreDelay& found) {
   found.lost = numerics::bisect({kept, lost}, holds, numerics::within(accuracy)).holds;
 }
 
-/// Nothing of a tolerance.
+/// Success rate of the goal, in its worst setting, if its band is one count wider. Nothing for a goal with a
+/// tolerance instead of a band.
+/// @param goal index of the goal
 std::optional<double> rate_in_wider_band(const tuning::TunedAxis& axis, std::size_t goal) {
   const std::optional<std::size_t> slot = measures::asked_of_moves(axis.tuned).at(goal).slot;
   if (!slot) return std::nullopt;
@@ -73,7 +76,8 @@ std::any find_delay(tuning::TunedAxis& axis) {
   return found;
 }
 
-/// The setting in which a goal is lost first by more delay; 0 without settings.
+/// Index of the setting (condition at an age) in which a goal is lost first by additional delay; 0 without
+/// settings.
 std::size_t delayed_setting(const MoreDelay& delay, const Tuning& tuning) {
   return tuning::place_of_claim(tuning.study, delay.claim).setting;
 }

@@ -21,16 +21,18 @@ using tuning::Values;
 constexpr int cells_of_side = 15;
 constexpr std::int64_t machines_of_cell = 128;
 
-/// A cell of a map. It is examined at the values x and y: its centre or, if it contains the tuned values,
-/// these.
+/// A cell of a map of two free parameters. It is examined at the values x and y: the centre of the cell or,
+/// if the cell contains the tuned values, these.
 struct MapCell {
   double x{0.0};
   double y{0.0};
   double x_from{0.0}, x_to{0.0};
   double y_from{0.0}, y_to{0.0};
-  double rate{0.0};       ///< Success rate of the worst goal on the first machines of the search.
-  bool seems_met{false};  ///< Whether all goals seem to be met in all settings.
-  double criterion{0.0};  ///< Value of the criterion; infinity for "never".
+  double rate{0.0};  ///< Success rate of the worst goal on the first machines of the search, 0 to 1.
+  /// Whether all goals seem to be met in all settings (conditions at ages), by the rates alone.
+  bool seems_met{false};
+  /// Value of the criterion, the quantity that the tuning minimises; infinity for "never".
+  double criterion{0.0};
   bool keeps_margins{false};
 };
 
@@ -38,10 +40,10 @@ struct MapCell {
 struct TuningMap {
   std::size_t x{0};              ///< Index of the free parameter on the x axis.
   std::size_t y{1};              ///< Index of the free parameter on the y axis.
-  std::vector<MapCell> cells{};  ///< Cells of a square grid; x varies fastest.
+  std::vector<MapCell> cells{};  ///< Cells of a square grid; x varies fastest, then y.
 };
 
-/// Maps over all pairs of free parameters.
+/// Maps of the success rate over all pairs of free parameters.
 using Maps = std::vector<TuningMap>;
 
 tuning::ExtraCost cost_of_maps(const TunedAxis& axis) {
@@ -52,7 +54,8 @@ tuning::ExtraCost cost_of_maps(const TunedAxis& axis) {
   return {.maps = trials, .trials = trials};
 }
 
-/// Simulates a cell. Its margins are examined on the machines that the search examines.
+/// Simulates the values of a cell of a map, and stores success rate and criterion in the cell. Its stability
+/// margins are examined on the machines that the search examines.
 void simulate_cell(const TunedAxis& axis, const Values& values, MapCell& cell) {
   const std::optional<study::Study> study = tuning::at_values(axis.tuned, axis.free(), values);
   if (!study) return;

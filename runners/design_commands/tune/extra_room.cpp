@@ -8,7 +8,7 @@ namespace {
 
 using tuning::Values;
 
-/// The extra.
+/// Result of this extra: for each free parameter, the range in which all goals seem to be met.
 using Rooms = std::vector<Room>;
 
 constexpr std::int64_t points_of_parameter = 24;  // at most; usually half of them
@@ -69,7 +69,9 @@ struct RoomRow {
   const std::string& unit;
   const study::Study& study;
 
-  /// " 'small' under condition loaded", of several claims.
+  /// Text that names a claim (goal in a setting) if there are several, such as " 'small' under condition
+  /// loaded"; empty without a claim.
+  /// @param claim index in Aim::claims
   std::string text_of(const std::optional<std::size_t>& claim) const {
     return claim ? claim_text(study, tuning::place_of_claim(study, *claim)) : "";
   }

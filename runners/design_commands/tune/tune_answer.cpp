@@ -34,7 +34,8 @@ std::string_view tune_status(goal::Status status) {
   return status == goal::Status::missed ? "unreachable" : goal::text_of(status);
 }
 
-/// "controller.ki = 5000 N m/(rad s) in 3000 … 300000, …".
+/// Text of the tuned values with their ranges: "controller.ki = 5000 N m/(rad s) in 3000 … 300000, …";
+/// nothing without values.
 std::optional<std::string> gains_text(const Tuning& tuning) {
   std::vector<std::string> texts;
   for (std::size_t i = 0; i < tuning.answer.tuned.values.size(); ++i) {
@@ -46,7 +47,8 @@ std::optional<std::string> gains_text(const Tuning& tuning) {
   return texts.empty() ? std::nullopt : std::optional(fmt::format("{}", fmt::join(texts, ", ")));
 }
 
-/// kp, ki and kd in the other system of units, of a PID.
+/// Sentence with the gains kp, ki and kd in the system of units that the manifest does not use (SI units, or
+/// counts and samples). Empty unless the controller is a PID law.
 std::string other_units_sentence(const Tuning& tuning) {
   if (!tuning.answer.proof) return "";
   const trial::TrialParameters p = study::study_trial(tuning.answer.proof->study, 0, 0).parameters;
@@ -100,7 +102,7 @@ std::string unfinished_sentence(const Tuning& tuning) {
   return may_improve ? "the last generation still improved, a larger --budget may find better values" : "";
 }
 
-/// Names the extras that were left out, and the command that makes them.
+/// Sentence that names the extras that were left out, and the command that computes them; empty if none was.
 std::string left_out_sentence(const Tuning& tuning) {
   const TuneAnswer& answer = tuning.answer;
   const std::vector<tuning::LeftOut>& left_out = answer.extras.left_out;
@@ -145,7 +147,7 @@ std::vector<FrontierRow> frontier_rows(const Tuning& tuning) {
   return rows;
 }
 
-/// A few points of the frontier, evenly spread over it.
+/// A few points of the frontier between success and speed, evenly spread over it, as rows of a table.
 std::vector<FrontierRow> some_frontier_rows(const Tuning& tuning) {
   constexpr std::int64_t most = 6;
   const std::vector<FrontierRow> all = frontier_rows(tuning);

@@ -67,7 +67,8 @@ constexpr const char* tune_help =
     "\n"
     "Example: zerocount tune my-axis.yaml -o tuned.h5 -m tuned.yaml\n";
 
-/// `--manifest`, once it can be written.
+/// Path of the option `--manifest`, the file for the tuned manifest, after a check that it can be written;
+/// nothing without the option.
 std::optional<std::filesystem::path> manifest_option(const command_line::Arguments& arguments,
                                                      const study::Study& study) {
   std::optional<std::filesystem::path> place = command_line::text_place(arguments, "manifest");
@@ -81,8 +82,8 @@ std::optional<std::filesystem::path> manifest_option(const command_line::Argumen
   return place;
 }
 
-/// The manifest of the study with the tuned values: its text with its comments, or, where the text cannot
-/// take a value, its content.
+/// Text of the study's manifest with the tuned values. Comments are kept; if a value cannot be written into
+/// the text, the manifest's content without comments.
 std::string tuned_manifest(const study::Study& study, const tuning::TuneAnswer& answer) {
   const study::Study tuned =
       tuning::with_values_in_text(study, tuning::overrides_of(answer.free, answer.tuned.values));
@@ -90,7 +91,7 @@ std::string tuned_manifest(const study::Study& study, const tuning::TuneAnswer& 
   return manifest_text::manifest_of_point(tuned, 0, {.folder = "."});
 }
 
-/// "margins,ages,room,…".
+/// Names of all extras for the help, such as "margins,ages,room,…".
 std::string names_of_extras() {
   std::vector<std::string_view> names;
   for (const tuning::Extra& extra : all_extras()) names.push_back(extra.name);
@@ -104,7 +105,8 @@ command_line::OptionSpec extras_spec() {
                                {"extras", "E", "none, all (default), or some of " + names_of_extras()});
 }
 
-/// `--extras`. @param with_page a page is made, which has maps
+/// Extras that the option `--extras` asks for; refuses those that the study cannot have.
+/// @param with_page whether a page is made, which has maps
 std::vector<const tuning::Extra*> extras_option(const command_line::Arguments& arguments,
                                                 const study::Study& study, bool with_page) {
   std::vector<const tuning::Extra*> wanted;
@@ -177,18 +179,23 @@ class TunePrinter {
   bool printed_{false};
 };
 
-/// Task of a call of `tune`: to tune the study of a manifest, or to describe the results file of a proof.
+/// Task of a call of the command `tune`: to tune the study of a manifest, or to describe the results file of
+/// an earlier proof.
 struct TuneTask {
   const study::Study& study;
   tuning::TuneSettings settings;
-  std::optional<std::filesystem::path> page{};      ///< Page for the answer.
-  std::optional<std::filesystem::path> watched{};   ///< Page that also shows intermediate results.
-  std::optional<std::filesystem::path> manifest{};  ///< Manifest to write with the tuned values.
-  std::optional<std::filesystem::path> timeline{};  ///< File for the timeline of the threads.
+  std::optional<std::filesystem::path> page{};  ///< Path of the HTML page for the answer; nothing: none.
+  /// Path of the HTML page that also shows intermediate results; nothing: none.
+  std::optional<std::filesystem::path> watched{};
+  /// Path for a manifest with the tuned values; nothing: none is written.
+  std::optional<std::filesystem::path> manifest{};
+  /// Path of the file for the timeline of the threads; nothing: none.
+  std::optional<std::filesystem::path> timeline{};
   bool is_of_file{false};
 };
 
 /// Text of the effort that a search has spent: "14688 of 60000 trials", "21 of 60 s", "14688 trials".
+/// @param seconds time since the start of the tuning, s
 std::string spent_of(const tuning::TuneBudget& budget, const tuning::SearchProgress& progress,
                      double seconds) {
   if (budget.seconds) return fmt::format("{:.3g} of {:g} s", seconds, *budget.seconds);
@@ -247,7 +254,8 @@ ExitCode run_task(const command_line::Arguments& arguments, TuneTask task) {
   return live.during([&] { return commands::recorded(task.timeline, "tune", tune); });
 }
 
-/// A results file has the proof, and nothing is written but a page.
+/// Refuses options that need a manifest, for a call with the results file of a proof. For such a file nothing
+/// is tuned, and nothing is written but a page.
 void refuse_options_of_manifests(const command_line::Arguments& arguments) {
   const bool replaces_page = arguments.has("report") || arguments.has("watch");
   for (const char* const option : {"output", "manifest", "force"}) {

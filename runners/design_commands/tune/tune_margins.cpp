@@ -23,16 +23,16 @@ using tuning::CriticalLoop;
 using tuning::NearestPoint;
 using tuning::SmallestMargins;
 
-/// A margin for which a user can set a limit.
+/// A kind of stability margin for which a user can set a limit, such as the phase margin.
 struct Margin {
   std::string_view name;
   std::string_view title;
   std::string_view unit;
-  std::string_view loop_key;  ///< Key of the critical loop in JSON.
+  std::string_view loop_key;  ///< Key, in JSON, of the loop that has the worst value of this margin.
   std::string_view meaning;
   tuning::Smallest SmallestMargins::*found;
   std::optional<double> study::LoopMargins::*wanted;
-  bool is_upper{false};  ///< Whether the limit is an upper one.
+  bool is_upper{false};  ///< Whether the user's limit is an upper one, so that smaller values are better.
 };
 
 constexpr Margin all_margins[] = {
@@ -46,7 +46,8 @@ constexpr Margin all_margins[] = {
     {"sensitivity", "sensitivity", "", "sensitivity_loop", "largest |S|, S = 1/(1 + L)",
      &SmallestMargins::sensitivity, &study::LoopMargins::sensitivity, true}};
 
-/// Text of a margin: "7.2 dB (at least 6 wanted)", "10 samples or more (none wanted)", "∞ dB".
+/// Text of a stability margin with its wanted limit: "7.2 dB (at least 6 wanted)", "10 samples or more (none
+/// wanted)", "∞ dB".
 std::string found_text(const Margin& margin, double found, const std::optional<double>& wanted) {
   return fmt::format(
       "{}{}{} ({})", std::isfinite(found) ? short_number(found) : "∞", margin.unit,
@@ -54,7 +55,8 @@ std::string found_text(const Margin& margin, double found, const std::optional<d
       wanted ? fmt::format("at {} {:g} wanted", margin.is_upper ? "most" : "least", *wanted) : "none wanted");
 }
 
-/// Text of a loop: "before sliding at 1560 N m/rad of machine 31 under condition loaded".
+/// Text that names the control loop with the worst margin: "before sliding at 1560 N m/rad of machine 31
+/// under condition loaded".
 std::string loop_text(const CriticalLoop& loop, const study::Study& study) {
   return loop.name +
          (loop.stiffness ? fmt::format(" at {} {}", short_number(*loop.stiffness),
@@ -64,7 +66,7 @@ std::string loop_text(const CriticalLoop& loop, const study::Study& study) {
          study::setting_phrase(study.settings, loop.setting);
 }
 
-/// A margin of the tuned loops.
+/// A stability margin of the tuned loops, as a row of a table.
 struct MarginRow {
   const Margin& margin;
   const SmallestMargins& margins;
@@ -92,9 +94,9 @@ Description<MarginRow> margin_columns() {
       });
 }
 
-/// Sentence about the examined machines: "of 100 machines of the search while they slide, at ±10 % of
-/// inertia". A search examines its own machines. The answer for a finished proof examines the machines of the
-/// proof, so that their numbers are the numbers in the file.
+/// Sentence about the machines whose loops were examined: "of 100 machines of the search while they slide, at
+/// ±10 % of inertia". A search examines its own machines. The answer for a finished proof examines the
+/// machines of the proof, so that their numbers are the numbers in the file.
 std::string examined_sentence(const Tuning& tuning) {
   if (tuning.answer.blind)
     return "margins: none, because the controller is a plugin, whose transfer function is not known";
@@ -113,7 +115,8 @@ std::string examined_sentence(const Tuning& tuning) {
   return text + (margins.stable ? "" : "\nthe linear loop of a machine is unstable");
 }
 
-/// A warning where the loops reach for a mode that the study lacks.
+/// Sentence about the lowest frequency of a load mode (which the study lacks) that leaves the loops stable.
+/// It warns if the loops' crossover frequency is more than a third of it. Empty if it is not known.
 std::string mode_sentence(const Tuning& tuning) {
   const tuning::TuneAnswer& answer = tuning.answer;
   if (!answer.tuned.lowest_mode || !answer.tuned.margins || !(answer.tuned.margins->crossover > 0.0))
@@ -175,7 +178,8 @@ std::vector<SettingMargins> margins_of_settings(const Tuning& tuning) {
   return rows;
 }
 
-/// The margins that the nearest point lacks, and by how much.
+/// Names of the wanted margins that the examined point closest to them does not keep, each with the missing
+/// amount in the unit of the margin. Empty if a loop is unstable.
 NamedValues lacking_of(const NearestPoint& nearest, const study::LoopMargins& wanted) {
   NamedValues lacking;
   for (const Margin& one : all_margins) {

@@ -17,7 +17,8 @@
 namespace zerocount::design_commands {
 namespace {
 
-/// The rate of the worst goal as far as the machines of the search show it.
+/// Success rate of the worst goal with 95 % confidence bounds, from the machines that a running search has
+/// simulated.
 document::Bounded bounded_rate(const SearchMoment& moment) {
   const tuning::Estimate& estimate = moment.progress.estimate;
   const auto meeting = std::llround(estimate.rate * static_cast<double>(estimate.machines));
@@ -55,7 +56,7 @@ void add(std::vector<report::PageSection>& sections, std::string name, std::stri
   if (!section.html.empty() || !section.figures.empty()) sections.push_back(std::move(section));
 }
 
-/// The first part of the answer, and the extras.
+/// Sections of a page for the first part of the answer, and for each finished extra.
 std::vector<report::PageSection> sections_of(const Tuning& tuning,
                                              const document::AnswerDescription<Tuning>& first) {
   std::vector<report::PageSection> sections;

@@ -40,17 +40,18 @@ std::string unproven_headline(const TuneAnswer& answer) {
                            answer.searched.examined);
 }
 
-/// The tuned values: "controller.ki = 5000, controller.kp = 0".
+/// Text of the tuned values: "controller.ki = 5000, controller.kp = 0".
 std::string tuned_text(const Tuning& tuning) {
   return values_text(named(tuning.answer.free, tuning.answer.tuned.values));
 }
 
-/// The worst goal of a verdict, and its worst setting.
+/// Worst goal of a verdict, with the setting (condition at an age) in which it is worst.
 tuning::ClaimPlace worst_claim(const goal::Verdict& verdict) {
   return {verdict.goal, verdict.setting};
 }
 
-/// "met: all goals are met by controller.ki = 5000, least 'small' under condition loaded".
+/// First line for a goal that is met: "met: all goals are met by controller.ki = 5000, least 'small' under
+/// condition loaded".
 std::string met_headline(const Tuning& tuning) {
   const goal::Verdict& verdict = tuning.answer.proof->verdict;
   const std::string least = claim_text(tuning.study, worst_claim(verdict));
@@ -60,8 +61,8 @@ std::string met_headline(const Tuning& tuning) {
   return fmt::format("met: {} met by {}{}", met, tuned_text(tuning), least.empty() ? "" : ", least" + least);
 }
 
-/// "at the best values found, controller.ki = 5000, 28.2 % of the moves meet the goal, and at least 47.4 %
-/// are wanted".
+/// Text for a goal that is missed: "at the best values found, controller.ki = 5000, 28.2 % of the moves meet
+/// the goal, and at least 47.4 % are wanted".
 std::string missed_by(const Tuning& tuning) {
   if (!tuning.answer.proof->keeps_margins)
     return fmt::format(
@@ -76,7 +77,7 @@ std::string missed_by(const Tuning& tuning) {
                      100.0 * tuning::asked_rate(goal));
 }
 
-/// Why a search whose best values miss the goal does not show that it is out of reach.
+/// Reason why a search whose best values miss the goal does not show that the goal is out of reach.
 std::string why_undecided(const tuning::Searched& searched) {
   const tuning::Landscape& landscape = searched.landscape;
   if (landscape.points == 0) return "the file does not hold the search that found the values";
@@ -97,14 +98,14 @@ std::vector<Refusal> refusals_of(const Tuning& tuning) {
   return tuning::refusals_of(tuning.answer.moves(), tuning.answer.tuned.margins, tuning.study);
 }
 
-/// The proof; an empty one where nothing was proven.
+/// Proof of the tuning; an empty object if nothing was proven.
 const Proof& proof_in(const Tuning& tuning) {
   static const Proof none{};
   return tuning.answer.proof ? *tuning.answer.proof : none;
 }
 
-/// Sentences about the limits of the proof: what the moves of one machine cannot show, and the study that
-/// would decide the goal.
+/// Sentences about the limits of the proof: what the moves of one machine cannot show, and the size of a
+/// study that would decide the goal. Empty without a proof.
 std::string lacking_sentence(const Tuning& tuning) {
   if (!tuning.answer.proof) return "";
   const Proof& proof = *tuning.answer.proof;
@@ -120,7 +121,8 @@ std::string lacking_sentence(const Tuning& tuning) {
   return proof.needs ? lines + goal::needs_sentence(goal, *proof.needs, study.machines > 0) : lines;
 }
 
-/// The time after which the wanted proportion of moves are within the band for good, where it is too late.
+/// Sentence with the time after which the wanted proportion of moves stays within the band. Empty if the goal
+/// is met.
 std::string late_sentence(const Tuning& tuning) {
   if (!tuning.answer.proof || tuning.answer.is_met() || !tuning::is_of_settling(tuning.study)) return "";
   const double limit = tuning.answer.proof->late_limit;
@@ -187,7 +189,8 @@ using summary::UpperValues;
 
 using Moves = const MoveBehaviour&;
 
-/// "<key>_p95" and "<key>_max" of upper values. People are shown what has a heading.
+/// Adds two columns, the 95 % quantile ("<key>_p95") and the maximum ("<key>_max") of a quantity over the
+/// moves. A column without a heading is in data only.
 void add_upper(Description<MoveBehaviour>& columns, const document::Item& of,
                UpperValues MoveBehaviour::*values, const std::string& p95_heading,
                const std::string& max_heading) {

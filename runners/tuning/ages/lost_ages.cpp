@@ -21,12 +21,14 @@ constexpr double decade = 10.0;
 constexpr int max_decades = 6;  // beyond the last age of the study
 constexpr int max_steps = 6;    // between two ages
 
-/// An age between two ages; a tenth of the older age if the younger is 0.
+/// An age to try between two ages, to three significant digits: their geometric mean, or a tenth of the older
+/// age if the younger is 0. Ages are in the unit of the study.
 double age_between(double younger, double older) {
   return to_three_digits(younger == 0.0 ? older / decade : numerics::geometric_mean(younger, older));
 }
 
-/// Predicate whether a claim still holds at an age, by its rate or by one of its bounds (LostClaim).
+/// Function that tells from the verdict at an age whether a claim still holds there: by its rate, by its
+/// lower bound or by its upper bound (LostClaim).
 using Holds = std::function<bool(const AgeVerdict&)>;
 
 class LifeOfClaims {
@@ -59,7 +61,7 @@ class LifeOfClaims {
     return trials::variant_of(study_, overrides);
   }
 
-  /// Why the study cannot be simulated at this age; empty if it can.
+  /// Error message that says why the study cannot be simulated at this age; empty if it can.
   std::string refusal_at(double age) const {
     try {
       at_age(age);
@@ -112,6 +114,8 @@ class LifeOfClaims {
   }
 
   /// Oldest age at which the study can be simulated, within 2 % and to three significant digits.
+  /// @param allowed an age at which it can be simulated
+  /// @param refused an older age at which it cannot
   double oldest_allowed(double allowed, double refused) const {
     constexpr double narrow = 1.02;
     const auto is_allowed = [this](double age) { return refusal_at(age).empty(); };
@@ -131,7 +135,8 @@ class LifeOfClaims {
             [=](const AgeVerdict& at) { return at.claims[claim].status != goal::Status::missed; }};
   }
 
-  /// Simulates ages between the last age at which `holds` is true and the next one, to 10 %.
+  /// Simulates ages between the last age at which `holds` is true and the next simulated age, until the two
+  /// neighbouring ages differ by at most 10 %.
   void refine(const Holds& holds) {
     int steps = 0;
     for (int from_zero = 0; steps < max_steps && from_zero < max_decades;) {
@@ -162,7 +167,7 @@ class LifeOfClaims {
   trials::Replicates machines_;
   std::uint64_t seed_;
   trials::Effort effort_;
-  std::vector<AgeVerdict> tried_;  ///< Verdicts so far, in ascending order of age.
+  std::vector<AgeVerdict> tried_;  ///< Verdicts on the ages simulated so far, in ascending order of age.
   std::string refusal_;
 };
 

@@ -69,7 +69,8 @@ std::string refusal_of_load(study::PointEdit at, double frequency) {
   return rules::refusal_of(at);
 }
 
-/// Search for the lowest load mode that is borne (additions_to()).
+/// Searches for the lowest natural frequency of a load mode (a second mass behind a spring) at which every
+/// success rate falls by at most 1 %. See additions_to().
 class ModeSearch {
  public:
   explicit ModeSearch(const EffectRuns& runs)
@@ -131,8 +132,8 @@ class ModeSearch {
         .front();
   }
 
-  /// Runs the point with a mode on up to `machines` machines. Stops earlier if the mode cannot be borne any
-  /// more.
+  /// Simulates the point with a load mode of this frequency, Hz, on up to `machines` machines. Stops earlier
+  /// if a rate must fall by more than is allowed, whatever the other machines give.
   ChangedPoint run(double frequency, std::int64_t machines) const {
     ChangedPoint point = with_mode(frequency);
     for (std::int64_t count = 2; point.refusal.empty(); count *= 2) {
@@ -142,15 +143,18 @@ class ModeSearch {
     return point;
   }
 
-  /// Result if not even the highest mode is borne.
+  /// Result of the search if even the mode at the highest frequency tried lowers a rate by more than is
+  /// allowed.
+  /// @param highest this frequency, half the sample rate, Hz
   Limit beyond_rate(double highest) const {
     ChangedPoint point = with_mode(highest);
     runs_.run({&point, 1}, machines_);
     return row(point, "costs more than 1 %; modes above half the sample rate are not tried");
   }
 
-  /// Whether no rate on the first `machines` machines falls by more than is allowed, for any goal and
-  /// setting. Machines that have not run count as meeting all goals.
+  /// Whether no success rate on the first `machines` machines falls by more than 1 % through the load mode,
+  /// for any goal and setting (condition at an age). Machines that have not run yet count as meeting all
+  /// goals.
   bool is_borne(const ChangedPoint& point, std::int64_t machines) const {
     std::vector<MachineResult> best = point.machines;
     for (std::size_t machine = best.size(); machine < static_cast<std::size_t>(machines); ++machine) {
@@ -180,8 +184,9 @@ class ModeSearch {
 
   const EffectRuns& runs_;
   trial::TrialParameters first_;
-  std::int64_t machines_{0};      ///< Number of machines on which the rate is estimated.
-  std::int64_t few_machines_{0};  ///< Number of machines on which the frequency is sought.
+  std::int64_t machines_{0};  ///< Number of machines on which the success rate is estimated.
+  /// Number of machines on which the frequency is sought, about 1/8 of machines_.
+  std::int64_t few_machines_{0};
 };
 
 bool can_have_load(const EffectRuns& runs) {
@@ -190,8 +195,8 @@ bool can_have_load(const EffectRuns& runs) {
   });
 }
 
-/// Whether some goal is met often enough that an effect could cost more than is allowed. Otherwise every
-/// effect would seem to cost nothing.
+/// Whether some goal is met in enough moves or machines that an added effect could lower its rate by more
+/// than is allowed. Otherwise every effect would seem to cost nothing.
 bool can_lose(const EffectRuns& runs) {
   return std::ranges::any_of(runs.estimate(runs.base()).rates,
                              [](double rate) { return rate > allowed_loss; });
@@ -223,8 +228,8 @@ Effect wider_spread(const study::Study& study, std::int64_t point) {
 }
 
 /// Effect that changes the delay of the controller.
-/// @param factor multiplies a delay
-/// @param instead delay of a point without delay, samples
+/// @param factor factor of a delay that is not 0
+/// @param instead delay that replaces a delay of 0, samples
 Effect other_delay(const study::Study& study, std::int64_t point, double factor, double instead) {
   study::PointEdit at(study, point);
   const double delay = at.limits(parameter::controller::delay).high;

@@ -86,7 +86,7 @@ void add_no_integral(const IdealisedPoint& point, std::vector<Effect>& all) {
 
 // Feed-forward: the torque that the axis needs to follow a moving reference.
 
-/// Damping of the axis while it slides, N m s/rad.
+/// Viscous damping of the axis while it slides, N m s/rad, including the damping of a load to ground.
 double damping_of(const trial::TrialParameters& p) {
   const friction::LawTraits& law = friction::traits_of(p.friction.model);
   const double of_rotor = law.has_sliding_damping      ? p.plant.sliding_damping
@@ -95,7 +95,7 @@ double damping_of(const trial::TrialParameters& p) {
   return of_rotor + (motion::has_load(p.plant) ? p.plant.load.damping_to_ground : 0.0);
 }
 
-/// Friction of the axis while it slides fast, N m.
+/// Friction torque of the axis while it slides fast (Coulomb level), N m. Includes the friction of a load.
 double friction_of(const trial::TrialParameters& p) {
   const auto level = [](const friction::FrictionParameters& contact) {
     return contact.breakaway * contact.coulomb_ratio;
@@ -107,7 +107,8 @@ double friction_of(const trial::TrialParameters& p) {
          (of_load ? level(p.load_side.friction.contact) : 0.0);
 }
 
-/// The damping, and the torque that the derivative gain opposes to the velocity, N m s/rad.
+/// Torque that opposes the velocity, per velocity, N m s/rad: viscous damping of the axis, plus the effect of
+/// the derivative gain in a PID law.
 double opposing_damping(ControlPhase phase, const trial::TrialParameters& p) {
   const loop::ControllerParameters controller = loop::controller_in_phase(p.controller, phase);
   const bool by_derivative = controller.blocks.structure == loop::ControlStructure::pid;
@@ -119,7 +120,8 @@ double inertia_of(const trial::TrialParameters& p) {
   return p.plant.inertia + p.plant.load.inertia;
 }
 
-/// One term of the feed-forward, set to what a trial needs.
+/// One gain of the feed-forward, with the function that computes from a trial's axis the value it should
+/// have.
 struct FeedforwardTerm {
   std::string_view key;
   std::string_view name;

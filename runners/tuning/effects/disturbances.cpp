@@ -21,15 +21,17 @@ namespace {
 using study::ParameterRange;
 using trial::TrialParameters;
 
-/// Takes from the integral the torque that holds disturbances from `low` to `high`, N m.
+/// Reduces the torque that the controller's integral has at the start by what it needs to hold a disturbance.
+/// @param torque range of the disturbance torque, N m; the end of the range that the integral opposes is
+/// taken
 void release_integral(const ParameterRange& torque, TrialParameters& p) {
   double& integral = p.initial.integral;
   integral = integral > 0.0 ? std::max(0.0, integral - std::max(0.0, -torque.low))
                             : std::min(0.0, integral + std::max(0.0, torque.high));
 }
 
-/// Removes a constant load torque. The integral gives up as much as the largest load of the study, so that
-/// one integral for all loads is removed too.
+/// Change that removes a constant load torque from a trial. The initial integral of the controller gives up
+/// as much as the largest load of the study, so that one integral for all loads is removed too.
 Change without_constant_disturbance(const ParameterRange& load) {
   return [load](TrialParameters& p) {
     release_integral(load, p);
@@ -54,8 +56,10 @@ auto& ripples_on(bool load, auto& p) {
   return load ? p.load_side.disturbance.ripple : p.disturbance.ripple;
 }
 
-/// Removes a ripple, and from the integral the torque that holds it at the start. Gravity, for example, may
-/// be a ripple of one period.
+/// Removes one torque ripple from a trial, and from the controller's initial integral the torque that holds
+/// the ripple at the start. Gravity, for example, may be a ripple of one period.
+/// @param on_load whether the ripple acts on the second mass
+/// @param number index of the ripple in the list of this mass
 void without_ripple(bool on_load, std::size_t number, TrialParameters& p) {
   trial::RippleParameters& ripple = ripples_on(on_load, p)[number];
   const double torque = motion::value(trial::ripples_of({ripple}, p.initial.position), 0.0);
@@ -77,8 +81,8 @@ void add_ripples(const IdealisedPoint& point, std::vector<Effect>& all) {
   }
 }
 
-/// Removes a spectrum, which is not a parameter. It stays in the list, so that the other spectra keep their
-/// random numbers.
+/// Effect without one spectrum of the torque disturbance. A spectrum is not a parameter, so it stays in the
+/// list without torque, and the other spectra keep their random numbers.
 Effect without_spectrum(const std::shared_ptr<const trial::SpectrumParameters>& spectrum,
                         std::size_t number) {
   auto quiet = std::make_shared<trial::SpectrumParameters>(*spectrum);
@@ -98,7 +102,8 @@ void add_spectra(const IdealisedPoint& point, std::vector<Effect>& all) {
   for (std::size_t i = 0; i < spectra.size(); ++i) all.push_back(without_spectrum(spectra[i], i));
 }
 
-/// Removes all disturbances and the torques that hold them. Each is removed by its own change.
+/// Change that removes all disturbances, and the torques that hold them at the start.
+/// @param one_by_one changes that each remove one disturbance
 Change without_disturbances(std::vector<Change> one_by_one) {
   return [changes = std::move(one_by_one)](TrialParameters& p) {
     for (const Change& change : changes) change(p);

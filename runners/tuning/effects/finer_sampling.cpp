@@ -57,9 +57,9 @@ void refine_fine_encoder(PointEdit& at) {
   refine(at, parameter::encoder::fine, parameter::encoder::resolution, "encoder.fine_errors");
 }
 
-/// Whether the row is in counts, or counts per sample, of the encoder by which the control, the command and
-/// the verdict count. Errors of an encoder are in its own counts, and a phase is a part of a count. The band
-/// of rest keeps its length as bands do (rest_in_finer_counts()).
+/// Whether the parameter is in counts, or counts per sample, of the encoder by which the control, the command
+/// and the verdict count. Not included: errors of an encoder, which are in its own counts; the encoder's
+/// phase, which is a fraction of a count; the band of rest, for which rest_in_finer_counts() sets the value.
 bool is_in_fine_counts(const parameters::Parameter& row) {
   const bool of_an_encoder = is_within(row.name, "encoder") ||
                              row.name == parameter::initial::encoder_phase ||
@@ -68,8 +68,8 @@ bool is_in_fine_counts(const parameters::Parameter& row) {
          row.unit == "count/sample";
 }
 
-/// The scaling that keeps a length in counts. A zone of the control within b counts keeps the length b; one
-/// within zero counts keeps ± half a count.
+/// Scaling of a parameter in counts that keeps its length on the axis when the counts become finer. A zone of
+/// the control within b counts keeps the length b; one within zero counts keeps ± half a count of the study.
 study::Scaling same_length(const parameters::Parameter& row) {
   if (is_within(row.name, "controller")) return {.factor = finer, .least = half_a_count};
   return {.factor = finer};
@@ -88,7 +88,8 @@ void rest_in_finer_counts(trial::TrialParameters& p) {
   p.verdict.rest_band = finer * std::floor(p.verdict.rest_band) + half_a_count;
 }
 
-/// Why moves of a trial with finer counts cannot be judged in counts of the study; empty if they can.
+/// Why the moves of a trial with finer encoder counts cannot be judged in the study's counts; empty if they
+/// can.
 std::string refusal_of_finer_counts(const study::Study& study) {
   if (!finer_bands(study.features.bands, counts_per_count))
     return fmt::format("with zero counts and one count there would be more than {} error bands",
@@ -101,7 +102,8 @@ std::string refusal_of_finer_counts(const study::Study& study) {
   return "";
 }
 
-/// Makes the counts of the verdict finer, and converts the measures to counts of the study.
+/// Adds to an effect with a finer encoder: the finer units, the matching band of rest, and the reason if its
+/// moves cannot be judged in the study's counts.
 void judge_in_study_counts(const study::Study& study, Effect& effect) {
   effect.finer.counts = counts_per_count;
   effect.change = rest_in_finer_counts;
@@ -125,8 +127,10 @@ Effect with_finer_encoder(const IdealisedPoint& point, const study::Study& study
   return effect;
 }
 
-/// Effect with a finer encoder on one mass, for an axis with an encoder on each mass. Counts are counts of
-/// the encoder that closes the position loop.
+/// Effect with a finer encoder on one mass only, for an axis with an encoder on each mass. "Counts" are those
+/// of the encoder that closes the position loop.
+/// @param mass the mass whose encoder becomes finer
+/// @param closing the mass whose encoder closes the position loop
 Effect with_finer_encoder_of(motion::EncoderPlace mass, motion::EncoderPlace closing,
                              const IdealisedPoint& point, const study::Study& study) {
   Effect effect{.name = fmt::format("{} on the {}", parameters::finer_encoder, study::mass_text(mass)),
@@ -152,8 +156,9 @@ Effect with_finer_encoder_of(motion::EncoderPlace mass, motion::EncoderPlace clo
 constexpr std::int64_t samples_per_sample = 2;
 constexpr double rate_ratio = samples_per_sample;
 
-/// Factor by which a gain of the sampled law changes at the new sample rate, so that it keeps
-/// its value in SI units.
+/// Factor by which a gain of the sampled control law changes at the new sample rate, so that it keeps its
+/// value in SI units.
+/// @param si_unit SI unit of the gain
 double factor_at_new_rate(std::string_view si_unit) {
   if (si_unit.ends_with("/(rad s)")) return 1.0 / rate_ratio;
   return si_unit.ends_with(" s/rad") ? rate_ratio : 1.0;
@@ -169,7 +174,8 @@ void with_twice_the_rate(PointEdit& at) {
   });
 }
 
-/// Converts the coefficients of biquad filters, which belong to a sample rate, to the new rate.
+/// Converts the coefficients of biquad filters, which are valid for one sample rate only, to the new sample
+/// rate.
 void resample_biquads(trial::TrialParameters& p) {
   for (std::vector<loop::Filter>* filters :
        {&p.controller.blocks.filters, &p.controller.coarse.blocks.filters}) {

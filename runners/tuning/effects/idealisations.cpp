@@ -53,7 +53,8 @@ using study::PointEdit;
 
 // Ideal values.
 
-/// Whether a torque may act from the start on. An integral then holds it.
+/// Whether, in some trial of the point, a disturbance torque may act from the start on. The controller's
+/// initial integral then holds it.
 bool can_have_load_torque(const PointEdit& at) {
   bool found = can_differ_from(0.0, at.limits(parameter::disturbance::torque)) ||
                can_differ_from(0.0, at.limits(parameter::disturbance::load::torque));
@@ -66,7 +67,8 @@ bool can_have_load_torque(const PointEdit& at) {
   return found;
 }
 
-/// Whether the parameter can be a cause of failures at the point, apart from the effect rules.
+/// Whether the parameter can be a cause of failures at the point. This covers only exceptions, such as an
+/// integral that goes with the disturbance it holds; whether the parameter acts at all is checked elsewhere.
 bool can_be_a_cause(const PointEdit& at, std::string_view name) {
   // The error is measured with the fine encoder, whichever closes the loop.
   if (is_within(name, "encoder.coarse_errors")) return encoders_of(at).coarse;
@@ -88,12 +90,14 @@ bool can_be_a_cause(const PointEdit& at, std::string_view name) {
   return true;
 }
 
-/// Whether the loop is so different without the effect that other gains may be better.
+/// Whether the control loop is so different without the effect of this parameter that other gains may be
+/// better.
 bool changes_the_loop(std::string_view name) {
   return is_within(name, "controller") || is_within(name, "amplifier");
 }
 
-/// Name of an effect: "no ripple disturbance.ripple.0", "no dead band of the error in the coarse phase".
+/// Name of the effect whose parameter takes its ideal value: "no ripple disturbance.ripple.0", "no dead band
+/// of the error in the coarse phase".
 std::string name_of(const parameters::Parameter& row) {
   std::string name = name_in_phase(row.ideal->name, row.name);
   if (parameters::without_indices(row.name) != row.name)
@@ -101,7 +105,8 @@ std::string name_of(const parameters::Parameter& row) {
   return name;
 }
 
-/// Adds an effect for each parameter whose value differs from its ideal value.
+/// Adds to `all`, for each parameter whose value differs from its ideal value, an effect that gives it the
+/// ideal value.
 void add_ideal_values(const IdealisedPoint& point, std::vector<Effect>& all) {
   visit_values(point.at, [&](std::size_t slot, const parameters::Parameter& row) {
     if (!row.ideal || !row.ideal->value || !parameters::exists_on(row, point.at.plan().units.axis)) return;
@@ -156,11 +161,13 @@ void with_finer_converter(PointEdit& at) {
   at.scale(parameter::dac::nonlinearity, ratio);
 }
 
-/// If the limit already tames the step, the infinite range need not be the best, so three ranges are tried.
+/// Factors by which the torque range of the drive is widened, one effect each. If the torque limit already
+/// tames the response to a step, an infinite range need not be the best, so three are tried.
 constexpr std::array<int, 3> wider_ranges{2, 8, 50};
 
-/// A code keeps its size, so that the range alone can help. Where the ratio is no power of two, the converter
-/// gets the next one and the amplifier limits the torque.
+/// Effect with a torque range that is `ratio` times wider. The step of the digital-to-analogue converter
+/// keeps its size, so that the range alone can help. If the ratio is not a power of two, the converter gets
+/// the next power of two, and the amplifier limits the torque.
 Effect with_wider_torque_range(int ratio) {
   const int more_bits = std::bit_width(static_cast<unsigned>(ratio - 1));
   const double converter_ratio = std::exp2(more_bits);

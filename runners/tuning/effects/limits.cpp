@@ -13,8 +13,8 @@ namespace zerocount::tuning {
 
 namespace {
 
-/// Error probability of a family of tests. Single causes and pairs of causes are two families, each with half
-/// of max_false_cause.
+/// Error probability of one family of significance tests. Tests of single causes and tests of pairs of causes
+/// are two families, each with half of max_false_cause.
 constexpr double of_a_family = 0.5 * max_false_cause;
 
 double allowed_error(std::int64_t alternatives) {
@@ -56,7 +56,8 @@ void name_claims(const EffectRuns& runs, Limit& limit) {
   }
 }
 
-/// Estimate::margin of a point on its first `count` machines; −infinity if the point cannot be simulated.
+/// Estimate::margin (worst success rate compared with the wanted one, larger is better) of a changed point on
+/// its first `count` machines; −infinity if the point cannot be simulated.
 double margin_on(const EffectRuns& runs, const ChangedPoint& point, std::int64_t count) {
   if (!point.refusal.empty()) return -std::numeric_limits<double>::infinity();
   return estimate_of(runs.aim(), point.machines, count).margin;
@@ -70,8 +71,9 @@ std::vector<ChangedPoint> pairs_of(const EffectRuns& runs, std::span<const Chang
   return pairs;
 }
 
-/// Keeps the better half of the pairs on their first `count` machines, and of this half only the pairs that
-/// are at least as good on these machines as each single cause.
+/// Keeps the better half of the pairs of causes, judged on their first `count` machines. Of this half, keeps
+/// only the pairs that are at least as good on these machines as each single cause.
+/// @param alone [cause] points with a single cause switched off
 void keep_promising(const EffectRuns& runs, std::span<const ChangedPoint> alone, std::int64_t count,
                     std::vector<ChangedPoint>& pairs) {
   std::vector<double> margins;
@@ -90,7 +92,9 @@ std::int64_t first_machines_of_pairs(std::int64_t machines) {
   return std::min(machines, std::clamp(machines / 8, fewest, most));
 }
 
-/// The best pair on all machines, of those that stayed promising; null if none did.
+/// The pair of causes with the largest Estimate::margin on all machines. Pairs that fall behind on fewer
+/// machines are dropped before (keep_promising()). Null if none is left.
+/// @param alone [cause] points with a single cause switched off
 const ChangedPoint* best_pair(const EffectRuns& runs, std::span<const ChangedPoint> alone,
                               std::vector<ChangedPoint>& pairs) {
   for (std::int64_t count = first_machines_of_pairs(runs.machines());
@@ -105,14 +109,17 @@ const ChangedPoint* best_pair(const EffectRuns& runs, std::span<const ChangedPoi
   return best == pairs.end() || !best->refusal.empty() ? nullptr : &*best;
 }
 
-/// Machines that gain and lose from one point to another, in the claim that is worst without changes.
+/// Counts the machines that gain and lose from one point to another, in the claim (goal in a setting) that is
+/// worst without changes.
+/// @param alternatives number of causes, or of pairs of causes, that are tried
 PairedGain gain_between(const EffectRuns& runs, const ChangedPoint& before, const ChangedPoint& after,
                         std::int64_t alternatives) {
   const std::size_t worst = runs.estimate(runs.base()).worst;
   return paired_gain(runs.aim().claims[worst], worst, before.machines, after.machines, alternatives);
 }
 
-/// Result with a cause, or a pair of causes, switched off.
+/// Result with a cause, or a pair of causes, switched off: rate, avoided failures and gain compared with the
+/// unchanged point `base`.
 Limit cause_of(const EffectRuns& runs, const ChangedPoint& without, const Limit& base,
                std::int64_t alternatives) {
   Limit limit = limit_of(runs, without);
@@ -122,7 +129,7 @@ Limit cause_of(const EffectRuns& runs, const ChangedPoint& without, const Limit&
   return limit;
 }
 
-/// Runs each single cause on all machines, in up to 100 parts so that the progress can be told.
+/// Simulates each single cause on all machines, in up to 100 steps so that `tell` can show the progress.
 void run_alone(const EffectRuns& runs, std::vector<ChangedPoint>& alone, const TellStage& tell) {
   constexpr std::int64_t trials_of_part = 2000;
   constexpr std::int64_t most_parts = 100;
@@ -137,7 +144,7 @@ void run_alone(const EffectRuns& runs, std::vector<ChangedPoint>& alone, const T
   }
 }
 
-/// Adds the best pair of causes, if the pair is better than each single cause.
+/// Adds to `limits` the best pair of causes, if its gain over each single cause is significant.
 void add_best_pair(const EffectRuns& runs, std::span<const ChangedPoint> alone, const TellStage& tell,
                    std::vector<Limit>& limits) {
   const auto best = std::ranges::max_element(limits, is_lower);

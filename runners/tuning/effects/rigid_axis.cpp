@@ -49,14 +49,16 @@ FrictionModel same_law(LoadFrictionModel model) {
   return FrictionModel::none;
 }
 
-/// Adds to the integral the torque at the start that the contact does not carry.
+/// Adds to the controller's initial integral the torque that must be held at the start and that the friction
+/// contact does not carry.
 void keep_start(trial::TrialParameters& p) {
   const trial::HeldStart held = trial::held_start(p);
   p.initial.integral += held.integral;
   p.initial.holding = held.contact != 0.0;
 }
 
-/// Gives the one mass the friction law of the load. The friction starts virgin and unloaded, as on the load.
+/// Replaces the friction of the one mass of the rigid axis by that of the load, if the load has friction. The
+/// friction starts virgin and unloaded, as on the load.
 void take_over_friction(trial::TrialParameters& p) {
   if (p.load_side.friction.model == LoadFrictionModel::none) return;
   p.friction = {
@@ -67,8 +69,9 @@ void take_over_friction(trial::TrialParameters& p) {
   p.initial.mode = trial::InitialMode::stick;
 }
 
-/// Moves the disturbances of the load to the one mass. If the study starts in equilibrium (initial.holding),
-/// the integral of the controller starts with the constant torque that the friction contact does not carry.
+/// Moves the disturbance torques of the load to the one mass of the rigid axis. If the study starts in
+/// equilibrium (initial.holding), the integral of the controller starts with the constant torque that the
+/// friction contact does not carry.
 void take_over_disturbances(trial::TrialParameters& p) {
   const trial::HeldStart held = trial::held_start(p);
   const trial::DisturbanceParameters& of_load = p.load_side.disturbance;

@@ -20,8 +20,8 @@ using trial::BandOutcome;
 using trial::MoveOutcome;
 using MeasureMember = decltype(layout::Measure{}.field.member);
 
-/// Fields of a move that are lengths in counts. Each field is listed once, although two measures may share
-/// it.
+/// Pointers to the members of MoveOutcome that are lengths in counts. Each member is listed once, although
+/// two measures may share it.
 const std::vector<MeasureMember>& lengths_in_counts() {
   static const std::vector<MeasureMember> all = [] {
     std::vector<MeasureMember> members;
@@ -47,7 +47,10 @@ std::int64_t finer_band(std::int64_t band, std::int64_t counts) {
   return counts * band + counts / 2;
 }
 
-/// Measures of the finer move within a band of the study.
+/// Measures of a move within an error band of the study, found in a move that was measured in finer counts;
+/// empty if this band was not measured.
+/// @param band half-width of the band, counts of the study
+/// @param counts finer counts in one count of the study
 BandOutcome of_band(const MoveOutcome& finer, const trial::MoveTiming& timing, std::int64_t band,
                     std::int64_t counts) {
   const auto bands = timing.bands.values();
@@ -55,13 +58,15 @@ BandOutcome of_band(const MoveOutcome& finer, const trial::MoveTiming& timing, s
   return slot == bands.end() ? BandOutcome{} : finer.bands[static_cast<std::size_t>(slot - bands.begin())];
 }
 
-/// Start of the final window of a move, s. The outcome depends on when the error settles relative to this
-/// time.
+/// Start of the final window of a move, s after the start of the move. The move's outcome depends on whether
+/// the error has settled before this time.
 double start_of_window(const trial::MoveTiming& timing) {
   return static_cast<double>(timing.samples - timing.window) * timing.sample_time;
 }
 
-/// Sets the measures that depend on the error being zero, or at most one count.
+/// Sets the measures of a move that depend on the error being zero, or at most one count of the study.
+/// @param zero measures of the band 0 of the study
+/// @param one measures of the band 1 of the study
 void measure_by_counts(MoveOutcome& move, const trial::MoveTiming& timing, const BandOutcome& zero,
                        const BandOutcome& one) {
   const bool ended = move.stopped || move.outcome == trial::Outcome::nonfinite;

@@ -21,24 +21,26 @@
 /// counts define are the measures of the band 0 (core/trial/measures.md).
 namespace zerocount::tuning {
 
-/// Units of a changed trial.
+/// Units of a trial with a finer encoder or a higher sample rate, in relation to the study's.
 struct FinerUnits {
-  std::int64_t counts{1};   ///< Counts of the changed trial in one count of the study; 1 or even.
-  std::int64_t samples{1};  ///< Samples of the changed trial in one sample of the study.
+  std::int64_t counts{1};  ///< Encoder counts of the changed trial in one count of the study; 1 or even.
+  /// Samples of the changed trial in one sample of the study: ratio of the sample rates.
+  std::int64_t samples{1};
 
   bool operator==(const FinerUnits&) const = default;
 };
 
-/// Converts an error from finer counts to counts of the study.
-/// @param counts FinerUnits::counts
+/// Converts a position error from finer encoder counts to counts of the study, rounded to whole counts.
+/// @param counts FinerUnits::counts, finer counts in one count of the study
 std::int64_t error_in_study_counts(std::int64_t finer_error, std::int64_t counts);
 
-/// Error bands of a changed trial that represent the study's bands and the bands 0 and 1. Nothing if these
-/// are more bands than a trial can measure.
+/// Error bands, in finer counts, that represent the study's bands and the bands of 0 and 1 count of the
+/// study. Nothing if these are more bands than a trial can measure.
+/// @param counts FinerUnits::counts, finer counts in one count of the study
 std::optional<trial::ErrorBands> finer_bands(const trial::ErrorBands& of_study, std::int64_t counts);
 
-/// Whether the measure can be converted to counts of the study. It cannot if it depends on zero counts of
-/// single samples.
+/// Whether a measure of a move with finer counts can be converted to counts of the study. It cannot if it
+/// depends on zero counts of single samples.
 bool is_known_in_study_units(std::string_view measure);
 
 /// Converts the measures of a move to the units of the study. Measures that cannot be converted are NaN.

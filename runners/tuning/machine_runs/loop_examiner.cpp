@@ -24,7 +24,8 @@
 namespace zerocount::tuning {
 namespace {
 
-/// Whether the study draws, in a setting, some input whose name satisfies `fits`.
+/// Whether the study draws at random, in a setting (condition at an age), some input whose name satisfies
+/// `fits`.
 template <class Fits>
 bool draws(const study::Study& study, std::int64_t setting, const Fits& fits) {
   const study::StudyPlan& plan = *study.plan;
@@ -37,7 +38,8 @@ bool draws(const study::Study& study, std::int64_t setting, const Fits& fits) {
   return false;
 }
 
-/// Replaces each machine by two, with the factors 1 − part and 1 + part.
+/// Replaces each machine by two copies in which `scale` multiplies a quantity by 1 − part and by 1 + part.
+/// Does nothing if `part` is nothing or 0.
 template <class Scale>
 void spread_by(const std::optional<double>& part, std::vector<trial::TrialParameters>& machines,
                const Scale& scale) {
@@ -53,9 +55,9 @@ void spread_by(const std::optional<double>& part, std::vector<trial::TrialParame
   machines = std::move(spread);
 }
 
-/// Spread of the study's margins, without the quantities that the study itself draws in a setting. Empty
-/// without margins.
-/// @param setting 0 without settings
+/// Spread of inertia, damping and torque constant that the study's margins ask for, without the quantities
+/// that the study itself draws in a setting. Empty without margins.
+/// @param setting index of the setting (condition at an age); 0 without settings
 study::LoopSpread spread_of_undrawn(const study::Study& study, std::int64_t setting) {
   if (!study.tuning) return {std::nullopt, std::nullopt, std::nullopt};
   study::LoopSpread spread = study.tuning->margins.spread;
@@ -70,8 +72,9 @@ study::LoopSpread spread_of_undrawn(const study::Study& study, std::int64_t sett
   return spread;
 }
 
-/// The machine at the corners of its spread: each combination of the lowest and highest values of the n
-/// spread quantities. These are 2ⁿ machines; without a spread, the machine itself.
+/// The machine at the corners of its spread (tolerance of inertia, damping and torque constant): each
+/// combination of the lowest and highest values of the n spread quantities. These are 2ⁿ machines; without a
+/// spread, the machine itself.
 ///
 ///     inertia: J and JL times 1 ± s;  damping: c and cs times 1 ± s;  torque constant: times 1 ± s
 std::vector<trial::TrialParameters> corners_of(const trial::TrialParameters& machine,
@@ -109,13 +112,15 @@ constexpr double frequency_ratio = 1.05;   // of one mode that is tried and the 
 
 struct Loops {
   std::vector<theory::TrialLoop> loops;
-  double hold{0.0};  ///< Hold of a move, s.
+  /// Time for which a move holds its target, s. A loop that grows only slowly in this time counts as stable.
+  double hold{0.0};
   bool before_sliding{false};
   bool sliding{false};
 };
 
-/// Contacts of the machine. They are the contacts of the trial; for a spring, the contacts at its ends are
-/// replaced by several from the softest to the stiffest.
+/// Linearised friction contacts of the machine. They are the contacts of the trial. For friction with a
+/// spring, the contacts before sliding are replaced by several with stiffnesses from the softest to the
+/// stiffest.
 friction::LinearContacts contacts_of(const trial::TrialParameters& p, const ExaminedMachine& machine) {
   friction::LinearContacts contacts = theory::linear_contacts_of(p);
   if (!friction::has_spring(p.friction.model)) return contacts;
@@ -131,7 +136,8 @@ friction::LinearContacts contacts_of(const trial::TrialParameters& p, const Exam
   return contacts;
 }
 
-/// Loops in which a machine moves.
+/// Linear control loops that a machine can have, one for each friction contact and state of the load.
+/// @param of machine and the trial's parameters
 /// @param more_delay added to the delay of the controller, samples
 Loops loops_of(const Examination& of, double more_delay = 0.0) {
   trial::TrialParameters p = of.p;
@@ -168,12 +174,13 @@ bool is_wanted(const study::LoopMargins& margins) {
   return margins.gain || margins.phase || margins.delay || margins.sensitivity;
 }
 
-/// Missing fraction of a wanted margin; 0 if the margin is kept.
+/// Fraction by which a margin falls short of the wanted one: 1 − found/wanted; 0 if the margin is kept.
 double missing_part(double found, double wanted) {
   return wanted > 0.0 ? std::max(1.0 - found / wanted, 0.0) : 0.0;
 }
 
-/// Largest missing fraction of a gain, phase or sensitivity margin of a loop; 0 if the loop keeps all.
+/// Largest fraction by which a gain, phase or sensitivity margin of a loop falls short; 0 if the loop keeps
+/// all wanted margins.
 double missing_of(const theory::FrozenLoop& loop, const study::LoopMargins& margins) {
   double missing = 0.0;
   if (margins.gain || margins.phase) {
@@ -197,7 +204,7 @@ bool keeps_margins(const Examination& machine, const study::LoopMargins& margins
       "margins of a loop");
 }
 
-/// Measure of the growth of the fastest unstable loop, above 0; 0 if no loop is unstable.
+/// Positive number that increases with the growth of the fastest unstable loop; 0 if no loop is unstable.
 double instability(const Loops& of) {
   double fastest = 0.0;
   for (const theory::TrialLoop& one : of.loops) {
@@ -220,8 +227,8 @@ double shortfall_of(const Examination& machine, const study::LoopMargins& margin
   return missing;
 }
 
-/// Additional delay at which a loop becomes unstable, samples, to 0.01, and this loop. If no loop becomes
-/// unstable: SmallestMargins::max_delay, and no loop.
+/// Additional delay of the controller at which a loop becomes unstable, samples, to 0.01, and this loop. If
+/// no loop becomes unstable: SmallestMargins::max_delay, and no loop.
 std::pair<double, std::optional<theory::TrialLoop>> delay_margin(const Examination& machine) {
   std::optional<theory::TrialLoop> first_lost;
   const auto bears = [&](double more) {
@@ -243,8 +250,8 @@ std::pair<double, std::optional<theory::TrialLoop>> delay_margin(const Examinati
   return {margin, first_lost};
 }
 
-/// Whether the machines differ, in a setting, in quantities that change only the spring stiffness of
-/// their loops.
+/// Whether the machines differ, in a setting (condition at an age), only in quantities that change nothing
+/// but the spring stiffness of their loops.
 bool differ_in_stiffness_alone(const study::Study& study, std::int64_t setting,
                                friction::FrictionModel model) {
   if (!friction::has_spring(model) && friction::traits_of(model).has_presliding_motion) return false;
@@ -284,7 +291,7 @@ SmallestMargins margins_of_machine(const Examination& machine) {
   return smallest;
 }
 
-/// Merges the margins of further machines into the smallest of all.
+/// Merges the margins `one` of further machines into `all`, the smallest margins so far.
 void include(SmallestMargins& all, const SmallestMargins& one) {
   all.stable = all.stable && one.stable;
   include(all.gain, one.gain);

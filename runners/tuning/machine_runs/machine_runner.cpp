@@ -25,16 +25,17 @@ namespace {
 
 constexpr std::int64_t trials_of_reference = 8;  // of a block that lanes do not run
 
-/// A machine of an entry.
+/// A machine of a study that is to run, with the entry of the list of runs to which it belongs.
 struct MachineOfEntry {
   const MachinesToRun* entry;
   std::int64_t machine;
 };
 
-/// Machines that one thread runs at once. They belong to one or several entries.
+/// Machines whose trials one thread runs at once. They belong to one or several entries of the list of runs.
 using Block = std::vector<MachineOfEntry>;
 
-/// Adds the criterion's value of a move; infinity for "never". Adds nothing if the move has no such value.
+/// Appends the value that the criterion takes for a move to `values`; infinity for "never". Appends nothing
+/// if the measure has no value for this move.
 void add_value(std::vector<double>& values, const Criterion& criterion, const trial::MoveOutcome& move) {
   const double scale = criterion.scale ? criterion.scale->from_start(move.travel_time) : 1.0;
   if (!trial::was_run(move)) {
@@ -44,7 +45,8 @@ void add_value(std::vector<double>& values, const Criterion& criterion, const tr
   }
 }
 
-/// Adds the moves of a trial to the result of its machine.
+/// Adds the moves of a trial to the counts of its machine: judged moves, moves that meet each goal, and
+/// criterion values.
 class TrialCounter {
  public:
   explicit TrialCounter(const study::Study& study)
@@ -72,7 +74,7 @@ class TrialCounter {
   std::size_t settings_;
 };
 
-/// Parameters of trial i of a machine, with the change of the entry applied.
+/// Parameters of the i-th trial of a machine (0 … trials_each − 1), with the change of the entry applied.
 trial::TrialParameters trial_of(const MachinesToRun& entry, const trials::Replicates& machines,
                                 std::int64_t machine, std::int64_t i) {
   const std::int64_t trial = trials::trial_of_replicate(*entry.study, machines, machine, i);
@@ -90,7 +92,7 @@ std::vector<trial::TrialParameters> trials_of(const Block& block, const trials::
   return trials;
 }
 
-/// Number of machines in a block.
+/// Number of machines whose trials one thread runs at once.
 /// @param all number of trials that are run together
 std::size_t machines_of_block(const MachinesToRun& entry, const trials::Replicates& machines,
                               std::int64_t all) {
@@ -100,8 +102,9 @@ std::size_t machines_of_block(const MachinesToRun& entry, const trials::Replicat
 }
 
 /// Divides the machines into the smallest number n of blocks of at most `size` machines. Block b gets the
-/// machines b, b + n, b + 2n, …, so it has machines of every entry with at least n machines. The time of a
-/// trial depends on its entry, so blocks with machines of a single entry would take different times.
+/// machines b, b + n, b + 2n, …, so it has machines of every entry (study to run) with at least n machines.
+/// The time of a trial depends on its entry, so blocks with machines of a single entry would take different
+/// times.
 void add_blocks(std::span<const MachineOfEntry> machines, std::size_t size, std::vector<Block>& blocks) {
   const std::size_t count = (machines.size() + size - 1) / size;
   for (std::size_t block = 0; block < count; ++block) {
@@ -110,7 +113,8 @@ void add_blocks(std::span<const MachineOfEntry> machines, std::size_t size, std:
   }
 }
 
-/// Divides the machines of all entries into blocks of about equal work, however few machines each entry has.
+/// Divides the machines of all entries (studies to run) into blocks of about equal work, however few machines
+/// each entry has.
 /// @param all number of trials of all entries
 std::vector<Block> blocks_of(std::span<const MachinesToRun> entries, const trials::Replicates& machines,
                              std::int64_t all) {
@@ -125,7 +129,9 @@ std::vector<Block> blocks_of(std::span<const MachinesToRun> entries, const trial
   return blocks;
 }
 
-/// Moves of trial i of a machine, converted to the units of its study.
+/// Moves of the i-th trial of a machine, converted from the finer counts and samples of the changed trial to
+/// the units of its study.
+/// @param finer measures of the moves in the units of the changed trial
 std::vector<trial::MoveOutcome> moves_in_study_units(const MachineOfEntry& one,
                                                      const trials::Replicates& machines, std::int64_t i,
                                                      std::span<const trial::MoveOutcome> finer) {
@@ -199,7 +205,8 @@ std::optional<Criterion> motion_criterion(const study::Study& study, std::string
   return std::nullopt;
 }
 
-/// Whether the text names the settling time in the bands of the goals, such as "band_settling_time.p95".
+/// Whether the text names a settling time in the bands or tolerances of the goals, such as
+/// "band_settling_time.p95".
 bool is_of_settling(std::string_view text) {
   return text.starts_with("band_settling_time.");
 }

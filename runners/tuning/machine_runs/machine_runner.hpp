@@ -18,18 +18,19 @@
 #include "runners/tuning/machine_runs/finer_units.hpp"
 #include "runners/tuning/race/candidate.hpp"
 
-/// Tuning of a study: the search on machines of its own, the proof on other machines, and the sensitivity of
-/// the answer to its premises.
+/// Simulates the machines of a tuned study, and counts how many moves meet its goals.
 namespace zerocount::tuning {
 
-/// Dotted paths of the free parameters.
+/// Names (dotted paths) of the free parameters, such as "controller.ki".
 std::vector<std::string> names_of(std::span<const study::FreeParameter> free);
 
-/// Study with these values; nothing if the values are not allowed together.
+/// Copy of the study in which the free parameters have these values; nothing if the values are not allowed
+/// together.
 std::optional<study::Study> at_values(const study::Study& study, std::span<const study::FreeParameter> free,
                                       const Values& values);
 
-/// Overrides such as "controller.ki=5000", with enough digits to read back the same values.
+/// Overrides such as "controller.ki=5000" that give the free parameters these values, with enough digits to
+/// read back the same values.
 std::vector<std::string> overrides_of(std::span<const study::FreeParameter> free, const Values& values);
 
 /// Quantity that tuning minimises: a quantile of a measure over the moves of one goal.
@@ -49,62 +50,71 @@ std::vector<Criterion> criteria_of(const study::Study& study);
 /// all have tolerances, "goal_settling_time.p95" if there are goals of both kinds; otherwise
 /// Tuning::minimise.
 std::string criterion_name(const study::Study& study);
-/// Whether the criterion is a settling time within the bands or tolerances of the goals.
+/// Whether the quantity that the tuning minimises is a settling time within the bands or tolerances of the
+/// goals.
 bool is_of_settling(const study::Study& study);
-/// Whether the criterion is a settling time divided by the time that its goal allows.
+/// Whether the quantity that the tuning minimises is a settling time divided by the time that its goal
+/// allows.
 bool is_proportion_of_allowed(const study::Study& study);
 
-/// Aim of a tuning: all goals of the study in each of its settings.
+/// What a tuning requires: the claims that all goals of the study hold in each of its settings (conditions at
+/// ages), and the quantile to minimise.
 Aim aim_of(const study::Study& study);
-/// Goal and setting of a claim, as indices. Aim::claims is ordered goal by goal.
+/// Goal and setting (condition at an age) of a claim, as indices. Aim::claims is ordered goal by goal.
 struct ClaimPlace {
   std::size_t goal{0};
   std::size_t setting{0};
 };
 ClaimPlace place_of_claim(const study::Study& study, std::size_t claim);
 std::size_t claim_at(const study::Study& study, const ClaimPlace& place);
-/// Text such as " 'small' under condition loaded". It names the goal only if there are several, and the
-/// setting only if there are any.
+/// Text such as " 'small' under condition loaded" for a claim. It names the goal only if there are several,
+/// and the setting (condition at an age) only if there are any.
 std::string claim_text(const study::Study& study, const ClaimPlace& place);
-/// Whether there is more than one goal, or any setting.
+/// Whether claims need names in texts: the study has more than one goal, or any setting (condition at an
+/// age).
 bool has_named_claims(const study::Study& study);
-/// Names of a claim in data.
+/// Names by which the answer's data identify a claim (a goal in a setting).
 struct ClaimNames {
-  std::optional<std::string>
-      goal{};  ///< Name of the goal; nothing if the study has no other claim or the goal has no name.
-  std::optional<std::string> setting{};  ///< Name of the setting; nothing without settings.
+  /// Name of the claim's goal; nothing if the study has no other claim or the goal has no name.
+  std::optional<std::string> goal{};
+  /// Name of the claim's setting (condition at an age); nothing without settings.
+  std::optional<std::string> setting{};
 };
 ClaimNames names_of(const study::Study& study, const ClaimPlace& place);
 
-/// Changes the parameters of a trial after they are drawn.
+/// Function that changes the parameters of a trial after they are drawn, for example to switch off an effect.
 using Change = std::function<void(trial::TrialParameters&)>;
 
-/// Machines [from, to) of a study that are to run.
+/// One entry of the list of runs: the machines [from, to) of a study that are to be simulated.
 struct MachinesToRun {
   const study::Study* study{nullptr};
   std::int64_t from{0};
   std::int64_t to{0};
-  std::vector<MachineResult>* results{nullptr};  ///< [machine] Results, with one claim for each of aim_of().
-  const Change* change{nullptr};                 ///< Changes each drawn trial; null: no change.
-  FinerUnits finer{};                            ///< Units of the changed trials.
+  /// [machine] Receives the results, with one claim for each of aim_of().
+  std::vector<MachineResult>* results{nullptr};
+  const Change* change{nullptr};  ///< Changes the parameters of each drawn trial; null: no change.
+  /// Units in which the changed trials count and sample, if they differ from the study's.
+  FinerUnits finer{};
 };
 
-/// Result of trials that all belong to one machine, in the first setting.
+/// Counts the outcomes of trials that all belong to one machine, in the first setting (condition at an age).
 MachineResult result_of(const study::Study& study, std::span<const trial::TrialOutcome> outcomes);
 
-/// Runs the trials of all entries on all cores. The results do not depend on the number of cores.
+/// Simulates the machines of all entries on all cores. The results do not depend on the number of cores.
 /// @param machines machines of each study, with their trials
-/// @throws trial::Interrupted, trials::Spent
+/// @throws trial::Interrupted if a stop is requested or the time is over
+/// @throws trials::Spent if the trials of `effort` are not enough
 void run_machines(std::span<const MachinesToRun> entries, const trials::Replicates& machines,
                   const trials::Effort& effort);
 
-/// Runs the first `count` machines of a study. Returns their results.
-/// @param change changes each drawn trial; null: no change
-/// @throws trial::Interrupted, trials::Spent
+/// Simulates the first `count` machines of a study. Returns their results.
+/// @param change changes the parameters of each drawn trial; null: no change
+/// @throws trial::Interrupted if a stop is requested or the time is over
+/// @throws trials::Spent if the trials of `effort` are not enough
 std::vector<MachineResult> results_of(const study::Study& study, const trials::Replicates& machines,
                                       std::int64_t count, const Change* change, const trials::Effort& effort);
 
-/// Results of all machines of a study with one design point, from its results file.
+/// [machine] Results of all machines of a study with one design point, read from its results file.
 std::vector<MachineResult> results_in(const reading::AllTrialsFile& file, const study::Study& study,
                                       const trials::Replicates& machines);
 

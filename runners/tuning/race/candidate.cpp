@@ -18,12 +18,12 @@ bool machine_meets(const Claim& claim, const ClaimResult& result) {
   return result.met >= claim.moves * result.moves;
 }
 
-/// Counts of one world.
+/// Counts of the machines of one world (one draw of the values that all machines share and nobody knows).
 struct WorldCounts {
   std::int64_t machines{0};
   std::int64_t moves{0};
   std::int64_t met{0};
-  std::int64_t machines_met{0};  ///< Machines that meet the goal.
+  std::int64_t machines_met{0};  ///< Number of machines that meet the goal.
 };
 
 std::size_t worlds_of(const Aim& aim) {
@@ -34,7 +34,8 @@ std::size_t common_machines(const Candidate& a, const Candidate& b) {
   return std::min(a.machines.size(), b.machines.size());
 }
 
-/// Estimate of one claim from a candidate's first machines, in the worst world.
+/// Estimate of one claim (a goal in a setting) from a candidate's first machines. Rates are those of the
+/// world with the lowest rate; near_goal is a mean over all worlds.
 struct ClaimEstimate {
   double rate{0.0};
   double moves{0.0};
@@ -68,14 +69,15 @@ ClaimEstimate estimate_of_claim(const Aim& aim, std::size_t claim, std::span<con
   return worst;
 }
 
-/// Logit of the rate minus logit of the wanted rate. Finite for any rate that `machines` machines can have.
+/// Margin of a success rate: logit of the rate minus logit of the wanted rate; positive if the rate is
+/// higher. Finite for any rate that `machines` machines can have.
 double margin_of(double rate, double wanted, std::int64_t machines) {
   constexpr double almost_all = 1.0 - 1e-9;  // success is not claimed: of all moves
   const auto n = static_cast<double>(machines);
   return goal::logit_difference((rate * n + 0.5) / (n + 1.0), std::min(wanted, almost_all));
 }
 
-/// Standing of a claim from its rates alone, without bounds.
+/// Distance of a claim's observed rates from the wanted ones, without confidence bounds.
 goal::Standing standing_of(const Claim& claim, const ClaimEstimate& estimate, std::int64_t machines) {
   goal::Standing standing{.observed = margin_of(estimate.rate, wanted_rate(claim), machines)};
   if (claim.machines) standing.observed_of_moves = margin_of(estimate.moves, claim.moves, machines);
@@ -93,7 +95,8 @@ bool seems_to_hold(const Claim& claim, double rate, std::int64_t machines) {
   return rate >= wanted_rate(claim) + std::min(error, 0.5 * (1.0 - wanted_rate(claim)));
 }
 
-/// Claim with the largest criterion of a candidate, and this criterion.
+/// The claim (goal in a setting) whose criterion is the largest of a candidate's claims, and the value of
+/// this criterion.
 struct Latest {
   std::size_t claim{0};
   double value{0.0};
@@ -113,8 +116,8 @@ constexpr double confidence = 0.95;  // of the bounds on a point's rate
 constexpr std::int64_t fewest = 10;  // telling points: single ones occur by chance
 constexpr std::int64_t one_in = 20;  // points must be telling
 
-/// Bounds on the proportion of moves that meet the worst goal. The moves of a machine may depend on each
-/// other, so each machine counts as one observation.
+/// Confidence bounds on the proportion of moves that meet the worst goal. The moves of a machine may depend
+/// on each other, so each machine counts as one observation.
 statistics::ConfidenceInterval bounds_of(const Estimate& estimate) {
   const auto met =
       static_cast<std::int64_t>(std::floor(estimate.moves * static_cast<double>(estimate.machines)));

@@ -5,8 +5,9 @@
 namespace zerocount::tuning {
 namespace {
 
-/// Finalist with the largest margin among those that may meet the goals and were not tried; nothing without
-/// one.
+/// Index of the finalist with the largest margin among those that may meet the goals and were not tried;
+/// nothing if there is none.
+/// @param tried [finalist] whether an attempt has run it
 std::optional<std::size_t> surest(const ProofProblem& problem, const std::vector<bool>& tried) {
   std::optional<std::size_t> found;
   for (std::size_t i = 0; i < problem.may_meet.size(); ++i) {
@@ -16,7 +17,9 @@ std::optional<std::size_t> surest(const ProofProblem& problem, const std::vector
   return found;
 }
 
-/// The attempt that follows the last one; nothing if no further attempt is worth making.
+/// The attempt that should follow the attempt `last`: the same finalist on more machines, or another
+/// finalist. Nothing if no further attempt is worth making.
+/// @param tried [finalist] whether an attempt has run it
 std::optional<Attempt> next_attempt(const ProofProblem& problem, const std::vector<bool>& tried,
                                     const ProvenFinalist& last) {
   const Attempt& before = last.attempt;

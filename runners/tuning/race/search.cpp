@@ -21,8 +21,8 @@ constexpr std::int64_t candidates_each = 48;
 constexpr std::int64_t machines_of_world = 4;
 constexpr std::int64_t climbing_part = 8;  // max_machines over the machines of a climb
 
-/// Size number `step`. Each size has 0.75 times the candidates of the size before. Every second size has half
-/// the machines.
+/// Size of a search, `step` sizes below the largest (0: the largest). Each step has 0.75 times the candidates
+/// of the step before, and every second step half the machines.
 SearchSize size_at(const SearchScope& scope, int step) {
   const SearchSize largest;
   const double fewer = std::pow(0.75, step);
@@ -48,7 +48,8 @@ SearchSize size_at(const SearchScope& scope, int step) {
 
 constexpr double error_of_dropping = 0.01;
 
-/// Indices of the candidates, sorted by decreasing Estimate::margin.
+/// Indices of the candidates, sorted by decreasing Estimate::margin over the first `machines` machines of
+/// each.
 std::vector<std::size_t> by_margin(const Aim& aim, const std::vector<Candidate>& candidates,
                                    std::int64_t machines) {
   std::vector<std::size_t> order(candidates.size());
@@ -74,7 +75,8 @@ constexpr double examining = 0.3;           // of the time left, at most, to fin
 
 constexpr int tries_before_walking = 8;  // of a later generation, if they find less than half of it
 
-/// Effort without the part kept for the race of the finalists, the best start and an earlier leader.
+/// Effort without the part that is kept for the last race, in which the finalists, the best start and an
+/// earlier leader run all machines.
 trials::Effort before_final_race(const SearchProblem& problem, const trials::Effort& whole) {
   const SearchSize& size = problem.size;
   const std::int64_t final_trials =
@@ -124,15 +126,16 @@ class Search {
   }
 
  private:
-  /// Best candidate after a generation.
+  /// The best candidate after a generation, remembered to see whether the search still makes progress.
   struct Leader {
-    std::int64_t points;  ///< Number of points tried up to this generation.
+    std::int64_t points;  ///< Number of points (sets of values) tried up to this generation.
     Candidate candidate;
   };
 
   std::size_t index_below(std::size_t size) { return tuning::index_below(size, numbers_); }
 
-  /// Appends admissible places that were not tried before to `to`, until it has `wanted` entries.
+  /// Appends to `to` the places that have admissible values and were not tried before, until it has `wanted`
+  /// entries.
   void add_admissible(const std::vector<UnitCubePoint>& places, std::size_t wanted,
                       std::vector<Candidate>& to) {
     std::vector<Candidate> drawn;
@@ -157,8 +160,8 @@ class Search {
     candidates = std::move(kept);
   }
 
-  /// Calls `add` until it returns false. Stops earlier if some candidates are found and a fraction
-  /// `examining` of the remaining time has passed.
+  /// Calls `add`, which appends to `candidates`, until it returns false. Stops earlier if there is a
+  /// candidate and a fraction `examining` of the remaining time has passed.
   void find(std::vector<Candidate>& candidates, const std::function<bool()>& add) {
     const double end = (1.0 - examining) * effort_.seconds_left();
     const bool ended = trials::within(effort_, [&] {
@@ -168,7 +171,8 @@ class Search {
     result_.cut = result_.cut || !ended;
   }
 
-  /// Races a generation that is evenly spread over the ranges and their faces.
+  /// Draws a generation that is evenly spread over the ranges of the free parameters and over their faces
+  /// (SearchProblem::faces), and races it.
   void fill_ranges() {
     const auto wanted = static_cast<std::size_t>(problem_.size.first_candidates);
     std::vector<double> start;
@@ -184,7 +188,8 @@ class Search {
     race(std::move(candidates));
   }
 
-  /// Races the starts before any other candidate, so that chance does not drop them.
+  /// Races the given starting values (SearchProblem::starts) before any other candidate, so that chance does
+  /// not drop them.
   void race_starts() {
     std::vector<Candidate> candidates;
     std::vector<UnitCubePoint> places;
@@ -196,7 +201,8 @@ class Search {
     race(std::move(candidates));
   }
 
-  /// Appends candidates that are evenly spread over a face, until there are `wanted`.
+  /// Appends admissible candidates that are evenly spread over a face, until there are `wanted`.
+  /// @param face free parameters that stay at their low ends; empty: the whole ranges
   void spread(std::vector<Candidate>& candidates, const SpreadPlaces& sequence,
               const std::vector<std::size_t>& face, std::size_t wanted) {
     if (wanted <= candidates.size()) return;
@@ -222,8 +228,10 @@ class Search {
     return problem_.shortfall(values);
   }
 
-  /// Appends candidates that differential evolution finds where `shortfall` is 0, until there are `wanted`.
-  /// @param face parameters that stay at their low ends. @param first places at which it may begin, 0, 1, …
+  /// Appends candidates that differential evolution finds where the shortfall from the margins is 0, until
+  /// there are `wanted`.
+  /// @param face parameters that stay at their low ends
+  /// @param first returns the places 0, 1, … at which the evolution may begin
   void approach(std::vector<Candidate>& candidates, std::size_t wanted, const std::vector<std::size_t>& face,
                 const std::function<UnitCubePoint(std::int64_t)>& first) {
     if (candidates.size() >= wanted) return;
@@ -235,8 +243,9 @@ class Search {
     });
   }
 
-  /// Place near an elite, sometimes moved along the difference of two other elites. The spread of the elites
-  /// follows the direction of a narrow valley.
+  /// Random place near one of the best candidates (elites), sometimes moved along the difference of two other
+  /// elites. The spread of the elites follows the direction of a narrow valley.
+  /// @param step standard deviation of the random step, as a fraction of each range
   UnitCubePoint place_near_elites(double step) {
     const std::size_t elites = population_.size();
     const double u = numbers_.uniform();
@@ -257,9 +266,9 @@ class Search {
     return place;
   }
 
-  /// Draws a generation near the elites and races it. Each further try takes shorter steps, because few
-  /// places are admissible then, and these lie close to the elites. Walkers that start around the elites go
-  /// farther along a thin admissible region.
+  /// Draws a generation near the best candidates (elites) and races it. Each further try takes shorter steps,
+  /// because few places are admissible then, and these lie close to the elites. If still too few are found,
+  /// differential evolution that starts around the elites goes farther along a thin admissible region.
   void next_generation() {
     std::vector<Candidate> candidates;
     const auto wanted =
@@ -279,7 +288,8 @@ class Search {
     step_ *= step_ratio;
   }
 
-  /// Races the candidates against the population. The best of both become the population.
+  /// Runs the candidates together with the population on more and more machines, and drops the worse ones.
+  /// The best of both become the new population.
   void race(std::vector<Candidate> candidates) {
     result_.points += std::ssize(candidates);
     for (Candidate& one : population_) candidates.push_back(std::move(one));
@@ -308,8 +318,8 @@ class Search {
     population_ = std::move(candidates);
   }
 
-  /// Keeps the best candidates and, in the last place, the most reliable one. If a goal is hard to reach, the
-  /// best by the criterion meet it by luck, and all of them may miss it.
+  /// Keeps the best candidates (elites) and, in the last place, the most reliable one. If a goal is hard to
+  /// reach, the best by the criterion meet it by luck, and all of them may miss it.
   void keep_elites(std::vector<Candidate>& candidates) const {
     const auto elites = static_cast<std::size_t>(problem_.size.elites);
     if (candidates.size() <= elites) return;
@@ -323,9 +333,9 @@ class Search {
     candidates.resize(elites);
   }
 
-  /// Doubles the machines per candidate if the best candidate seems to meet the goal; false if not. While it
-  /// seems to miss, many candidates on few machines find the way sooner than few candidates on many. Telling
-  /// apart candidates that meet the goal needs more machines.
+  /// Doubles most_machines_ if the best candidate seems to meet the goal; returns false if it does not. While
+  /// it seems to miss, many candidates on few machines find the way sooner than few candidates on many.
+  /// Telling apart candidates that meet the goal needs more machines.
   bool takes_more_machines(const Candidate& best) {
     const std::int64_t max_machines = problem_.size.max_machines;
     if (most_machines_ == max_machines ||
@@ -336,8 +346,8 @@ class Search {
     return true;
   }
 
-  /// Runs the candidates that have fewer than `machines` machines, in order. Drops those for which no trials
-  /// are left.
+  /// Simulates the candidates that have fewer than `machines` machines, in order, until each has as many.
+  /// Drops those for which no trials are left.
   /// @throws trials::Spent if no trials are left for the first of them
   void run_machines(std::vector<Candidate>& candidates, std::int64_t machines) {
     std::vector<Candidate*> behind;
@@ -359,8 +369,8 @@ class Search {
                   [machines](const Candidate& one) { return std::ssize(one.machines) < machines; });
   }
 
-  /// Drops candidates that ran fewer machines than others: few machines make candidates look better than they
-  /// are.
+  /// Drops candidates that ran fewer machines than others, after the effort ended within a race. Few machines
+  /// make candidates look better than they are.
   void keep_those_with_most_machines(std::vector<Candidate>& candidates) {
     std::int64_t most = 1;
     for (const Candidate& one : candidates) most = std::max(most, std::ssize(one.machines));
@@ -385,8 +395,8 @@ class Search {
     candidates = std::move(sorted);
   }
 
-  /// Removes leading candidates that are not verified, until the leaders that may become the population all
-  /// are. The leaders must be verified because other candidates are dropped in their favour.
+  /// Removes leading candidates that fail SearchProblem::verified, until all leaders that may become the
+  /// population pass. The leaders must be verified because other candidates are dropped in their favour.
   void verify_leaders(std::vector<Candidate>& candidates) {
     const auto wanted = static_cast<std::size_t>(problem_.size.elites);
     for (std::size_t i = 0; i < std::min(wanted, candidates.size());) {
@@ -415,9 +425,10 @@ class Search {
     while (leaders_.size() > 1 && 3 * leaders_[1].points <= 2 * result_.points) leaders_.pop_front();
   }
 
-  /// Whether the goal is still missed, but the last third of the points reduced the distance to it by more
-  /// than min_approach times the remaining distance. At this pace, some times as many points would reach the
-  /// goal. The earlier leader runs as many machines as the finalists, because it may have led by luck.
+  /// Whether the goal is still missed, but the last third of the points reduced the distance to it (in
+  /// logits) by more than min_approach times the remaining distance. At this pace, some times as many points
+  /// would reach the goal. The earlier leader runs as many machines as the finalists, because it may have led
+  /// by luck.
   bool approaches_goal() {
     if (population_.empty() || reaches(problem_.aim, best_estimate())) return false;
     std::vector<Candidate> before{leaders_.front().candidate};
@@ -436,7 +447,8 @@ class Search {
         {result_.generations, result_.points, result_.trials, &population_.front(), best_estimate()});
   }
 
-  /// Whether another generation is allowed, and the effort lets at least one candidate end its race.
+  /// Whether another generation is allowed, and enough trials are left for at least one candidate to end its
+  /// race.
   bool goes_on() const {
     return (result_.generations < settings_.generations || settings_.begins_anew) && !effort_.is_spent() &&
            effort_.trials_left() >= most_machines_ * problem_.trials_of_replicate;
@@ -470,14 +482,15 @@ class Search {
   const SearchSettings& settings_;
   random::NumberSource numbers_;
   double step_;
-  trials::Effort effort_;       ///< Effort of the current race.
+  trials::Effort effort_;       ///< Effort that the current race may spend.
   std::int64_t most_machines_;  ///< Maximum number of machines per candidate in the current race.
   std::set<Values> tried_;
-  std::map<Values, Estimate> estimates_;  ///< Latest estimate of each simulated point.
-  std::vector<Candidate> population_;     ///< The best first.
-  /// Best of the starts, kept so that few machines do not drop it by chance.
+  std::map<Values, Estimate> estimates_;  ///< Latest estimate of each simulated set of values.
+  std::vector<Candidate> population_;     ///< Candidates that survived the last race, the best first.
+  /// Best of the given starting values, kept so that few machines do not drop it by chance.
   std::optional<Candidate> best_start_;
-  /// Leaders since two thirds of the points were tried, and the one at that time.
+  /// Best candidates after each generation since two thirds of the points were tried, beginning with the one
+  /// at that time.
   std::deque<Leader> leaders_;
   SearchResult result_;
 };

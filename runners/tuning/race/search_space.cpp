@@ -8,7 +8,7 @@ namespace zerocount::tuning {
 
 namespace {
 
-/// Rounds to four significant digits.
+/// Rounds a value to four significant digits.
 double shortened(double value) {
   if (value == 0.0 || !std::isfinite(value)) return value;
   const double unit = std::pow(10.0, 3.0 - std::floor(std::log10(std::abs(value))));

@@ -27,8 +27,11 @@ namespace {
 
 constexpr std::int64_t usual_machines = 500;  // at least, where the effort is enough for them
 
-/// Smallest number of machines that can meet one goal.
-/// @param each trials of a machine in each setting
+/// Smallest number of machines with which one goal can be shown to be met, if no move misses it; 0 if no
+/// number can. Without machines in the study: smallest number of trials.
+/// @param goal index of the goal
+/// @param each trials of a machine in each setting (condition at an age)
+/// @param points number of points among which a choice is made, for which the bounds allow
 std::int64_t min_machines_of(const study::Study& study, std::size_t goal, std::int64_t each,
                              std::size_t points) {
   const measures::CountedGoal counted = measures::asked_of_moves(study)[goal];
@@ -44,8 +47,9 @@ std::int64_t min_machines_of(const study::Study& study, std::size_t goal, std::i
   return fewest;
 }
 
-/// Smallest number of machines that can meet all goals.
-/// @param each trials of a machine
+/// Smallest number of machines with which all goals can be shown to be met, if no move misses them.
+/// @param each trials of a machine, in all settings together
+/// @param points number of points among which a choice is made, for which the bounds allow
 std::int64_t min_machines_of(const study::Study& study, std::int64_t each, std::size_t points) {
   std::int64_t least = std::max<std::int64_t>(study.worlds, 1);
   for (std::size_t goal = 0; goal < study.goals.size(); ++goal)
@@ -53,7 +57,8 @@ std::int64_t min_machines_of(const study::Study& study, std::int64_t each, std::
   return least;
 }
 
-/// @param each trials of a machine
+/// Counts of one goal, scaled to `each` trials of every machine at the same success rates.
+/// @param each trials of a machine, in all settings together
 measures::CellCounts at_trials_each(const measures::CellCounts& counts, std::int64_t each) {
   measures::CellCounts scaled(counts.shape());
   for (std::size_t setting = 0; setting < counts.settings(); ++setting) {
@@ -70,8 +75,9 @@ measures::CellCounts at_trials_each(const measures::CellCounts& counts, std::int
 }
 
 /// Smallest number of machines, with equally many trials each, that decides all goals with a probability of
-/// 1/2.
-/// @param most maximum; a fraction of it is returned if no study decides the goals
+/// 1/2, at the rates of the counts.
+/// @param points number of points among which a choice is made, for which the bounds allow
+/// @param most maximum; an eighth of it is returned if no study decides the goals
 std::int64_t deciding_machines(const study::Study& study, const GoalCounts& counts, std::size_t points,
                                std::int64_t most) {
   const std::vector<goal::Needs> studies = goal::deciding_studies(study.goals, counts, points, 0.5);
@@ -83,7 +89,7 @@ std::string_view key_of(std::string_view entry) {
   return entry.substr(0, entry.find('='));
 }
 
-/// Entries "key=value" without those that a later entry with the same key replaces.
+/// The "key=value" entries without those that a later entry with the same key replaces.
 std::vector<std::string> last_of_each(const std::vector<std::string>& entries) {
   std::vector<std::string> kept;
   for (auto one = entries.begin(); one != entries.end(); ++one) {

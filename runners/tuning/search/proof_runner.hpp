@@ -11,28 +11,30 @@
 
 namespace zerocount::tuning {
 
-/// [goal] Counts of the goals over these machines.
+/// [goal] Counts of the moves that meet each goal, over the results of these machines.
 GoalCounts counts_of(const study::Study& study, const trials::Replicates& machines,
                      std::span<const MachineResult> results);
 
-/// Results of a point on some machines: counts and verdict of the goals, and the criterion.
+/// Results of one set of values on some machines: counts and verdict of the goals, and the criterion.
 struct Judged {
   GoalCounts counts;
   goal::Verdict verdict;
-  double criterion{0.0};  ///< Estimate::criterion; infinity for "never".
+  /// Estimate::criterion, the quantity that the tuning minimises; infinity for "never".
+  double criterion{0.0};
 };
 
-/// Judges a point that has no results file.
+/// Judges the goals of a study from the results of its machines, without a results file.
 /// @param results results of all machines of the study
 Judged judged(const study::Study& study, const trials::Replicates& machines,
               std::span<const MachineResult> results);
 
-/// Overrides ("key=value") of the confidence of each goal in the manifest of a proof. The error probability
-/// 1 − confidence becomes the fraction that this attempt may use. So the verdict on the results file is the
+/// Overrides ("key=value") of the confidence of each goal in the manifest of a proof. The error probability 1
+/// − confidence becomes the fraction that this attempt may use. So the verdict on the results file is the
 /// verdict of the attempt.
+/// @param attempt number of the attempt, from 1
 std::vector<std::string> confidences_of_attempt(const study::Study& study, int attempt);
 
-/// Counts scaled to `each` trials of every machine, at the same rates.
+/// Scales the counts of each goal to `each` trials of every machine, at the same success rates.
 GoalCounts with_trials_each(GoalCounts counts, std::int64_t each);
 
 /// Number of machines with which the proof of a candidate with these counts is expected to be decided, plus
@@ -43,18 +45,20 @@ GoalCounts with_trials_each(GoalCounts counts, std::int64_t each);
 std::int64_t proof_machines(const study::Study& study, const GoalCounts& counts, std::int64_t each,
                             std::size_t points, std::int64_t max_trials);
 
-/// Number of trials of the smallest proof that can meet the goals in this attempt, if no move misses any.
+/// Number of trials of the smallest proof that can show the goals to be met in this attempt, if no move
+/// misses any.
+/// @param attempt number of the attempt, from 1
 std::int64_t min_proof_trials(const study::Study& study, int attempt);
 
-/// A finished run of a proof: its study, and the results of its machines.
+/// A finished run of a proof: its study, and the results of its machines, from the results file.
 struct ProofRun {
   study::Study study;
   std::vector<MachineResult> results;
 };
 
 /// Study with these values ("key=value") written into the text of its manifest; comments of the text are
-/// kept. Earlier overrides of the study become part of the text too. A value that the text cannot take, such
-/// as one in a list, remains an override.
+/// kept. Earlier overrides of the study become part of the text too. A value that cannot be written into the
+/// text, such as one in a list, remains an override.
 study::Study with_values_in_text(const study::Study& study, const std::vector<std::string>& values);
 
 /// Runs the study with these values ("key=value") in its text on fresh machines, and writes a results file

@@ -49,10 +49,11 @@ OtherControl with_zeros(const study::Study& study, const std::vector<std::size_t
   return control;
 }
 
-/// Control with an added disturbance observer. Nothing for a study with an observer, a cascade, two phases or
-/// a plugin. The bandwidth is sought up to 1/4 of the sample rate, from a value at which the observer has
-/// nearly no effect: at 1/1000 of a cycle per trial, it has removed 0.6 % of a constant disturbance at the
-/// end of the trial. The observer's model has the inertia of the plant.
+/// The study's control with an added disturbance observer, to be tuned for comparison. Nothing for a study
+/// with an observer, a cascade, two phases or a plugin. The bandwidth is sought up to 1/4 of the sample rate,
+/// from a value at which the observer has nearly no effect: at 1/1000 of a cycle per trial, it has removed
+/// 0.6 % of a constant disturbance at the end of the trial. The observer's model has the inertia of the
+/// plant.
 std::optional<OtherControl> with_observer(const study::Study& study) {
   const trial::TrialParameters p = study::study_trial(study, 0, 0).parameters;
   const bool is_plain = p.controller.blocks.structure == loop::ControlStructure::pid &&

@@ -17,8 +17,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// JSON of a machine's result: [slid, claim, …]. Each claim is [moves, met, value, …]; null stands for an
-/// infinite value.
+/// JSON of one machine's result: [slid, claim, …]. Each claim (goal in a setting) is [moves, met, value, …];
+/// null stands for an infinite value.
 Json json_of(const MachineResult& machine) {
   Json json = Json::array({machine.slid});
   for (const ClaimResult& claim : machine.claims) {
@@ -83,8 +83,8 @@ TuningJournal::TuningJournal(std::filesystem::path path, const std::string& tuni
   if (!resumed_) remove();
 }
 
-/// Reads a line of the journal. Incomplete lines are skipped: a killed run may leave one, whose evaluation is
-/// then made again.
+/// Reads a line of the journal, the file from which an interrupted tuning resumes. Incomplete lines are
+/// skipped: a killed run may leave one, whose evaluation is then made again.
 void TuningJournal::read_line(const std::string& line) {
   const Json json = Json::parse(line, nullptr, false);
   if (json.is_discarded()) return;

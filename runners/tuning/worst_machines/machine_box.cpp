@@ -21,7 +21,7 @@ namespace {
 
 constexpr double tail = 0.0005;  // beyond each end of the box
 
-/// Whether an input belongs to those that are drawn with a correlation.
+/// Whether any of the inputs is drawn with a correlation to another value.
 bool are_correlated(const std::vector<study::MachineInput>& inputs, const study::StudyPlan& plan) {
   return std::ranges::any_of(inputs, [&](const study::MachineInput& input) {
     return plan.copula &&
@@ -29,7 +29,8 @@ bool are_correlated(const std::vector<study::MachineInput>& inputs, const study:
   });
 }
 
-/// Study with independent draws of any number. Its profiles are kept.
+/// The study, changed so that any number of trials can be drawn independently of each other. Its profiles
+/// (parameters that vary along the axis) are kept.
 study::Study searched_study(const study::Study& study, const std::vector<study::MachineInput>& inputs) {
   study::Study searched = study;
   if (are_correlated(inputs, *study.plan)) {
@@ -50,7 +51,7 @@ std::string not_one_number(std::string_view name) {
 }
 
 /// Factor by which the age of the machine multiplies a value; 1 for a value without aging.
-/// @param values drawn values of the machine, of which the aging rate is used
+/// @param values drawn values of the machine, from which the aging rate is taken
 double age_factor(const MachineBox& box, const study::Value& value, const NamedValues& values) {
   if (!value.aging) return 1.0;
   const study::StudyPlan& plan = *box.study().plan;
@@ -63,8 +64,9 @@ double age_factor(const MachineBox& box, const study::Value& value, const NamedV
       study::age_at(plan, point));
 }
 
-/// Replaces the values at age 0 by the values at the machine's age, because the manifest of a machine has no
-/// ages.
+/// Replaces the values at age 0 by the values at the machine's age, because the manifest that describes one
+/// machine has no ages.
+/// @throws Failure (bad_input) if a value with aging is not one number for the machine
 void let_act_at_age(manifest_text::PointChanges& changes, const MachineBox& box) {
   const study::StudyPlan& plan = *box.study().plan;
   if (plan.ages.empty()) return;
@@ -91,7 +93,8 @@ void let_act_at_age(manifest_text::PointChanges& changes, const MachineBox& box)
   }
 }
 
-/// Replaces the distributions of the profiles' means by the drawn means.
+/// Replaces the distribution of the mean of each profile (a parameter that varies along the axis) by the mean
+/// drawn for this machine.
 void hold_means_of_profiles(manifest_text::PointChanges& changes, const MachineBox& box,
                             const BoxPoint& point, const NamedValues& values) {
   const study::StudyPlan& plan = *box.study().plan;
@@ -137,8 +140,8 @@ BoxPoint MachineBox::machine_of(std::int64_t machine) const {
   return {given_.machines > 0 ? machine : 0, study::drawn_quantiles(given_, point_, machine, inputs_)};
 }
 
-/// Σ z² of the normal scores, divided by its limit for likely machines; above 1 the machine is outside the
-/// region. 0 for MachineRegion::box.
+/// Σ z² of the normal scores of the machine's inputs, divided by its limit for likely machines; above 1 the
+/// machine is outside the region. 0 for MachineRegion::box.
 double MachineBox::excess_of(const BoxPoint& point, MachineRegion region) const {
   double square = 0.0;
   int scores = 0;

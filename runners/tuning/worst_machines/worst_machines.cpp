@@ -22,17 +22,17 @@
 namespace zerocount::tuning {
 namespace {
 
-/// [stage] Number of trials that a machine has run at the end of each stage of a race. The last stage
-/// decides.
+/// [stage] Number of trials that a machine has run at the end of each stage of a race between machines. The
+/// result of the last stage decides.
 constexpr std::array<std::int64_t, 3> stage_trials{4, 16, 64};
 constexpr std::size_t survivors = 8;  // machines that a race keeps
 constexpr std::size_t stages = stage_trials.size();
 constexpr std::size_t race_part = 4;  // one of so many goes on to the next stage
 constexpr std::int64_t raced_at_once = 64;
 
-/// Time later than any that matters, s: ten times the time of the goal. Without a goal, or if the goal counts
-/// from the end of a profile: the hold of a move. With several goals: multiple of the time that each goal
-/// allows.
+/// Limit at which late values of moves are capped, later than any that matters. With one goal, s: ten times
+/// the time of the goal; without a goal, or if the goal counts from the end of a profile, the hold of a move.
+/// With several goals: 10, as a multiple of the time that each goal allows.
 double late_time(const study::Study& study, std::int64_t point) {
   if (study.goals.size() > 1) return 10.0;
   const auto* const goal = study::first_goal(study);
@@ -40,22 +40,22 @@ double late_time(const study::Study& study, std::int64_t point) {
   return study::study_trial(study, point, 0).parameters.command.hold;
 }
 
-/// Sum of the values of a result, each capped at `late`.
+/// Sum of the values of a machine's moves, each capped at `late`; larger is worse.
 double lateness(const ClaimResult& machine, double late) {
   double sum = 0.0;
   for (const double value : machine.values) sum += std::min(value, late);
   return sum;
 }
 
-/// Failures of a machine: its moves that miss a goal that judges them, and the score of each move
+/// Counts the failures of a machine: its judged moves that miss a goal, and the score of each move
 /// (measures::MoveScore::event).
 class MachineFailures {
  public:
   MachineFailures(const study::Study& study, std::int64_t point)
       : event_(measures::missed_question(study)), late_(late_time(study, point)) {}
 
-  /// Adds the judged moves, the moves that meet the goals, and the score of each judged move. A score that
-  /// does not exist counts as the largest double.
+  /// Adds the moves of these trials to `result`: the judged moves, the moves that meet the goals, and the
+  /// score of each judged move. A score that does not exist counts as the largest double.
   void add_to(ClaimResult& result, std::span<const trial::TrialOutcome> outcomes) const {
     for (const trial::TrialOutcome& outcome : outcomes) {
       for (const trial::MoveOutcome& move : outcome.moves) {
@@ -68,7 +68,8 @@ class MachineFailures {
     }
   }
 
-  /// Whether `a` meets a smaller proportion than `b`. Ties: whether `a` is later.
+  /// Whether the machine with the result `a` meets a smaller proportion of moves than the one with `b`. Ties:
+  /// whether the scores of `a` have the larger sum.
   bool is_worse(const ClaimResult& a, const ClaimResult& b) const {
     if (met_proportion(a) != met_proportion(b)) return met_proportion(a) < met_proportion(b);
     return lateness(a, late_) > lateness(b, late_);
@@ -76,17 +77,17 @@ class MachineFailures {
 
  private:
   measures::MoveEvent event_;
-  double late_;  ///< Value of late_time(), used for times that are never reached.
+  double late_;  ///< Value of late_time(), at which scores are capped.
 };
 
-/// Merit for ordering results; a smaller one is worse. It is the proportion of moves that meet the goal, then
-/// minus the latest value.
+/// Merit of a machine in a claim, for ordering; a smaller one is worse. It is the proportion of moves that
+/// meet the goal, then minus the largest value of the criterion.
 std::pair<double, double> merit_of(const ClaimResult& result) {
   return {met_proportion(result), result.values.empty() ? 0.0 : -std::ranges::max(result.values)};
 }
 
-/// Index of the claim that the machine meets in the smallest proportion of moves. Ties go to the latest
-/// claim.
+/// Index of the claim (goal in a setting) that the machine meets in the smallest proportion of moves. Ties go
+/// to the claim with the largest criterion value.
 std::size_t worst_claim(const MachineResult& machine) {
   return static_cast<std::size_t>(std::ranges::min_element(machine.claims, {}, merit_of) -
                                   machine.claims.begin());
@@ -96,7 +97,7 @@ const ClaimResult& worst_result(const MachineResult& machine) {
   return machine.claims[worst_claim(machine)];
 }
 
-/// Runs the trials of a stage for all points, and appends their results.
+/// Simulates the trials of a stage of the race for all points (machines), and appends their results.
 void simulate(std::vector<BoxPoint>& points, std::size_t stage, const MachineBox& box,
               const MachineFailures& failures, const trials::Effort& effort) {
   const std::int64_t from = stage == 0 ? 0 : stage_trials[stage - 1];
@@ -124,16 +125,16 @@ void simulate(std::vector<BoxPoint>& points, std::size_t stage, const MachineBox
               });
 }
 
-/// Sorts by the results of a stage, the worst first.
+/// Sorts the points (machines) by their results of a stage, the worst first.
 void sort_by(std::vector<BoxPoint>& points, std::size_t stage, const MachineFailures& failures) {
   std::ranges::stable_sort(points, [&](const BoxPoint& a, const BoxPoint& b) {
     return failures.is_worse(a.results[stage], b.results[stage]);
   });
 }
 
-/// Races the points and keeps the worst, the worst first. After each stage, the worst quarter of the points
-/// that have not run all trials goes on. Of this quarter, only points go on that are worse at this stage than
-/// the mildest point kept so far, which they would replace.
+/// Runs the points (machines) against each other and keeps the worst, the worst first. After each stage, the
+/// worst quarter of the points that have not run all trials goes on. Of this quarter, only points go on that
+/// are worse at this stage than the mildest point kept so far, which they would replace.
 /// @throws trial::Interrupted, trials::Spent
 void race(std::vector<BoxPoint>& points, const MachineBox& box, const MachineFailures& failures,
           const trials::Effort& effort) {
@@ -165,7 +166,7 @@ constexpr std::size_t filling_points = 128;
 constexpr int generations = 8;
 constexpr std::size_t children = 32;
 
-/// Names and values of the quantities that differ between the machines of the study.
+/// Names and values of the quantities that differ between machines, for a machine of the study.
 NamedValues inputs_of_machine(const study::Study& study, std::int64_t point, const WorstMachine& machine) {
   NamedValues named;
   const auto add = [&named](const std::vector<study::InputColumn>& columns, const std::vector<double>& inputs,
@@ -190,7 +191,8 @@ NamedValues inputs_of_machine(const study::Study& study, std::int64_t point, con
   return named;
 }
 
-/// Parameters of trials of the machine's manifest: `count` trials from `first` on, each `step` apart.
+/// Parameters of trials of the manifest that describes the machine: `count` trials, beginning with number
+/// `first`, each `step` numbers apart.
 /// @throws Failure if no manifest describes the machine
 std::vector<trial::TrialParameters> trials_of_manifest(const JudgedMachine& machine, const MachineBox& box,
                                                        std::int64_t first, std::int64_t step,
@@ -203,7 +205,7 @@ std::vector<trial::TrialParameters> trials_of_manifest(const JudgedMachine& mach
   return trials;
 }
 
-/// Name of the goal that the smallest proportion of moves meets; nothing if there is only one goal.
+/// Name of the goal that is met in the smallest proportion of these moves; nothing if there is only one goal.
 std::optional<std::string> worst_goal(const study::Study& study,
                                       std::span<const trial::TrialOutcome> outcomes) {
   if (study.goals.size() < 2) return std::nullopt;
@@ -212,7 +214,9 @@ std::optional<std::string> worst_goal(const study::Study& study,
   return names_of(study, {static_cast<std::size_t>(worst - all.claims.begin()), 0}).goal;
 }
 
-/// Judges a machine by the trials of its manifest. If there is no manifest, by fresh trials of the box.
+/// Judges a machine by the trials of the manifest that describes it. If there is no such manifest, by fresh
+/// trials of the box.
+/// @param manifest settings for the manifest, such as its number of trials
 /// @throws trial::Interrupted, trials::Spent
 JudgedMachine judged(const BoxPoint& point, const MachineBox& box, const MachineFailures& failures,
                      const MachineManifest& manifest, const trials::Effort& effort) {
@@ -249,12 +253,13 @@ JudgedMachine judged(const BoxPoint& point, const MachineBox& box, const Machine
   return machine;
 }
 
-/// The search in one setting.
+/// The search for the worst machines in one setting (condition at an age).
 class MachineSearch {
  public:
-  /// @param study study in the setting alone
+  /// @param study study restricted to the setting
   /// @param machines machines of the study
   /// @param setting name of the setting; empty: there is none
+  /// @param folder folder to which paths in the study's manifest are relative; nothing: not a file
   MachineSearch(const study::Study& study, const trials::Replicates& machines, std::string setting,
                 const std::optional<std::filesystem::path>& folder, const trials::Effort& effort)
       : box_(study, machines.point),
@@ -264,10 +269,10 @@ class MachineSearch {
         failures_(study, machines.point),
         effort_(effort) {}
 
-  /// Finds the worst machines in the setting.
+  /// Finds the worst machines in the setting (condition at an age).
   /// @param likely_met proportion of moves that meet the goals for the worst likely machine of other
-  /// settings; 1 without one. A likely machine is sought only if some machine of the box meets less,
-  /// because no likely machine can be worse than the box.
+  /// settings; 1 without one. A likely machine is sought only if some machine of the box meets less, because
+  /// no likely machine can be worse than the box.
   WorstMachines run(double likely_met) {
     const std::vector<MachineResult> results =
         results_of(box_.study(), machines_, machines_.count, nullptr, effort_);
@@ -294,7 +299,7 @@ class MachineSearch {
   }
 
  private:
-  /// Indices of the study's machines, the worst first.
+  /// Indices of the study's machines, the one that meets the smallest proportion of moves first.
   std::vector<std::int64_t> ranked_machines(std::span<const MachineResult> results) const {
     std::vector<std::int64_t> order(results.size());
     std::iota(order.begin(), order.end(), std::int64_t{0});

@@ -11,7 +11,7 @@ using acceptance::Agreement;
 using acceptance::agreement_of;
 using statistics::MachineMoves;
 
-/// Machines whose proportions of good moves are uniform about the centre.
+/// Random machines whose proportions of moves that meet a goal are uniformly distributed around a centre.
 class Machines {
  public:
   Machines(std::uint64_t seed, double centre, double spread)

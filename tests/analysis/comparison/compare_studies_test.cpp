@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::int64_t trials = 120;
 
-/// A study of two points whose manifest says what `more` does.
+/// A study with two design points. Its manifest ends with the further lines `more`.
 study::Study study_of(const std::string& more = "", std::uint64_t seed = 1, std::int64_t count = trials) {
   study::Study study = plain_study(2, count, 1);
   study.seed = seed;
@@ -23,7 +23,7 @@ study::Study study_of(const std::string& more = "", std::uint64_t seed = 1, std:
   return study;
 }
 
-/// A trial that arrives after `samples`, and ends in zero counts where `success` says so.
+/// A made-up trial whose move arrives after `samples` samples. It ends at zero counts if `success` is true.
 TrialRecord trial_of(bool success, int samples) {
   trial::MoveOutcome move;
   move.outcome = success ? trial::Outcome::zero_count : trial::Outcome::one_count;
@@ -121,7 +121,8 @@ TEST_F(ComparedStudies, OneBitIsFoundAndNamed) {
   }
 }
 
-/// Makes the file one of a build of this commit, without uncommitted changes.
+/// Changes the provenance stored in a results file: written by a build of this commit, without uncommitted
+/// changes.
 void give_commit(const std::filesystem::path& path, const std::string& commit) {
   const std::string command = fmt::format(
       "{} -c 'import h5py, sys; h5py.File(sys.argv[1], \"r+\").attrs.modify(\"git_commit\", sys.argv[2])' {} "

@@ -11,8 +11,8 @@ constexpr std::int64_t pair_trials = 150;
 constexpr std::array<SyntheticPoint, 5> points{
     {{0.95, 0.02, 0.1}, {0.7, 0.03, 0.5}, {0.5, 0.05, 1.0}, {0.15, 0.01, 0.2}, {1.0, 0.03, 0.0}}};
 
-/// Compares two studies of all points. `change` converts the points of the first study to those of the
-/// second.
+/// Simulates two studies with the same made-up design points and compares them. `change` converts the points
+/// of the first study to those of the second.
 std::vector<comparison::PointComparison> compare_once(
     std::mt19937_64& random, bool paired, const comparison::GateRules& rules,
     const std::function<SyntheticPoint(SyntheticPoint)>& change, std::int64_t count = pair_trials) {
@@ -116,10 +116,10 @@ TEST_P(NullComparisons, PassAChangeOfTheMarginNoMoreOftenThanStated) {
   expect_a_change_of_the_margin_to_fail(GetParam(), 100);
 }
 
-/// Proportion of comparisons in which the measure of a single point fails, if it truly changes by `margins`
-/// margins. The other points do not change.
-/// @param measure success_rate with a margin of 0.05, or arrival_time with a
-/// tenth of the baseline
+/// Proportion of comparisons in which the measure of a single design point fails the comparison, if it truly
+/// changes by `margins` margins. The other points do not change.
+/// @param measure success_rate with a margin of 0.05, or arrival_time with a margin of a tenth of the
+///        baseline
 double failure_rate(bool paired, const std::string& measure, double margins, std::int64_t count,
                     int comparisons) {
   constexpr SyntheticPoint point{0.8, 0.03, 0.5};

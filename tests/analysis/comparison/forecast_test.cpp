@@ -12,7 +12,8 @@ namespace {
 using comparison::GateRules;
 using comparison::GateVerdict;
 
-/// The trials of two studies that can go on: the first n are the same, however many are asked for.
+/// Two made-up studies to be compared, which can be simulated with any number of trials: the first n trials
+/// are the same, however many are asked for.
 struct StudyPair {
   std::vector<SyntheticPoint> before;
   std::vector<SyntheticPoint> after;
@@ -32,7 +33,7 @@ PairTrials trials_of(const StudyPair& pair, std::int64_t count) {
   return {before, pair.paired ? redraw_some(other, before, 0.2) : draw_chances(other, count)};
 }
 
-/// Data of a point from which a forecast is made.
+/// Data of a design point from which it is forecast how many more trials a comparison needs.
 struct SampledPoint {
   std::int64_t trials{0};
   std::vector<two_samples::Sample> samples{};
@@ -49,7 +50,8 @@ comparison::ForecastSamples samples_of(const std::vector<SampledPoint>& points, 
   return samples;
 }
 
-/// The verdict of a comparison, and the data from which a forecast is made.
+/// The verdict of a comparison of two studies, and the data from which it is forecast how many more trials it
+/// needs.
 struct Compared {
   GateVerdict verdict{GateVerdict::inconclusive};
   std::vector<SampledPoint> points;
@@ -106,13 +108,13 @@ StudyPair random_pair(std::mt19937_64& random, Change change, bool paired) {
   return pair;
 }
 
-/// Counts of study pairs: for how many undecided pairs a number of trials was stated, and how often it
-/// decided.
+/// Counts of study pairs whose comparison is undecided: for how many the forecast stated a number of trials
+/// that should decide, and how often this number did decide.
 struct Kept {
-  int stated{0};   ///< pairs with a stated number of trials
-  int open{0};     ///< undecided pairs
-  int decided{0};  ///< pairs that the stated number decides, the first trials included
-  int afresh{0};   ///< pairs that the stated number decides with new trials only
+  int stated{0};   ///< number of undecided pairs for which a number of trials was stated
+  int open{0};     ///< number of undecided pairs
+  int decided{0};  ///< number of pairs that the stated number of trials decides, the first trials included
+  int afresh{0};   ///< number of pairs that the stated number of trials decides if all trials are new
 };
 
 Kept try_pairs(Change change, bool paired, bool changed_fails, int wanted, std::uint64_t seed) {
@@ -136,8 +138,8 @@ Kept try_pairs(Change change, bool paired, bool changed_fails, int wanted, std::
   return kept;
 }
 
-/// Checks that the stated number of trials decides often enough.
-/// @param wanted number of pairs of each kind
+/// Checks that the number of trials that the forecast states decides the comparison often enough.
+/// @param wanted number of study pairs of each kind
 void expect_stated_number_to_decide(int wanted) {
   Kept all;
   std::uint64_t seed = 1;
@@ -171,7 +173,7 @@ TEST(Forecast, DISABLED_TheStatedNumberOfTrialsDecidesManyAsOftenAsPromised) {
   expect_stated_number_to_decide(wanted == nullptr ? 4 : std::atoi(wanted));
 }
 
-/// An undecided pair of two points.
+/// A pair of studies with two design points whose comparison is undecided.
 Compared an_open_pair() {
   const StudyPair pair{{{0.9, 0.03, 0.5}, {0.7, 0.02, 0.2}}, {{0.9, 0.03, 0.5}, {0.7, 0.02, 0.2}}, false, 11};
   Compared compared = compare(pair, trials_of(pair, 300), {});

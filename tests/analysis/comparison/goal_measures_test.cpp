@@ -10,18 +10,19 @@ using comparison::ChangeVerdict;
 using comparison::Judgement;
 using comparison::PointTrials;
 
-/// Settling of the machines of a study, and the number of machines, trials and moves.
+/// Distribution of the settling times of a made-up study, and its numbers of machines, trials and moves.
 struct Machines {
   std::int64_t machines{0};  ///< number of machines; 0: every trial has its own
   std::int64_t trials{200};
   std::int64_t moves{1};
   double median{0.02};      ///< median of the settling times, s
-  double of_machines{0.2};  ///< standard deviation of the logarithms of the machines' medians
+  double of_machines{0.2};  ///< standard deviation of the logarithms of the machines' median settling times
   double never{0.0};        ///< probability that a move does not settle
-  double shift{0.0};        ///< time by which every move is later, s
+  double shift{0.0};        ///< time by which every move settles later, s
 };
 
-/// The trials of a study with the seed `draws`; `again` redraws some of them.
+/// The trials of a made-up study whose random numbers come from the seed `draws`. If `again` is above 0, some
+/// trials get other random numbers, from the seed `again`.
 PointTrials settled_trials(const Machines& machines, unsigned draws, unsigned again = 0) {
   constexpr double sample = 1e-4;
   constexpr double redrawn = 0.3;
@@ -67,7 +68,8 @@ std::vector<Judgement> compare_settled(const PointTrials& before, const PointTri
   return points[0].judgements;
 }
 
-/// Studies whose trials are independent, have several moves, or share machines; paired or not.
+/// A kind of made-up study: whether its trials are independent, have several moves, or share machines, and
+/// whether the compared studies are paired (use the same random numbers).
 struct Layer {
   Machines machines;
   bool paired;

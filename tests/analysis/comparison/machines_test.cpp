@@ -4,7 +4,8 @@
 namespace zerocount::comparison {
 namespace {
 
-/// Trials of machines that succeed with probabilities between 0.4 and 1, uniform; what fails never arrives.
+/// Made-up trials on machines that succeed with probabilities uniform between 0.4 and 1. A trial that fails
+/// never arrives at its target.
 PointTrials trials_on_machines(std::int64_t machines, std::int64_t trials, std::mt19937_64& random) {
   std::uniform_real_distribution<double> uniform;
   std::vector<double> chances(static_cast<std::size_t>(machines));
@@ -24,7 +25,9 @@ PointTrials trials_on_machines(std::int64_t machines, std::int64_t trials, std::
   return all;
 }
 
-/// Comparisons of equal populations whose p of the success rate is at most 5 %.
+/// Number of comparisons of two equal populations in which the p-value of the success rate is at most 5 %:
+/// false alarms.
+/// @param as_if_independent trials of one machine are taken for independent
 int false_alarms(int comparisons, bool as_if_independent) {
   std::mt19937_64 random(5);
   int alarms = 0;

@@ -12,7 +12,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-/// An axis of a made-up answer.
+/// An axis of the made-up answer of a command, with which the output formats are tested.
 struct Axis {
   std::string name;
   double torque{0.0};
@@ -20,7 +20,7 @@ struct Axis {
   double load{unknown};
 };
 
-/// An answer with every kind of item.
+/// A made-up answer of a command that has every kind of item.
 struct Subject {
   std::string headline{"the goal is met"};
   std::vector<Axis> axes{};
@@ -162,8 +162,8 @@ TEST(Answer, GivesEveryRowOfAMarkdownTableTheSameCells) {
                    "| x | 0.3 | 50.0 % [40.0, 60.0] | composed |\n"));
 }
 
-/// Expects that the required keys of the schema of an object, and of all objects in it, are the keys of the
-/// JSON.
+/// Expects that the JSON Schema of an object requires exactly the keys that the JSON object has, and so on
+/// for all objects in it.
 void expect_described(const Json& schema, const Json& json) {
   if (json.is_object() && schema.contains("properties")) {
     std::set<std::string> keys;

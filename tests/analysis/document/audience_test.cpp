@@ -16,6 +16,7 @@ struct Gains {
   std::vector<Gain> gains{{1.0, 0.25}, {2.0, 0.5}};
 };
 
+/// Description of an answer with gains, with which it is tested what is shown to whom.
 /// @param computed gets the keys of the items that are computed
 AnswerDescription<Gains> gains_answer(std::vector<std::string>& computed) {
   const auto told = [&computed](const char* key, auto get) {

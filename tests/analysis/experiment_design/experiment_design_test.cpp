@@ -17,7 +17,8 @@
 namespace zerocount::experiment_design {
 namespace {
 
-/// An axis of the paper's kind with a noisy encoder; k1, k2 and β to a factor of 3 with a CV of 0.6.
+/// Manifest of an axis like the paper's with a noisy encoder. k1, k2 and β are known to a factor of 3, with a
+/// coefficient of variation of 0.6.
 std::string manifest_with(const std::string& more = "", double spread = 0.3, double k1 = 110.0,
                           double beta = 1e5) {
   return fmt::format(
@@ -43,7 +44,7 @@ DesignSettings quick_settings() {
   return settings;
 }
 
-/// Designed once for all tests.
+/// The experiment design that the tests look at, computed once for all of them.
 const ExperimentDesign& quick_design() {
   static const ExperimentDesign design = design_experiment(study_of(manifest_with()), quick_settings());
   return design;
@@ -208,7 +209,7 @@ TEST(ExperimentDesign, FilesHaveALineForEachSample) {
   EXPECT_TRUE(record_table(design).starts_with("t [s],torque [N m],count\n0,0,0\n"));
 }
 
-/// The message of the refusal.
+/// The message with which the design of an experiment for the study is refused; empty if it is not refused.
 std::string refusal_of(const study::Study& study, const DesignSettings& settings) {
   try {
     design_experiment(study, settings);

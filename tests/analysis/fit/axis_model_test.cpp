@@ -70,8 +70,8 @@ TEST(RecordMotion, UnevenSamplesAreEvaluatedAtTheirInstants) {
   }
 }
 
-/// θ (in the record's unit) at every sample, for a torque that is late by `delay` samples, 0 to 1. Each
-/// interval is split at the delayed change of the torque.
+/// The simulated rotor angle θ (in the record's unit) at every sample, for a torque that acts `delay` samples
+/// late, 0 to 1. Each sampling interval is split at the delayed change of the torque.
 Eigen::VectorXd with_late_torque(const fit::TestRecord& record, const fit::ContactParameters& contact,
                                  double delay) {
   Eigen::VectorXd path(static_cast<Eigen::Index>(fit::sample_count(record)));

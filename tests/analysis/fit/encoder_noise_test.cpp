@@ -11,7 +11,8 @@
 namespace zerocount::testing {
 namespace {
 
-/// Mean of the estimates over ten readings of the paths, as a proportion of `noise`.
+/// Mean of the estimated encoder noise over ten readings of random paths, as a proportion of the true
+/// `noise`.
 template <class Path>
 double mean_estimate(double noise, const Path& path, std::mt19937_64& random) {
   constexpr int rounds = 10;
@@ -82,7 +83,9 @@ TEST(CountingNoise, IgnoresMaskedReadings) {
   }
 }
 
-/// Two records of one encoder, without edges in common.
+/// The encoder noise that fit::edge_noise() estimates from two simulated records of one encoder.
+/// @param noise true noise, counts @param most largest change of the path per sample, counts @param
+///        model_error amplitude of the error of the fitted motion, counts
 double edge_noise_of(double noise, double most, double model_error, std::mt19937_64& random) {
   std::vector<fit::TestRecord> records;
   fit::FittedModel model;

@@ -14,7 +14,8 @@ struct NoisyRecord {
   Eigen::VectorXd path;
 };
 
-/// Readings of a rotor that oscillates by 20 counts. `noise` is a standard deviation in counts.
+/// Encoder readings of a rotor that oscillates by 20 counts, with noise. `noise` is its standard deviation in
+/// counts.
 NoisyRecord noisy_record(double noise, bool counted, std::mt19937_64& random) {
   constexpr Eigen::Index samples = 20'000;
   std::normal_distribution<double> normal(0.0, 1.0);

@@ -8,7 +8,7 @@
 
 namespace zerocount::testing {
 
-/// A path of `samples` that wanders up and down by up to `most` counts a sample.
+/// A random path of `samples` angles that wanders up and down by up to `most` counts per sample.
 inline Eigen::VectorXd wandering_path(Eigen::Index samples, double most, std::mt19937_64& random) {
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   const double period = 200.0 * (1.0 + uniform(random));

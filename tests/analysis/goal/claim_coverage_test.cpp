@@ -15,12 +15,13 @@
 namespace zerocount::goal {
 namespace {
 
-/// A distribution of the proportion of moves in which a machine meets a goal. The first goal is just not met.
-/// A goal on machines asks for 90 % of the moves of 80 % of the machines, a goal on moves for 90 % of all
-/// moves.
+/// A distribution of the proportion of moves in which a machine meets a goal, chosen so that the goal is just
+/// missed. A goal on machines asks for 90 % of the moves of 80 % of the machines, a goal on moves for 90 % of
+/// all moves.
 struct Population {
   std::string name;
-  std::function<double(testing::Draws&, bool on_machines)> proportion;  ///< for the first goal
+  /// Draws a machine's proportion of moves that meet the first goal.
+  std::function<double(testing::Draws&, bool on_machines)> proportion;
 };
 
 std::vector<Population> populations() {
@@ -45,14 +46,15 @@ std::vector<Population> populations() {
 
 struct Case {
   std::size_t goals;
-  std::int64_t machines;  ///< 0: every trial is a machine of its own
-  bool on_machines;       ///< the goals; otherwise on moves
-  bool correlated;        ///< the moves meet or miss all goals together, as far as their proportions allow
+  std::int64_t machines;  ///< number of machines; 0: every trial is a machine of its own
+  bool on_machines;       ///< the goals are claims about machines; false: about all moves
+  bool correlated;  ///< each move meets or misses all goals together, as far as the goals' proportions allow
 };
 
 constexpr std::int64_t moves_of_machine = 20;
 
-/// A study: the first goal is of the population, the others are met by all machines in 0.99 of their moves.
+/// Counts of a random study, one per goal: the first goal is met as the population says, the others are met
+/// by all machines in 0.99 of their moves.
 std::vector<measures::CellCounts> study_of(testing::Draws& draws, const Population& population,
                                            const Case& one) {
   std::vector<measures::CellCounts> counts(one.goals, measures::CellCounts({.machines = one.machines}));

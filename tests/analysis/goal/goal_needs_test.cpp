@@ -29,7 +29,8 @@ struct Machines {
   }
 
  private:
-  /// Marsaglia and Tsang, ACM Trans. Math. Software 26 (2000) 363.
+  /// A gamma-distributed random number with this shape and scale 1 (Marsaglia and Tsang, ACM Trans. Math.
+  /// Software 26 (2000) 363).
   static double gamma(testing::Draws& draws, double shape) {
     if (shape < 1.0) return gamma(draws, shape + 1.0) * std::pow(draws.uniform(1e-300, 1.0), 1.0 / shape);
     const double d = shape - 1.0 / 3.0;
@@ -54,7 +55,8 @@ std::int64_t binomial(testing::Draws& draws, std::int64_t n, double p) {
   return hits;
 }
 
-/// Counts of a study of one world. @param count number of machines; 0: every trial on a machine of its own
+/// Counts of good moves of a random study without worlds. @param count number of machines; 0: every trial on
+/// a machine of its own
 measures::CellCounts counts_of_study(testing::Draws& draws, const Machines& machines, std::int64_t count,
                                      std::int64_t trials) {
   measures::CellCounts counts({.machines = count});
@@ -77,8 +79,9 @@ struct Planned {
   study::Goal goal;
   std::int64_t machines;  ///< number of machines of the pilot study
   std::int64_t trials;    ///< number of trials of the pilot study
-  double sd;              ///< standard deviation between machines
-  double least_mean;      ///< lower end of the machines' mean, which is drawn for each pilot
+  double sd;              ///< standard deviation of the machines' proportions of good moves
+  /// Lowest value of the machines' mean proportion of good moves, which is drawn for each pilot study.
+  double least_mean;
 };
 
 class GoalNeedsByDesign : public ::testing::TestWithParam<Planned> {};

@@ -15,7 +15,8 @@
 namespace zerocount::goal {
 namespace {
 
-/// Counts of trials with one move each. met[world] of the trials in a world meet the goal.
+/// Counts of trials with one move each in several worlds (possible sets of the values that all machines
+/// share). met[world] of the trials in a world meet the goal.
 /// @param trials number of trials in each world
 measures::CellCounts counts_in_worlds(const std::vector<std::int64_t>& met, std::int64_t trials) {
   const std::int64_t worlds = std::ssize(met);
@@ -57,7 +58,8 @@ TEST(GoalInWorlds, BoundsAreThoseOfTheWorstWorld) {
   EXPECT_EQ(worst_worlds_first(goal, verdict), (std::vector<std::size_t>{1, 2, 0}));
 }
 
-/// Worlds of different random rates, on machines or not, and a goal near these rates.
+/// A random study whose worlds (possible sets of the values that all machines share) have different
+/// proportions of good moves, with or without machines, and a goal near these proportions.
 struct RatesInWorlds {
   static constexpr unsigned seeds = 200;
   explicit RatesInWorlds(unsigned seed) : draws(seed) {
@@ -75,7 +77,8 @@ struct RatesInWorlds {
 
   testing::Draws draws;
   std::int64_t worlds{draws.integer(2, 6)};
-  std::int64_t machines{draws.chance(0.5) ? 0 : draws.integer(5, 30)};  ///< number in each world
+  /// Number of machines in each world; 0: no trials share a machine.
+  std::int64_t machines{draws.chance(0.5) ? 0 : draws.integer(5, 30)};
   std::int64_t trials{machines > 0 ? machines* draws.integer(2, 20) : draws.integer(50, 400)};
   std::int64_t moves{draws.integer(1, 2)};  ///< number of moves per trial
   std::size_t points{static_cast<std::size_t>(draws.integer(1, 4))};
@@ -137,8 +140,8 @@ TEST_EACH_SEED(RatesInWorlds, WorldsAreSortedFromTheWorst) {
   for (std::size_t world = 0; world < sorted.size(); ++world) EXPECT_EQ(sorted[world], world);
 }
 
-/// Counts of verdicts on 2000 studies with 200 trials in each world. The trials of a world succeed with its
-/// rate.
+/// Counts of the verdicts on 2000 simulated studies with 200 trials in each world. The trials of a world
+/// succeed with the probability of this world.
 struct JudgedStudies {
   static constexpr int studies = 2000;
 
@@ -161,15 +164,15 @@ struct JudgedStudies {
     }
   }
 
-  /// Upper limit of the number of wrong claims if each has this probability: mean plus three standard
-  /// deviations.
+  /// Upper limit of the number of wrong claims in all studies if each study makes one with this probability:
+  /// mean plus three standard deviations.
   static double largest_number(double probability) {
     return studies * probability + 3.0 * std::sqrt(studies * probability * (1.0 - probability));
   }
 
   int claimed_met{0};
   int claimed_missed{0};
-  int missed_by_one_bound{0};  ///< studies with a world that alone misses the goal at confidence γ
+  int missed_by_one_bound{0};  ///< number of studies with a world that alone misses the goal at confidence γ
 };
 
 TEST(GoalInWorlds, IsRarelyClaimedToBeMetIfOneWorldIsAtTheGoal) {
@@ -186,12 +189,12 @@ TEST(GoalInWorlds, IsRarelyClaimedToBeMissedIfAllWorldsAreAtTheGoal) {
   EXPECT_GE(judged.missed_by_one_bound, 0.2 * JudgedStudies::studies);
 }
 
-/// A study of 50 or 100 trials in each world that decides nothing.
+/// A study of 50 or 100 trials in each world whose verdict is undecided.
 struct UndecidedStudy {
-  std::vector<std::int64_t> met;  ///< [world]
+  std::vector<std::int64_t> met;  ///< [world] number of trials that meet the goal
   std::int64_t trials;            ///< number of trials in each world
   double goal;
-  Status expected;  ///< status of a larger study with the same rates
+  Status expected;  ///< verdict of a larger study with the same proportions
 };
 
 // The world that is easiest to be found below the goal decides; where none is below, every world has to be
@@ -220,7 +223,8 @@ TEST(GoalNeedsInWorlds, DecideIfTheTrueRatesEqualTheObservedOnes) {
   }
 }
 
-/// The machines of all worlds. @param worlds [world][machine]
+/// Counts of a study from the moves of the machines of all worlds. @param worlds [world][machine] moves of
+/// one machine
 measures::CellCounts counts_on_machines(const std::vector<std::vector<statistics::MachineMoves>>& worlds) {
   const std::size_t machines = worlds.front().size() * worlds.size();
   measures::CellCounts counts({static_cast<std::int64_t>(machines), std::ssize(worlds), 0});
@@ -229,8 +233,8 @@ measures::CellCounts counts_on_machines(const std::vector<std::vector<statistics
   return counts;
 }
 
-/// A larger study: `machines` machines with `trials` trials each, whose rates are those of the observed
-/// machines.
+/// The moves of the machines of a larger study: `machines` machines with `trials` trials each, whose
+/// proportions of good moves are those of the observed machines.
 std::vector<statistics::MachineMoves> machines_with_rates_of(
     const std::vector<statistics::MachineMoves>& observed, std::int64_t machines, std::int64_t trials) {
   std::vector<statistics::MachineMoves> larger;

@@ -101,9 +101,9 @@ double chance_to_meet(double proportion, std::int64_t moves) {
   return sum;
 }
 
-/// True values of the population, [age]: `machines` is the proportion of machines that meet the goal by their
-/// true proportions. `living` is the proportion of machines whose observed moves meet the goal at every age
-/// so far.
+/// True values of the population, [age]. `machines`: proportion of machines whose true proportions of good
+/// moves meet the goal. `living`: proportion of machines whose observed moves meet the goal at every age so
+/// far.
 struct Truth {
   std::vector<double> machines, living;
 };
@@ -126,7 +126,8 @@ Truth truth_of(const Aging& aging, const LifeCase& one, std::int64_t many) {
   return truth;
 }
 
-/// Misses of bounds at each age, of all studies.
+/// [age] number of studies in which the bounds miss the true value: `low` if they lie above it, `high` if
+/// below.
 struct Misses {
   std::array<int, ages.size()> low{}, high{};
   void count(std::size_t age, const BoundedProportion& bounds, double truth) {

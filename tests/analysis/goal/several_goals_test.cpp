@@ -17,7 +17,7 @@ double logit(double p) {
   return std::log(p / (1.0 - p));
 }
 
-/// Two to four goals on random counts.
+/// Two to four random goals, judged on random counts of moves.
 struct SeveralGoals {
   static constexpr unsigned seeds = 200;
 
@@ -140,7 +140,7 @@ TEST_EACH_SEED(SeveralGoals, TheLoadIsShownUnderItsWorstCondition) {
           point.for_the_load[claim.goal].sum({.setting = static_cast<std::size_t>(c)});
       const double rate = static_cast<double>(counts.met) / static_cast<double>(counts.moves);
       lowest = std::min(lowest, rate);
-      if (static_cast<std::size_t>(c) == claim.load_setting) {
+      if (static_cast<std::size_t>(c) == claim.load_condition) {
         EXPECT_EQ(claim.of_load->value, rate);
       }
     }
@@ -148,7 +148,8 @@ TEST_EACH_SEED(SeveralGoals, TheLoadIsShownUnderItsWorstCondition) {
   }
 }
 
-/// Three standard deviations above a wrong claim in 5 % of the studies.
+/// Upper limit of the number of studies with a wrong claim, if 5 % of them have one: mean plus three standard
+/// deviations.
 double largest_number(int studies) {
   return studies * 0.05 + 3.0 * std::sqrt(studies * 0.05 * 0.95);
 }

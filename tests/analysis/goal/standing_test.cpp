@@ -18,7 +18,8 @@ double log_odds(double p) {
   return std::log(p / (1.0 - p));
 }
 
-/// The keys by which claims are ranked, computed from the definition; [0] is compared first.
+/// The numbers by which verdicts on goals are ranked, computed from the definition; number 0 is compared
+/// first.
 std::vector<double> places_of(const ClaimVerdict& claim, const study::Goal& goal) {
   const double status = claim.status == Status::missed ? 0.0 : claim.status == Status::undecided ? 1.0 : 2.0;
   const BoundedProportion& claimed = goal.machines ? claim.machines : claim.moves;
@@ -28,7 +29,8 @@ std::vector<double> places_of(const ClaimVerdict& claim, const study::Goal& goal
           log_odds(claim.moves.value) - log_odds(goal.moves)};
 }
 
-/// One or two goals on a few machines under several conditions, some of which are nearly alike.
+/// One or two goals on a few random machines under several conditions, some of which have nearly the same
+/// results.
 struct FewMachines {
   static constexpr unsigned seeds = 300;
 
@@ -90,8 +92,8 @@ TEST(Standing, ObservedMachinesRankClaimsWithEqualBounds) {
   EXPECT_EQ(verdict.setting, 1U);
 }
 
-/// The settling times of the moves of each condition, [condition]: 95 % of them after this part of the time
-/// that is allowed.
+/// [condition] made-up settling times of the moves: 95 % of the moves need this fraction of the time that is
+/// allowed.
 std::vector<measures::SettlingTimes> settling_after(const std::vector<double>& parts_of_time) {
   std::vector<measures::SettlingTimes> all;
   for (const double part : parts_of_time) {

@@ -22,7 +22,7 @@ class HistoryDatabase : public ::testing::Test {
     SQLite::Database(path(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE).exec(sql);
   }
 
-  /// The message of the failure of reading it; checks its exit code.
+  /// The message of the failure when the database is read; checks that the failure has this exit code.
   std::string reading_fails(ExitCode code) const {
     return fails(code, [&] { history::read_runs(path()); });
   }

@@ -11,7 +11,8 @@ namespace zerocount::testing {
 /// and the settling time at a.
 history::RunRecord run_of_day(int day, double rate_a, double rate_b = 0.5, double arrival_time = 0.03);
 
-/// The comparison of a run with a baseline of the last day of 2025, whose rates are 0.5.
+/// Adds to a run the comparison with a baseline of the last day of 2025, whose success rates are 0.5.
+/// @param p p-value of the comparison
 void compare_with_baseline(history::RunRecord& run, double p);
 
 }  // namespace zerocount::testing

@@ -15,7 +15,8 @@ namespace {
 using history::History;
 using history::RunRecord;
 
-/// 60 nights with fresh seeds; from night `change` on, b succeeds in 70 % in place of 50 %.
+/// The runs of 60 nights, each with a fresh seed; from night `change` on, point b succeeds in 70 % instead of
+/// 50 % of its trials.
 std::vector<RunRecord> nights_with_step(int change) {
   std::mt19937_64 generator(3);
   std::vector<RunRecord> runs;

@@ -18,7 +18,7 @@ std::vector<double> normals(std::mt19937_64& random, std::size_t count, double m
   return values;
 }
 
-/// Some run of the test: random, with as many targets and cycles.
+/// Random deviations of an ISO 230-2 test with so many targets and cycles.
 Deviations random_deviations(std::mt19937_64& random, std::size_t targets, std::size_t cycles) {
   std::normal_distribution<double> spread(0.0, 3.0);
   Deviations deviations(targets);

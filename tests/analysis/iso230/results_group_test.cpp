@@ -19,7 +19,7 @@
 namespace zerocount::iso230 {
 namespace {
 
-/// NaN for NaN.
+/// Whether two numbers are equal; NaN is equal to NaN.
 bool same(double a, double b) {
   return a == b || (std::isnan(a) && std::isnan(b));
 }
@@ -122,7 +122,7 @@ summary::StudySummary summary_of(const study::Study& study, const Offset& offset
   return summary::summarise(reading::AllTrialsFile(folder / "study.h5"));
 }
 
-/// Every approach from above ends one count higher.
+/// Offset of the end of a move, counts: every approach from above ends one count higher than from below.
 double one_count_of_reversal(const study::SequenceMove& move, std::int64_t) {
   return move.direction > 0 ? 0.0 : 1.0;
 }
@@ -187,7 +187,9 @@ TEST(RepeatabilitySummary, IsASectionOfTheJson) {
   EXPECT_EQ(point["encoder"]["targets"][2]["reversal"]["p95"], -1.0);
 }
 
-/// The summary of trials whose masses end `motor` and `load` counts from the middle of their target's count.
+/// The summary of a study with two masses whose moves end with the motor `motor` counts and the load `load`
+/// counts from the middle of the target's count.
+/// @param closing mass whose encoder closes the loop
 summary::StudySummary summary_of_masses(const std::string& closing, double motor, double load) {
   const study::Study study = testing::sequence_study(
       "cycles: 3", 20, "plant: {load: {inertia: 1.0e-4, encoder: " + closing + "}}\n");
@@ -241,7 +243,7 @@ TEST(RepeatabilitySummary, HasTheValuesOfBothMassesAndNamesEach) {
   }
 }
 
-/// The facts about the study that the independent check gets: everything except the results.
+/// Everything that the independent Python check gets to know about the study; the results are not included.
 nlohmann::json facts_of(const study::Study& study) {
   nlohmann::json facts{{"points", study::point_count(study)}, {"trials", study.trials}};
   for (const study::SequenceMove& move : study.sequence)

@@ -15,9 +15,9 @@ namespace zerocount::testing {
 study::Study sequence_study(const std::string& sequence = "cycles: 3", std::int64_t trials = 80,
                             const std::string& more = "");
 
-/// Made-up results of the trials of a sequence study, [row]. Moves end a count or two from their targets; in
-/// every seventh trial they end in the middle of the target's count. The final error is the encoder's reading
-/// at this place.
+/// [row] made-up results of the trials of a sequence study. Moves end a count or two from their targets; in
+/// every seventh trial they end in the middle of the target's count. The final error is what the encoder
+/// reads at the end position.
 std::vector<shards::TrialResult> sequence_results(const study::Study& study);
 
 /// Writes a complete results file of the study.

@@ -11,7 +11,7 @@ namespace {
 constexpr double fine = 1620000.0;
 constexpr double count = 2.0 * std::numbers::pi / fine;  // rad
 
-/// Two targets, two cycles, from both sides.
+/// The moves of a sequence with two targets and two cycles, each target approached from both sides.
 std::vector<study::SequenceMove> two_targets() {
   std::vector<study::SequenceMove> moves;
   for (std::int64_t cycle = 0; cycle < 2; ++cycle) {
@@ -29,7 +29,7 @@ trial::TrialParameters with_targets(double phase) {
   return parameters;
 }
 
-/// Moves that end `offsets` counts from the middle of their target's count.
+/// The outcomes of moves that end `offsets` counts from the middle of their target's count.
 std::vector<trial::MoveOutcome> ending_at(const trial::TrialParameters& parameters,
                                           const std::vector<double>& offsets) {
   std::vector<trial::MoveOutcome> moves(offsets.size());

@@ -88,7 +88,8 @@ TEST(PoissonBounds, ImpossibleNumbersAreRefused) {
   EXPECT_THROW(statistics::poisson_bounds(1.0, 1.0), Failure);
 }
 
-/// A move in which each sample at risk begins a jerk with the chance rate(s since arrival)·T.
+/// A random move in which each sample that can begin a jerk does so with the probability rate(time since
+/// arrival, s)·T, T the sample time.
 template <typename Rate>
 ObservedMove random_move(std::int64_t trial, std::int64_t end, std::mt19937_64& random, const Rate& rate) {
   std::uniform_real_distribution<double> uniform;
@@ -109,7 +110,7 @@ ObservedMove random_move(std::int64_t trial, std::int64_t end, std::mt19937_64& 
   return move;
 }
 
-/// Whether each sample could begin a jerk, sample by sample.
+/// [sample of the move] whether a jerk could begin at it, decided sample by sample from the definition.
 std::vector<bool> risk_by_sample(const ObservedMove& move) {
   std::vector<bool> error(static_cast<std::size_t>(move.end) + 1, false), at_risk(error.size(), false);
   for (const SampledJerk& jerk : move.jerks) {
@@ -165,7 +166,8 @@ TEST(JerkRates, CountEveryJerkAndEverySampleAtRiskInItsRange) {
   for (std::size_t i = 1; i < found.size(); ++i) EXPECT_EQ(found[i].from, found[i - 1].to);
 }
 
-/// Coverage of the true jerk rate from 0.25 s to 0.4 s, by Garwood's bounds and by the reported bounds.
+/// How often two kinds of bounds cover the true jerk rate from 0.25 s to 0.4 s after arrival: Garwood's
+/// bounds and the reported bounds.
 struct RateCoverage {
   double poisson{0.0}, reported{0.0};
 };

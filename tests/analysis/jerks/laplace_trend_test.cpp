@@ -69,7 +69,8 @@ const std::vector<Renewal>& renewals() {
   return all;
 }
 
-/// The complete intervals after the first event in a window of 1000 samples.
+/// The intervals (samples) between the events in a window of 1000 samples; the incomplete ones at the ends
+/// are left out.
 Intervals in_window(const std::function<double(Random&)>& interval, Random& random) {
   Intervals intervals;
   std::int64_t time = 0;
@@ -122,7 +123,7 @@ TEST(LaplaceTrend, DISABLED_ManyRenewalProcessesWithoutATrendHaveUniformProbabil
   expect_uniform_probabilities(200);
 }
 
-/// Poisson events whose expected number until the sample t is Λ(t), starting at Λ = `first`.
+/// Intervals between Poisson events whose expected number until the sample t is Λ(t), from Λ = `first` on.
 /// @param inverse inverse function of Λ
 Intervals poisson_events(const std::function<double(double)>& inverse, double first, Random& random) {
   Intervals intervals;

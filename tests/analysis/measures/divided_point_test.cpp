@@ -68,7 +68,7 @@ JerkingTrial random_trial(testing::Draws& draws, std::size_t moves, bool open_lo
   return trial;
 }
 
-/// The sums of 50 trials.
+/// The accumulated statistics of 50 random trials of a design point.
 PointAccumulator random_point(testing::Draws& draws, const MoveKind& kind, std::size_t moves) {
   PointAccumulator point(kind);
   for (int i = 0; i < 50; ++i) {
@@ -78,7 +78,8 @@ PointAccumulator random_point(testing::Draws& draws, const MoveKind& kind, std::
   return point;
 }
 
-/// The bits of all statistics of the point: its row, the bounds of means, and its levels.
+/// The bits of all statistics of a design point: its row, the bounds of means, and its quantiles at all
+/// levels.
 std::vector<std::uint64_t> all_statistics(const PointAccumulator& point) {
   StatisticsOptions options;
   options.bootstrap = {7, 3};
@@ -94,14 +95,14 @@ std::vector<std::uint64_t> all_statistics(const PointAccumulator& point) {
   return bits;
 }
 
-/// NaN is one of the numbers.
+/// The bits of the numbers, so that NaN can be compared too.
 std::vector<std::uint64_t> bits_of(const std::vector<double>& numbers) {
   std::vector<std::uint64_t> bits;
   for (const double number : numbers) bits.push_back(std::bit_cast<std::uint64_t>(number));
   return bits;
 }
 
-/// `sum` after its state was saved and restored.
+/// The accumulated statistics after their state was saved and restored.
 PointAccumulator restored(const PointAccumulator& sum, const MoveKind& kind, std::size_t moves_of_trial) {
   const auto moves = static_cast<std::int64_t>(moves_of_trial);
   const statistics::State state = sum.state();
@@ -167,9 +168,11 @@ TEST(DividedPoint, PartsMergeToTheStatisticsOfTrialsAddedOneByOne) {
 
 /// Statistics of a measure, computed directly from its definition. Moves are in the order of the trials.
 struct PlainStatistics {
-  std::int64_t trials{0};  ///< number of trials that have the quality, or a value above 0
+  /// Number of trials that have the quality which the measure counts, or a value above 0.
+  std::int64_t trials{0};
   std::vector<std::int64_t> by_move;
-  std::vector<double> values;  ///< values of the moves; for a sum: values of the trials
+  /// Values of the moves; for a measure that sums over a trial: values of the trials.
+  std::vector<double> values;
 };
 
 PlainStatistics plain_statistics(const layout::Measure& measure, const std::vector<JerkingTrial>& trials) {

@@ -15,7 +15,7 @@
 namespace zerocount::measures {
 namespace {
 
-/// A goal on some moves of random trials, one in five of whose moves never settles.
+/// Random trials, one in five of whose moves never settles, and a goal that judges some of the moves.
 struct GoalSettlingTimes {
   static constexpr unsigned seeds = 100;
 
@@ -41,8 +41,8 @@ struct GoalSettlingTimes {
     return goal.within.after_profile ? move.travel_time + goal.within.time : goal.within.time;
   }
 
-  /// The times of the asked moves under a condition, in order, each divided by `scale` of its move; infinite
-  /// where a move never settles.
+  /// The sorted settling times (s) of the judged moves under a condition, each divided by `scale` of its
+  /// move; infinite for a move that never settles.
   template <class Scale>
   std::vector<double> times_under(std::int64_t condition, Scale scale) const {
     const study::TrialIndices indices{.machines = std::max<std::int64_t>(machines, 1),
@@ -77,7 +77,7 @@ struct GoalSettlingTimes {
   std::vector<std::vector<trial::MoveOutcome>> of_trials;
 };
 
-/// The quantile of sorted times; NaN if the quantile is infinite.
+/// The quantile of sorted settling times; NaN if it is infinite.
 double quantile_of(const std::vector<double>& times, double probability) {
   const auto rank =
       static_cast<std::size_t>(std::ceil(probability * static_cast<double>(times.size()) - 1e-9));

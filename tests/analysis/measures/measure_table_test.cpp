@@ -28,7 +28,7 @@ double torque_reserve(const trial::MoveOutcome& move) {
   return move.peak_torque - std::abs(move.holding_torque);
 }
 
-/// The table with one more measure, which is described by this row alone.
+/// The table of measures with one more measure, which is described by a single row.
 layout::MeasureTable with_torque_reserve(const layout::ValidValues& valid = any_reserve) {
   using enum layout::Statistic;
   layout::MeasureTable table = layout::measure_table();
@@ -46,7 +46,7 @@ layout::MeasureTable with_torque_reserve(const layout::ValidValues& valid = any_
   return table;
 }
 
-/// A results file of one point with this measure.
+/// A results file of one design point that has one more measure than the program's table.
 class AddedMeasure : public ::testing::Test {
  protected:
   AddedMeasure() {

@@ -42,7 +42,7 @@ study::Study study_with_limit(const std::string& measure) {
                   measure));
 }
 
-/// A move that is within every band at once, and has no other measure.
+/// The outcome of a move that is within every error band at once, and has no other measure.
 trial::MoveOutcome settled_move() {
   trial::MoveOutcome move;
   move.outcome = trial::Outcome::one_count;
@@ -51,7 +51,7 @@ trial::MoveOutcome settled_move() {
   return move;
 }
 
-/// The measures that such a move lacks.
+/// Names of the measures that the outcome of settled_move() lacks.
 std::vector<std::string> lacking_measures() {
   std::vector<std::string> names;
   const study::Study study = study_with_limit("tolerance_settling_time[1.0e-6]");

@@ -25,14 +25,14 @@ statistics::State state_of(const CellCounts& counts) {
   return state;
 }
 
-/// Random trials on machines or not, in some worlds, under some conditions.
+/// Random trials with or without machines, worlds and conditions, whose moves that meet a goal are counted.
 struct CountsInCells {
   static constexpr unsigned seeds = 300;
   explicit CountsInCells(unsigned seed) : draws(seed) {
     for (std::int64_t trial = 0; trial < trials; ++trial) met.push_back(draws.integer(0, moves));
   }
 
-  /// The counts of the trials from `first` to before `end`.
+  /// The counts of the trials from index `first` to before `end`.
   CellCounts counted(std::int64_t first, std::int64_t end) const {
     CellCounts counts(shape);
     for (std::int64_t trial = first; trial < end; ++trial)
@@ -49,7 +49,8 @@ struct CountsInCells {
     return counts;
   }
 
-  /// The trials of these cells alone, one after the other.
+  /// The counts of the trials in these cells alone (a cell is a combination of machine, world and condition),
+  /// made one trial after the other.
   MoveCounts alone(const Cells& cells) const {
     MoveCounts sum;
     std::vector<statistics::MachineMoves> machines(static_cast<std::size_t>(shape.machines));
@@ -85,14 +86,14 @@ struct CountsInCells {
   std::int64_t trials{std::max<std::int64_t>(machines, 1) * std::max<std::int64_t>(conditions, 1) *
                       draws.integer(std::max<std::int64_t>(worlds, 1), 30)};
   std::int64_t moves{draws.integer(1, 3)};  ///< number of moves per trial
-  std::vector<std::int64_t> met;            ///< [trial]
+  std::vector<std::int64_t> met;            ///< [trial] number of moves that meet the goal
 };
 
 TEST_EACH_SEED(CountsInCells, EqualTheCountsOfTheTrialsOfEachCell) {
   const CellCounts counts = counted();
   EXPECT_EQ(counts.sum(), alone({}));
   ASSERT_EQ(std::ssize(counts.by_world()), worlds);
-  ASSERT_EQ(std::ssize(counts.by_setting()), conditions);
+  ASSERT_EQ(std::ssize(counts.by_condition()), conditions);
   for (std::size_t world = 0; std::cmp_less(world, worlds); ++world)
     EXPECT_EQ(counts.by_world()[world], alone({.world = world}));
   for (std::size_t condition = 0; condition < counts.settings(); ++condition) {

@@ -25,8 +25,8 @@ trial::MoveOutcome move_that(trial::Outcome outcome, double arrival_time) {
 
 constexpr double never = std::numeric_limits<double>::quiet_NaN();
 
-/// Adds a trial of one move that arrives at 0.1 s, holds `torque`, and has jerks at `onsets` in the direction
-/// +1 of one count.
+/// Adds to the statistics a trial of one move that arrives at 0.1 s, holds with `torque`, and has jerks of
+/// one count in the direction +1 at the times `onsets` (s).
 void add_jerking(PointAccumulator& point, double torque, const std::vector<double>& onsets) {
   trial::MoveOutcome move = move_that(trial::Outcome::zero_count, 0.1);
   move.holding_torque = torque;

@@ -13,7 +13,8 @@ using monitor::ChangeMartingale;
 using monitor::Dependence;
 using monitor::Direction;
 
-/// The largest capital within each of `sequences` sequences.
+/// The largest capital of the test martingale (its evidence for a change) within each of `sequences` random
+/// sequences of moves.
 std::vector<double> largest_capitals(const Sequence& sequence, std::uint32_t sequences) {
   std::vector<double> largest(sequences);
   parallel::for_each_index(sequences, [&](std::size_t i) {
@@ -22,7 +23,8 @@ std::vector<double> largest_capitals(const Sequence& sequence, std::uint32_t seq
   return largest;
 }
 
-/// Sequences whose capital ever reaches 1/alarm.
+/// Number of sequences whose capital (evidence for a change) ever reaches 1/alarm, that is, which raise an
+/// alarm.
 std::int64_t alarms(const std::vector<double>& largest, double alarm) {
   return std::ranges::count_if(largest, [&](double capital) { return capital >= 1.0 / alarm; });
 }
@@ -146,7 +148,8 @@ Dependence dependence_of(const std::vector<double>& values, std::uint32_t number
   return monitor::dependence_of(values, std::vector<std::size_t>(values.size(), 0), {7, number});
 }
 
-/// Number of sequences of days without a change whose p-value of dependence is at most 0.05.
+/// Number of sequences of days without a change that are flagged: their p-value of dependence within a day is
+/// at most 0.05.
 int flagged(double correlation, std::int64_t days, int sequences) {
   int found = 0;
   for (int i = 0; i < sequences; ++i) {

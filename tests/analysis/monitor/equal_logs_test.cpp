@@ -7,7 +7,7 @@
 namespace zerocount::testing {
 namespace {
 
-/// Settling times and final errors of so many moves.
+/// Settling times and final errors of a number of moves, to be written as a log.
 struct LoggedMoves {
   std::vector<double> times;
   std::vector<int> errors;
@@ -30,7 +30,8 @@ std::string plain(const LoggedMoves& run) {
   return text;
 }
 
-/// The same moves in ms, in other columns and with decimal commas.
+/// The text of a log with the same moves written differently: in ms, in other columns and with decimal
+/// commas.
 std::string otherwise(const LoggedMoves& run) {
   std::string text = "\xEF\xBB\xBF# machine 7\r\nserial;final_error;arrival_time [ms]\r\n";
   for (std::size_t i = 0; i < run.times.size(); ++i) {

@@ -21,7 +21,7 @@ using monitor::MoveLog;
 using Directions = std::vector<Direction>;
 using Values = std::vector<double>;
 
-/// Contents of the monitor's answer about a log.
+/// What the monitor answers about a log of moves.
 struct Said {
   MachineStatus status;
   std::string measure, direction;
@@ -252,7 +252,8 @@ TEST(MachineMonitor, RefusesLogsThatCannotBeCompared) {
             "the baseline has 1 moves; expected at least a block of 2");
 }
 
-/// Names of the measures that are not watched for this reason, each with the column like it.
+/// Names of the measures that are not watched for this reason, each with the column of the log that is like
+/// it.
 std::vector<std::string> unwatched(const std::string& before, const std::string& after,
                                    monitor::WhyUnwatched why, const MonitorSettings& settings = {}) {
   const MachineMonitor machine(monitor::baseline_of(log_of(before, "baseline.csv")), log_of(after), settings);
@@ -312,7 +313,7 @@ TEST(MachineMonitor, NamesLabelsThatOneSideLacks) {
 
 // Moves beside those that are like them.
 
-/// A monitor after all moves of a log.
+/// A monitor that has seen all moves of a log.
 MachineMonitor watched(const std::string& before, const std::string& after,
                        const MonitorSettings& settings = {}) {
   const monitor::MoveLog log = log_of(after);
@@ -503,7 +504,7 @@ TEST(MoveKinds, BlocksWithTheSameKindsAreComparable) {
 
 // The moves after which a change would have been seen.
 
-/// The change of values that are all alike.
+/// A simulated change of a measure whose values are all alike.
 struct Change {
   double size;
   Directions directions;
@@ -653,7 +654,8 @@ struct Trap {
   std::uint64_t seed;
 };
 
-/// Number of moves after which a machine without an alarm is called unchanged; empty if it takes too many.
+/// Number of moves after which a machine without an alarm is called unchanged; empty if more moves are needed
+/// than the test allows.
 std::optional<std::int64_t> promised_after(const Values& baseline, double change, std::uint64_t seed) {
   const monitor::MonitoredMeasure of = measure("arrival_time");
   const std::vector<Values> classes{baseline};
@@ -675,7 +677,7 @@ std::optional<std::int64_t> promised_after(const Values& baseline, double change
   return promised;
 }
 
-/// The number of changed machines that are called unchanged before the alarm.
+/// Number of simulated machines that have changed and are called unchanged before an alarm.
 int called_unchanged(const Trap& trap) {
   int wrong = 0;
   for (int machine = 0; machine < trap.machines; ++machine) {
@@ -702,7 +704,7 @@ int called_unchanged(const Trap& trap) {
 }
 
 /// Upper limit of the number of changed machines that are called unchanged by chance, if each has the
-/// probability 10 %.
+/// probability 10 %: it is exceeded with at most the probability `level`.
 int most_by_chance(int machines, double level) {
   int most = 0;
   while (statistics::binomial_upper_tail(machines, 0.1, most) > level) ++most;

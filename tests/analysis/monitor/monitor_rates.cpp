@@ -35,8 +35,8 @@ void print_false_alarms(std::uint32_t sequences) {
     }
 }
 
-/// The power of the two-sided Mann–Whitney test of `moves` changed moves against the baseline, from 400
-/// pairs.
+/// The power of the two-sided Mann–Whitney test of `moves` changed moves against the baseline, estimated from
+/// 400 pairs of samples.
 double power_of_ranks(const Sequence& sequence, std::int64_t moves, double level) {
   constexpr std::uint32_t pairs = 400;
   const double critical = statistics::normal_quantile(1.0 - 0.5 * level);
@@ -68,7 +68,7 @@ double power_of_ranks(const Sequence& sequence, std::int64_t moves, double level
   return static_cast<double>(std::ranges::count(found, 1)) / pairs;
 }
 
-/// Number of moves that the test of fixed length needs for this power.
+/// Number of changed moves that a test with a fixed number of moves needs for this power.
 std::int64_t moves_for_power(const Sequence& sequence, double power, double level) {
   std::int64_t low = 1;
   std::int64_t high = 2;
@@ -88,7 +88,7 @@ std::string text_of(std::int64_t moves) {
   return moves >= never ? "–" : std::to_string(moves);
 }
 
-/// The delays that 50 % and 90 % of the sequences do not exceed.
+/// Text of the delays (moves from the change to the alarm) that 50 % and 90 % of the sequences do not exceed.
 std::string delays_text(const Sequence& sequence, double alarm) {
   constexpr std::uint32_t sequences = 200;
   std::vector<std::int64_t> delays(sequences);

@@ -8,12 +8,13 @@ namespace zerocount::monitor {
 namespace {
 
 constexpr std::size_t measures = 3;
-using Slopes = std::array<double, measures>;  ///< d(mean)/d(ln factor)
+/// [measure] sensitivity of the mean to a parameter: d(mean)/d(ln of the parameter's factor).
+using Slopes = std::array<double, measures>;
 
 constexpr Slopes stiffness{3.0, -1.0, 0.0};
 constexpr Slopes damping{0.0, 1.5, 2.0};
 
-/// The moves of machines that differ by their own means, with a parameter changed.
+/// Made-up moves of machines, each with its own means of the measures, before and after a parameter changes.
 class Machines {
  public:
   explicit Machines(std::uint64_t seed, double spread) : seed_(seed), spread_(spread) {}
@@ -24,7 +25,8 @@ class Machines {
       all.push_back(moves_of(slopes, factor, machine, moves, 0));
     return all;
   }
-  /// @param width standard deviation of a move of one machine
+  /// The moves of one machine whose parameter is multiplied by `factor`.
+  /// @param width standard deviation of a measure over the moves of one machine
   MoveValues moves_of(const Slopes& slopes, double factor, int machine, int moves, int part,
                       double width = 1.0) const {
     std::mt19937_64 own(seed_ + 1000003ULL * static_cast<std::uint64_t>(machine));
@@ -53,7 +55,8 @@ ChangeCandidate candidate(const char* name, const Machines& simulated, const Slo
   return one;
 }
 
-/// The moves of machine 1000 before and after a change of a parameter by the factor.
+/// The moves of one machine before and after a parameter is multiplied by `factor`.
+/// @param before,after number of moves
 MoveValues changed_machine(const Machines& machines, const Slopes& slopes, double factor, int before,
                            int after) {
   MoveValues moves = machines.moves_of(slopes, 1.0, 1000, before, 1);

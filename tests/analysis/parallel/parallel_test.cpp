@@ -7,7 +7,8 @@
 namespace zerocount::testing {
 namespace {
 
-/// Number of spans with this name and kind of work.
+/// Number of spans (pieces of work with begin and end) in the timeline that have this name and this kind of
+/// work.
 int spans(const timeline::Timeline& timeline, const std::string& name, const std::string& work) {
   const std::string wanted = R"({"name": ")" + name + R"(", "cat": ")" + work + '"';
   const std::string text = timeline.trace_events();

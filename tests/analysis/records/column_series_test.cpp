@@ -41,7 +41,7 @@ class ColumnSeries : public ::testing::Test {
     EXPECT_EQ(found.size(), 1u);
     return found.front();
   }
-  /// The message without the file's name, which it must begin with.
+  /// The message with which the file is refused, without the file's name, with which it must begin.
   template <class Read>
   std::string refusal_of(const std::string& file, const Read& read) {
     try {

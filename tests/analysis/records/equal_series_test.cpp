@@ -23,7 +23,8 @@ RawSeries random_series(unsigned seed, std::size_t samples) {
   return series;
 }
 
-/// The same readings at other times, in rad from another zero, written with twelve digits.
+/// The record with the same readings written differently: at shifted times, in rad from another zero, with
+/// twelve digits.
 RawSeries otherwise(RawSeries series) {
   for (double& time : series.time) time = std::stod(fmt::format("{:.12g}", time + 2.5));
   for (double& torque : series.torque) torque = std::stod(fmt::format("{:.12g}", torque));

@@ -33,7 +33,7 @@ class MatFiles : public ::testing::Test {
               0);
   }
 
-  /// Why the file is not read; empty if it is.
+  /// The message that says why a file with these bytes cannot be read; empty if it can.
   std::string damage_of(const std::string& bytes) {
     const auto path = folder_.write("damaged.mat", bytes);
     try {

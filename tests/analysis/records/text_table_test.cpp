@@ -17,7 +17,8 @@ class TextTables : public ::testing::Test {
     return tables::TextTable(folder_.write("data.csv", text));
   }
 
-  /// The message with which the text is refused, the column `x` read as numbers.
+  /// The message with which the text is refused when the numbers of its column `x` are read; checks that the
+  /// failure has this exit code.
   std::string refusal(const std::string& text, ExitCode code) {
     try {
       table(text).numbers("x");

@@ -22,7 +22,7 @@ constexpr const char* fixed_study =
     "zerocount: 1\nname: bode\nseed: 3\ntrials: 2\ncommand: {targets: [3], hold: 0.1}\n"
     "verdict: {dwell: 0.02, window: 0.02}\nfriction: {k1: 97, k2: 640}\n";
 
-/// The report of a study by fixed_study and `more`.
+/// The report page of the fixed study of these tests, with the further manifest lines `more`.
 ReportPage bode_page(const std::string& more) {
   const testing::TemporaryFolder folder;
   testing::run_study_file(folder / "a.h5", fixed_study + more);

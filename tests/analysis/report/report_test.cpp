@@ -42,7 +42,7 @@ class Report : public ::testing::Test {
   }
   static void TearDownTestSuite() { delete folder; }
 
-  /// Made once for all tests.
+  /// The report that the tests look at, made once for all of them.
   static const StudyReport& report() {
     static const StudyReport once = study_report(reading::AllTrialsFile(*folder / "rich.h5"));
     return once;
@@ -76,7 +76,7 @@ TEST_F(Report, EveryFigureHasACaptionAndUnitsAndATable) {
   }
 }
 
-/// [point] the labels that figures show.
+/// [design point] label that figures show.
 std::vector<std::string> labels_in_figures(const reading::AllTrialsFile& file) {
   const ReportedStudy reported = reported_study(file);
   std::vector<std::string> labels;
@@ -380,7 +380,7 @@ std::string saltelli_manifest(const std::string& more) {
          more;
 }
 
-/// The page of a study by this manifest.
+/// The report page of a study with this manifest.
 ReportPage page_of(const std::string& manifest) {
   const TemporaryFolder folder;
   testing::run_study_file(folder / "a.h5", manifest);
@@ -469,7 +469,7 @@ INSTANTIATE_TEST_SUITE_P(
             ""}),
     [](const auto& study) { return std::string(study.param.name); });
 
-/// However many trials there are, the page stays small.
+/// The size of the report's page is bounded, however many trials the study has.
 TEST(ReportPage, DoesNotGrowWithTheTrials) {
   const TemporaryFolder folder;
   study::Study study = manifest::parse_study(
@@ -498,7 +498,7 @@ TEST(ReportPage, DoesNotGrowWithTheTrials) {
 
 // A reader looks at some dozen figures, and a browser must be able to open the page.
 
-/// A page with so many figures of so many rows of data.
+/// A report page with `figures` figures of `rows` rows of data each.
 ReportPage page_with(int figures, int rows) {
   ReportPage page;
   page.title = "many figures";
@@ -530,7 +530,7 @@ TEST(ReportPage, HasAtMostFiveMegabytesHoweverLargeItsFiguresAre) {
   EXPECT_TRUE(says(html, "of 40 figures are left out"));
 }
 
-/// A history of so many series of one run.
+/// A history of results with one run and `series` series.
 history::History history_of_series(int series) {
   history::History history;
   const auto run = std::make_shared<const history::RunIdentity>();

@@ -106,7 +106,7 @@ TEST(SensitivityCoverage, DISABLED_BootstrapBoundsCoverSobolIndicesInManySamples
   expect_saltelli_coverage(both_exceed_half, {1.0 / 3.0, 1.0 / 3.0}, {2.0 / 3.0, 2.0 / 3.0}, 400);
 }
 
-/// An output with known indices.
+/// An output of independent factors whose Sobol' indices are known.
 struct KnownOutput {
   std::string name;
   testing::UnitFunction function;
@@ -134,7 +134,7 @@ KnownOutput lognormal_product(std::vector<double> cvs) {
   return output;
 }
 
-/// A sum of a lognormal factor and a normal one of the same variance: both orders are ½.
+/// A sum of a lognormal factor and a normal factor of the same variance: both first-order indices are ½.
 KnownOutput skewed_sum(double cv) {
   return {fmt::format("sum with cv {}", cv),
           [cv](std::span<const double> u) {

@@ -41,10 +41,12 @@ struct KnownIndex {
   std::string name;
   double index;
   std::function<FactorAndOutput(Draws&)> trial;
-  bool skewed{false};  ///< so that few trials may leave the index open
+  /// The distribution is skewed, so with few trials the estimate may give no bounds of the index.
+  bool skewed{false};
 };
 
-/// The output x·slope plus a uniform number, where x has the Sobol' index `index`.
+/// A linear output x·slope plus a uniform number, with the slope for which the factor x has the Sobol' index
+/// `index`.
 /// @param variance variance of x
 KnownIndex linear(std::string name, double index, double variance, const std::function<double(Draws&)>& x) {
   const double slope = std::sqrt(index / (1.0 - index) / 12.0 / variance);
@@ -185,8 +187,8 @@ BoundsOfSamples bounds_of_samples(const KnownIndex& known, std::size_t trials, s
   return coverage;
 }
 
-/// Lower limit of the observed coverage: three standard deviations below 94 %, the coverage for skewed
-/// values.
+/// Lower limit of the proportion of samples whose bounds cover: three standard deviations below 94 %, the
+/// coverage for skewed values.
 double least_coverage(std::uint64_t samples) {
   return 0.94 - 3.0 * std::sqrt(0.94 * 0.06 / static_cast<double>(samples));
 }

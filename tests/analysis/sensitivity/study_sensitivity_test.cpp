@@ -155,7 +155,7 @@ TEST(StudySensitivity, ATinyIndexDoesNotCountAsInfluence) {
   EXPECT_FALSE(says(influential, "friction.k1")) << creep.conclusion;
 }
 
-/// `trials` on 40 machines, which differ in all three factors.
+/// Manifest of a study with `trials` trials on 40 machines, which differ in all three factors.
 std::string manifest_of_machines(std::int64_t trials, int seed) {
   std::string text = manifest(fmt::format("machines: 40\n"));
   const auto replace = [&](const std::string& old, const std::string& now) {

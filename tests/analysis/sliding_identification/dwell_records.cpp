@@ -31,15 +31,16 @@ class BristleMachine {
   records::RawSeries series() && { return std::move(series_); }
 
  private:
-  /// The velocity after a time under constant forces but for the damper's.
+  /// Advances the velocity by `time` (s) under constant forces; the damper's force is included exactly.
   void kick(double force, double time) {
     const double net = force - axis_.offset - friction_;
     const double gone = -std::expm1(-axis_.damping / axis_.mass * time);
     velocity_ += gone * (net / axis_.damping - velocity_);
   }
 
-  /// Kick, drift, kick. The friction after a displacement is exact, because Dahl's law depends on that alone;
-  /// so is the motion while the bristles slide.
+  /// Advances the motion by `time` (s): kick, drift, kick (Strang splitting). The friction after a
+  /// displacement is exact, because Dahl's law depends on the displacement alone; so is the motion while the
+  /// bristles slide.
   void step(double force, double time) {
     kick(force, 0.5 * time);
     const double moved = time * velocity_;
@@ -65,7 +66,7 @@ double target_of(int move, double amplitude) {
   return move < 0 ? 0.0 : amplitude * ends[static_cast<std::size_t>(move) % ends.size()];
 }
 
-/// The reference of a minimum-jerk move at a fraction of its duration.
+/// The reference position of a minimum-jerk move from `from` to `to` at the fraction `part` of its duration.
 double least_jerk(double from, double to, double part) {
   if (part >= 1.0) return to;
   return from + (to - from) * part * part * part * (10.0 - 15.0 * part + 6.0 * part * part);

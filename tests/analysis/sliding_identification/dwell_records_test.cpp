@@ -37,7 +37,8 @@ struct DwellCoverage {
   int estimated{0};
 };
 
-/// Over random axes and records.
+/// Expects that the confidence intervals cover the true values often enough, over `axes` random axes and
+/// their records.
 void expect_dwell_coverage(
     int axes, const std::function<records::RawSeries(const BristleAxis&, std::mt19937_64&)>& record) {
   std::map<std::string, DwellCoverage> coverage;

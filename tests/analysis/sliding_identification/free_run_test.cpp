@@ -65,7 +65,8 @@ TEST(FreeRunOfTheAxis, DriftsIfTheLawLacksAForce) {
   EXPECT_GT(with.runs[0].rms, 10.0 * without.runs[0].rms);
 }
 
-/// The record with a force that the axis meets at each position, and in one direction more than in the other.
+/// A record with an additional force that depends on the position and is larger in one direction of travel
+/// than in the other.
 records::RawSeries with_force_along_travel(double amplitude, double direction_part, std::mt19937_64& random) {
   records::RawSeries series = closed_loop_record({}, {}, emps_lap(), 2, random);
   const auto [lowest, highest] = std::ranges::minmax(series.angle);

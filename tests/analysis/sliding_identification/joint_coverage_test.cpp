@@ -17,14 +17,15 @@ namespace {
 
 using sliding_identification::SlidingIdentification;
 
-/// Counts over records.
+/// Counts over the identifications of many simulated records.
 struct Counts {
   int records{0};
-  int right{0};       ///< records whose position-dependent torques were identified correctly
-  int distrusted{0};  ///< records whose result carries a reason of distrust
-  int estimated{0};   ///< number of estimated parameters
-  int held{0};        ///< parameters whose intervals hold the true value
-  int wrong{0};       ///< parameters far outside their intervals, in a trusted result
+  int right{0};       ///< number of records whose position-dependent torques were identified correctly
+  int distrusted{0};  ///< number of records whose result states a reason to distrust it
+  int estimated{0};   ///< number of estimated parameters in all records
+  int held{0};        ///< number of parameters whose confidence intervals contain the true value
+  /// Number of parameters far outside their confidence intervals although the result is trusted.
+  int wrong{0};
 
   void add(const JointMotion& motion, const SlidingIdentification& found) {
     const Joint& joint = motion.joint;

@@ -36,7 +36,7 @@ class MovingJoint {
 
   double gravity(double angle) const { return joint_.gravity * std::sin(angle + joint_.gravity_phase); }
 
-  /// All torques on the motor except its friction, N m.
+  /// Sum of all torques on the motor except its friction, N m.
   double drive(const State& y) const {
     const double ripple = joint_.ripple * std::sin(joint_.periods * y[0] + joint_.ripple_phase);
     return torque_ - joint_.offset + ripple + (two_masses() ? -coupling(y) : gravity(y[0]));
@@ -48,7 +48,8 @@ class MovingJoint {
            joint_.excess * std::exp(-ratio * ratio);
   }
 
-  /// Friction by the torque u − d that the transmission carries, with d all other torques but the friction.
+  /// Friction of the transmission, N m, which grows with the torque u − d that it carries; d is the sum of
+  /// all other torques except friction.
   double load_friction(const State& y) const {
     return joint_.load_friction * 0.5 * std::abs(2.0 * torque_ - drive(y));
   }
@@ -106,7 +107,7 @@ class MovingJoint {
   int direction_{0};  // of the slide; 0 at rest
 };
 
-/// The reference at each sample.
+/// [sample] the reference position, rad, of moves to the targets with this speed (rad/s).
 std::vector<double> reference(const std::vector<double>& targets, double speed, double sample_time) {
   constexpr double rise = 0.08;  // s
   constexpr double dwell = 0.1;  // s

@@ -142,7 +142,8 @@ TEST(MissingTorque, NoEstimateLeavesItsAllowedRange) {
   }
 }
 
-/// Records of a kind: how many are refused, named with the cause, distrusted for another reason, or trusted.
+/// Counts over the identifications of records with one kind of unmodelled torque: how many are refused, name
+/// the cause, are distrusted for another reason, or are trusted.
 struct Outcomes {
   int refused{0};
   int named{0};

@@ -64,7 +64,7 @@ class Machine {
   double unknown_{0.0};
 };
 
-/// Velocity that the reference has at each sample.
+/// [sample] velocity of the reference.
 std::vector<double> reference_velocity(const std::vector<Cruise>& lap, int laps, double sample_time) {
   constexpr double acceleration = 0.83;  // m/s²
   std::vector<double> velocity;

@@ -16,7 +16,7 @@ namespace {
 
 using sliding_identification::SlidingIdentification;
 
-/// A joint of the benchmark's size that swings by up to a radian under gravity.
+/// A random rotary axis of the size of the EMPS benchmark that swings by up to a radian under gravity.
 SlidingAxis joint(std::mt19937_64& random) {
   SlidingAxis axis;
   axis.rotary = true;
@@ -44,7 +44,7 @@ SlidingIdentification identified(const SlidingAxis& axis, std::mt19937_64& rando
       closed_loop_record(axis, joint_loop(), swings(), 1, random), pitch)});
 }
 
-/// Intervals that hold the truth, of those that are estimated.
+/// Number of confidence intervals that contain the true value, and number of estimated parameters.
 struct Held {
   int held{0};
   int estimated{0};

@@ -30,7 +30,8 @@ struct DwellLoop {
   int moves{6};              ///< number of moves, to and fro, with different lengths
 };
 
-/// The record of moves with dwells under a PID loop. The simulation is independent: it uses nothing of core.
+/// The record of moves with dwells under a PID loop. The simulation is independent of the program: it uses
+/// nothing of core.
 records::RawSeries dwell_record(const BristleAxis& axis, const DwellLoop& loop, std::mt19937_64& random);
 
 /// The record of a force given in advance, without a loop: pulses that move the axis, with rests and slow
@@ -51,12 +52,12 @@ struct SlidingAxis {
   std::vector<motion::Ripple> ripple{};  ///< torques that depend on the position and act on the axis
 };
 
-/// Drive, sensor and loop.
+/// Drive, position sensor and control loop of a simulated axis.
 struct AxisLoop {
   double gain{35.15065};         ///< drive gain, N/V
   double position_gain{160.18};  ///< gain of the position loop, 1/s
   double velocity_gain{243.45};  ///< gain of the velocity loop, V s/m
-  double voltage_limit{10.0};    ///< largest voltage, V
+  double voltage_limit{10.0};    ///< largest voltage magnitude of the drive, V
   double resolution{5e-8};       ///< encoder resolution, m
   double sample_time{1e-3};      ///< sample time, s
   double noise{0.0};             ///< standard deviation of the readings, m
@@ -68,15 +69,15 @@ struct Cruise {
   double duration;
 };
 
-/// The motion of the electro-mechanical positioning system (EMPS) of A. Janot, M. Gautier and M. Brunot, Data
-/// Set and Reference Models of EMPS, 2019 Workshop on Nonlinear System Identification Benchmarks, Eindhoven:
-/// 1 kHz, trapezoidal velocities up to 0.123 m/s with 0.83 m/s², four equal laps of 6.24 s, a cascade of P
-/// position and velocity control, ±10 V, steps of 0.05 µm. The defaults above are its published parameters
-/// and gains.
+/// The velocities of one lap of the electro-mechanical positioning system (EMPS) of A. Janot, M. Gautier and
+/// M. Brunot, Data Set and Reference Models of EMPS, 2019 Workshop on Nonlinear System Identification
+/// Benchmarks, Eindhoven: 1 kHz, trapezoidal velocities up to 0.123 m/s with 0.83 m/s², four equal laps of
+/// 6.24 s, a cascade of P position and velocity control, ±10 V, steps of 0.05 µm. The defaults of SlidingAxis
+/// and AxisLoop are its published parameters and gains.
 std::vector<Cruise> emps_lap();
 
-/// `laps` laps under closed loop, with the force and the position as recorded: each at its sample, the force
-/// held to the next. The motion is that of core's Plant with the law `coulomb`.
+/// The record of `laps` laps under closed loop, with force and position at each sample; the force is held to
+/// the next sample. The motion is that of core's Plant with the law `coulomb`.
 records::RawSeries closed_loop_record(const SlidingAxis& axis, const AxisLoop& loop,
                                       const std::vector<Cruise>& lap, int laps, std::mt19937_64& random);
 

@@ -17,7 +17,8 @@ namespace {
 
 using sliding_identification::SlidingIdentification;
 
-/// Cuts the joint's inertia into two masses, of this resonance (Hz).
+/// Divides the joint's inertia into two masses on a coupling with this resonance (Hz).
+/// @param ratio inertia of the load over that of the motor @param damping damping ratio of the resonance
 void add_second_mass(Joint& joint, double ratio, double resonance, double damping) {
   const double omega = 2.0 * std::numbers::pi * resonance;
   joint.load = joint.inertia * ratio / (1.0 + ratio);
@@ -32,7 +33,7 @@ bool holds_inertia(const SlidingIdentification& found, double truth) {
   return !is_estimated(one) || (one.low <= truth && truth <= one.high);
 }
 
-/// A short record of a joint with a fine encoder.
+/// A short motion of a joint with a fine encoder, to be recorded.
 JointMotion fine_joint(std::mt19937_64& random) {
   JointMotion motion{random_joint(random), {0.8, -0.4, 0.6, 0.0, 0.9, -0.7, 0.5, -0.6, 0.7, 0.0}, 3.0};
   motion.joint.excess = 0.0;

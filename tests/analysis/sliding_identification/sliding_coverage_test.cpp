@@ -24,7 +24,7 @@ double factor(std::mt19937_64& random) {
   return std::exp2(std::uniform_real_distribution<double>(-1.0, 1.0)(random));
 }
 
-/// An axis with each parameter half to twice that of the benchmark, with a Stribeck curve.
+/// A random axis with a Stribeck curve, each of whose parameters is half to twice that of the EMPS benchmark.
 SlidingAxis random_axis(std::mt19937_64& random) {
   SlidingAxis axis;
   axis.mass *= factor(random);

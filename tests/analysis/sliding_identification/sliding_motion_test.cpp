@@ -30,8 +30,9 @@ SlidingPoint point_of_motion() {
   return point;
 }
 
-/// 200 samples under a wavy torque; behind an amplifier if `rate` is not 0. Torques that depend on the
-/// position have a shape at each sample; their amplitudes are those of the point.
+/// A made-up record of 200 samples under a wavy torque; behind an amplifier of bandwidth `rate` if it is not
+/// 0. Torques that depend on the position have a given shape at each sample; their amplitudes are parameters
+/// of the model.
 SlidingRecord wavy_record(double direction, double rate) {
   SlidingRecord record;
   for (int k = 0; k < 200; ++k) {
@@ -51,10 +52,12 @@ SlidingRecord wavy_record(double direction, double rate) {
   return record;
 }
 
-/// The parameters of the motion: the point, and the initial position and velocity.
+/// Parameters from which a motion is simulated: those of the friction model, then initial position and
+/// velocity.
 using MotionStart = Eigen::Matrix<double, sliding_dimension + 2, 1>;
 
-/// The simulated positions in a window whose readings are 0, and their derivatives by the parameters.
+/// The simulated positions in a window of a record whose readings are all 0, and their derivatives with
+/// respect to the parameters.
 struct WindowMotion {
   Eigen::VectorXd position;
   Eigen::MatrixXd slopes;

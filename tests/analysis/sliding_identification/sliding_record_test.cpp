@@ -14,7 +14,7 @@ namespace {
 using sliding_identification::SlidingRecord;
 using sliding_identification::Window;
 
-/// Whether some sample next to `at` is in a window.
+/// Whether the sample `at` lies in one of the windows of the record, its first and last samples included.
 bool in_window(const SlidingRecord& record, std::size_t at) {
   for (const Window& window : record.windows) {
     if (window.first <= at && at <= window.last) return true;

@@ -4,7 +4,8 @@
 namespace zerocount::statistics {
 namespace {
 
-/// Number of 200 sequences whose bounds miss the mean at one of the lengths 20, 40, 80, …, 1280.
+/// Number of sequences, out of 200, whose bounds miss the true mean at one of the lengths 20, 40, 80, …,
+/// 1280.
 int sequences_that_fail(double mean, double cap, const std::function<double(std::mt19937_64&)>& draw) {
   std::mt19937_64 numbers(7);
   int failed = 0;

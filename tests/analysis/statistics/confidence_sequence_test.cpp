@@ -8,7 +8,8 @@
 namespace zerocount::testing {
 namespace {
 
-/// log of the mixture's likelihood over that of p, by Boost's beta function.
+/// Logarithm of the likelihood ratio of the beta mixture against the success probability p, by Boost's beta
+/// function.
 double evidence_against(double p, std::int64_t successes, std::int64_t trials) {
   const auto s = static_cast<double>(successes);
   const auto f = static_cast<double>(trials - successes);
@@ -58,9 +59,11 @@ TEST(ConfidenceSequence, BoundsAreWiderThanThoseOfAFixedSampleSize) {
 }
 
 struct Looks {
-  int covered_always{0};        ///< studies whose confidence sequence covers at every look
-  int covered_at_end{0};        ///< studies whose confidence sequence covers at the look that stops
-  int fixed_covered_always{0};  ///< studies whose bounds for a single look cover at every look
+  int covered_always{0};  ///< number of studies whose confidence sequence covers the true rate at every look
+  /// Number of studies whose confidence sequence covers the true rate at the look at which the study stops.
+  int covered_at_end{0};
+  /// Number of studies whose bounds for a single look cover the true rate at every look.
+  int fixed_covered_always{0};
 };
 
 Looks look_after_every_block(double p, int studies) {

@@ -4,7 +4,8 @@
 
 #include "tests/analysis/statistics/coverage_simulation.hpp"
 
-/// Prints how often every bound of a summary covers, and bounds for independent trials and moves beside it.
+/// Prints how often every bound of a summary covers the true value, and beside it how often bounds for
+/// independent trials and moves do.
 /// usage: statistics_coverage [REPETITIONS]
 int main(int count, char** words) {
   using namespace zerocount::testing;

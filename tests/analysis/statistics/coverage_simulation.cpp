@@ -19,7 +19,8 @@ constexpr double hold = 1.0;
 constexpr double median_time = 0.06;
 constexpr double alike = 0.5;  // probability that a trial decides once for all of its moves
 
-/// The law of the zero moves of machines.
+/// The distribution of the probabilities with which the machines of a population end their moves at zero
+/// error.
 class SuccessLaw {
  public:
   explicit SuccessLaw(const Population& population)
@@ -37,11 +38,12 @@ class SuccessLaw {
       return std::bernoulli_distribution(weak_machines_)(random) ? weak_success_ : 1.0;
     return a_ > 0.0 ? boost::random::beta_distribution<double>(a_, b_)(random) : mean_;
   }
-  /// Probability that a trial of a machine with q succeeds.
+  /// Probability that a trial succeeds in all its moves, on a machine that succeeds in a move with
+  /// probability q.
   static double of_trial(double q, std::int64_t moves) {
     return alike * q + (1.0 - alike) * std::pow(q, static_cast<double>(moves));
   }
-  /// Mean over machines.
+  /// Mean of a function of the success probability over all machines.
   template <class Function>
   double mean_over_machines(Function function) const {
     if (weak_machines_ > 0.0)
@@ -53,7 +55,7 @@ class SuccessLaw {
     for (int i = 0; i < nodes; ++i) sum += function(boost::math::quantile(beta, (i + 0.5) / nodes));
     return sum / nodes;
   }
-  /// Proportion of machines with q ≥ bound.
+  /// Proportion of machines whose success probability q is at least `bound`.
   double machines_at_least(double bound) const {
     if (bound <= 0.0) return 1.0;
     if (weak_machines_ > 0.0) return bound <= weak_success_ ? 1.0 : 1.0 - weak_machines_;
@@ -66,7 +68,7 @@ class SuccessLaw {
   double mean_, weak_machines_, weak_success_, a_{0.0}, b_{0.0};
 };
 
-/// The law of the settling times of all moves of all machines.
+/// The distribution of the settling times of all moves of all machines.
 class TimeLaw {
  public:
   explicit TimeLaw(const Population& population)
@@ -180,7 +182,7 @@ void add_to(measures::PointAccumulator& point, const trial::TrialOutcome& trial)
   point.add(trial, jerks_of(trial.moves[0]));
 }
 
-/// Every move as a trial of its own: what becomes of bounds that take moves for independent.
+/// Adds every move as a trial of its own to the statistics. The bounds then take moves for independent.
 void add_moves_to(measures::PointAccumulator& point, const trial::TrialOutcome& trial) {
   for (const trial::MoveOutcome& move : trial.moves) point.add(trial::TrialOutcome{{move}}, jerks_of(move));
 }

@@ -23,10 +23,12 @@ struct Population {
   double trial_effect{0.0};    ///< standard deviation of ln(settling time) between trials of a machine
   double move_effect{0.5};     ///< standard deviation of ln(settling time) between moves of a trial
   double jerks{0.3};           ///< mean number of jerks per trial
-  double jerk_sd{0.0};         ///< standard deviation of the machines' jerk factor; 0: all are alike
+  /// Standard deviation of the factor by which a machine's number of jerks differs from the mean; 0: all
+  /// machines are alike.
+  double jerk_sd{0.0};
 };
 
-/// A study of the population.
+/// Size of a simulated study of the population.
 struct Sample {
   std::int64_t machines{0};  ///< number of machines; 0: every trial has its own machine
   std::int64_t trials{0};    ///< number of trials on all machines
@@ -38,7 +40,8 @@ struct Coverage {
   std::string bound;
   std::int64_t repetitions{0};
   std::int64_t covered{0};
-  std::int64_t plainly{-1};  ///< count for bounds that assume independent moves; −1: none
+  /// Number of repetitions in which bounds that assume independent moves cover; −1: there are no such bounds.
+  std::int64_t plainly{-1};
 };
 
 /// Repeats the study with random numbers from `seed`, and counts the coverage of every bound that a summary

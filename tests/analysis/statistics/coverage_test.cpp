@@ -11,7 +11,8 @@ double lowest_count(std::int64_t repetitions) {
   return 0.94 * n - 3.0 * std::sqrt(n * 0.94 * 0.06);
 }
 
-/// @param repetitions of each population. Prints nothing; the large run is the program statistics_coverage.
+/// Simulates the study for each population, and expects that every bound covers often enough.
+/// @param repetitions number of simulated studies of each population
 std::map<std::string, Coverage> expect_cover(const std::vector<Population>& populations, const Sample& sample,
                                              std::int64_t repetitions) {
   std::map<std::string, Coverage> all;

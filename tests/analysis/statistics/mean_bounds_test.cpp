@@ -175,14 +175,15 @@ constexpr ScipyBounds scipy[] = {
     {0, 1000000, 0.99, 0.0, 5.2983033643494575e-06, 0.0, 6.634852579460386e-06},
 };
 
-/// Probability of k successes of n.
+/// Probability of k successes in n independent trials with the success probability p.
 double binomial(std::int64_t k, std::int64_t n, double p) {
   const auto a = static_cast<double>(k), b = static_cast<double>(n - k);
   return std::exp(std::lgamma(a + b + 1) - std::lgamma(a + 1) - std::lgamma(b + 1) + a * std::log(p) +
                   b * std::log1p(-p));
 }
 
-/// Probability that the interval encloses p, by summing over all outcomes.
+/// Probability that the confidence interval of a proportion contains the true p, summed over all outcomes of
+/// n trials.
 double proportion_coverage(ConfidenceInterval (*interval)(std::int64_t, std::int64_t, double), std::int64_t n,
                            double p) {
   double sum = 0.0;

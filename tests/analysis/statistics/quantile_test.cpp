@@ -6,8 +6,9 @@
 namespace zerocount::statistics {
 namespace {
 
-/// numpy 1.24: quantile(x, p, method="inverted_cdf") of x_i = (7i² + 3i) mod 101, i < n; the ranks from
-/// SciPy 1.10's binom.cdf and binom.sf by searching all of them, 95 %.
+/// Quantiles and 95 % bounds computed by other programs for the made-up values x_i = (7i² + 3i) mod 101, i <
+/// n: numpy 1.24's quantile(x, p, method="inverted_cdf"); the ranks of the bounds from SciPy 1.10's binom.cdf
+/// and binom.sf, by trying all ranks.
 struct Reference {
   std::int64_t n;
   double p;
@@ -118,8 +119,8 @@ TEST(Quantile, AnEmptySampleHasNoQuantile) {
   EXPECT_TRUE(std::isnan(none.high));
 }
 
-/// Proportion of samples of size n from `draw` whose bounds of the p-quantile enclose `truth`; a missing
-/// bound encloses.
+/// Proportion of samples of size n, drawn by `draw`, whose bounds of the p-quantile contain `truth`. A
+/// missing bound counts as containing it.
 template <typename Draw>
 double quantile_coverage(int n, double p, double truth, Draw draw) {
   constexpr int rounds = 4000;

@@ -31,8 +31,8 @@ trial::MoveOutcome move_that(bool succeeds) {
   return move;
 }
 
-/// A point with machines that each succeed with their own probability, reduced by `worse`. The draws depend
-/// on `seed` only.
+/// Statistics of a design point with machines that each succeed with their own probability, reduced by
+/// `worse`. The random numbers depend on `seed` only.
 measures::PointSummary on_machines(std::uint64_t seed, double worse, std::int64_t machines) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> uniform;

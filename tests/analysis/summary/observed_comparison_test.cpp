@@ -59,7 +59,9 @@ struct ObservedTrials {
 
   testing::Draws draws;
   study::Study study;
-  std::size_t slot{2};  ///< index of the band of 3 counts, after 0 and 1
+  /// Index of the goal's band of 3 counts among the bands that the trials measure, after those of 0 and 1
+  /// count.
+  std::size_t slot{2};
   std::vector<std::vector<trial::MoveOutcome>> trials;
 };
 

@@ -33,7 +33,7 @@ std::vector<testing::TrialRecord> random_trials(const study::Study& study) {
   return trials;
 }
 
-/// Every number of the statistics as text: equal text is equal statistics.
+/// Every number of the statistics of a study as text: equal texts mean equal statistics.
 std::string text_of(const study::Study& study, const std::vector<measures::PointSummary>& points) {
   StudySummary summary;
   summary.name = study.name;

@@ -26,7 +26,8 @@ using testing::summary_csv;
 using testing::summary_json;
 using testing::summary_text;
 
-/// Statistics of `zero` trials that succeed at random times with jerks and `lost` that never arrive.
+/// Statistics of a design point with `zero` trials that succeed at random times and have jerks, and `lost`
+/// trials that never arrive.
 measures::PointSummary point_of(int zero, int lost) {
   std::mt19937_64 random(51);
   measures::PointAccumulator point;
@@ -76,7 +77,7 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-/// The table of the points: its head, a rule, and the rows.
+/// The lines of the table of design points in a summary: its head, a rule, and the rows.
 std::vector<std::string> table_in(const std::string& text) {
   std::vector<std::string> lines = lines_of(text);
   const auto head =
@@ -258,8 +259,8 @@ TEST(SummaryTable, NamesThePointsThatLostTrials) {
   EXPECT_NE(summary_text(summary).find("high, gain: 3 of 7 trials nonfinite"), std::string::npos);
 }
 
-/// A point of a hundred trials with these outcomes; of those that ended within one count the last ones are
-/// not stable.
+/// Statistics of a design point with a hundred trials that end in these ways, so many in jerks, off target or
+/// oscillating. The last ones of those that ended within one count are not stable.
 measures::PointSummary point_with(int in_jerks, int off_target, int oscillating) {
   measures::PointAccumulator point;
   for (int i = 0; i < 100; ++i) {
@@ -358,7 +359,8 @@ TEST(SummaryTable, ShowsADashForPointsOutsideTheCriteria) {
   EXPECT_TRUE(lines[3].ends_with("–             –")) << lines[3];
 }
 
-/// Two points of three torque levels; the second lost its one trial in the second level.
+/// Summary of an open-loop study with two design points of three torque levels each; the one trial of the
+/// second point diverges in the second level.
 StudySummary load_and_unload() {
   measures::PointAccumulator kept({.open_loop = true}), lost({.open_loop = true});
   for (int i = 0; i < 4; ++i) {

@@ -8,7 +8,8 @@
 
 namespace zerocount::summary {
 
-/// The summary of a study with these points over controller.ki = 1, 2, ….
+/// The summary of a made-up study that sweeps controller.ki = 1, 2, …, with these statistics of its design
+/// points.
 inline StudySummary swept_study(std::vector<measures::PointSummary> points) {
   StudySummary summary;
   study::SweepAxis axis{"controller.ki", "N m/count", "", study::SweepAxis::Kind::number, {}, {}};

@@ -31,7 +31,8 @@ trial::MoveOutcome never_arrived() {
   return move;
 }
 
-/// Trials of two moves; `lost` of them have one that never arrives. The slowest times go to `slowest`.
+/// Statistics of trials with two moves each; `lost` trials have a move that never arrives. `slowest` gets the
+/// arrival time of the slower move of each other trial.
 measures::PointAccumulator trials_of_two_moves(int trials, int lost, std::vector<double>& slowest) {
   std::mt19937_64 random(121);
   measures::PointAccumulator point;

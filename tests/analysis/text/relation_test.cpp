@@ -8,7 +8,7 @@ namespace {
 struct WrittenSign {
   std::string_view text;
   Sign sign;
-  bool below, at, above;  ///< whether it holds of values there
+  bool below, at, above;  ///< whether the relation holds for a value below, at and above the limit
 };
 
 constexpr WrittenSign written_signs[] = {

@@ -74,7 +74,7 @@ std::vector<std::string> split_words(const std::string& text) {
   return words;
 }
 
-/// A table of words, all of which are different.
+/// A random table of words, all of which are different.
 std::vector<TextColumn> random_table(std::mt19937_64& random, std::size_t rows) {
   std::uniform_int_distribution<std::size_t> length(1, 9), words(1, 6), columns(1, 12);
   std::size_t number = 0;

@@ -22,7 +22,7 @@ PointTheory examine(const study::Study& study, std::int64_t point) {
   return examine(study, point, 0, none);
 }
 
-/// The parameters of a loop.
+/// The parameters of a control loop whose Bode curve is tested.
 struct LoopParts {
   double stiffness{0.0};
   double damping{0.0};
@@ -31,7 +31,7 @@ struct LoopParts {
   LinearDrive drive;
 
   FrozenLoop frozen() const { return frozen_loop({stiffness, damping}, plant, {}, controller, drive); }
-  /// L at a frequency (Hz), by its formula.
+  /// The open-loop frequency response L at a frequency (Hz), by its formula.
   std::complex<double> response(double frequency) const {
     const double T = 1.0 / controller.sample_rate;
     const double resolution = loop::fine_resolution({});
@@ -196,7 +196,8 @@ const std::string head =
     "zerocount: 1\nname: curves\nseed: 3\ntrials: 40\n"
     "command: {targets: [5], hold: 0.1}\n";
 
-/// Criteria (6) and (7) written out for the paper's machine: k_ID = c·(k + kp/Δx)/J·Δx·T/2.
+/// The stability bound of criteria (6) and (7), written out for the paper's machine: k_ID = c·(k +
+/// kp/Δx)/J·Δx·T/2.
 double bound(double stiffness, double kp, double inertia = 5.54e-4) {
   const double dx = 2.0 * std::numbers::pi / 1620000.0;
   return 0.2 * (stiffness + kp / dx) / inertia * dx / 2000.0 / 2.0;

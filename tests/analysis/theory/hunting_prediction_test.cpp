@@ -21,7 +21,8 @@ constexpr std::array laws_with_friction{FrictionModel::presliding, FrictionModel
                                         FrictionModel::coulomb,    FrictionModel::dahl,
                                         FrictionModel::lugre,      FrictionModel::gms};
 
-/// The contact of a law: as stiff as `stiffness` (N m/rad) before it slides.
+/// Sets the friction parameters of the trial's law so that its contact has the stiffness `stiffness` (N
+/// m/rad) before it slides.
 void set_contact(trial::TrialParameters& p, testing::RandomBlocks& draw, double stiffness) {
   friction::FrictionParameters& contact = p.friction.uniform;
   contact.k1 = stiffness * draw.uniform(0.1, 0.5);
@@ -40,8 +41,9 @@ void set_contact(trial::TrialParameters& p, testing::RandomBlocks& draw, double 
     p.friction.gms_elements[i] = {stiffness * weights[weights.size() - 1 - i], weights[i]};
 }
 
-/// A loop that is stable while it slides, with few or many samples a period, delay, amplifier and saturation
-/// now and then; its move is shorter or longer than the pre-sliding range.
+/// A random loop that is stable while it slides, with few or many samples per period of its oscillation, and
+/// in some cases with delay, amplifier and saturation. Its move is shorter or longer than the pre-sliding
+/// range.
 trial::TrialParameters random_loop(testing::RandomBlocks& draw, FrictionModel model) {
   trial::TrialParameters p;
   p.friction.model = model;
@@ -68,7 +70,7 @@ trial::TrialParameters random_loop(testing::RandomBlocks& draw, FrictionModel mo
   return p;
 }
 
-/// Half of the inertia behind a coupling, with friction, a gap, and the encoder at either.
+/// Moves half of the inertia behind a coupling, with friction and a gap; the encoder is on either mass.
 void add_load(trial::TrialParameters& p, testing::RandomBlocks& draw) {
   motion::LoadParameters& load = p.plant.load;
   load.inertia = p.plant.inertia * draw.uniform(0.2, 0.8);
@@ -87,7 +89,7 @@ void add_load(trial::TrialParameters& p, testing::RandomBlocks& draw) {
   if (draw.chance(0.5)) p.friction.model = FrictionModel::none;
 }
 
-/// The PID as a position loop around a velocity loop of the same gains.
+/// Turns the PID control into a cascade: a position loop around a velocity loop with the same gains.
 void make_cascade(trial::TrialParameters& p, testing::RandomBlocks& draw) {
   const theory::AnalogueGains pid = analogue_gains(p.controller, p.encoder);
   loop::CascadeParameters& cascade = p.controller.blocks.cascade;
@@ -99,7 +101,7 @@ void make_cascade(trial::TrialParameters& p, testing::RandomBlocks& draw) {
   if (draw.chance(0.3)) cascade.resolution = cascade.kv * count * draw.log_uniform(1.0, 30.0);
 }
 
-/// Blocks in which an axis may stand beside its target.
+/// Adds control blocks with a dead zone, in which an axis may rest beside its target.
 void add_dead_zone(trial::TrialParameters& p, testing::RandomBlocks& draw) {
   loop::ControlBlocks& blocks = p.controller.blocks;
   const double band = std::floor(draw.log_uniform(1.0, 50.0));
@@ -140,7 +142,7 @@ trial::TrialParameters random_axis(testing::RandomBlocks& draw, FrictionModel mo
   return p;
 }
 
-/// Motion of a mass over the last quarter of a long trial, by its angle at the samples.
+/// Motion of a mass over the last quarter of a long simulated trial, from its angle at the samples.
 class LongMotion {
  public:
   LongMotion(std::int64_t samples, double count) : eighth_(samples / 8), count_(count) {}
@@ -167,13 +169,15 @@ class LongMotion {
     ++rises_;
   }
 
-  /// Half of the range in the eighth in which it moves less.
+  /// The smaller of the amplitudes in two eighths of the trial: half of the range of the motion.
   double least_amplitude() const {
     return 0.5 * std::min(ends_[1].high - ends_[1].low, ends_[2].high - ends_[2].low);
   }
-  /// Means over the periods, from one rise through the middle half of its range to the next.
+  /// Mean amplitude of the oscillation over its periods. A period lasts from one rise through the middle half
+  /// of the range to the next.
   double amplitude() const { return amplitudes_ / periods(); }
-  double period() const { return static_cast<double>(last_ - first_) / periods(); }  ///< samples
+  /// Mean period of the oscillation, samples.
+  double period() const { return static_cast<double>(last_ - first_) / periods(); }
 
  private:
   struct Ends {
@@ -219,12 +223,14 @@ struct LongTrial {
   bool is_lost{false};
 };
 
-/// Forecasts of one law beside long trials.
+/// Comparison of the forecasts for one friction law with long simulated trials.
 struct Comparison {
   int hunts{0}, rests{0}, diverges{0}, undecided{0};
   int false_hunts{0}, false_rests{0}, false_divergences{0};
-  int lost{0};  ///< Long trials whose motion the simulator lost long after the forecast: not compared.
-  double amplitude_error{0.0}, period_error{0.0};  ///< Largest relative errors of cycles.
+  /// Number of long trials whose motion diverged long after the forecast; they are not compared.
+  int lost{0};
+  /// Largest relative errors of the forecast amplitude and period of limit cycles.
+  double amplitude_error{0.0}, period_error{0.0};
 
   void add(const trial::TrialParameters& p, std::int64_t samples) {
     const HuntingPrediction told = predict_hunting(p).value();
@@ -277,7 +283,7 @@ std::string word_of(FrictionModel law) {
   return std::string(friction::traits_of(law).word);
 }
 
-/// A row of docs/findings.md.
+/// Prints the comparison as a row of the table in docs/findings.md.
 void print(const Comparison& c, FrictionModel law) {
   std::printf("| `%s` | %d | %d | %d | %d | %d | %d | %d | %d | %.2g | %.2g |\n", word_of(law).c_str(),
               c.hunts, c.rests, c.diverges, c.undecided, c.false_hunts, c.false_rests, c.false_divergences,
@@ -316,7 +322,7 @@ TEST(HuntingPrediction, AgreesWithLongTrialsOfEveryLaw) {
   EXPECT_LE(undecided, 6);
 }
 
-/// A unit mass with the published friction of Canudas de Wit et al., Table I.
+/// The unit mass with the friction that Canudas de Wit et al. published in Table I, as parameters of a trial.
 trial::TrialParameters unit_mass(FrictionModel law) {
   trial::TrialParameters p;
   p.friction.model = law;
@@ -346,7 +352,8 @@ TEST(HuntingPrediction, MatchesThePublishedFigure) {
   }
 }
 
-/// A machine whose bristle is as soft as the control. It comes to rest within 6 counts from any start.
+/// A machine whose friction bristle is as soft as the control. It comes to rest within 6 counts of its target
+/// from any start.
 trial::TrialParameters soft_bristle() {
   trial::TrialParameters p = unit_mass(FrictionModel::lugre);
   p.plant.sliding_damping = 2.0;
@@ -427,7 +434,7 @@ TEST(HuntingPrediction, AnAxisInADeadZoneComesToRest) {
   EXPECT_EQ(predict_hunting(p).value().state, Hunting::rests);
 }
 
-/// A servo of 16 kHz that travels for two seconds, and then hunts.
+/// A servo loop with a sample rate of 16 kHz whose reference travels for two seconds, and which then hunts.
 trial::TrialParameters after_a_long_profile() {
   trial::TrialParameters p;
   p.friction.model = FrictionModel::coulomb;

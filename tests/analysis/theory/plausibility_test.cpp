@@ -41,7 +41,7 @@ class GoalPlausibility : public ::testing::Test {
   double log_uniform(double low, double high) {
     return std::exp(std::uniform_real_distribution(std::log(low), std::log(high))(random_));
   }
-  /// Just inside or outside of 1.
+  /// A random factor just above or just below 1, with which a value lies just inside or outside of a limit.
   double near_one() { return std::bernoulli_distribution()(random_) ? 1.02 : 0.98; }
   std::mt19937_64& random() { return random_; }
   static constexpr int rounds = 40;
@@ -164,7 +164,9 @@ bool is_told(const std::vector<std::string>& lines, const std::string& what) {
                              [&](const std::string& line) { return line.find(what) != std::string::npos; });
 }
 
-/// The best proportion of moves whose last `samples` are within the tolerance, of the loops at rest.
+/// The highest proportion of moves whose position error stays within the tolerance for the last `samples`
+/// samples, over the loops of the contact at rest.
+/// @param noise standard deviation of the encoder noise, counts
 double rate_within_tolerance(const trial::TrialParameters& p, double noise, double tolerance,
                              double samples) {
   double best = 0.0;
@@ -266,7 +268,7 @@ TEST_F(GoalPlausibility, TheGoalAndItsConditionAreNamed) {
 
 // Moves that are said to be out of reach are: no trial of a random loop makes one.
 
-/// A slide of 1 kg with a fast PID, which a manifest's other sections complete.
+/// A study of a slide of 1 kg with a fast PID; `rest` gives the other sections of the manifest.
 study::Study slide(const std::string& rest, const std::string& model, double breakaway,
                    const std::string& encoder = "resolution: 1.0e-7") {
   return manifest::parse_study(
@@ -286,7 +288,7 @@ bool is_told(const study::Study& study, const std::string& what) {
   return is_told(doubtful_goals(study), what);
 }
 
-/// Whether the last move of a trial is within the tolerance for good in time.
+/// Whether the last move of a trial is within the goal's tolerance for good in the allowed time.
 bool meets(const study::Study& study, std::int64_t trial = 0) {
   const trial::TrialOutcome outcome = trial::run_trial(study::study_trial(study, 0, trial).parameters);
   const trial::MoveOutcome& last = outcome.moves.back();
@@ -416,13 +418,13 @@ TEST(MovePlausibility, TheTorqueLimitIsNamedByWhatBoundsIt) {
   EXPECT_TRUE(says(told(by_converter + "amplifier: {limit: 3}\n", "0"), "of the converter"));
 }
 
-/// A cause that keeps the load of a cascade from its goal, and the warning of it.
+/// A cause that keeps the load of a cascade from its goal, and the warning that names it.
 struct CauseOfMisses {
   const char* told;
-  std::string load;     ///< keys of plant.load, with the size of the cause
-  std::string cascade;  ///< keys of controller.cascade
-  /// Size of the cause at which the load is the tolerance of 1e-4 rad away, or the move is as long as
-  /// allowed.
+  std::string load;     ///< manifest keys of plant.load; {} stands for the size of the cause
+  std::string cascade;  ///< manifest keys of controller.cascade; {} stands for the size of the cause
+  /// Size of the cause at the limit: the load ends 1e-4 rad (the tolerance) from the target, or the move
+  /// takes as long as the goal allows.
   double size_at_limit;
 };
 
@@ -620,7 +622,8 @@ study::Study study_with(const std::string& target, const std::string& controller
       "m.yaml", {});
 }
 
-/// The smallest phase margin at rest of stable loops, °; NaN if a loop is unstable or has none.
+/// The smallest phase margin at rest over the stable loops of the study, °; NaN if a loop is unstable or has
+/// no phase margin.
 double smallest_phase_margin(const study::Study& study) {
   double smallest = std::numeric_limits<double>::infinity();
   const trial::TrialParameters p = study::study_trial(study, 0, 0).parameters;

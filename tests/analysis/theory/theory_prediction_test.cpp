@@ -108,7 +108,7 @@ std::vector<std::string> names_of(const std::vector<TrialLoop>& loops) {
   return names;
 }
 
-/// A trial in which nothing is at its default that a loop depends on.
+/// The parameters of a trial in which everything that a loop depends on differs from its default.
 trial::TrialParameters rich_trial() {
   trial::TrialParameters p;
   p.friction.uniform.k1 = 97.0;
@@ -179,7 +179,7 @@ TEST(TrialLoops, HaveTheMarginsOfTheirParameters) {
             sampled_spectral_radius(97.0, p.plant, p.encoder, fine, drive) < 1.0);
 }
 
-/// The stiffnesses of the law's loops, N m/rad.
+/// The contact stiffnesses (N m/rad) with which the theory linearises the loop under this friction law.
 std::vector<double> stiffnesses_of(friction::FrictionModel model) {
   trial::TrialParameters p = rich_trial();
   p.friction.model = model;
@@ -264,7 +264,8 @@ TEST(TrialLoops, CoverEachStateOfTheLoad) {
             (Names{slides[0], stands, alone}));
 }
 
-/// Largest motor velocity in the last tenth of a simulated trial over the largest in its first tenth.
+/// Ratio of the largest motor velocity in the last tenth of a simulated trial to the largest in its first
+/// tenth.
 double velocity_left(const trial::TrialParameters& p) {
   double first = 0.0;
   double last = 0.0;
@@ -278,7 +279,7 @@ double velocity_left(const trial::TrialParameters& p) {
   return last / first;
 }
 
-/// A state of the load in which a machine stays.
+/// A state of the load (such as at one end of a gap) in which a machine stays.
 struct StateOfMachine {
   friction::LoadFrictionModel model;
   double gap;

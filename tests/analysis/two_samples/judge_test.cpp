@@ -39,7 +39,7 @@ class Draws {
     for (std::int64_t i = 0; i < count; ++i) values.push_back(law(random_));
     return values;
   }
-  /// Normal numbers rounded to multiples of 0.5, with many ties and zeros.
+  /// Random normal numbers rounded to multiples of 0.5, with many ties and zeros.
   std::vector<double> halves(std::int64_t count, double mean) {
     std::vector<double> values = normals(count, mean);
     for (double& value : values) value = 0.5 * std::round(2.0 * value);

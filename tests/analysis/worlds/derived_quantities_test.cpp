@@ -13,12 +13,13 @@ namespace {
 
 using friction::FrictionParameters;
 
-/// σ(x) = ½·f(2x), f(u) = k1·u + k2/β·(1 − exp(−βu)).
+/// Torque of the friction spring on its virgin curve at the travel x, N m: σ(x) = ½·f(2x), f(u) = k1·u +
+/// k2/β·(1 − exp(−βu)).
 double virgin_torque(const FrictionParameters& contact, double x) {
   return contact.k1 * x + 0.5 * contact.k2 / contact.beta * (1.0 - std::exp(-2.0 * contact.beta * x));
 }
 
-/// The travel x with virgin_torque(x) = torque, by bisection.
+/// The travel x (rad) at which the virgin curve reaches `torque`, by bisection.
 double virgin_travel(const FrictionParameters& contact, double torque) {
   double low = 0.0;
   double high = torque / contact.k1;
@@ -29,7 +30,7 @@ double virgin_travel(const FrictionParameters& contact, double torque) {
 
 using Formula = std::function<double(const FrictionParameters&, double)>;
 
-/// The formulas of the table, from their definitions.
+/// Function that computes the derived quantity with this name from its definition.
 Formula formula_of(std::string_view name) {
   if (name == "creep_extension")
     return [](const auto& c, double torque) { return std::pow(torque, c.n) / c.lambda; };
@@ -68,7 +69,8 @@ TEST(DerivedQuantities, HaveTheValuesOfTheirDefinitions) {
   }
 }
 
-/// The unknowns of `count` random worlds, and the quantities derived from them at this torque.
+/// The unknown parameters of `count` random worlds (possible sets of the values that all machines share), and
+/// the quantities derived from them at this torque (N m).
 std::vector<WorldInput> random_worlds(testing::Draws& draws, int count, double torque) {
   std::vector<WorldInput> inputs{{"friction.k1", "N m/rad", {}},   {"friction.k2", "N m/rad", {}},
                                  {"friction.beta", "1/rad", {}},   {"friction.alpha", "1/s", {}},
@@ -145,7 +147,8 @@ TEST(WorldRule, NamesAllInputsThatSeparateTheSameWorlds) {
   EXPECT_TRUE(rule->same[0].above);
 }
 
-/// Mean 0, so that the contact carries the standard deviation.
+/// Statistics of the holding torque with mean 0 and this standard deviation (N m), so that the derived
+/// quantities depend on the standard deviation.
 measures::MeasureStatistics holding_torque(double sd) {
   measures::MeasureStatistics torque;
   torque.n = 100;

@@ -8,7 +8,7 @@
 namespace zerocount::worlds {
 namespace {
 
-/// Uniform on (0, 1).
+/// Made-up inputs of worlds (possible sets of the values that all machines share): uniform on (0, 1).
 std::vector<WorldInput> random_inputs(testing::Draws& draws, std::size_t inputs, std::size_t worlds) {
   std::vector<WorldInput> found;
   for (std::size_t input = 0; input < inputs; ++input) {
@@ -18,7 +18,7 @@ std::vector<WorldInput> random_inputs(testing::Draws& draws, std::size_t inputs,
   return found;
 }
 
-/// About 60 % in bad worlds and 99 % in the others, whatever their inputs.
+/// [world] success rates: about 60 % in bad worlds and 99 % in the others, whatever their inputs.
 std::vector<double> rates_of(testing::Draws& draws, const std::vector<bool>& bad) {
   std::vector<double> rates;
   for (const bool one : bad) rates.push_back((one ? 0.6 : 0.99) + draws.uniform(-0.005, 0.005));
@@ -32,7 +32,8 @@ std::vector<bool> worlds_named(const WorldRule& rule, const std::vector<WorldInp
   return named;
 }
 
-/// The rule names the bad worlds and no other.
+/// Expects that the rule (a condition on the inputs of a world) holds for the bad worlds and for no other
+/// world.
 void expect_exact(const WorldRule& rule, const std::vector<WorldInput>& inputs,
                   const std::vector<bool>& bad) {
   EXPECT_EQ(worlds_named(rule, inputs), bad);
@@ -62,7 +63,8 @@ TEST(WorldRule, IsTheThresholdBeyondWhichWorldsAreBad) {
   }
 }
 
-/// @param all both conditions must hold for a world to be bad; otherwise one
+/// Expects that the search finds a rule of two conditions.
+/// @param all both conditions must hold for a world to be bad; false: one of them is enough
 void expect_two_conditions(bool all, std::uint64_t seed) {
   testing::Draws draws(seed);
   const std::vector<WorldInput> inputs = random_inputs(draws, 3, 30);
@@ -127,7 +129,8 @@ TEST(WorldRule, TwoBadWorldsAreFoundByTheTrendOfAllRates) {
   }
 }
 
-/// Data sets of `count`, in which the rates have nothing to do with the inputs, for which there is a rule.
+/// Number of random data sets, out of `count`, for which a rule is found although the success rates are
+/// independent of the inputs.
 int rules_found_by_chance(int count, std::size_t inputs, std::size_t worlds) {
   testing::Draws draws(11);
   int found = 0;
@@ -144,7 +147,8 @@ int rules_found_by_chance(int count, std::size_t inputs, std::size_t worlds) {
   return found;
 }
 
-/// Mean and three standard deviations of the number of rules, if each is found with the probability allowed.
+/// Upper limit of the number of rules found by chance in `count` data sets, if each has the allowed
+/// probability: mean plus three standard deviations.
 double most_by_chance(int count) {
   constexpr double p = significance_of_rules;
   return count * p + 3.0 * std::sqrt(count * p * (1.0 - p));
@@ -207,7 +211,8 @@ TEST(WorldRuleText, HasAThresholdThatSeparatesTheSameWorlds) {
 
 // A measurement of the parameter that separates good worlds from bad ones decides most of them.
 
-/// Worlds that are bad where the first of three parameters is above 1.2.
+/// Made-up worlds (possible sets of the values that all machines share) that are bad if the first of three
+/// parameters is above 1.2.
 struct Worlds {
   std::vector<WorldInput> inputs{
       {"friction.n", "1", {}}, {"friction.alpha", "1/s", {}}, {"friction.x", "1", {}}};

@@ -88,7 +88,7 @@ void PeerContact::begin(PeerState& y) {
   }
 }
 
-/// dxp/dt, rad/s, from now on.
+/// Rate of creep dxp/dt, rad/s, at the spring torque σ from now on.
 double PeerContact::creep_rate(double sigma, const PeerState& y) {
   if (law_.alpha == 0.0 && std::abs(sigma) >= creep_onset_torque_) start_creep(sigma, y);
   if (law_.alpha == 0.0) return 0.0;
@@ -181,7 +181,7 @@ void PeerContact::break_away(double direction, PeerState& y) {
   ++breakaways_;
 }
 
-/// A new contact at θ = y[0], at rest.
+/// Begins a new contact, at rest at the present rotor angle θ = y[0].
 void PeerContact::re_stick(PeerState& y) {
   contact_ = friction::friction_at(friction_, position_ + y[0]);
   spring_ = friction::HystereticSpring(contact_);

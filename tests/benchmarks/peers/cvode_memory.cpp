@@ -30,7 +30,7 @@ int roots(realtype /*time*/, N_Vector y, realtype* values, void* user) {
   return 0;
 }
 
-/// The tolerance is one length for all of the state.
+/// CVODE's error weights: the tolerance is one length (rad) for all components of the state.
 int weights(N_Vector /*y*/, N_Vector weight, void* user) {
   std::fill_n(NV_DATA_S(weight), size, 1.0 / system_of(user).tolerance());
   return 0;

@@ -15,22 +15,23 @@ class CvodeSystem {
 
   const PeerContact& contact() const { return contact_; }
   PeerContact& contact() { return contact_; }
-  /// Local error of a step, root mean square over the state, rad.
+  /// Tolerance of the local error of a step, root mean square over the state, rad.
   double tolerance() const { return contact_.breakaways() > 0 ? tolerance_after_breakaway * 3e-14 : 3e-14; }
-  /// A slide slows down, and its Stribeck peak is not in sight yet: CVODE watches for its coming into sight.
+  /// The contact slides and slows down, but is still too fast for its Stribeck peak to matter. CVODE then
+  /// watches for the velocity at which the peak matters.
   bool nears_peak{false};
 
  private:
   PeerContact contact_;
 };
 
-/// The events in the order of CVODE's root functions. While the hook slides, the last is the stop, and none
-/// the coming into sight of the Stribeck peak, which only restarts the integration.
+/// The events in the order of CVODE's root functions. While the contact slides, the last one is the stop, and
+/// `none` is the velocity at which the Stribeck peak begins to matter, which only restarts the integration.
 inline constexpr std::array cvode_events{PeerEvent::closure, PeerEvent::creep, PeerEvent::breakaway,
                                          PeerEvent::reversal};
 using CvodeGuards = std::array<double, cvode_events.size()>;
 
-/// The guards of `cvode_events` at the state y.
+/// The guards of `cvode_events` at the state y: each is positive before its event.
 CvodeGuards cvode_guards(const CvodeSystem& system, const PeerState& y);
 
 /// CVODE's memory, which takes any number of trials one after the other. For one thread.
@@ -53,10 +54,12 @@ class CvodeMemory {
   void* cvode_{nullptr};
 };
 
-/// The values of a vector of CVODE.
+/// The state in a vector of CVODE.
 PeerState cvode_state(N_Vector y);
 
-/// @throws std::runtime_error where `flag`, which CVODE's function `what` returned, says that it failed.
+/// Throws if a function of CVODE failed.
+/// @param flag value that the function returned @param what name of the function
+/// @throws std::runtime_error if `flag` says that it failed
 void require_success(int flag, const char* what);
 
 }  // namespace zerocount::testing

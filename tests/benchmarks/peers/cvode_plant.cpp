@@ -81,8 +81,8 @@ void CvodePlant::advance(double duration) {
   throw std::runtime_error("CvodePlant: events without end");
 }
 
-/// The event at the root that CVODE has come to; or an earlier one in the same step, which CVODE does not see
-/// where what undoes it, as a reversal does a closure just before, is within the step too.
+/// The event at the root that CVODE has come to, or an earlier event in the same step. CVODE does not see an
+/// earlier event if another one undoes it within the step, as a reversal does with a closure just before it.
 PeerEvent CvodePlant::earliest_event() {
   std::array<int, cvode_events.size()> found{};
   require_success(CVodeGetRootInfo(memory_.cvode(), found.data()), "CVodeGetRootInfo");

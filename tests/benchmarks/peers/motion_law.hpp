@@ -13,27 +13,31 @@ using PeerState = std::array<double, 3>;
 /// The equations of motion on one branch of the spring, or of one slide, under a constant torque (paper, eqs.
 /// 1 to 4, with creep kept), with everything worked out beforehand that does not change there.
 struct PeerMotionLaw {
-  double torque{0.0};            ///< u, N m
-  double per_tau{1.0};           ///< 1/τ, 1/s
-  double tau_per_inertia{0.0};   ///< τ/J, 1/(N m s)
-  double damping{0.0};           ///< c while the hook sticks, cs while it slides, N m s/rad
-  double anchor{0.0};            ///< xr, where the branch starts, rad
-  double anchor_torque{0.0};     ///< σr, N m
-  double sign{1.0};              ///< side of xr on which the branch lies; direction of the slide
-  double k1{0.0};                ///< N m/rad
-  double softening_torque{0.0};  ///< N m; of a slide: Fs − Fc
-  double softening_rate{0.0};    ///< 1/rad; of a slide: 1/(ωs·τ)
-  double coulomb{0.0};           ///< Fc, N m
-  double alpha{0.0};             ///< 1/s; 0 while nothing creeps
-  double per_lambda{0.0};        ///< 1/λ, rad/(N m)ⁿ
-  double n{2.0};                 ///< exponent of the torque in the creep law
-  double side{1.0};              ///< sgn σ while the contact creeps
+  double torque{0.0};           ///< torque u on the rotor, N m
+  double per_tau{1.0};          ///< 1/τ with the time unit τ = 1/ω₀ of the state, 1/s
+  double tau_per_inertia{0.0};  ///< τ over the moment of inertia J, 1/(N m s)
+  double damping{0.0};        ///< viscous damping, N m s/rad: c while the contact sticks, cs while it slides
+  double anchor{0.0};         ///< elongation xr of the reversal at which the spring's branch starts, rad
+  double anchor_torque{0.0};  ///< spring torque σr at the start of the branch, N m
+  /// Direction: side of xr on which the branch lies; while the contact slides, the direction of the slide.
+  double sign{1.0};
+  double k1{0.0};  ///< stiffness k1 of the spring's linear part, N m/rad
+  /// Torque of the softening part of the spring, N m; while the contact slides: Fs − Fc of the Stribeck
+  /// curve.
+  double softening_torque{0.0};
+  /// Rate of the softening, 1/rad; while the contact slides: 1/(ωs·τ) of the Stribeck curve.
+  double softening_rate{0.0};
+  double coulomb{0.0};     ///< Coulomb friction torque Fc, N m
+  double alpha{0.0};       ///< rate α of creep, 1/s; 0 while the contact does not creep
+  double per_lambda{0.0};  ///< factor 1/λ of the creep law, rad/(N m)ⁿ
+  double n{2.0};           ///< exponent of the torque in the creep law
+  double side{1.0};        ///< sign of the spring torque σ while the contact creeps
   bool sliding{false};
-  /// exp(−softening_rate·travel) where the law was last asked for σ. After a step of a method whose last
-  /// stage is the step's end, that is the end.
+  /// exp(−softening_rate·travel) at the state for which the spring torque was last computed. If the last
+  /// stage of the integration method is the end of its step, that is the end of the step.
   mutable double softness{1.0};
 
-  /// dy/dt.
+  /// Computes the slope dy/dt of the state.
   void operator()(const PeerState& y, PeerState& slope, double /*time*/) const {
     const double omega = y[1] * per_tau;
     if (sliding) {
@@ -47,19 +51,19 @@ struct PeerMotionLaw {
     slope = {omega - side * growth, (torque - damping * omega - sigma) * tau_per_inertia, growth};
   }
 
-  /// σ (N m) at the elongation x (rad).
+  /// Spring torque σ (N m) at the elongation x (rad).
   double spring_torque(double x) const {
     const double travel = sign * (x - anchor);
     softness = std::exp(-softening_rate * travel);
     return anchor_torque + sign * (k1 * travel + softening_torque * (1.0 - softness));
   }
 
-  /// |σ|ⁿ/λ, rad.
+  /// Hardening |σ|ⁿ/λ (rad) at which creep under the spring torque σ ends.
   double hardening_limit(double sigma) const {
     return (n == 2.0 ? sigma * sigma : std::pow(std::abs(sigma), n)) * per_lambda;
   }
 
-  /// dσ/dx (N m/rad) where the softness is this.
+  /// Stiffness dσ/dx (N m/rad) of the spring where `softness` (see the member) has this value.
   double stiffness(double softness_there) const {
     return k1 + softening_torque * softening_rate * softness_there;
   }

@@ -72,13 +72,13 @@ void OdeintPlant::advance(double duration) {
   throw std::runtime_error("OdeintPlant: events without end");
 }
 
-/// After the first breakaway less accuracy is asked for.
+/// Loosens the integrator's tolerance after the first breakaway, when less accuracy is required.
 void OdeintPlant::relax() {
   relaxed_ = true;
   stepper_ = controlled(tolerance_after_breakaway * tolerance_);
 }
 
-/// One step of the method, and what happens in it.
+/// Makes one step of the integration method, at most until `until` (s), and handles the event in it.
 void OdeintPlant::step(double until) {
   old_ = new_;
   old_slope_ = new_slope_;

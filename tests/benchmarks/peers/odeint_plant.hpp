@@ -8,8 +8,8 @@
 
 namespace zerocount::testing {
 
-/// The plant by Boost.odeint: its dopri5 under its own control of the step, and its dense output, in which
-/// the kinks are found and the samples are read.
+/// The rotor on its friction contact, integrated by Boost.odeint: its dopri5 with step-size control, and its
+/// dense output, in which events are located and the samples are read.
 class OdeintPlant {
  public:
   /// @param parameters must outlive the plant. @param tolerance largest local error of a step before the
@@ -18,11 +18,11 @@ class OdeintPlant {
 
   /// Applies the torque (N m) from now on.
   void set_torque(double torque);
-  /// Moves on by `duration` (s).
-  /// @throws std::runtime_error where the motion cannot be followed.
+  /// Advances the motion by `duration` (s).
+  /// @throws std::runtime_error if the integration fails
   void advance(double duration);
 
-  double theta() const { return contact_.theta(now_); }  ///< rad
+  double theta() const { return contact_.theta(now_); }  ///< Rotor angle θ, rad
   const PeerState& state() const { return now_; }
   const PeerContact& contact() const { return contact_; }
   PeerContact& contact() { return contact_; }
@@ -54,9 +54,9 @@ class OdeintPlant {
   Controlled stepper_;
   bool relaxed_{false};
   PeerState now_{};
-  double clock_{0.0};   ///< s since the last restart
+  double clock_{0.0};   ///< time since the last restart of the integration, s
   bool stood_{false};   ///< the torque did not change at the last sample
-  double proposed_{0};  ///< length of the next step, s
+  double proposed_{0};  ///< step length that the integrator proposes next, s
 
   // The last step, from old to new. Its dense output is good up to valid_until_, where pending_ happens.
   double old_time_{0.0};

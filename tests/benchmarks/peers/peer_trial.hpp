@@ -14,8 +14,9 @@
 
 namespace zerocount::testing {
 
-/// @throws std::invalid_argument where a trial has more than peer_trial() knows: ideal encoders and
-/// converter, no amplifier, one control phase, stepwise targets, and a rotor that stands at the start.
+/// Checks that peer_trial() can simulate the trial: ideal encoders and converter, no amplifier, one control
+/// phase, stepwise targets, and a rotor that stands at the start.
+/// @throws std::invalid_argument if the trial has anything else
 void require_plain(const trial::TrialParameters& parameters);
 
 /// Data of the sampled loop at a sample, for recorders.
@@ -26,9 +27,9 @@ struct PeerSample {
   loop::DacOutput decided{};
 };
 
-/// The sampled loop around a peer's plant: encoder, PID law, converter, delay of whole samples, and the
-/// measures of each move.
-/// @param observe called with every PeerSample, before the plant moves on.
+/// Simulates a trial: the sampled loop around a plant that another library integrates, with encoder, PID law,
+/// converter, delay of whole samples, and the measures of each move.
+/// @param observe called with every PeerSample, before the plant moves on
 template <class PeerPlant, class Observe>
 trial::TrialOutcome peer_trial(const trial::TrialParameters& p, PeerPlant& plant, Observe observe) {
   const double sample_time = 1.0 / p.controller.sample_rate;
@@ -67,13 +68,15 @@ trial::TrialOutcome peer_trial(const trial::TrialParameters& p, PeerPlant& plant
   return outcome;
 }
 
-/// The outcome of a peer's trial without recording. This function is timed.
+/// The outcome of a trial simulated with another library's integrator, without recording. This function is
+/// timed.
 template <class PeerPlant>
 trial::TrialOutcome peer_outcome(const trial::TrialParameters& p, PeerPlant& plant) {
   return peer_trial(p, plant, [](const PeerSample&) {});
 }
 
-/// The samples of a peer's trial, as run_trial() records them.
+/// The samples of a trial simulated with another library's integrator, in the form in which run_trial()
+/// records them.
 template <class PeerPlant>
 std::vector<trial::SampleRecord> peer_records(const trial::TrialParameters& p, PeerPlant& plant) {
   const loop::Encoder coarse = loop::coarse_encoder(p.encoder, p.initial.encoder_phase);

@@ -8,11 +8,12 @@
 
 namespace zerocount::testing {
 
-/// A way of running trials by a library's integrator, for one thread.
+/// A way to simulate trials with the integrator of another library, for one thread.
 struct Peer {
   std::string name;
-  std::function<trial::TrialOutcome(const trial::TrialParameters&)> run;  ///< runs a trial; this is timed
-  /// Runs a trial and returns all its samples.
+  /// Simulates a trial; this function is timed.
+  std::function<trial::TrialOutcome(const trial::TrialParameters&)> run;
+  /// Simulates a trial and returns all its samples.
   std::function<std::vector<trial::SampleRecord>(const trial::TrialParameters&)> record;
 };
 
@@ -20,7 +21,7 @@ struct Peer {
 /// @param tolerance largest local error of a step before the first breakaway, rad
 Peer odeint_peer(double tolerance = 2.5e-13);
 
-/// The peers whose libraries this was built with, each at its best settings.
+/// The other libraries that the program was built with, each with its best settings.
 std::vector<Peer> all_peers();
 
 }  // namespace zerocount::testing

@@ -14,7 +14,7 @@ class BatchAllocation : public ::testing::Test {
   }
 };
 
-/// Trials, with a place for their outcomes.
+/// Trials to be run as one batch, with memory for their outcomes.
 struct Batch {
   explicit Batch(std::vector<trial::TrialParameters> all) : trials(std::move(all)), outcomes(trials.size()) {
     for (const trial::TrialParameters& trial : trials) pointers.push_back(&trial);
@@ -66,7 +66,8 @@ TEST_F(BatchAllocation, HappensOncePerTrialIfItsOutcomeIsNotAllocated) {
   EXPECT_LE(allocations_in(engine, fresh), 1000 + lanes);
 }
 
-/// Trials whose springs remember more than there is room for in a spring.
+/// Number of trials of the batch whose springs remember more reversals than fit into the fixed memory of a
+/// spring.
 std::int64_t long_memories(const Batch& batch) {
   std::int64_t trials = 0;
   for (const trial::TrialOutcome& outcome : batch.outcomes)

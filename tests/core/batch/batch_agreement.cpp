@@ -15,7 +15,7 @@ namespace {
 
 constexpr double accuracy = 1e-6;  // counts, before a slide
 
-/// Comparison of one trial, with its findings so far.
+/// Comparison of one trial of the batch engine with the reference, with the disagreements found so far.
 class Comparison {
  public:
   Comparison(const trial::TrialParameters& parameters, const BatchedTrial& batched, const std::string& name)
@@ -37,7 +37,7 @@ class Comparison {
   void compare_move(std::size_t number, const trial::MoveOutcome& a, const trial::MoveOutcome& b);
   void compare_jerks(std::int64_t moves, const std::vector<trial::Jerk>& jerks);
   double edge_distance(const trial::SampleRecord& sample) const;
-  /// Accuracy of θ at the sample taken last, counts.
+  /// Allowed difference of the rotor angle θ at the last compared sample, counts.
   double allowed() const { return slid_ ? 1e-3 + 1e-7 * travel_ / resolution_ : accuracy; }
 
   const trial::TrialParameters& parameters_;
@@ -120,8 +120,8 @@ void Comparison::compare_after_slide(const trial::SampleRecord& a, const batch::
   result_.ratio_after = std::max(result_.ratio_after, difference / allowed());
 }
 
-/// Every measure of the table is the same, but for positions, which agree to the accuracy of θ, and the
-/// depth, which has a rule of its own.
+/// Compares all measures of a move: they must be equal, except positions, which must agree to the accuracy of
+/// θ, and the reversal depth, which has its own rule.
 void Comparison::compare_move(std::size_t number, const trial::MoveOutcome& a, const trial::MoveOutcome& b) {
   study::StudyFeatures features;
   features.stopping = features.motion = features.steps = features.following = features.reversals = true;

@@ -35,44 +35,50 @@ PathAgreement path_agreement(const trial::TrialParameters& parameters, const Bat
 /// end before it, are compared.
 struct BatchAgreement {
   std::int64_t trials{0};
-  std::int64_t in_lanes{0};  ///< trials that runs_in_lanes() accepts
-  std::int64_t slides{0};    ///< trials that slide
-  std::int64_t samples{0};   ///< number of compared samples
+  /// Number of trials that runs_in_lanes() accepts: the batch engine simulates them in SIMD lanes.
+  std::int64_t in_lanes{0};
+  std::int64_t slides{0};   ///< number of trials in which the contact slides
+  std::int64_t samples{0};  ///< number of compared samples
 
   // Trials, each in one of these at most: by what is found first.
-  std::int64_t on_edge{0};       ///< θ on an encoder edge within 1e-6 count is read differently
-  std::int64_t other_counts{0};  ///< another count or code
-  std::int64_t other_depth{0};   ///< another reversal_depth, and nothing else
-  /// Trials that differ only in reversal_depth, which also changes with the steps of the reference (see
-  /// reversal_depths.hpp).
+  /// Number of trials that differ because θ is within 1e-6 count of an encoder edge and is read differently.
+  std::int64_t on_edge{0};
+  std::int64_t other_counts{0};  ///< number of trials with another count or code of the converter
+  /// Number of trials with another reversal_depth (number of remembered reversals), and no other difference.
+  std::int64_t other_depth{0};
+  /// Number of trials that differ only in reversal_depth, which also changes if the reference takes other
+  /// steps (see reversal_depths.hpp).
   std::int64_t depth_by_steps{0};
-  std::int64_t other_measures{0};  ///< another discrete measure, or another jerk
+  std::int64_t other_measures{0};  ///< number of trials with another discrete measure, or another jerk
 
-  double theta{0.0};     ///< largest difference of θ before a slide, counts
-  double floating{0.0};  ///< largest difference of the floating-point measures, counts
+  double theta{0.0};     ///< largest difference of the rotor angle θ before a slide, counts
+  double floating{0.0};  ///< largest difference of the measures that are real numbers, counts
 
   /// Largest difference of reversal_depth in the first move of the trials counted in other_depth.
   std::int64_t depth_apart{0};
 
   // Of the trials that slide.
-  std::int64_t part{0};  ///< trials whose counts or codes differ at some time after the slide
-  /// Trials whose θ differs by more than promised after the slide, before or when a count differs.
+  std::int64_t part{0};  ///< number of trials whose counts or codes differ at some time after the slide
+  /// Number of trials whose θ differs by more than the promised accuracy after the slide, before or when a
+  /// count differs.
   std::int64_t stray{0};
-  double theta_after{0.0};  ///< largest difference of θ after the slide, in trials that do not part, counts
-  /// Largest ratio of that difference to the promised accuracy, 1e-3 count + 1e-7 of the travel.
+  /// Largest difference of θ after the slide, in trials whose counts and codes stay equal, counts.
+  double theta_after{0.0};
+  /// Largest ratio of the difference of θ after the slide to the promised accuracy, 1e-3 count + 1e-7 of the
+  /// travel.
   double ratio_after{0.0};
   std::vector<std::string>
       failures{};  ///< one line for each trial of other_counts to other_measures, or stray
 
   void add(const BatchAgreement& other);
-  std::string figures() const;  ///< all figures in one line
+  std::string figures() const;  ///< text with all numbers in one line
 };
 
-/// The agreement of one trial.
+/// The agreement of one trial of the batch engine with the reference.
 BatchAgreement compare_with_reference(const trial::TrialParameters& parameters, const BatchedTrial& batched,
                                       const std::string& name);
 
-/// The agreement of the trials, run as one batch.
+/// The agreement of the batch engine with the reference on these trials, run as one batch.
 BatchAgreement agreement_of(const std::vector<trial::TrialParameters>& trials, const std::string& name,
                             const batch::BatchSettings& settings = {});
 

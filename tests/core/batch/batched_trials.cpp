@@ -17,7 +17,7 @@ std::vector<const trial::TrialParameters*> pointers_to(const std::vector<trial::
   return pointers;
 }
 
-/// Collects the names of what differs.
+/// Collects the names of the results in which two runs of a trial differ.
 class Differences {
  public:
   void expect_same(const char* name, double a, double b) {
@@ -90,7 +90,8 @@ void compare(Differences& d, const batch::BatchSample& a, const batch::BatchSamp
   d.expect_same("xp", a.xp, b.xp);
 }
 
-/// Compares two lists up to the first pair that differs.
+/// Compares two lists of results element by element, up to the first pair that differs, and reports the
+/// difference.
 template <class T>
 void compare_all(Differences& d, const char* what, const std::vector<T>& a, const std::vector<T>& b) {
   d.expect_same_size(what, a.size(), b.size());

@@ -9,11 +9,11 @@
 
 namespace zerocount::testing {
 
-/// All results of a batch for one of its trials.
+/// All results that the batch engine gives for one trial.
 struct BatchedTrial {
   trial::TrialOutcome outcome;
   std::vector<trial::Jerk> jerks;
-  std::vector<batch::BatchSample> samples;  ///< empty if samples were not observed
+  std::vector<batch::BatchSample> samples;  ///< all samples of the trial; empty if they were not observed
 };
 
 enum class Observed { samples_and_jerks, jerks };

@@ -6,7 +6,8 @@
 namespace zerocount::testing {
 namespace {
 
-/// cos(θ) with its own phase, so that no two parameters change alike.
+/// A friction parameter that varies along the rotor like cos(θ), with its own phase, so that no two
+/// parameters vary alike.
 std::shared_ptr<const friction::Profile> wave(double mean, double variation, double phase) {
   return std::make_shared<const friction::Profile>(friction::Profile{friction::Marginal::lognormal,
                                                                      std::log(mean),
@@ -171,7 +172,8 @@ TEST(BatchContact, AgreesIfCreepIsFasterThanTheOscillation) {
   EXPECT_LE(agreement.other_depth + agreement.depth_by_steps, 5);
 }
 
-/// Without softening the spring is linear; with much of it there is hardly a step without an event.
+/// Softening of the spring ranges from none (the spring is linear) to so much that nearly every step has an
+/// event.
 TEST(BatchContact, AgreesForAnySoftening) {
   std::vector<trial::TrialParameters> trials;
   for (std::uint64_t i = 0; i < 150; ++i) {

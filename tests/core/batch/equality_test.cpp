@@ -256,10 +256,13 @@ std::vector<trial::TrialParameters> trials_under(friction::FrictionModel model, 
   return trials;
 }
 
-/// The samples of a trial up to the first at which count or code differ.
+/// Agreement of the samples of a trial by the two engines, up to the first sample at which count or code
+/// differ.
 struct SampleAgreement {
-  bool parts{false};       ///< there is one
-  double difference{0.0};  ///< largest of θ up to there, over 1e-6 count and 1e-9 of the travel
+  bool parts{false};  ///< there is a sample at which count or code differ
+  /// Largest difference of the rotor angle θ up to that sample, divided by the promised 1e-6 count plus 1e-9
+  /// of the travel.
+  double difference{0.0};
 };
 
 SampleAgreement agreement_of_samples(const BatchedTrial& one, const BatchedTrial& other, double resolution) {

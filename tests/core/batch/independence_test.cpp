@@ -87,7 +87,8 @@ TEST_F(BatchIndependence, ATrialAloneEqualsTheTrialInABatch) {
   }
 }
 
-/// Beside the same trial in all other lanes, and beside machines that are nothing like it.
+/// A trial gives the same results beside the same trial in all other lanes, and beside very different
+/// machines.
 TEST_F(BatchIndependence, ResultsDoNotDependOnTheOtherTrials) {
   for (std::size_t i = 0; i < trials.size(); i += 11) {
     std::vector<trial::TrialParameters> twins(40, trials[i]);

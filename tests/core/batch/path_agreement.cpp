@@ -10,14 +10,15 @@
 namespace zerocount::testing {
 namespace {
 
-/// A reference trial beside its twin, whose inertia is larger by 1e-12.
+/// A trial simulated by the reference twice: with its inertia, and with one that is larger by the relative
+/// change 1e-12.
 class Sensitivity {
  public:
   Sensitivity(const trial::TrialParameters& parameters, const BatchedTrial& reference)
       : parameters_(parameters), reference_(reference) {}
 
-  /// Largest difference of θ between the twins up to sample k, in counts, as long as no count and no code
-  /// differs. Must be called with ascending k.
+  /// Largest difference of the rotor angle θ between the two simulations up to sample k, in counts, as long
+  /// as no count and no code differs. Must be called with ascending k.
   double up_to(std::size_t k) {
     if (!twin_) {
       trial::TrialParameters changed = parameters_;

@@ -18,7 +18,7 @@ struct HeldTorque {
   double duration;  ///< duration, s
 };
 
-/// The torques of a trial by run_trial(), [move][hold], with one hold per sample.
+/// [move][sample] the torques of a trial that run_trial() simulates, each held for one sample.
 std::vector<std::vector<HeldTorque>> torques_of(const trial::TrialParameters& parameters) {
   std::vector<std::vector<HeldTorque>> moves;
   std::int64_t remaining = 0;

@@ -18,7 +18,7 @@ std::shared_ptr<const trial::TorqueRecord> random_record(RandomBlocks& draw) {
   return std::make_shared<const trial::TorqueRecord>(record);
 }
 
-/// Replaces the targets by levels, some of which the contact does not bear.
+/// Replaces the targets of a trial by torque levels, some of which exceed the breakaway torque.
 void replace_targets(trial::TrialParameters& p, RandomBlocks& draw) {
   trial::CommandParameters& command = p.command;
   command.targets = {};
@@ -67,8 +67,9 @@ TEST(TorqueLevels, LoadTheContactAsInTheReference) {
                               "levels of kind " + std::to_string(static_cast<int>(kind)));
 }
 
-/// Expects that θ of two trials agrees to 1e-6 count and 1e-9 of the travel, up to another count.
-/// @returns whether there is one.
+/// Expects that the rotor angle θ of two runs of a trial agrees to 1e-6 count plus 1e-9 of the travel, up to
+/// the first sample with different counts.
+/// @returns whether there is such a sample
 bool expect_same_samples(const BatchedTrial& one, const BatchedTrial& other, double resolution,
                          std::size_t trial) {
   EXPECT_EQ(one.samples.size(), other.samples.size()) << trial;

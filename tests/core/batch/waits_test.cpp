@@ -25,7 +25,8 @@ std::vector<trial::TrialParameters> changed_trials(const std::string& workload, 
   return trials;
 }
 
-/// Without an observer the lanes may pass more samples at once.
+/// Expects the same outcomes without an observer of the samples. The lanes may then pass over several samples
+/// at once.
 void expect_same_unobserved(const std::vector<trial::TrialParameters>& trials) {
   const std::vector<BatchedTrial> observed = run_batch(trials);
   for (const batch::InstructionSet instructions : available_instruction_sets()) {
@@ -57,7 +58,8 @@ TEST(WaitInLanes, AgreesWithANoisyEncoder) {
   expect_same_unobserved(trials);
 }
 
-/// Rounding decides the reversals of a rotor that stands still under a torque that varies.
+/// Expects that the batch engine agrees with the reference in all but the number of remembered reversals,
+/// which rounding decides for a rotor that stands still under a varying torque.
 void expect_agreement_but_in_depth(const std::vector<trial::TrialParameters>& trials,
                                    const std::string& name) {
   const BatchAgreement agreement = agreement_of(trials, name);
@@ -99,7 +101,8 @@ TEST(WaitInLanes, AgreesUnderVibration) {
   expect_same_unobserved(trials);
 }
 
-/// Rounds of the engine per sample, for a single trial in one lane; about 1 if no sample is skipped.
+/// Number of rounds (steps of all lanes) of the engine per sample, for a single trial in one lane; about 1 if
+/// no sample is skipped.
 double rounds_by_samples(const trial::TrialParameters& p) {
   batch::BatchEngine engine({.lanes = 1});
   run_batch(engine, {p}, Observed::jerks);
@@ -184,7 +187,7 @@ double random_gain(RandomBlocks& draw, double stable) {
   return draw.chance(0.2) ? gain * draw.log_uniform(10.0, 1e4) : gain;
 }
 
-/// A level of breakaway that is a code of the converter now and then.
+/// A random breakaway torque, N m; in some cases it is exactly a code of the converter.
 double random_level(RandomBlocks& draw, double dac_resolution) {
   const double level = draw.log_uniform(0.02, 0.5);
   return draw.chance(0.3) ? std::round(level / dac_resolution) * dac_resolution : level;

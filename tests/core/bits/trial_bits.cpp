@@ -28,11 +28,11 @@ constexpr std::pair<TrialKind, const char*> kinds[] = {
     {TrialKind::loaded, "loaded"},
 };
 
-/// FNV-1a (Fowler, Noll, Vo) over words of 64 bits.
+/// A hash of the bits of results: FNV-1a (Fowler, Noll, Vo) over words of 64 bits.
 class BitHash {
  public:
   void add(std::uint64_t word) { value_ = (value_ ^ word) * 0x100000001b3; }
-  /// Processors differ in the sign of the NaN that they make.
+  /// Adds a number. All NaNs count as equal, because processors differ in the sign of the NaN that they make.
   void add(double number) {
     add(std::isnan(number) ? ~std::uint64_t{0} : std::bit_cast<std::uint64_t>(number));
   }
@@ -51,7 +51,7 @@ class BitHash {
   void add(const trial::TrialOutcome& outcome) {
     for (const trial::MoveOutcome& move : outcome.moves) add(move);
   }
-  /// Adds a sample of either engine.
+  /// Adds one sample of a trial, of the batch engine or of the reference.
   void add_sample(std::int64_t count, std::int64_t code, double theta, double xp, double xh) {
     add(count);
     add(code);

@@ -114,7 +114,8 @@ class Answers {
             {"sigma1", p.sigma1}};
   }
 
-  /// A gap, a kinematic error, a damper and a disturbance of the load, each now and then.
+  /// Random parameters of the load: a gap, a kinematic error, a damper and a disturbance, each in some of the
+  /// cases.
   motion::LoadSide load_side(motion::LoadParameters& load, double breakaway) {
     motion::LoadSide side;
     if (random_() % 3 != 0) {
@@ -136,7 +137,8 @@ class Answers {
     return side;
   }
 
-  /// A constant torque, held from the start now and then, ripples and vibrations.
+  /// A random disturbance of the torque: a constant torque, which the contact holds from the start in some
+  /// cases, ripples and vibrations.
   motion::Disturbance disturbance_of(const friction::FrictionAlongRotor& friction,
                                      motion::PlantStart& start) {
     const double breakaway = friction.uniform.breakaway;
@@ -203,7 +205,7 @@ class Answers {
     return start;
   }
 
-  /// The torques that the contact is loaded to before the motion, one after the other.
+  /// The torques (N m) to which the contact is loaded one after the other before the motion starts.
   static std::vector<double> loads_of(const motion::PlantStart& start) {
     std::vector<double> loads{start.preload, 0.0};
     loads.insert(loads.end(), start.history.begin(), start.history.end());

@@ -56,7 +56,7 @@ TEST(Encoder, CountDiffersFromThePositionByLessThanOneCount) {
 namespace zerocount::testing {
 namespace {
 
-/// Errors that are on, but too small to do anything.
+/// Encoder errors that are switched on, but too small to change any count.
 loop::EncoderErrors idle_errors() {
   loop::EncoderErrors errors;
   errors.missed = 1e-300;
@@ -66,7 +66,8 @@ loop::EncoderErrors idle_errors() {
 struct MeasurementProperties : WithRandomEncoders {
   using WithRandomEncoders::WithRandomEncoders;
 
-  /// Angles close to edges of either encoder, on them, and one or two roundings beside them.
+  /// Random angles close to edges of either encoder's counts, on the edges, and one or two roundings beside
+  /// them.
   std::vector<double> angles_at_edges(const loop::Encoder& fine, const loop::Encoder& coarse) {
     std::vector<double> angles;
     for (int i = 0; i < 500; ++i) {

@@ -103,7 +103,7 @@ class RandomBlocks {
     if (chance(0.5)) c.limit = log_uniform(1e-3, 1.0);
   }
 
-  /// A random dwell, s: up to 19 samples, or 0.
+  /// A random dwell time (how long a condition must hold), s: up to 19 samples, or 0.
   double dwell(double sample_rate) {
     return chance(0.3) ? 0.0 : static_cast<double>(random_() % 20) / sample_rate;
   }

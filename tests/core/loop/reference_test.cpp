@@ -10,20 +10,20 @@ namespace {
 
 constexpr double paper_resolution = 2.0 * std::numbers::pi / 1620000.0;
 
-/// A move from rest to rest, in a unit of length in which the limits are given.
+/// A move from rest to rest, and the limits of velocity, acceleration and jerk in the same unit of length.
 struct Move {
   ReferenceProfile profile;
   long double travel;
 };
 
-/// The largest velocity and acceleration of a move, and how long its jerk lasts.
+/// The largest velocity and acceleration of a move, and the duration of its jerk, s.
 struct Segments {
   long double jerk, jerk_time, acceleration_time, cruise_time;
   long double duration() const { return 4 * jerk_time + 2 * acceleration_time + cruise_time; }
 };
 
-/// The fastest of the symmetric moves without a formula for the cases: of all largest velocities the highest
-/// that can be reached and left within the travel, found by bisection.
+/// The fastest symmetric move within the limits, found without the formulas under test: the highest velocity
+/// that can be reached and left within the travel, by bisection.
 Segments fastest_segments(const Move& move) {
   const long double acceleration_limit = move.profile.acceleration_limit;
   const long double jerk_limit = move.profile.jerk_limit;
@@ -79,7 +79,7 @@ class Sampler {
     return std::uniform_int_distribution<std::int64_t>(a, b)(random_);
   }
 
-  /// Limits over orders of magnitude: for a travel around 1 each may or may not be reached.
+  /// Random limits over orders of magnitude: for a travel around 1, each limit may or may not be reached.
   ReferenceProfile profile() {
     ReferenceProfile p;
     p.shape = integer(0, 3) == 0 ? ReferenceShape::trapezoidal : ReferenceShape::s_curve;

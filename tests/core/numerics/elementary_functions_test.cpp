@@ -9,7 +9,8 @@ namespace {
 struct Function {
   const char* name;
   double (*of)(double) noexcept;
-  long double (*judge)(long double);  ///< the C library's function, with 11 more bits
+  /// The C library's function in long double, with 11 more bits, with which the function is compared.
+  long double (*judge)(long double);
   double low, high;
 };
 

@@ -6,7 +6,7 @@
 namespace zerocount::numerics {
 namespace {
 
-/// Coefficients of Π (t − root).
+/// Coefficients of the polynomial Π (t − root) with these roots.
 std::vector<double> polynomial_with_roots(const std::vector<double>& roots) {
   std::vector<double> c{1.0};
   for (const double root : roots) {

@@ -24,7 +24,7 @@ void PrintTo(const Family& family, std::ostream* out) {
   *out << family.name;
 }
 
-/// Random intervals of torque for one machine.
+/// Random courses of the torque, interval by interval, for one machine.
 class RandomDrive {
  public:
   RandomDrive(Draws& draws, const trial::TrialParameters& machine, Drive drive)
@@ -60,7 +60,7 @@ class RandomDrive {
   motion::TorqueCourse course_;
 };
 
-/// Largest differences in θ, over what is promised.
+/// Largest differences of the rotor angle θ between two integrations, divided by the promised accuracy.
 struct Differences {
   double before{0.0};  // until the first breakaway, counts
   double after{0.0};   // after it, proportion of 1e-3 count + 1e-7 of the travel
@@ -156,8 +156,8 @@ constexpr double count = 2.0 * std::numbers::pi / 1620000;  // rad
 constexpr double sample = 5e-4;                             // s
 constexpr motion::MotionTolerance tolerance{1e-10 * count};
 
-/// Follows the plant in short steps and adds up the energy that the torque brings, and that damper and
-/// sliding friction take.
+/// Follows the plant in short steps and adds up the energy that the torque supplies, and the energy that
+/// damper and sliding friction dissipate.
 struct EnergyLedger {
   motion::PlantParameters rotor;
   friction::FrictionParameters friction;
@@ -175,7 +175,7 @@ struct EnergyLedger {
 
   double kinetic(const auto& plant) const { return 0.5 * rotor.inertia * plant.omega() * plant.omega(); }
 
-  /// One short step, by Simpson's rule.
+  /// Advances the plant by one short step dt (s) and adds the energies, integrated by Simpson's rule.
   motion::TorqueCourse step(auto& plant, const motion::TorqueCourse& course, double dt) {
     const motion::TorqueCourse middle = motion::course_after(course, 0.5 * dt);
     const motion::TorqueCourse end = motion::course_after(course, dt);
@@ -198,7 +198,7 @@ friction::FrictionAlongRotor of_model(friction::FrictionModel model, friction::F
   return {friction, {}, model};
 }
 
-/// Torques that go forth and back through the breakaway, 400 samples in all.
+/// Torque of sample k: torques that go forth and back beyond the breakaway torque, 400 samples in all.
 double alternating(int k) {
   return (k / 20) % 2 == 0 ? 0.15 : -0.12;
 }

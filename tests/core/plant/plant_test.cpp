@@ -320,7 +320,7 @@ friction::FrictionAlongRotor spring_alone(friction::FrictionParameters friction 
   return {friction, {}, friction::FrictionModel::spring};
 }
 
-/// Random torques, followed by an amplifier from sample to sample.
+/// Random torques, which an amplifier follows with a lag from sample to sample.
 class RandomTorques {
  public:
   RandomTorques(unsigned seed, double size, double rate) : random_(seed), torque_(0.0, size), rate_(rate) {}

@@ -45,7 +45,7 @@ TEST(RandomBitsAt, DependsOnEveryBitOfTrialNumberAndStream) {
 
 // Normal and binomial numbers by inversion.
 
-/// Φ(z), by the C library alone.
+/// Standard normal distribution function Φ(z), computed with the C library alone.
 long double normal_probability(double z) {
   return 0.5L * std::erfc(-static_cast<long double>(z) / std::sqrt(2.0L));
 }
@@ -87,7 +87,8 @@ TEST(StandardNormal, IsTheInverseOfTheNormalDistribution) {
   }
 }
 
-/// At the ends of the three rational functions, too: u = 0.075 and e⁻²⁵.
+/// The fast normal quantile is tested also at the limits between its three rational functions: u = 0.075 and
+/// e⁻²⁵.
 TEST(StandardNormal, TheFastFormForNoiseAgreesTo1e15) {
   std::mt19937_64 random(16);
   for (int i = 0; i < 200000; ++i) {

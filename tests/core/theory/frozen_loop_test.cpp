@@ -107,7 +107,8 @@ TEST(SlidingCrossover, MatchesTheClosedFormOfAnUndampedMassUnderProportionalCont
   }
 }
 
-/// L of the whole loop in closed form, its plant by the textbook's table of z-transforms.
+/// The open-loop response L at a frequency of the whole loop in closed form; its plant by the textbook's
+/// table of z-transforms.
 std::complex<double> open_loop(double frequency, const motion::PlantParameters& plant,
                                const loop::EncoderParameters& encoder, const loop::ControllerParameters& c,
                                double gain) {
@@ -226,7 +227,7 @@ HeldPlant paper_machine(double delay) {
   return hold_plant({300.0, 0.2}, {}, 2.0 * std::numbers::pi / 1'620'000, 5e-4, {1.1, 400.0}, delay);
 }
 
-/// Growth per sample of the loop run with the blocks' own `step`.
+/// Growth factor per sample of the loop, simulated with the `step` functions of its blocks.
 template <class Chain>
 double growth_in_time(Chain chain, const HeldPlant& plant) {
   Eigen::VectorXd x = Eigen::VectorXd::Zero(plant.A.rows());

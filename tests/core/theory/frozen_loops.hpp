@@ -19,7 +19,8 @@ inline FrozenLoop frozen_loop(double stiffness, double damping, const motion::Pl
   return frozen_loop(FrozenFriction{stiffness, damping}, plant, encoder, controller, drive);
 }
 
-/// The loop about a spring of `stiffness` (N m/rad), with the damping before sliding.
+/// The linearised loop while the contact sticks, on a spring of `stiffness` (N m/rad) with the pre-sliding
+/// damping.
 inline FrozenLoop presliding_loop(double stiffness, const motion::PlantParameters& plant,
                                   const loop::EncoderParameters& encoder,
                                   const loop::ControllerParameters& controller, const LinearDrive& drive) {
@@ -50,12 +51,14 @@ inline double sampled_critical_integral_gain(double stiffness, const motion::Pla
   return sampled_critical_integral_gain(loop_with, std::move(controller), scale);
 }
 
-/// max |eigenvalue| of the loop's map; below 1 the loop is stable.
+/// The largest magnitude of the eigenvalues of the loop's map from sample to sample; the loop is stable if it
+/// is below 1.
 inline double spectral_radius(const HeldPlant& plant, const loop::LinearChain& controller) {
   return numerics::eigenvalues(loop_map(plant, controller)).cwiseAbs().maxCoeff();
 }
 
-/// Spectral radius of the loop about a spring of `stiffness` (N m/rad), with the damping before sliding.
+/// Spectral radius of the linearised loop on a spring of `stiffness` (N m/rad), with the pre-sliding damping;
+/// the loop is stable if it is below 1.
 inline double sampled_spectral_radius(double stiffness, const motion::PlantParameters& plant,
                                       const loop::EncoderParameters& encoder,
                                       const loop::ControllerParameters& controller,
@@ -64,7 +67,8 @@ inline double sampled_spectral_radius(double stiffness, const motion::PlantParam
   return spectral_radius(loop.plant, loop.controller);
 }
 
-/// The margins of the loop about a spring of `stiffness` (N m/rad) with this damping (N m s/rad).
+/// The stability margins of the linearised loop on a spring of `stiffness` (N m/rad) with this damping (N m
+/// s/rad).
 inline StabilityMargins margins_about(double stiffness, double damping, const motion::PlantParameters& plant,
                                       const loop::EncoderParameters& encoder,
                                       const loop::ControllerParameters& controller,
@@ -72,7 +76,7 @@ inline StabilityMargins margins_about(double stiffness, double damping, const mo
   return stability_margins(frozen_loop(stiffness, damping, plant, encoder, controller, drive));
 }
 
-/// The loop while the rotor slides under its sliding damping.
+/// The linearised loop while the rotor slides, with the sliding damping.
 inline FrozenLoop sliding_loop(const motion::PlantParameters& plant, const loop::EncoderParameters& encoder,
                                const loop::ControllerParameters& controller, const LinearDrive& drive = {}) {
   return frozen_loop(0.0, plant.sliding_damping, plant, encoder, controller, drive);

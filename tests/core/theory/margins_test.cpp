@@ -59,8 +59,9 @@ FrozenLoop random_loop(testing::RandomBlocks& draw, int i) {
   return frozen_loop(stiffness, damping, plant, {}, controller, {1.0, draw.some(2000.0)});
 }
 
-/// The smallest margins by a fine scan of the frequency response, apart from the search under test: of
-/// successive angles whose values lie on both sides of the unit circle or of the negative real axis.
+/// The smallest stability margins found by a fine scan of the frequency response, independent of the search
+/// under test: from successive frequencies whose responses lie on both sides of the unit circle or of the
+/// negative real axis.
 StabilityMargins scanned_margins(const FrozenLoop& loop) {
   constexpr int points = 20'000;
   constexpr double lowest = 1e-4;
@@ -101,8 +102,8 @@ TEST(Margins, MatchAFineScanWithAndWithoutDamping) {
   EXPECT_GT(with_phase, 25);
 }
 
-/// Growth rate of the loop per sample, ln of the spectral radius, if the gain of its plant is multiplied by
-/// `factor`.
+/// Growth rate of the loop per sample (logarithm of the spectral radius) if the gain of its plant is
+/// multiplied by `factor`; below 0 the loop is stable.
 double growth_with(FrozenLoop loop, double factor) {
   loop.plant.b *= factor;
   loop.plant.b_before *= factor;

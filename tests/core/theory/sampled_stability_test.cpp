@@ -44,8 +44,8 @@ class LinearLoop {
   double size() const { return std::abs(angle_) + std::abs(velocity_) / 1000.0; }
 
  private:
-  /// The motor's torque is v + lag·exp(−rt), lag = 0 without an amplifier's; the rotor follows with the
-  /// particular solution v/k + follow·exp(−rt).
+  /// Advances the rotor by `samples` samples under a held input. The motor's torque is v + lag·exp(−rt), lag
+  /// = 0 without an amplifier; the rotor's particular solution is v/k + follow·exp(−rt).
   void hold(double input, double samples) {
     const double T = samples / controller_.sample_rate;
     const double rate = 2.0 * std::numbers::pi * drive_.bandwidth;
@@ -74,7 +74,7 @@ class LinearLoop {
   int k_{0};
 };
 
-/// Growth per sample of the linear loop's largest motion, from its size over late windows.
+/// Growth factor per sample of the linear loop's largest motion, measured over late windows of a simulation.
 double simulated_growth(double stiffness, const motion::PlantParameters& plant,
                         const loop::ControllerParameters& controller, const LinearDrive& drive = {}) {
   LinearLoop loop(stiffness, plant, controller, drive);

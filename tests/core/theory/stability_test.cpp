@@ -20,7 +20,8 @@ const friction::FrictionParameters contact;
 const loop::EncoderParameters encoder;
 const loop::ControllerParameters integral_only;
 
-/// Half a unit of the last digit that the paper (or the text quoting it) prints.
+/// Expects that the value agrees with the printed number of the paper (or of the text quoting it) to half a
+/// unit of its last digit.
 void expect_as_printed(double value, double printed, double last_digit) {
   EXPECT_NEAR(value, printed, 0.5 * last_digit);
 }

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double two_pi = 2.0 * std::numbers::pi;
 
-/// A spectrum of some points over two to four decades.
+/// A random spectrum of a vibration with some points over two to four decades of frequency.
 trial::SpectrumParameters random_spectrum(std::mt19937_64& random) {
   const auto uniform = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
@@ -27,7 +27,8 @@ trial::SpectrumParameters random_spectrum(std::mt19937_64& random) {
   return spectrum;
 }
 
-/// S at the frequency, straight between the points: on logarithmic axes, or on linear ones beside a zero.
+/// Spectral density S at the frequency f, interpolated straight between the points: on logarithmic axes, or
+/// on linear ones beside a zero.
 double density_at(const trial::SpectrumParameters& spectrum, double f) {
   for (std::size_t i = 1; i < spectrum.density.size(); ++i) {
     const auto [f0, s0] = spectrum.density[i - 1];
@@ -39,7 +40,8 @@ double density_at(const trial::SpectrumParameters& spectrum, double f) {
   return 0.0;
 }
 
-/// ∫S df by the midpoint rule in the logarithm of the frequency.
+/// Integral of the spectral density between two frequencies, by the midpoint rule in the logarithm of the
+/// frequency.
 double integral(const trial::SpectrumParameters& spectrum, double low, double high) {
   constexpr int steps = 200000;
   const double ratio = std::pow(high / low, 1.0 / steps);
@@ -161,12 +163,12 @@ trial::TrialParameters compensated_trial(std::uint64_t index) {
   return p;
 }
 
-/// The state of the control law, and its decision at each sample that ran.
+/// The state of the control law, recomputed from the definition, with its decision at each sample of a trial.
 class LiteralControl {
  public:
   explicit LiteralControl(const trial::TrialParameters& p) : p_(p), integral_(p.initial.integral) {}
 
-  /// The wanted torque with the dither, N m.
+  /// The torque that the control law wants at the sample, with the dither, N m.
   double decide(const trial::SampleRecord& sample) {
     const loop::ControlBlocks& b = p_.controller.blocks;
     const auto e = static_cast<double>(sample.target - sample.count);

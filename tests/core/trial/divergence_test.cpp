@@ -34,7 +34,7 @@ TEST(Divergence, IsCheckedOnlyIfRequested) {
   EXPECT_FALSE(trial::VerdictParameters{}.stop);
 }
 
-/// A trial with all that is told of it.
+/// Runs a trial and records everything that it reports.
 RecordedTrial run_recorded(const trial::TrialParameters& parameters, const std::string& name = "") {
   RecordedTrial trial{name, parameters, {}, {}, {}};
   trial::TrialObservers observers;
@@ -124,7 +124,7 @@ void expect_not_run(const trial::MoveOutcome& move) {
   }
 }
 
-/// The move that was ended is measured like one that was never to go on.
+/// Expects that the move in which the trial was ended is measured like a complete move that ends there.
 void expect_measured_to(const RecordedTrial& ended, const End& end) {
   const trial::MoveOutcome& move = ended.outcome.moves[end.move];
   EXPECT_TRUE(move.stopped && trial::was_run(move));

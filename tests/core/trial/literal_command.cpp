@@ -15,14 +15,14 @@ Real level_before(const trial::TrialParameters& p, std::size_t move) {
   return move == 0 ? 0.0 : p.command.torque.levels[move - 1];
 }
 
-/// ∫∫ or ∫∫∫ of a step at t = 0.
+/// Integral of a unit step at t = 0 up to the time t: twice, or three times if `thrice` is set.
 Real integrated_step(Real t, bool thrice) {
   if (t <= 0) return 0;
   return thrice ? t * t * t / 6 : t * t / 2;
 }
 
-/// The motion over the travel (rad) whose pulse has the given velocity (rad/s), with the shortest ramp and
-/// blend.
+/// The motion over the travel (rad) whose velocity pulse has the given velocity (rad/s), with the shortest
+/// ramp and blend that the limits allow.
 LiteralMotion motion_at(Real velocity, Real travel, const loop::ReferenceProfile& limits) {
   Real acceleration = limits.acceleration_limit;
   LiteralMotion motion;
@@ -35,7 +35,7 @@ LiteralMotion motion_at(Real velocity, Real travel, const loop::ReferenceProfile
   return motion;
 }
 
-/// Whether the averages leave the pulse its velocity.
+/// Whether the motion reaches the velocity of its pulse despite the averaging over ramp and blend.
 bool keeps_its_velocity(const LiteralMotion& motion) {
   return motion.pulse >= motion.ramp + motion.blend;
 }

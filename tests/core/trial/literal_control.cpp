@@ -9,7 +9,7 @@ namespace {
 using Real = long double;
 using Samples = std::vector<trial::SampleRecord>;
 
-/// Error and count of each sample as the encoder of one law has them, fine counts.
+/// Error and count of each sample, in fine counts, as one control law receives them from its encoder.
 struct LiteralFeedback {
   std::vector<Real> error;
   std::vector<Real> count;
@@ -18,7 +18,8 @@ struct LiteralFeedback {
   Real count_change(std::size_t k) const { return k == 0 ? first_change : count[k] - count[k - 1]; }
 };
 
-/// ⌊θ₀/Δx + phase⌋ − ⌊(θ₀ − v₀·T)/Δx + phase⌋.
+/// Change of the encoder count from sample −1 to sample 0 for a rotor that moves at the velocity v₀: ⌊θ₀/Δx +
+/// phase⌋ − ⌊(θ₀ − v₀·T)/Δx + phase⌋.
 Real first_change(const trial::TrialParameters& p, Real theta, Real resolution) {
   const Real phase = p.initial.encoder_phase;
   const Real before = theta - static_cast<Real>(p.initial.velocity) / p.controller.sample_rate;

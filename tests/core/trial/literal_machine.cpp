@@ -25,7 +25,8 @@ Real systematic_position(Real theta, Real counts, const loop::EncoderErrors& err
   return x + errors.interpolation * (wave(x) - wave(start.encoder_phase));
 }
 
-/// The smallest number whose distribution function reaches the uniform number: the terms summed one by one.
+/// Binomially distributed number for a uniform number: the smallest number at which the distribution function
+/// reaches it, with the terms summed one by one.
 std::int64_t binomial_by_terms(std::int64_t n, Real probability, Real uniform) {
   Real term = std::pow(1 - probability, static_cast<Real>(n));
   Real reached = term;
@@ -61,7 +62,7 @@ std::vector<std::int64_t> counts_of(Real counts, const loop::EncoderErrors& erro
   return shown;
 }
 
-/// Output of the converter for the code of sample k, N m.
+/// Output torque of the converter for the code that was decided at sample k, N m.
 Real converted(const trial::TrialParameters& p, const Samples& samples, std::size_t k) {
   const loop::DacParameters& dac = p.dac;
   const Real half_range = (std::ldexp(Real{1}, dac.bits) - 1) / 2;

@@ -17,8 +17,9 @@ std::int64_t largest(Errors::const_iterator from, Errors::const_iterator to) {
   return size;
 }
 
-/// Whether there is an angle that both counts stand for. In 1/(fine·coarse) revolutions from the rotor's
-/// start, the counts are [(f − φ)·coarse, (f + 1 − φ)·coarse) and [(c − φ)·fine, (c + 1 − φ)·fine).
+/// Whether some rotor angle is consistent with both encoder counts of the sample. In 1/(fine·coarse)
+/// revolutions from the rotor's start, the counts are [(f − φ)·coarse, (f + 1 − φ)·coarse) and [(c − φ)·fine,
+/// (c + 1 − φ)·fine).
 bool have_a_common_angle(const trial::TrialParameters& p, const trial::SampleRecord& sample) {
   const auto fine = static_cast<std::int64_t>(p.encoder.fine);
   const auto coarse = static_cast<std::int64_t>(p.encoder.coarse);
@@ -48,13 +49,13 @@ std::int64_t phase_changes(const Samples& samples, const MoveSpan& span) {
   return number;
 }
 
-/// The first of the first `dwell` zeros in a row, or where the errors end.
+/// Index of the first of `dwell` successive errors of 0; the number of errors if there are none.
 std::size_t first_of_dwell(const Errors& errors, std::size_t dwell) {
   const auto found = std::search_n(errors.begin(), errors.end(), dwell, 0);
   return static_cast<std::size_t>(found - errors.begin());
 }
 
-/// The runs of errors other than 0 from sample `from` on.
+/// The jerks of a move: uninterrupted runs of errors other than 0 from sample `from` on.
 std::vector<trial::Jerk> jerks_of(const Errors& errors, std::size_t from, double sample_time,
                                   std::size_t move) {
   std::vector<trial::Jerk> jerks;
@@ -112,8 +113,8 @@ void judge_end(const Errors& errors, std::int64_t largest_in_window, double samp
   if (outcome.outcome == trial::Outcome::oscillating) measure_oscillation(last_half, sample_time, outcome);
 }
 
-/// The measures of the band |e| ≤ limit, by the definitions of the jerk measures applied to a signal that is
-/// 1 outside the band and 0 inside.
+/// The measures of an error band |e| ≤ limit, by the definitions of the jerk measures applied to a signal
+/// that is 1 outside the band and 0 inside.
 trial::BandOutcome band_of(const Errors& errors, std::int64_t limit, std::size_t dwell, double rate) {
   Errors outside;
   for (const std::int64_t e : errors) outside.push_back(std::abs(e) > limit ? 1 : 0);

@@ -31,7 +31,7 @@ std::vector<long double> literal_torques(const trial::TrialParameters& p);
 /// time `pulse`, averaged over the time `ramp`, which limits the acceleration, and over the time `blend`,
 /// which limits the jerk. All times are in s; a time is 0 if the profile does not use it.
 struct LiteralMotion {
-  long double travel{0};  ///< signed travel, counts
+  long double travel{0};  ///< signed travel from rest to rest, counts
   long double pulse{0};
   long double ramp{0};
   long double blend{0};
@@ -47,11 +47,11 @@ long double literal_travel(const LiteralMotion& motion, long double t);
 // The decisions of a controller, computed independently from core/loop/equations.md and the recorded samples
 // of a whole trial at once: nothing is carried from sample to sample but where the equation itself does.
 
-/// The controller's decision at a sample.
+/// The controller's decision at one sample.
 struct LiteralDecision {
   loop::ControlPhase phase{loop::ControlPhase::fine};
-  long double integral{0};  ///< I, N m
-  long double torque{0};    ///< u, N m
+  long double integral{0};  ///< state I of the integral, N m
+  long double torque{0};    ///< decided torque u, N m
 };
 
 /// The decisions of a closed loop, computed from the recorded references and counts. The previously decided
@@ -61,7 +61,8 @@ std::vector<LiteralDecision> literal_decisions(const trial::TrialParameters& p,
 
 /// The measures of a move, computed from its recorded samples.
 struct LiteralMeasures {
-  trial::MoveOutcome outcome;  ///< all but broke_away and reversal_depth, which change between samples
+  /// All measures of the move except broke_away and reversal_depth, which change between samples.
+  trial::MoveOutcome outcome;
   std::vector<trial::Jerk> jerks;
 };
 
@@ -87,9 +88,9 @@ std::vector<std::int64_t> literal_coarse_counts(const trial::TrialParameters& p,
 
 /// State of the amplifier during a part of a sample.
 struct LiteralDrive {
-  long double input{0};   ///< input v, N m
-  long double output{0};  ///< output u at the start of the part, N m
-  long double time{0};    ///< duration of the part, s
+  long double input{0};   ///< input v of the amplifier, N m
+  long double output{0};  ///< output u of the amplifier at the start of the part, N m
+  long double time{0};    ///< duration of this part of the sample, s
 };
 
 /// The amplifier's input and output in each sample, in two parts, computed from the recorded codes, or from

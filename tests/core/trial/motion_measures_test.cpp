@@ -60,7 +60,8 @@ Expected measures_at_rest(const trial::TrialParameters& p, const MoveSamples& s,
   return result;
 }
 
-/// @param lasts s, of the travel; infinite for a sine
+/// The measures of the true motion in a move, computed from their definitions.
+/// @param lasts duration of the reference's travel, s; infinite for a sine
 Expected measures_of(const trial::TrialParameters& p, const MoveSamples& s, Real lasts) {
   const bool sine = std::isinf(lasts);
   const Real rate = p.controller.sample_rate;
@@ -240,8 +241,8 @@ void expect_places_of_rotor(const trial::TrialParameters& p, const EndedTrial& t
   }
 }
 
-/// Steps of 30 counts, back at last, that the loop holds at zero error; hardened, so that no creep disturbs
-/// it.
+/// A trial with steps of 30 counts, the last one back, after which the loop holds the rotor at zero error.
+/// The contact is hardened, so that no creep disturbs it.
 trial::TrialParameters small_steps(std::uint64_t trial) {
   trial::TrialParameters p;
   p.command = {{30, 60, 90, 60}, 0.4};

@@ -38,7 +38,7 @@ struct TrialsWithTolerances {
     p.verdict.other_mass = draws.chance(0.5) ? motor : load;
   }
 
-  /// Whether the position error ε is measured on the load.
+  /// Whether the position error ε belongs to the load.
   /// @param other false: ε of the mass that closes the loop; true: ε of the other measured mass
   bool is_of_load(bool other) const {
     return motion::has_load(p.plant) &&
@@ -49,7 +49,7 @@ struct TrialsWithTolerances {
   bool between{draws.chance(0.5)};
   trial::TrialParameters p;
   double count{0.0};
-  std::vector<double> targets;  ///< [move] rad
+  std::vector<double> targets;  ///< [move] target position, rad
 };
 
 TEST_EACH_SEED(TrialsWithTolerances, SettleWhenTheErrorStaysWithinTheTolerance) {

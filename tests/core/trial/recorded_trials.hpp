@@ -7,7 +7,7 @@
 
 namespace zerocount::testing {
 
-/// A trial with everything that was recorded of it.
+/// A simulated trial with everything that was recorded of it: parameters, samples and outcome.
 struct RecordedTrial {
   std::string name;
   trial::TrialParameters parameters;
@@ -19,7 +19,7 @@ struct RecordedTrial {
   bool is_exact() const { return is_open() && parameters.command.torque.through == trial::TorquePath::exact; }
 };
 
-/// Runs a random trial.
+/// Runs a random trial of a kind and records everything that it reports.
 inline RecordedTrial record(WidenedKind kind, std::uint64_t index) {
   RecordedTrial trial;
   trial.name = "kind " + std::to_string(static_cast<int>(kind)) + " trial " + std::to_string(index);
@@ -57,7 +57,7 @@ void for_each_trial(Check check) {
   }
 }
 
-/// Calls `check` with the number and the span of each move.
+/// Calls `check` with the index of each move of the trial and the range of its samples.
 template <class Check>
 void for_each_move(const RecordedTrial& trial, Check check) {
   const std::vector<MoveSpan> spans = literal_spans(trial.parameters);

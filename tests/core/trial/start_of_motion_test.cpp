@@ -49,7 +49,7 @@ struct StartedAxis {
     if (p.initial.velocity < 0.0) p.command.profile.amplitude = -p.command.profile.amplitude;
   }
 
-  /// The torque of each sample.
+  /// [sample] torque that the control decides, N m.
   std::vector<double> torques() const {
     std::vector<double> all;
     trial::TrialObservers observers;
@@ -58,7 +58,8 @@ struct StartedAxis {
     return all;
   }
 
-  /// Effect of count rounding on the torque: one count in the window, and one count of the error.
+  /// Change of the torque (N m) if the encoder reads one count more: one count in the window of the velocity,
+  /// and one count of the error.
   double torque_of_a_count() const {
     const loop::CascadeParameters& c = p.controller.blocks.cascade;
     const double count = loop::fine_resolution(p.encoder);

@@ -26,7 +26,7 @@ struct Family {
   const char* name;
   TrialKind kind;
   std::uint64_t trials;
-  std::uint64_t many;  ///< trials of the long test
+  std::uint64_t many;  ///< number of trials in the long test
 };
 
 // The name of the family names the test.
@@ -180,7 +180,7 @@ struct FreeTrial {
   trial::TrialOutcome outcome;
 };
 
-/// A random trial, its friction taken away, and sometimes its damping.
+/// A random trial whose friction is removed, and sometimes its damping too.
 FreeTrial free_trial(WidenedKind kind, std::uint64_t index) {
   FreeTrial trial;
   trial.parameters = widened_trial(kind, index);

@@ -101,7 +101,7 @@ TEST(WidenedTrial, DrivesItsMotorThroughConverterDelayAndAmplifier) {
 // What is measured of every move of random trials, by the definitions of the measures and the recorded
 // samples; and that these trials show all of it.
 
-/// The deepest stack of reversal points at the samples of a move and at its end.
+/// The largest number of remembered reversal points at the samples of a move and at its end.
 std::int64_t deepest_sample(const RecordedTrial& trial, const MoveSpan& span) {
   std::int64_t depth = 0;
   const std::size_t last = std::min(span.first + span.size, trial.samples.size() - 1);
@@ -138,7 +138,7 @@ TEST(WidenedMeasures, CountTheJerksOfEachMove) {
   });
 }
 
-/// Number of trials that show each of the cases that the tests are about.
+/// For each case that the tests are about, by name, the number of random trials in which it occurs.
 std::map<std::string, std::int64_t> sights() {
   std::map<std::string, std::int64_t> seen;
   for_each_trial([&](const RecordedTrial& trial) {
@@ -188,10 +188,12 @@ TEST(WidenedMeasures, RandomTrialsExerciseEveryMeasure) {
 
 // The motion of the plant in random trials, by Boost.odeint under the torque that their drive should have.
 
-/// A motion beside the recorded one.
+/// The motion of a trial as another integration gives it, beside the recorded one.
 struct IntegratedMotion {
-  std::vector<trial::SampleRecord> samples;  ///< the recorded ones with this motion
-  std::vector<std::int64_t> breakaways;      ///< before each sample, and before the end of the trial
+  /// The recorded samples, with the motion of the other integration.
+  std::vector<trial::SampleRecord> samples;
+  /// Number of breakaways before each sample, and before the end of the trial.
+  std::vector<std::int64_t> breakaways;
 };
 
 IntegratedMotion integrate(const RecordedTrial& trial) {

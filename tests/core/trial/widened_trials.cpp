@@ -6,7 +6,7 @@
 namespace zerocount::testing {
 namespace {
 
-/// Numbers that are the same on every platform: the standard's distributions are not.
+/// Random numbers that are the same on every platform; the distributions of the C++ standard library are not.
 class WidenedDraws {
  public:
   explicit WidenedDraws(std::uint64_t seed) : engine_(seed) {}

@@ -6,11 +6,12 @@
 
 namespace zerocount::testing {
 
-/// Kinds of random trials that use all features a loop can have besides its plant.
+/// Kinds of random trials that use all features of the control loop (encoders, converter, references and so
+/// on).
 enum class WidenedKind {
   two_phases,  ///< moves of tens to thousands of counts, with a coarse and a fine phase
   one_phase,   ///< moves of tens of counts with a single phase, which arrive, creep and jerk
-  open_loop    ///< torque levels
+  open_loop    ///< open loop: the command is a list of torque levels
 };
 
 /// The parameters of random trial `index` of a kind: always the same for the same arguments. Two to four

@@ -184,7 +184,7 @@ TEST(Distribution, ScalingMultipliesTheDrawOfTheSameUniformNumber) {
   }
 }
 
-/// The centre, which widened() keeps; empty for distributions that it does not widen.
+/// The centre of a distribution, which widened() keeps; empty for distributions that are not widened.
 std::optional<double> centre_of(const Distribution& distribution) {
   if (const auto* d = std::get_if<Uniform>(&distribution)) return 0.5 * (d->low + d->high);
   if (const auto* d = std::get_if<LogUniform>(&distribution)) return std::sqrt(d->low * d->high);

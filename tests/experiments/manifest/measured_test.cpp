@@ -171,8 +171,9 @@ double virgin_torque(const friction::FrictionParameters& contact, double travel)
   return 0.5 * testing::branch_law(contact, 2.0 * travel);
 }
 
-/// Expects that the contact of the trial has the measured values, and that the stored inputs equal those of
-/// the contact.
+/// Expects that the friction contact of trial `index` has the measured values of the manifest, and that the
+/// stored inputs equal those of the contact.
+/// @param secant the manifest gives the stiffness of a secant instead of the initial stiffness
 void expect_as_measured(const study::Study& study, std::int64_t index, bool secant) {
   const friction::FrictionParameters contact = spring_of(study, 0, index);
   const auto measured = [&](const std::string& key) { return drawn(study, index, "measured." + key); };

@@ -110,7 +110,8 @@ TEST(Overrides, MistakesAreReportedAfterThoseOfTheFile) {
 
 // Overrides that are written into the text of a manifest.
 
-/// Some numbers of the first trial of the study; empty if it cannot be made.
+/// Text of some numbers of the study's first trial, to compare studies; empty if the manifest with the
+/// overrides is refused.
 std::string essence_of(const std::string& text, const std::vector<std::string>& overrides) {
   try {
     const study::Study study = manifest::parse_study(text, "manifest", overrides);

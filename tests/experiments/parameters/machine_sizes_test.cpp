@@ -7,7 +7,7 @@
 namespace zerocount {
 namespace {
 
-/// The scales of a machine. The numbers of its manifest are of this order.
+/// The size of a machine. The numbers of its manifest are of the order of these.
 struct Machine {
   std::string_view name;
   std::string_view axis;
@@ -26,7 +26,7 @@ constexpr Machine machines[]{
     {"galvanometer", "rotary", "fine: 10000000, coarse: 10000000", 1e-9, 1e-3, 2e4, 400e3},
 };
 
-/// The machine's number of each unit that follows its size.
+/// For each unit, the number that is typical for a machine of this size.
 std::map<std::string_view, double> scales_of(const Machine& m) {
   const double stiffness = m.torque() / m.move;
   return {
@@ -68,7 +68,8 @@ TEST(MachineSizes, EveryRangeHoldsTheNumbersOfEveryMachine) {
   }
 }
 
-/// A cascade with all that depends on the size of the machine. @param gain factor of the velocity loop
+/// Manifest of a cascade control with everything that depends on the size of the machine. @param gain factor
+/// of the velocity loop's gains
 std::string manifest_of(const Machine& m, double gain = 1.0) {
   const double stiffness = m.torque() / m.move;
   const double damping = stiffness / m.bandwidth;

@@ -10,7 +10,7 @@ std::vector<std::string> warnings_of(const std::string& more) {
   return study_of(minimal_manifest(more)).warnings;
 }
 
-/// Random axes, around that of the paper.
+/// Tests with random axes whose parameters lie around those of the paper.
 class Plausibility : public testing::Test {
  protected:
   double log_uniform(double low, double high) {
@@ -22,7 +22,8 @@ class Plausibility : public testing::Test {
   std::mt19937_64 random_{5};
 };
 
-/// The travel at which the virgin curve with the default k2 reaches `torque`, by bisection.
+/// The travel (rad) at which the virgin curve of the friction spring with the default k2 reaches `torque` (N
+/// m), by bisection.
 double travel_to(double torque, double k1, double beta) {
   double low = 0.0;
   double high = torque / k1;
@@ -204,7 +205,8 @@ TEST_F(Plausibility, ChecksOnlyTheParametersOfTheLaw) {
 
 using study::PremiseState;
 
-/// The state of each premise that is not assumed.
+/// For each assumption about an absent effect, its state; assumptions that the manifest does not mention are
+/// left out.
 std::map<std::string_view, PremiseState> stated_by(const std::string& more,
                                                    const std::vector<std::string>& overrides = {}) {
   std::map<std::string_view, PremiseState> stated;

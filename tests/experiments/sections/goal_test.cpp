@@ -115,7 +115,7 @@ struct GoalRefusal {
   const char* faults;
 };
 
-/// A goal with limits of more tolerances than a study may have.
+/// Manifest text of a goal that has limits for more tolerances than a study may have.
 const char* nine_tolerances() {
   static const std::string goal = [] {
     std::string limits;

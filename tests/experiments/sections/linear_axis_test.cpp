@@ -7,7 +7,7 @@
 namespace zerocount::sections {
 namespace {
 
-/// All that has no default on a linear axis.
+/// Manifest lines with all keys that have no default on a linear axis.
 const std::string stage =
     "axis: linear\n"
     "plant: {inertia: 5, presliding_damping: 1500, sliding_damping: 50}\n"
@@ -68,7 +68,7 @@ TEST(LinearAxis, HasNoDefaultElementsOfGms) {
 
 struct Refused {
   std::string more;
-  std::string message;  ///< a part of it
+  std::string message;  ///< a part of the message with which the manifest is refused
 };
 
 TEST(LinearAxis, KeysOfTheOtherKindOfAxisAreRefused) {
@@ -126,7 +126,8 @@ std::vector<trial::SampleRecord> records_of(const trial::TrialParameters& parame
   return records;
 }
 
-/// The shipped stage as a rotary axis: the same numbers, in counts of a revolution.
+/// The study of a shipped linear stage converted to a rotary axis: the same numbers, in counts of a
+/// revolution.
 study::Study rotary_twin(const std::string& linear, std::int64_t counts) {
   std::string text;
   for (std::size_t at = 0; at < linear.size();) {

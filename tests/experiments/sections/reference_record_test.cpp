@@ -75,8 +75,8 @@ TEST(ReferenceFromAFile, IsCutByAShorterHoldWithAWarning) {
   EXPECT_TRUE(warnings_of("9").empty());
 }
 
-/// A record of 1000 rows, 1 ms apart, without the 50 rows from this one on.
-/// @param row the line of a row
+/// Text of a record of 1000 rows, 1 ms apart, without the 50 rows from row `lost` on.
+/// @param row function that returns the line of a row
 template <class Row>
 std::string record_without(int lost, const Row& row) {
   std::string text;

@@ -198,7 +198,7 @@ std::string refusal_with(const std::string& table, const std::string& more) {
   return refusal_by([&] { study_with_samples(table, more); });
 }
 
-/// A table of k1 and k2, each row different.
+/// A random table of joint draws of k1 and k2; no two rows are equal.
 struct RandomTable {
   explicit RandomTable(std::size_t rows, std::uint32_t seed) {
     std::mt19937 generator(seed);

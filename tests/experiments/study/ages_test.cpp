@@ -18,7 +18,7 @@ struct AgedValue {
   std::string law;
   std::string rate;
   double scale;
-  std::optional<double> number;  ///< number of a value that is not drawn
+  std::optional<double> number;  ///< the number, if the value is not drawn from a distribution
 };
 
 const std::vector<AgedValue>& aged_pool() {
@@ -56,7 +56,7 @@ double law_at(const AgedValue& value, double rate, double age) {
   return 1.0 + rate * std::log10(1.0 + age / value.scale);
 }
 
-/// The manifest's sections with these values, which change with age or not.
+/// The sections of a manifest with these values, which change with age if `aging` is set.
 std::string sections_with(const std::vector<AgedValue>& values, bool aging) {
   std::string text;
   for (const std::string section : {"plant", "friction", "dac", "initial"}) {

@@ -8,7 +8,7 @@
 namespace zerocount::study {
 namespace {
 
-/// What a condition overrides, and the overrides of `--set` that do the same to the manifest.
+/// An override by a condition, and the overrides of `--set` that have the same effect on the manifest.
 struct Override {
   std::string in_condition;
   std::vector<std::string> in_manifest;
@@ -53,7 +53,7 @@ std::string manifest_with(const std::string& more) {
          machines + more;
 }
 
-/// Indices of `count` different overrides that can stand together.
+/// Random indices of `count` different overrides that can be combined.
 std::vector<std::size_t> some_overrides(std::uint64_t& state, std::size_t count) {
   std::vector<std::size_t> chosen;
   std::set<std::string> keys;
@@ -75,7 +75,7 @@ std::string text_of(const std::vector<std::size_t>& overrides) {
   return "{" + text + "}";
 }
 
-/// The numbers, of which some may be NaN, to the last digit.
+/// Text of the numbers, some of which may be NaN, with all digits.
 std::string text_of(const std::vector<double>& numbers) {
   return fmt::format("{}", fmt::join(numbers, " "));
 }
@@ -162,7 +162,7 @@ TEST(Conditions, ATrialEqualsThatOfTheStudyWithTheOverrides) {
   }
 }
 
-/// The values of a machine, or of a world, by the names of their columns.
+/// The values of one machine or world, by the names of their columns.
 std::map<std::string, double> values_of(const std::vector<InputColumn>& columns,
                                         const std::vector<double>& values) {
   std::map<std::string, double> by_name;

@@ -20,7 +20,7 @@ const std::string three_uniform =
 const std::string two_pairs =
     "correlation: [[friction.k2, friction.k1, 0.6], [friction.k1, friction.beta, -0.5]]\n";
 
-/// Uniform numbers of the three parameters, each [trial or machine].
+/// [parameter][trial or machine] the uniform numbers that the study draws for its three parameters.
 std::vector<std::vector<double>> uniforms(const Study& study, std::int64_t count) {
   std::vector<std::vector<double>> numbers(3);
   for (std::int64_t i = 0; i < count; ++i) {
@@ -47,7 +47,8 @@ double correlation_of_scores(const std::vector<double>& a, const std::vector<dou
   return sum / std::sqrt(squares_a * squares_b);
 }
 
-/// The largest difference of the empirical distribution function from that of the uniform numbers.
+/// Largest difference of the empirical distribution function of the values from the uniform one (the
+/// Kolmogorov–Smirnov statistic).
 double distance_from_uniform(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   double distance = 0.0;

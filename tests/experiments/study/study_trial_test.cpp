@@ -180,7 +180,7 @@ using F = StudyFeatures;
 struct Example {
   bool F::*feature;
   bool expected;
-  std::string manifest;  ///< from the sixth line on
+  std::string manifest;  ///< text of the manifest from its sixth line on
   std::string command{"{targets: [5]}"};
 };
 

@@ -27,12 +27,13 @@ void add_bits(Bits& bits, const friction::Profile& profile) {
   add_bits(bits, profile.sine);
 }
 
-/// A number that tells the parameters apart: all defaults differ.
+/// A number that identifies the member of the friction parameters: its default, because all defaults differ.
 double name_of(double friction::FrictionParameters::*parameter) {
   return friction::FrictionParameters{}.*parameter;
 }
 
-/// The friction beside the numbers of parameters: profiles, the values of some contacts, and elements.
+/// The bits of a trial's friction that are not numbers of parameters: profiles along the rotor, the values of
+/// some contacts, and elements.
 Bits bits_of(const friction::FrictionAlongRotor& friction) {
   Bits bits{friction.profiled.size(), friction.per_contact.size(), friction.gms_elements.size()};
   for (const friction::ProfiledParameter& entry : friction.profiled) {
@@ -58,7 +59,7 @@ Bits bits_of(const random::TrialRandomness& randomness) {
   return bits;
 }
 
-/// The moves, beside the numbers of parameters.
+/// The bits of a trial's command that are not numbers of parameters: its moves.
 Bits bits_of(const trial::CommandParameters& command) {
   Bits bits;
   for (const std::int64_t target : command.targets) bits.push_back(static_cast<std::uint64_t>(target));
@@ -68,7 +69,7 @@ Bits bits_of(const trial::CommandParameters& command) {
   return bits;
 }
 
-/// The numbers of all parameters, in the order of the table; the lengths of their lists.
+/// The bits of all parameters of a trial, in the order of the table, and the lengths of their lists.
 Bits bits_of(const Study& study, const trial::TrialParameters& parameters) {
   Bits bits{parameters.controller.blocks.filters.size(), parameters.controller.coarse.blocks.filters.size(),
             parameters.disturbance.ripple.size(), parameters.disturbance.vibration.size(),
@@ -141,7 +142,7 @@ const std::string measured_friction =
     "friction: {measured: {initial_stiffness: {uniform: [600, 900], per: contact}, final_stiffness: "
     "{uniform: [90, 120]}, breakaway: {uniform: [0.29, 0.31], per: contact}, breakaway_travel: 2.0e-3}}\n";
 
-/// A sequence of moves with targets in SI units.
+/// Manifest text of a command: a sequence of moves with targets in SI units.
 const std::string sequence_in_rad =
     "{units: si, sequence: {targets: [-0.01, {uniform: [-1.0e-3, 1.0e-3]}, 0.02], overrun: 1.0e-3, cycles: "
     "2, approach: bidirectional}}";

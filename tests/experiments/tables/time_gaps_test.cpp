@@ -6,7 +6,7 @@
 namespace zerocount::tables {
 namespace {
 
-/// Times whose steps are these.
+/// Times (s) of a record whose steps from row to row are these.
 std::vector<double> times_of(const std::vector<double>& steps) {
   std::vector<double> times{0.0};
   for (const double step : steps) times.push_back(times.back() + step);

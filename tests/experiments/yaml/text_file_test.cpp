@@ -11,7 +11,8 @@ using namespace std::string_literals;
 
 const std::string table = "arrival_time [ms],overshoot\n41.5,0\n43.5,1\n40.25,0\n";
 
-/// The text in units of so many bytes, as UTF-16 and UTF-32 have it. Its letters are ASCII.
+/// The text encoded with `bytes` bytes per character, as in UTF-16 (2) and UTF-32 (4). Its letters must be
+/// ASCII.
 std::string widened(const std::string& text, std::size_t bytes, bool big_endian) {
   std::string wide;
   for (const char c : text) {

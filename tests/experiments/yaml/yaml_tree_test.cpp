@@ -242,7 +242,7 @@ class Writer {
 
   struct Written {
     std::string text;
-    std::string meaning;  ///< flow_text() of the node
+    std::string meaning;  ///< the value of the written text, as flow_text() of its node returns it
   };
 
   Written document() { return {block(0, 2)}; }

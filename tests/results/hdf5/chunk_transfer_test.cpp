@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A dataset of any kind that results files have, and what is in it.
+/// A random dataset of one of the kinds that results files have, with its contents.
 struct Sample {
   hdf5::Storage storage;
   std::string elements;
@@ -59,7 +59,7 @@ Sample random_sample(Draws& draws) {
   return sample;
 }
 
-/// Calls `piece` for consecutive ranges of rows, of random sizes.
+/// Calls `piece` for consecutive ranges of the sample's rows, of random sizes.
 void in_pieces(Draws& draws, const Sample& sample,
                const std::function<void(std::int64_t, std::int64_t)>& piece) {
   for (std::int64_t first = 0; first < sample.rows();) {
@@ -71,7 +71,8 @@ void in_pieces(Draws& draws, const Sample& sample,
   }
 }
 
-/// A file with the sample as `value`, written as a whole by this number of threads, so in whole chunks.
+/// Writes a file with the sample as the dataset `value`. `threads` threads write it as a whole, so in whole
+/// chunks.
 void write_whole(const fs::path& path, const Sample& sample, std::size_t threads) {
   const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
   hdf5::File file = hdf5::File::create(path);
@@ -150,7 +151,7 @@ TEST(ChunkTransfer, StoresTheSameBytesWithAnyNumberOfThreads) {
   }
 }
 
-/// Writes the sample as rows that were encoded before the dataset existed.
+/// Writes the sample's rows as chunks that were encoded before the dataset existed.
 void write_encoded(const fs::path& path, const Sample& sample, const hdf5::ChunkShape& shape) {
   const hdf5::RowsToEncode rows{shape, sample.rows(), sample.elements.data()};
   const std::vector<hdf5::EncodedRows> encoded = hdf5::encode_rows({&rows, 1});

@@ -28,8 +28,8 @@ class ForeignFile : public ::testing::Test {
 #endif
   }
 
-  /// The file with a byte of its first collection of texts (the library's global heap) set, under a right
-  /// checksum.
+  /// A copy of the file in which one byte of its first collection of texts (the library's global heap) is
+  /// changed, with a valid checksum trailer.
   std::filesystem::path with_byte(std::size_t place, char value) const {
     std::string bytes = read_bytes(original);
     const std::size_t collection = bytes.find("GCOL");
@@ -91,7 +91,7 @@ TEST_F(ForeignFile, AKilledReaderDoesNotMeanDamage) {
   EXPECT_TRUE(killed);
 }
 
-/// Opens a file as a user of whom there may be no more processes, and ends with the exit code.
+/// Opens a file as a user who may not start any more processes, and ends with the exit code of the attempt.
 [[noreturn]] void open_without_children(const std::filesystem::path& path) {
   constexpr uid_t nobody = 65534;
   const rlimit none{0, 0};
@@ -112,7 +112,7 @@ TEST_F(ForeignFile, IsNotOpenedIfNoReaderProcessCanStart) {
       "sample.h5: cannot start a child process that reads it first: Resource temporarily unavailable");
 }
 
-/// The first child of a child of this process; 0 where the child ends without one.
+/// Process id of the first child of a child of this process; 0 if that child ends without having one.
 pid_t wait_for_grandchild(pid_t child) {
   const std::string list = fmt::format("/proc/{0}/task/{0}/children", child);
   pid_t grandchild = 0;

@@ -23,7 +23,7 @@ layout::Table numbers_table() {
           {{"value", "m", "a value", hdf5::Element::int64, {}, ""}}};
 }
 
-/// Writes some of everything that results files have.
+/// Writes one example of everything that results files can contain.
 void fill(hdf5::File& file) {
   file.set_text("name", "µ");
   file.set_integer("number", -3);
@@ -149,7 +149,7 @@ TEST(LibraryUse, FailuresPrintNothingInAnyThread) {
 
 constexpr std::size_t elements = 16384;
 
-/// Encoded size of a chunk over that of its elements.
+/// Compression ratio of a dataset: encoded size of a chunk over the size of its elements.
 double ratio_of(const std::vector<double>& values) {
   const auto bytes = std::as_bytes(std::span(values));
   const auto stored = hdf5::encode_chunk({sizeof(double), 1}, bytes);

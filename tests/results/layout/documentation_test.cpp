@@ -27,7 +27,7 @@ std::vector<std::string> cells_of(const std::string& line) {
   return cells;
 }
 
-/// The cells of the tables in datasets.md whose head begins with `head`.
+/// The cells of the tables in datasets.md whose table head begins with `head`.
 Rows documented(const std::string& head) {
   std::istringstream text(read_bytes(ZEROCOUNT_FORMAT_DOCUMENTATION));
   Rows rows;
@@ -44,7 +44,8 @@ Rows documented(const std::string& head) {
   return rows;
 }
 
-/// The groups, or datasets of the root, in the table of groups.
+/// Paths of the groups, and of the datasets of the root group, that the documentation's table of groups
+/// lists.
 std::set<std::string> documented_groups() {
   std::set<std::string> groups;
   for (const std::vector<std::string>& row : documented("group")) {
@@ -129,7 +130,7 @@ TEST(Documentation, DescribesExactlyTheAttributesOfTheRoot) {
 
 // What parts the study of a file from another: whatever decides which trial is which.
 
-/// Everything whose order numbers results.
+/// A manifest that has every map whose order of keys numbers results.
 constexpr std::string_view with_every_order =
     "zerocount: 1\nname: ordered\nseed: 1\nmachines: 2\ntrials: 12\n"
     "plant: {inertia: 8.0e-4}\ncontroller: {ki: 1.0e-5}\ncommand: {targets: [7, 0], hold: 0.3}\n"

@@ -15,13 +15,13 @@ namespace fs = std::filesystem;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-/// Everything that a file can be asked for.
+/// Reads everything that the program can read from a results file.
 void read_all(const fs::path& path) {
   const reading::AllTrialsFile file(path);
   file.require_valid_values();
 }
 
-/// Files with a checksum trailer and checksums that are right, and values that cannot be.
+/// Tests of files whose checksums are right although some stored values are impossible.
 class StoredValues : public ::testing::Test {
  protected:
   template <class Value>
@@ -31,8 +31,8 @@ class StoredValues : public ::testing::Test {
     column.write(row, 1, values.data());
   }
 
-  /// A copy of the sample whose `dataset` has `value` in its `row` (all moves of it), with a new checksum
-  /// trailer.
+  /// A copy of the sample file in which `dataset` has `value` in row `row` (for all its moves), with a new
+  /// checksum trailer.
   template <class Value>
   fs::path forged(const std::string& dataset, std::int64_t row, Value value) const {
     fs::path path = directory / "forged.h5";
@@ -52,7 +52,7 @@ class StoredValues : public ::testing::Test {
       expect_failure(ExitCode::bad_data, part, [&] { read_all(path); });
   }
 
-  /// The first trial at which `measure` is at least `least`.
+  /// Index of the first trial whose `measure` is at least `least`.
   std::int64_t trial_with(const std::string& measure, double least) const {
     const reading::AllTrialsFile file(original);
     const std::vector<double> values = file.measure(measure, file.rows());

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Shards of `rows` cut at random places.
+/// Shards (files with the results of consecutive rows) of `rows`, cut at random places.
 std::vector<shards::ShardInfo> random_shards(const fs::path& directory, const study::Study& study,
                                              layout::RowRange rows, std::mt19937& random) {
   fs::create_directories(directory);

@@ -20,7 +20,7 @@
 namespace zerocount::testing {
 namespace {
 
-/// The shard with another version of its format, and a right checksum.
+/// Changes the version of the format in a shard file, and makes its checksum right again.
 void replace_version(const std::filesystem::path& path, int version) {
   std::string bytes = read_bytes(path);
   bytes.resize(bytes.size() - storage::checksum_trailer_length);
@@ -65,7 +65,8 @@ TEST(Shard, IsRefusedIfAnyByteDiffers) {
   }
 }
 
-/// Without its checksum, as `status` reads it, a damaged head is refused and does not crash.
+/// A damaged head of a shard is refused and does not crash the program, also if its checksum is not verified,
+/// as in the command `status`.
 TEST(Shard, MalformedHeadersAreRefused) {
   const TemporaryFolder directory;
   const study::Study study = sample_study();
@@ -231,7 +232,8 @@ TEST(MissingRanges, AreTheRowsInNoShard) {
   }
 }
 
-/// Completes a study as a run does: finds the existing shards, and writes the missing rows as shards.
+/// Completes a study as the command `run` does: finds the existing shards, and writes the missing rows as
+/// shards.
 void run_what_is_missing(const std::filesystem::path& directory, const study::Study& study) {
   const shards::ShardSurvey survey = shards::list_shards(directory, study);
   for (const layout::RowRange& range : shards::missing_ranges(survey.shards, layout::all_rows(study)))
@@ -253,7 +255,7 @@ bool finishes_before(std::chrono::microseconds delay, Action action) {
   return WIFEXITED(status);
 }
 
-/// Runs the study again and again, killed at random moments, until it finishes; the number of times it was
+/// Runs the study again and again, killed at random moments, until it finishes. Returns how often it was
 /// killed.
 int kill_until_finished(const std::filesystem::path& directory, const study::Study& study,
                         std::mt19937& random) {

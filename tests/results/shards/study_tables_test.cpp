@@ -195,7 +195,8 @@ TEST(WorldTables, AreExported) {
   EXPECT_EQ(std::count(counts.begin(), counts.end(), '\n'), 1 + 3 * 7);
 }
 
-/// A copy of the file with another count of a world at a point, and a new checksum trailer.
+/// A copy of the results file with another count for one world at one design point, and a new checksum
+/// trailer.
 std::filesystem::path with_world_count(const std::filesystem::path& original, const std::string& dataset,
                                        std::int64_t point, std::size_t world, std::int64_t count) {
   const std::filesystem::path path = original.parent_path() / "forged.h5";

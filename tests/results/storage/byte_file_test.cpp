@@ -29,7 +29,8 @@ std::string read_text(storage::ByteFile& file, std::size_t offset, std::size_t s
   return text;
 }
 
-/// Writes at random places, and expects to read what was written there last, and zeros elsewhere.
+/// Writes at random offsets of the file, and expects to read at each offset what was written there last, and
+/// zeros elsewhere.
 void expect_reads_what_was_written(storage::ByteFile& file, std::mt19937& random) {
   std::string expected(2000, '\0');
   for (int i = 0; i < 200; ++i) {

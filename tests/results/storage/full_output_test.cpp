@@ -71,7 +71,8 @@ void expect_full(const Ending& ending, const fs::path& path) {
   EXPECT_EQ(ending.message.find('\n'), std::string::npos) << ending.message;
 }
 
-/// Without threads in the parent: its child would not have them, and could not wait for them when it ends.
+/// Tests of outputs that do not fit on the disk. The parent process must not have threads: its child would
+/// not have them, and could not wait for them when it ends.
 class FullOutput : public ::testing::Test {
  protected:
   const oneapi::tbb::global_control one_thread{oneapi::tbb::global_control::max_allowed_parallelism, 1};

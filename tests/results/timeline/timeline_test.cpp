@@ -20,7 +20,7 @@ void work_in_spans(Timeline* timeline) {
   });
 }
 
-/// The spans of a timeline, as a reader of JSON sees them.
+/// The spans (pieces of work with begin and end) of a timeline, in its JSON form.
 nlohmann::json spans_of(const Timeline& timeline) {
   nlohmann::json spans = nlohmann::json::array();
   const nlohmann::json text = nlohmann::json::parse(timeline.trace_events());

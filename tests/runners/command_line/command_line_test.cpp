@@ -264,7 +264,7 @@ std::vector<std::string> given(const command_line::OptionSpec& option) {
   return words;
 }
 
-/// The message with which a command refuses options beside enough operands; empty if it does not.
+/// The message with which a command refuses these options beside enough operands; empty if it accepts them.
 std::string refusal_of(const command_line::CommandSpec& spec, const std::string& first_operand,
                        const std::vector<const command_line::OptionSpec*>& options) {
   std::vector<std::string> words;
@@ -277,7 +277,7 @@ std::string refusal_of(const command_line::CommandSpec& spec, const std::string&
   return refusal_by([&] { command_line::Arguments(spec, words); });
 }
 
-/// The option that a condition names.
+/// The option that a condition of another option names.
 const command_line::OptionSpec& option_of(const command_line::CommandSpec& spec,
                                           const std::string& condition) {
   const std::string name = condition.substr(0, condition.find('='));

@@ -18,12 +18,12 @@ bool is_output(const OptionSpec& option) {
   return option.file != FileUse::none && option.file != FileUse::read;
 }
 
-/// A word of the command line of a command under test.
+/// The option of a command with this name.
 const OptionSpec& option_named(const CommandSpec& spec, const std::string& name) {
   return *std::ranges::find(spec.options, name, command_line::long_name);
 }
 
-/// Words of a command line with these options and values, and the options that they need.
+/// A command line with given options and values, and with the options that these need.
 class Words {
  public:
   explicit Words(const CommandSpec& spec) : spec_(spec) {}
@@ -54,7 +54,7 @@ class Words {
     return line;
   }
 
-  /// Whether the option is without effect beside those that are given.
+  /// Whether the option has no effect beside the options that are given.
   bool excluded(const OptionSpec& option) const {
     return std::ranges::any_of(option.excludes, [&](const std::string& condition) {
       return std::ranges::find(given_, condition.substr(0, condition.find('='))) != given_.end();

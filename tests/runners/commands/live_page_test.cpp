@@ -20,7 +20,7 @@ goal: {band: 1, within: 0.1, moves: 0.9}
 tune: {free: {controller.ki: {log: [5.0e-6, 1.0e-3]}, controller.kp: [0, 5.0e-3]}}
 )";
 
-/// Pages are too long to be shown.
+/// Whether the page contains the words. Unlike a test macro it does not print the page, which is too long.
 bool has(const std::string& page, const std::string& words) {
   return page.find(words) != std::string::npos;
 }
@@ -32,7 +32,7 @@ class LivePage : public ProgramTest {
     EXPECT_EQ(result.code, code) << result.err;
   }
 
-  /// The page as soon as it has these words. Whenever it is read, it is whole.
+  /// Waits until the page has these words, and returns it. Whenever the page is read, it must be complete.
   std::string page_with(const std::string& words) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
     while (std::chrono::steady_clock::now() < end) {
@@ -47,8 +47,9 @@ class LivePage : public ProgramTest {
     return "";
   }
 
-  /// Interrupts the command when its page says this, and then again when the same command goes on.
-  /// @returns the page in between
+  /// Runs a command and interrupts it when its live page contains `so_far`. Then starts the same command
+  /// again and interrupts it when its page is live again.
+  /// @returns the page after the first interruption
   std::string interrupted(const std::vector<std::string>& words, const std::string& so_far) {
     RunningProgram first(words, folder_.path());
     EXPECT_TRUE(has(page_with(so_far), reload));

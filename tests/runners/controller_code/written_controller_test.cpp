@@ -13,7 +13,7 @@ namespace {
 
 using Plugin = std::shared_ptr<const plugin::ControllerPlugin>;
 
-/// A trial in which the loop does something, with these blocks.
+/// The parameters of a random trial with this controller, in which the loop has something to do.
 trial::TrialParameters trial_with(const loop::ControllerParameters& controller, RandomBlocks& draw) {
   trial::TrialParameters p = random_trial(TrialKind::calm, 41000 + draw.integer() % 1000);
   p.encoder = {};
@@ -49,7 +49,7 @@ using controller_code::Precision;
 
 class WrittenController : public ::testing::Test {
  protected:
-  /// The code as a plugin; every warning of the compiler is an error.
+  /// The generated code built as a plugin; every warning of the compiler is an error.
   Plugin built(const std::string& code, const std::string& name) {
     const std::filesystem::path source = folder_.path() / (name + ".c");
     const std::filesystem::path library = folder_.path() / (name + ".so");
@@ -62,7 +62,8 @@ class WrittenController : public ::testing::Test {
     return std::get<Plugin>(plugins::load_plugin(library));
   }
 
-  /// The controller as a function block, with the inputs and the torque of every sample of the trial.
+  /// Writes the controller as a function block in structured text, with the inputs and the torque of every
+  /// sample of the trial.
   void write_structured_text(const controller_code::ControllerToWrite& chain,
                              const controller_code::Program& program, trial::TrialParameters p) {
     const std::string name = fmt::format("block{}", ++blocks_);
@@ -96,7 +97,7 @@ class WrittenController : public ::testing::Test {
 
   TemporaryFolder folder_;
   int blocks_{0};
-  std::string files_;  ///< with function blocks
+  std::string files_;  ///< folder with the written function blocks
 };
 
 std::vector<trial::SampleRecord> samples_of(const trial::TrialParameters& p) {

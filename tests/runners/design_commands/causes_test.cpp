@@ -35,13 +35,13 @@ Words under_a_load(const std::string& block) {
   return {block, "disturbance.torque=1", "controller.ki=2000", "command.hold=0.6", "goal.within=0.5"};
 }
 
-/// A cascade in which this acts.
+/// Overrides for a study of a cascade control, with the keys `more` that add one cause of failure.
 Words as_a_host(const std::string& more) {
   return {"controller={sample_rate: 4000, structure: cascade, cascade: {kv: 100, kp: 0.3, ki: 0, " + more +
           "}}"};
 }
 
-/// A stiff second mass with this, and what else is given.
+/// Overrides for a study with a stiff second mass that has the keys `more`, and the overrides `given`.
 Words with_a_load(const std::string& more, Words given = {}) {
   given.push_back("plant.load={inertia: 1.0e-3, stiffness: 1.0e+4, damping: 0.1, " + more + "}");
   return given;
@@ -52,13 +52,13 @@ Words on_the_coarse_encoder(Words with) {
   return with;
 }
 
-/// An encoder on a stiff second mass that closes the loop, with these errors.
+/// Overrides for a study in which an encoder with these errors, on a stiff second mass, closes the loop.
 Words on_the_loads_encoder(const std::string& errors, Words given = {by_position}) {
   given.push_back("encoder.load={counts_per_revolution: 100000, fine_errors: {" + errors + "}}");
   return with_a_load("encoder: load", given);
 }
 
-/// A reference that the loop must follow.
+/// Overrides for a study whose reference moves, so that the loop must follow it, and the overrides `more`.
 Words following(Words more) {
   more.insert(more.end(),
               {"command={targets: [4000], hold: 0.5, profile: {shape: trapezoidal, velocity_limit: 2, "
@@ -212,8 +212,9 @@ class Causes : public ProgramTest {
   }
 };
 
-/// Parameters of the second phase have the rows of the first, those of a linear axis the rows of a rotary
-/// one, and the integral of a cascade that of a PID.
+/// Whether the parameter's row can be left out of a test because it is tested by another row: parameters of
+/// the coarse phase by those of the fine phase, those of a linear axis by those of a rotary axis, and the
+/// integral of a cascade by that of a PID.
 bool has_a_twin(const parameters::Parameter& row) {
   return row.name.starts_with("controller.coarse.") || row.name == "encoder.resolution" ||
          row.name == "encoder.coarse_resolution" || row.name == "encoder.load.resolution" ||

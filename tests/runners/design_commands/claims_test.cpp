@@ -6,7 +6,7 @@
 namespace zerocount::testing {
 namespace {
 
-/// A condition, as overrides and as the sections that have them.
+/// A condition of a study, written as overrides and as sections of a manifest with the same values.
 struct Condition {
   std::string name;
   std::string overrides;
@@ -25,7 +25,8 @@ constexpr std::string_view two_goals =
 
 class Claims : public ProgramTest {
  protected:
-  /// A study with these trials under each condition, or under one of them.
+  /// A manifest with `trials` trials under each of these conditions; with a single one, its values are in the
+  /// sections.
   static std::string study(const std::vector<Condition>& conditions, int trials, const std::string& more,
                            const std::string& command = "{targets: [29, 0, 5], hold: 0.1}") {
     std::string text = fmt::format(

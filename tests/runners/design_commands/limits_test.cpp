@@ -19,7 +19,7 @@ class Limits : public ::testing::Test {
     return result.code == 0 ? Json::parse(result.out)["limits"] : Json::array();
   }
 
-  /// Rate of the goal of the manifest with these values.
+  /// Proportion of moves that meet the goal in a run of the manifest with these overrides.
   double rate_with(const std::string& manifest, const std::vector<std::string>& values) {
     folder_.write("changed.yaml", manifest);
     std::vector<std::string> words{"run", "changed.yaml", "-o", "changed.h5", "--force", "--quiet"};
@@ -109,7 +109,8 @@ initial: {encoder_phase: {uniform: [0, 1]}}
 goal: {tolerance: 1.0e-4, within: 0.2, moves: 0.9}
 )";
 
-/// A row of `limits`, and the values by which its manifest says the same.
+/// A row in the answer of the command `limits`, and the overrides with which a manifest describes the same
+/// axis.
 struct RowAndValues {
   std::string_view manifest;
   const char* cause;

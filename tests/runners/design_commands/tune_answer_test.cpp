@@ -138,8 +138,8 @@ tune: {free: {controller.ki: {log: [1.0e-5, 1.0e-4]}, controller.kp: [0, 1.0e-3]
                 "can; a machine just below that has no miss in as few with a probability of 12.2 %\n"));
 }
 
-/// A verdict on each of two goals under each of two conditions: the second goal is the worst, under the
-/// second.
+/// A made-up verdict on each of two goals under each of two conditions. The worst one is the second goal
+/// under the second condition.
 goal::Verdict verdict_on_claims() {
   goal::Verdict whole;
   for (std::size_t goal = 0; goal < 2; ++goal) {
@@ -208,7 +208,7 @@ TEST(TuneAnswer, JsonHasTheProofTheExtrasAndTheEffort) {
   EXPECT_EQ(without_blank_lines(parts), without_blank_lines(document::text(tune_answer().of(tuning))));
 }
 
-/// Names in the tuned answer of a study with this goal.
+/// The text that names the criterion in the answer of `tune`, for a study with this goal.
 std::string criterion_text(const std::string& goals) {
   const study::Study study = manifest::parse_study(
       "zerocount: 1\nname: axis\nseed: 1\ntrials: 10\n"
@@ -241,7 +241,7 @@ TEST(TuneAnswer, NamesTheLoopsThatHaveTheSmallestMargins) {
   EXPECT_TRUE(json["delay_margin_loop"].is_null());
 }
 
-/// A row of 100 moves of 40 counts, of a converter of 1 N m.
+/// A made-up row of the answer about moves: 100 moves of 40 counts, with a converter of 1 N m.
 summary::MoveBehaviour quiet_moves() {
   summary::MoveBehaviour row;
   row.moves = 100;

@@ -97,7 +97,7 @@ TEST_F(TuneBudget, NamesTheCommandForExtrasThatTheBudgetLeftOut) {
   EXPECT_TRUE(says(later.out, "what limits it"));
 }
 
-/// Trials of all parts of an answer.
+/// Number of trials of all parts of an answer of `tune`, summed.
 std::int64_t trials_in(const Json& answer) {
   return answer["searched"]["trials"].get<std::int64_t>() + answer["proof"]["trials"].get<std::int64_t>();
 }
@@ -144,9 +144,9 @@ TEST_F(TuneBudget, NeverExceedsTheBudgetOfTime) {
 
 // The simpler controls beside a tuned one.
 
-/// A control of an answer of 1000 machines at least.
+/// One tuned control in the answer of `tune` for a study with at least 1000 machines.
 struct ControlInAnswer {
-  std::set<std::string> blocks;  ///< free parameters that are not fixed at 0
+  std::set<std::string> blocks;  ///< free parameters of control blocks that are used, that is, not fixed at 0
   double rate;
 
   bool has_all_blocks_of(const ControlInAnswer& other) const {

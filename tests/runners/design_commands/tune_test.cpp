@@ -121,7 +121,7 @@ TEST_F(Tune, ContinuesAfterAnInterruption) {
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "tuned.h5.tuning"));
 }
 
-/// The row of a table that has these members.
+/// The row of a JSON table that has these members with these values.
 const Json& row_with(const Json& rows, const Json& members) {
   for (const Json& row : rows) {
     bool has_all = true;
@@ -131,7 +131,7 @@ const Json& row_with(const Json& rows, const Json& members) {
   throw std::runtime_error("no such row: " + members.dump() + rows.dump());
 }
 
-/// The 95 % quantile (inverse of the empirical distribution function) and the maximum.
+/// The 95 % quantile (inverse of the empirical distribution function) and the maximum of the values.
 std::pair<double, double> upper_of(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const auto rank = static_cast<std::size_t>(std::ceil(0.95 * static_cast<double>(values.size()) - 1e-9));

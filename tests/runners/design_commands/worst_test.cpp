@@ -30,7 +30,7 @@ class Worst : public ProgramTest {
     return result.code == 0 ? Json::parse(result.out) : Json();
   }
 
-  /// Proportion of the moves of a machine that meet the goal, where `worst.yaml` runs.
+  /// Proportion of the moves of a machine that meet the goal when the manifest `worst.yaml` is run.
   double replayed(std::int64_t machine) {
     const ProgramResult run = program({"run", "worst.yaml", "-o", "worst.h5", "--force", "--quiet"});
     EXPECT_EQ(run.code, 0) << run.err;

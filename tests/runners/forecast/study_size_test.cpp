@@ -20,13 +20,13 @@ double bytes_in(const fs::path& directory) {
   return bytes;
 }
 
-/// Expects a ratio of at most 2, either way.
+/// Expects that estimate and measurement differ by at most a factor of 2.
 void expect_about(double estimate, double measured, const char* of) {
   EXPECT_GT(estimate, measured / 2.0) << of;
   EXPECT_LT(estimate, measured * 2.0) << of;
 }
 
-/// Expects a tenth, or 1 MB.
+/// Expects that the estimated size of the file is right to a tenth, or to 1 MB.
 void expect_file(double estimate, const fs::path& file) {
   const auto measured = static_cast<double>(fs::file_size(file));
   EXPECT_NEAR(estimate, measured, std::max(0.1 * measured, 1e6));
@@ -151,7 +151,8 @@ constexpr hdf5::Element element_of = std::is_same_v<Value, double>
                                          ? hdf5::Element::float64
                                          : (sizeof(Value) == 8 ? hdf5::Element::int64 : hdf5::Element::int8);
 
-/// Estimate of the stored bytes of the column, from 512 elements, beside what it takes.
+/// Expects that the stored size of a column, estimated from 512 elements, agrees with the bytes that it
+/// takes.
 template <class Value>
 void expect_estimate(const std::string& name, const std::vector<Value>& column, double period = 0.0,
                      const std::function<std::int64_t(std::int64_t)>& twin_of = {}) {

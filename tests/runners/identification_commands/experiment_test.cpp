@@ -20,13 +20,14 @@ std::string text_of(const std::filesystem::path& path) {
   return text.str();
 }
 
-/// The first block of a page between fences without a language.
+/// The first code block of a documentation page whose fence names no language.
 std::string answer_in(const std::string& page) {
   const std::size_t first = page.find("```\n\n```\n") + 9;
   return page.substr(first, page.find("```", first) - first);
 }
 
-/// Equal words, and numbers that agree to a factor of 1.5: another processor may round another way.
+/// Expects equal words, and numbers that agree to a factor of 1.5, because another processor may round
+/// differently.
 void expect_like(const std::string& found, const std::string& expected) {
   std::istringstream found_words(found);
   std::istringstream expected_words(expected);

@@ -95,7 +95,8 @@ TEST_F(IdentifyRefusals, ColumnsAreRefusedWithTheReason) {
   EXPECT_NE(refusal({"log.txt", "--separator", "dot"}).find("comma, semicolon, tab"), std::string::npos);
 }
 
-/// A table of a motor that turns, with its time in ms and its angle in the unit of `angle`.
+/// A log table of a turning motor, with its time in ms and its angle in the unit that `head` names.
+/// @param per_count angle of one count in this unit
 std::string turning(double per_count, const std::string& head) {
   std::string text = head + "\n";
   for (int k = 0; k < 400; ++k) {

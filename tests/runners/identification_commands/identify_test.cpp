@@ -168,7 +168,7 @@ TEST_F(Identify, ALackOfFitHasAnExitCode) {
   EXPECT_NE(folder_.read("p.csv").find("# Lack of fit"), std::string::npos);
 }
 
-/// The lines of a table that are no comments.
+/// The lines of a table that are not comments.
 std::vector<std::string> table_lines(const std::string& table) {
   std::vector<std::string> lines;
   std::istringstream text(table);
@@ -263,7 +263,8 @@ TEST_F(Identify, FragmentIsAcceptedInAManifest) {
   EXPECT_EQ(program({"identify", "tests.h5", "--format", "yaml", "-o", "found.yaml"}).code, 2);
 }
 
-/// The trace of a point as a foreign log: other names, units, separators and decimal marks.
+/// The trace of a design point rewritten as the log of another device: other names, units, separators and
+/// decimal marks.
 std::string foreign_log(const std::string& trace) {
   std::istringstream lines(trace);
   std::string line;

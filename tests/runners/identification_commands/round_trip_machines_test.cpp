@@ -31,14 +31,14 @@ constexpr std::int64_t moves = 40;
 /// damping. Kicks of the torque, with the damping in closed form, alternate with drifts (Strang splitting).
 class ElementMachine {
  public:
-  /// @param phase of the encoder, counts
+  /// @param phase phase of the encoder, counts
   ElementMachine(const trial::TrialParameters& machine, double phase)
       : plant_(machine.plant),
         friction_(machine.friction.uniform),
         elements_(machine.friction.uniform, 12),
         phase_(phase) {}
 
-  /// Applies the torque (N m) for one sample.
+  /// Applies the torque (N m) to the machine for one sample time.
   void advance(double torque) {
     constexpr int steps = 40;
     constexpr double step = sample_time / steps;
@@ -52,7 +52,7 @@ class ElementMachine {
     slid_ = slid_ || std::abs(elements_.torque()) > friction_.breakaway;
   }
 
-  /// The reading of the encoder, with an error in counts.
+  /// The reading of the encoder, counts, with this additional error (counts).
   std::int64_t count(double error) const {
     return static_cast<std::int64_t>(std::floor(theta_ / resolution + phase_ + error));
   }
@@ -83,13 +83,13 @@ class ElementMachine {
   bool slid_{false};
 };
 
-/// Gains in N m/rad and N m/(rad s).
+/// Gains of a PI control, N m/rad and N m/(rad s).
 struct Gains {
   double kp;
   double ki;
 };
 
-/// The noise of an encoder, standard deviation in counts.
+/// The noise of an encoder; its standard deviation is in counts.
 struct EncoderNoise {
   double deviation;
   Draws* draw;
@@ -128,7 +128,7 @@ const std::string guesses =
 
 /// Comparison of a machine's moves with their prediction.
 struct Comparison {
-  bool consistent;    ///< result of the rank test at the level 5 %
+  bool consistent;    ///< the rank test at the level 5 % does not reject the prediction
   bool misfit;        ///< `identify` reports a lack of fit
   double difference;  ///< predicted − measured success rate
 };
@@ -137,7 +137,8 @@ struct Comparison {
 struct Agreement {
   int consistent{0};
   int misfits{0};
-  double difference{0.0};  ///< root mean square of the differences
+  /// Root mean square of the differences between predicted and measured success rate.
+  double difference{0.0};
 };
 
 class RoundTrip : public ProgramTest {
@@ -153,7 +154,8 @@ class RoundTrip : public ProgramTest {
     while (std::getline(lines, line)) torques_.push_back(std::stod(line.substr(line.find(',') + 1)));
   }
 
-  /// The torque of the protocol and the counts of the machine, as a table for identify.
+  /// The record of the identification protocol on a machine, as a table for `identify`: the torque and the
+  /// counts of the machine.
   std::string record_of(ElementMachine machine, const EncoderNoise& noise) const {
     std::string table = "t [s],torque [N m],count\n";
     for (std::size_t k = 0; k < torques_.size(); ++k) {
@@ -165,7 +167,7 @@ class RoundTrip : public ProgramTest {
     return table;
   }
 
-  /// Compares the machine's moves with the prediction from its record.
+  /// Compares the machine's moves with the success rate that is predicted from its record.
   Comparison comparison(const trial::TrialParameters& machine, const Gains& gains, double deviation,
                         Draws& draw) {
     const EncoderNoise noise{deviation, &draw};
@@ -197,7 +199,8 @@ class RoundTrip : public ProgramTest {
             point["success_rate"].get<double>() - static_cast<double>(successes) / moves};
   }
 
-  /// @param deviation noise of the encoder, counts
+  /// Compares several random machines with their predictions.
+  /// @param deviation standard deviation of the encoder's noise, counts
   Agreement agreement_of(std::int64_t machines, double deviation = 0.0) {
     Draws draw(5);
     Agreement sum;

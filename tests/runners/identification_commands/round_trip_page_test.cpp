@@ -18,7 +18,7 @@
 namespace zerocount::testing {
 namespace {
 
-/// A fenced block of a page.
+/// A fenced code block of a documentation page.
 struct Block {
   std::string language;  ///< yaml or sh; empty for the output of the commands before it
   std::string text;
@@ -46,8 +46,8 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-/// Whether a line begins with equal words, and numbers that agree to a factor of 1.5: another processor may
-/// round another way.
+/// Whether a line begins with the words of the expected line, and with numbers that agree to a factor of 1.5,
+/// because another processor may round differently.
 bool begins_like(const std::string& found, const std::string& expected) {
   std::istringstream found_words(found);
   std::istringstream expected_words(expected);
@@ -65,7 +65,8 @@ bool begins_like(const std::string& found, const std::string& expected) {
   return true;
 }
 
-/// "A to B", the numbers directly before the mark (tests/claims/marks.py); empty if the page lacks it.
+/// The text "A to B" with the two numbers directly before the mark on a page (tests/claims/marks.py); empty
+/// if the page lacks the mark.
 std::string range_before(const std::string& page, const std::string& mark) {
   std::istringstream text(page.substr(0, page.find(mark)));
   std::vector<std::string> words;
@@ -92,7 +93,8 @@ class RoundTripPage : public ::testing::Test {
     return nlohmann::json::parse(summary.out)["points"][0]["zero_count"];
   }
 
-  /// "A to B": the successes of the central 95 % of the simulated machines at the point.
+  /// The text "A to B" with the numbers of successes of the central 95 % of the simulated machines at the
+  /// design point.
   std::string predicted_range(std::size_t point) {
     const std::optional<reading::StoredGroups> machines =
         reading::AllTrialsFile(folder_ / "predicted.h5").groups("machine");

@@ -23,7 +23,7 @@ controller: {ki: 5.0e-5}
 command: {targets: [{integers: [1, 30]}], hold: 0.3}
 )";
 
-/// A study and a job of it.
+/// A study opened through the library's C interface, and a job that runs it.
 struct Session {
   Session() = default;
   Session(const Session&) = delete;
@@ -38,7 +38,7 @@ struct Session {
                                 overrides.size(), &study);
   }
 
-  /// The arrays of the job, as numbers.
+  /// The arrays in the result of the job, by name.
   std::map<std::string, std::vector<double>> result() const {
     std::map<std::string, std::vector<double>> arrays;
     std::size_t count = 0;
@@ -66,7 +66,7 @@ struct Session {
   zerocount_job* job{nullptr};
 };
 
-/// A proportional law, or one that cannot go on after some samples.
+/// A control law given to the library: a proportional law, or one that reports a failure after some samples.
 struct Law {
   zerocount_law law{
       .size = sizeof(zerocount_law), .step = &Law::step, .context = this, .setup = {}, .sample = {}};

@@ -22,7 +22,7 @@ class PluginStudy : public ProgramTest {
                   "sweep: {grid: {controller.parameters.kp: {linspace: [0, 6.0e-4, 2]}}}\n");
   }
 
-  /// Puts this example in the place of the study's library.
+  /// Replaces the plugin library of the study by this example's library.
   void use(const std::string& example) {
     fs::copy_file(example_controller(example), folder_ / "own.so", fs::copy_options::overwrite_existing);
   }

@@ -12,7 +12,7 @@ namespace {
 
 using Score = std::function<double(const std::vector<double>&)>;
 
-/// A failure where `score` exceeds 0, of a known probability.
+/// A made-up failure with a known probability: a trial fails if `score` of its coordinates exceeds 0.
 struct ClosedForm {
   std::string name;
   std::size_t coordinates;
@@ -30,7 +30,7 @@ Simulation simulation_of(const Score& score) {
   };
 }
 
-/// The sum of all coordinates beyond a limit.
+/// A failure if the sum of all coordinates exceeds a limit, which it does with probability p.
 ClosedForm plane(double p) {
   const double limit = -numerics::normal_quantile(p);
   return {fmt::format("plane {}", p), 6, p, [limit](const std::vector<double>& z) {
@@ -46,7 +46,7 @@ ClosedForm two_planes(double p) {
           [limit](const std::vector<double>& z) { return std::abs(z[1]) - limit; }};
 }
 
-/// Outside a circle: P(χ² with 2 degrees of freedom > x) = exp(−x/2).
+/// A failure if the point lies outside a circle, with P(χ² with 2 degrees of freedom > x) = exp(−x/2).
 ClosedForm circle(double p) {
   const double limit = -2.0 * numerics::log(p);
   return {fmt::format("circle {}", p), 5, p,
@@ -69,7 +69,7 @@ EstimatorSettings settings_of(const ClosedForm& one, std::uint64_t seed) {
 
 /// Summary of repeated estimates with the seeds 1, 2, …, all of which end with bounds as narrow as asked.
 struct Repetitions {
-  int held{0};       ///< number of estimates whose bounds hold the probability
+  int held{0};       ///< number of estimates whose bounds contain the true probability
   double mean{0.0};  ///< mean of the estimates
   std::int64_t most_trials{0};
 };
@@ -127,12 +127,12 @@ TEST(RareEstimator, ChoosesTheScoreThatLeadsToFailures) {
   EXPECT_TRUE(state.searches.back().reached);
 }
 
-/// Rows of a table: coordinate `coordinate` chooses one of `count` rows.
+/// A discrete draw of a row of a table: coordinate `coordinate` chooses one of `count` rows.
 randomness::DiscreteDraw rows(std::size_t coordinate, std::int64_t count) {
   return {.name = "rows", .direction = {{coordinate, 1.0}}, .rows = count};
 }
 
-/// A choice of `count` entries in no order, all with different values.
+/// A discrete draw from a choice of `count` different values that are not sorted.
 randomness::DiscreteDraw scattered(std::size_t coordinate, std::int64_t count) {
   randomness::DiscreteDraw draw = rows(coordinate, count);
   for (std::int64_t row = 0; row < count; ++row) {
@@ -142,7 +142,7 @@ randomness::DiscreteDraw scattered(std::size_t coordinate, std::int64_t count) {
   return draw;
 }
 
-/// A choice of `count` entries, of which one is 1 and the others are 0.
+/// A discrete draw from a choice of `count` entries, one of which is 1 and the others are 0.
 randomness::DiscreteDraw one_of(std::size_t coordinate, std::int64_t count) {
   randomness::DiscreteDraw draw = rows(coordinate, count);
   draw.values_of_rows.assign(static_cast<std::size_t>(count), 0);
@@ -157,7 +157,7 @@ randomness::DiscreteDraw integers(std::size_t coordinate, std::int64_t count) {
   return draw;
 }
 
-/// A choice that is correlated with another coordinate.
+/// A discrete draw from a choice of `count` values whose random number is correlated with another coordinate.
 randomness::DiscreteDraw correlated(std::size_t coordinate, std::int64_t count) {
   randomness::DiscreteDraw draw = scattered(coordinate, count);
   draw.direction = {{0, 0.6}, {coordinate, 0.8}};
@@ -168,7 +168,7 @@ struct FailingValue {
   std::string name;
   randomness::DiscreteDraw draw;
   std::int64_t value;
-  double given_value;  ///< probability of a failure there
+  double given_value;  ///< probability of a failure if the draw gives this value
 };
 
 void PrintTo(const FailingValue& one, std::ostream* out) {

@@ -21,7 +21,8 @@ command: {targets: [{integers: [3, 9]}], hold: 0.1}
     const ProgramResult run = program({"run", "study.yaml", "-o", "study.h5", "-q", "--force"});
     ASSERT_EQ(run.code, 0) << run.err;
   }
-  /// A log with so many moves, of which the first so many are late. The times of each log are others.
+  /// Writes a log with `moves` moves, the first `late` of which take too long. The times differ from log to
+  /// log.
   void write_log(const std::string& name, int moves, int late) {
     std::ofstream file(folder_.path() / name);
     file << "move,band_settling_time[1] [ms]\n";
@@ -34,7 +35,7 @@ command: {targets: [{integers: [3, 9]}], hold: 0.1}
     return json_of(logs, code);
   }
 
-  int logs_{0};  ///< written
+  int logs_{0};  ///< number of logs written so far
 };
 
 TEST_F(Accept, JudgesTheMachinesByTheGoalAndThePrediction) {

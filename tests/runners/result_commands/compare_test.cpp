@@ -6,7 +6,7 @@
 namespace zerocount::testing {
 namespace {
 
-/// One clean case that always succeeds, and one that may be given another gain.
+/// Manifest with two cases: one that always succeeds, and one that has the given gain.
 std::string gains(const std::string& gain, int trials, const std::string& seed = "3") {
   return "zerocount: 1\nname: gains\nseed: " + seed + "\ntrials: " + std::to_string(trials) +
          "\nfriction: {beta: 2.0e+5, k2: {uniform: [600, 900]}}\n"
@@ -234,7 +234,7 @@ TEST_F(Compare, ABaselineNeedsAReason) {
   EXPECT_TRUE(says(folder_.read("base.h5.log.yaml"), "the first"));
 }
 
-/// The two cases of gains() as a study of its own.
+/// Manifest with the two cases of gains() as a study without sweep.
 std::string gain_alone(const std::string& gain, int trials) {
   const std::string both = gains(gain, trials);
   return both.substr(0, both.find("sweep:")) + "controller: {ki: " + gain + "}\n";

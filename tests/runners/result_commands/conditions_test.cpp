@@ -11,10 +11,10 @@ using nlohmann::json;
 
 const std::vector<std::string> names_of_conditions{"empty", "loaded"};
 
-/// A study with two conditions ("both"), and the studies of each condition alone.
+/// A study with two conditions ("both"), and two studies each of which has one of the conditions only.
 struct Kind {
   std::string name;
-  std::string head;   ///< the manifest without trials, plant and friction
+  std::string head;   ///< text of the manifest without trials, plant and friction
   int trials;         ///< number of trials under each condition
   std::string goals;  ///< goals of the manifest; empty: the study is judged by success
 };
@@ -66,7 +66,7 @@ class ConditionsOfResults : public ::testing::Test {
     run({"run", name + ".yaml", "-o", name + ".h5", "--quiet"});
     run({"run", name + ".yaml", "-o", name + "-new.h5", "--quiet", "--set", "controller.kp=1.0e-4"});
   }
-  /// The program's output, whatever its verdict.
+  /// The output of the program with these words, whatever verdict its exit code states.
   static std::string run(const std::vector<std::string>& words) {
     const ProgramResult result = zerocount_program(words, folder->path());
     const std::set<int> expected{0, 1, 3};  // said, missed or worse, undecided
@@ -81,7 +81,7 @@ class ConditionsOfResults : public ::testing::Test {
   static inline TemporaryFolder* folder = nullptr;
 };
 
-/// The answer without these members, at whatever depth.
+/// The JSON answer without these members, at any depth.
 json without(json answer, const std::set<std::string>& members) {
   if (answer.is_object()) {
     for (const std::string& member : members) answer.erase(member);
@@ -92,7 +92,7 @@ json without(json answer, const std::set<std::string>& members) {
   return answer;
 }
 
-/// The points under a condition.
+/// The design points of the JSON answer under one condition.
 json under(const json& points, const std::string& condition) {
   json found = json::array();
   for (const json& point : points) {

@@ -14,7 +14,8 @@ class HistoryCommand : public ProgramTest {
     run("first.h5");
   }
 
-  /// Without a rotor's profile, whose seed would be part of the question.
+  /// Runs the study with a fixed k1 in place of a profile along the rotor. The seed of a profile would be
+  /// part of what decides whether runs are comparable.
   void run(const std::string& file, const std::string& setting = "seed=3") {
     ASSERT_EQ(program({"run", "study.yaml", "--set", "friction.k1=110", "--set", setting, "-o", file}).code,
               0);

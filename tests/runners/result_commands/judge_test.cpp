@@ -140,7 +140,7 @@ TEST_F(Judge, ChoosesAndJudgesAsIfAllStatisticsOfAllPointsWereKnown) {
   }
 }
 
-/// Random moves along trapezoids, and how long those take, by their closed form.
+/// Random moves along trapezoidal references, and the durations of these references by their closed form.
 struct ProfiledMoves {
   explicit ProfiledMoves(unsigned seed) : draws(seed) {}
   Draws draws;
@@ -351,7 +351,7 @@ class QuestionOfAStudy : public ::testing::Test {
   static ProgramResult run(const std::vector<std::string>& words) {
     return zerocount_program(words, folder->path());
   }
-  /// Result of a command about the study `name`, which replaces @ in its words.
+  /// Runs a command about the study `name`; @ in its words stands for the name.
   static ProgramResult say(std::vector<std::string> words, const std::string& name) {
     for (std::string& word : words) {
       if (const std::size_t at = word.find('@'); at != std::string::npos) word.replace(at, 1, name);
@@ -370,8 +370,9 @@ class QuestionOfAStudy : public ::testing::Test {
 
 struct Answer {
   std::vector<std::string> words;
-  std::vector<std::string> of_goal;     ///< said of the study with a goal
-  std::vector<std::string> of_success;  ///< said of the other; empty: it is refused, for want of a goal
+  std::vector<std::string> of_goal;  ///< texts that the answer about the study with a goal contains
+  /// Texts that the answer about the study without a goal contains; empty: the command refuses that study.
+  std::vector<std::string> of_success;
 };
 
 const std::vector<Answer> answers{
@@ -407,7 +408,7 @@ const std::vector<Answer> answers{
      {"machines w/o failure", "How many trials succeed?"}},
 };
 
-/// The first place of any of these in the text.
+/// Offset in the text of the first occurrence of any of these words.
 std::size_t first_of(const std::string& text, const std::vector<std::string>& words) {
   std::size_t first = std::string::npos;
   for (const std::string& word : words) first = std::min(first, text.find(word));

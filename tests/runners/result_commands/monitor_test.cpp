@@ -20,7 +20,7 @@ command: {targets: [{integers: [5, 30]}, {integers: [-30, -5]}], hold: 0.2}
 
 class Monitor : public ProgramTest {
  protected:
-  /// A log of times that repeat 0.041 … 0.050 in a fixed order, times a factor.
+  /// Writes a log with settling times that repeat 0.041 … 0.050 s in a fixed order, times `factor`.
   void write_log(const std::string& name, int moves, double factor = 1.0, bool append = false) {
     std::ofstream file(folder_.path() / name, append ? std::ios::app : std::ios::trunc);
     if (!append) file << "arrival_time [ms]\n";
@@ -400,12 +400,12 @@ const std::string head = "arrival_time [ms],overshoot\n";
 
 class GrowingLogTest : public ::testing::TestWithParam<bool> {
  protected:
-  /// Writes the log in place, or as another file that takes its place.
+  /// Writes the log: in place, or as another file that replaces it.
   void write(const std::string& text) {
     folder_.write(GetParam() ? "moves.csv" : "new.csv", text);
     if (!GetParam()) std::filesystem::rename(folder_.path() / "new.csv", folder_.path() / "moves.csv");
   }
-  /// The message, with the exit code, of the reading after this text took the place of the log.
+  /// The message, with the exit code, of the next reading after this text has replaced the log.
   std::string refusal(const std::string& text) {
     write(head + rows(30, 40));
     GrowingLog log(folder_.path() / "moves.csv");

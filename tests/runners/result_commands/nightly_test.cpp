@@ -17,7 +17,7 @@ class Nightly : public ::testing::Test {
                   "# name manifest settings\nsmall small.yaml trials=20\n\nother small.yaml seed=7\n");
   }
 
-  /// Runs a script of the job, stores its output in `said_`, and returns its exit code.
+  /// Runs a script of the nightly job, stores its output in `said_`, and returns its exit code.
   int script(const std::string& name, const std::string& more = "") {
     const std::string command = fmt::format(
         "{}/{} --root {} --program {} --studies {} --baselines {} {} > {} 2>&1", ZEROCOUNT_NIGHTLY, name,
@@ -151,7 +151,7 @@ sweep:
     with-kp: {controller.ki: 9.45e-5, controller.kp: 6.21e-4}
 )";
 
-/// The trials of every point.
+/// [design point] the trials of a run with these settings.
 std::vector<comparison::PointTrials> trials_of(const std::vector<std::string>& settings) {
   const study::Study study = manifest::parse_study(manifest, "power.yaml", settings);
   std::vector<comparison::PointTrials> points;
@@ -214,7 +214,7 @@ TEST(GatePower, FindsACoarserConverterAsAChange) {
   expect_seen({"dac.resolution=9.6e-4"}, every_change_fails());
 }
 
-/// `count` of the trials, drawn by lot from those from `first` on.
+/// `count` of the trials, selected at random: the entries of the random order `lot` from index `first` on.
 comparison::PointTrials some_of(const comparison::PointTrials& all, const std::vector<std::size_t>& lot,
                                 std::size_t first, std::size_t count) {
   comparison::PointTrials some;

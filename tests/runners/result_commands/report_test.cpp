@@ -4,7 +4,7 @@
 namespace zerocount::testing {
 namespace {
 
-/// A folder with the results of a small study.
+/// Tests of the command `report` on the results of a small study.
 class ReportCommand : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -203,7 +203,7 @@ TEST_F(ReportIndex, RefusesOptionsOfASingleFileAndEmptyFolders) {
 
 // `report --with`: the answers of other commands as parts of the page.
 
-/// The page below the title of a section.
+/// The part of the page below the title of this section.
 std::string section_in(const std::string& page, const std::string& name) {
   const std::size_t begin = page.find("<section id=\"" + name + "\">");
   if (begin == std::string::npos) return "there is no section " + name;
@@ -225,7 +225,7 @@ class ReportParts : public ProgramTest {
     ASSERT_EQ(program({"run", "a.yaml", "-o", "a.h5", "-q"}).code, 0);
   }
 
-  /// The page of a report with these options.
+  /// The page that the command `report` writes with these options.
   std::string page(const std::vector<std::string>& more) {
     std::vector<std::string> words{"report", "a.h5", "-o", "-"};
     words.insert(words.end(), more.begin(), more.end());

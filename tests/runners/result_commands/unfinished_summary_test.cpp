@@ -20,7 +20,7 @@ class UnfinishedSummary : public ProgramTest {
     ASSERT_EQ(result.code, 0) << result.err;
   }
 
-  /// Makes the I-th of four parts of the study a finished shard of out.h5.
+  /// Runs the i-th of four parts of the study, whose results become a finished shard of out.h5.
   void finish_quarter(int i) {
     fs::create_directories(at("out.h5.shards"));
     const std::string name = "quarter" + std::to_string(i) + ".h5";

@@ -5,7 +5,8 @@
 namespace zerocount::testing {
 namespace {
 
-/// Twelve worlds of an integral control. The contact creeps the more, the smaller n is.
+/// Manifest of an axis with integral control in twelve worlds (possible sets of the values that all machines
+/// share). The smaller the creep exponent n, the more the contact creeps.
 constexpr const char* study_in_worlds =
     "zerocount: 1\n"
     "name: worlds\n"

@@ -22,7 +22,8 @@ command: {targets: [30], hold: 0.2, profile: {shape: s_curve, velocity_limit: 0.
 
 class ControllerOfConditions : public ::testing::Test {
  protected:
-  /// The written controller. @throws Failure as the program
+  /// The code of the controller that the program writes with these options.
+  /// @throws Failure like the program
   std::string written(std::vector<std::string> options) {
     options.insert(options.begin(),
                    {"controller", folder_.path() / "joint.yaml", "-o", folder_.path() / "c.c", "--force"});

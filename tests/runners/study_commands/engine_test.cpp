@@ -9,7 +9,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Moves that all settle, with jerks, at gains that keep the hook still; two moves a trial and a swept gain.
+/// Manifest of two moves per trial that all settle, with jerks, at gains with which the contact never slides;
+/// a gain is swept.
 const char* const stable_manifest =
     "zerocount: 1\nname: stable\nseed: 77\ntrials: 120\n"
     "friction:\n"
@@ -180,7 +181,7 @@ TEST_F(EngineOption, LeavesRecordsAndReplaysToTheReference) {
   }
 }
 
-/// The line on the engine in a text; empty if there is none.
+/// The line of a text that names the engine; empty if there is none.
 std::string engine_line(const std::string& text) {
   const std::size_t place = text.find("on the reference engine");
   if (place == std::string::npos) return "";

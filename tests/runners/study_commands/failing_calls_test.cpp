@@ -14,9 +14,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A failure of a system call.
+/// A failure that a system call is made to report.
 struct Fault {
-  std::string error;  ///< error number as text; see failing_calls.cpp
+  /// Errno of the failed call, or the name of another failure, as text; see failing_calls.cpp.
+  std::string error;
   bool lasting{false};
 };
 
@@ -31,8 +32,8 @@ struct Writer {
   bool resumes{false};  ///< the next attempt uses the files that a failed one left behind
 };
 
-/// The content of an output that must be right: the datasets of a results file, whose attributes tell the
-/// time, or the text of any other file, without the date of a record of baselines.
+/// The content of an output file that must be right: the datasets of a results file, without attributes that
+/// state the time, or the text of any other file, without the date of a record of baselines.
 std::map<std::string, std::string> content_of(const fs::path& path) {
   if (path.extension() == ".yaml") {
     return {{"", std::regex_replace(read_bytes(path), std::regex("date: [^\n]*"), "")}};
@@ -67,7 +68,7 @@ class FailingCalls : public ::testing::Test {
     return zerocount_program(writer.arguments, folder_.path(), environment);
   }
 
-  /// Puts the outputs as they were before.
+  /// Restores the output files to their contents before the command.
   void restore(const Writer& writer) const {
     for (const std::string& output : writer.outputs) {
       fs::remove_all(folder_ / (output + ".shards"));
@@ -76,7 +77,8 @@ class FailingCalls : public ::testing::Test {
     }
   }
 
-  /// The number of calls of a run without a fault, whose outputs are the right ones.
+  /// The number of system calls of this kind in a run without a failure, which also makes the correct
+  /// outputs.
   long count_calls(const Writer& writer, const std::string& calls) {
     restore(writer);
     const ProgramResult result = run_with(writer, calls, 0, faults[0]);
@@ -88,7 +90,8 @@ class FailingCalls : public ::testing::Test {
 
   bool is_right(const std::string& output) const { return content_of(folder_ / output) == right_.at(output); }
 
-  /// A failed read ends the process at once, and may leave a *.part (results/hdf5/file_driver.hpp).
+  /// Expects that a failed call leaves no wrong output. A failed read ends the process at once, and may leave
+  /// a *.part file (results/hdf5/file_driver.hpp).
   void expect_nothing_wrong(const Writer& writer, const std::string& calls,
                             const ProgramResult& result) const {
     EXPECT_TRUE(result.code == 0 || result.code == 5) << result.code << ": " << result.err;
@@ -121,8 +124,8 @@ class FailingCalls : public ::testing::Test {
     for (const std::string& output : writer.outputs) EXPECT_TRUE(is_right(output)) << output;
   }
 
-  /// Fails every `step`-th of the calls, one at a time, each with `ways` of the faults, which are used in
-  /// turn.
+  /// Makes every `step`-th of the system calls fail, one per run of the command, each with `ways` of the
+  /// faults, which are used in turn.
   void fail_calls(const Writer& writer, const std::string& calls, std::span<const Fault> faults,
                   std::size_t ways, long step = 1) {
     const long count = count_calls(writer, calls);
@@ -163,7 +166,8 @@ class FailingCalls : public ::testing::Test {
             false};
   }
 
-  /// @param ways of failing, for each call.
+  /// Makes the system calls of the other outputs fail.
+  /// @param ways number of faults that are tried for each call
   void fail_calls_of_other_outputs(std::size_t ways) {
     make_input();
     const std::string before = "what stood there before";

@@ -90,7 +90,7 @@ constexpr const char* linear_material_tests =
     "0.4}}}\n"
     "retain: {trials: [0, 1, 2, 3, 4, 5, 6, 7, 8, 9]}\n";
 
-/// The true parameters of the trials: the rows of trials.csv, by the key of the parameter.
+/// For each trial the true parameters, by key, from the rows of trials.csv.
 std::vector<std::map<std::string, double>> true_parameters(const std::filesystem::path& table) {
   const auto cells_of = [](const std::string& line) {
     std::vector<std::string> cells;
@@ -114,7 +114,8 @@ std::vector<std::map<std::string, double>> true_parameters(const std::filesystem
   return rows;
 }
 
-/// Counts the 95 % intervals of the first axes that hold the truth. All points of the file are of one axis.
+/// Counts the 95 % intervals of the first axes that contain the true value. All points of the file belong to
+/// one axis.
 struct HeldIntervals {
   int held{0};
   int estimated{0};

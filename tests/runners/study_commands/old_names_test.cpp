@@ -11,7 +11,7 @@ class OldNames : public ProgramTest {
     ASSERT_EQ(program({"run", "a.yaml", "-o", "a.h5", "--quiet"}).code, 0);
   }
 
-  /// The command ends with exit code 2, and its message has each of these.
+  /// Expects that the command ends with exit code 2, and that its message contains each of these parts.
   void expect_refused(const std::vector<std::string>& words, const std::vector<std::string>& parts) {
     const ProgramResult result = program(words);
     EXPECT_EQ(result.code, 2) << words[0] << result.err;

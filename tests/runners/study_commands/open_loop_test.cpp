@@ -146,7 +146,7 @@ constexpr const char* slow_stage =
     "verdict: {dwell: 0.02, window: 0.05}\n";
 constexpr std::int64_t moves_of_stage = 240;
 
-/// Counts of recorded moves, made independently by the test.
+/// Numbers of moves of different outcomes, counted by the test from recorded samples.
 struct Recorded {
   std::int64_t off_target{0};
   std::int64_t still_falling{0};
@@ -175,7 +175,8 @@ class SlowStage : public ::testing::Test {
     return nlohmann::json::parse(run({"summary", file, "--format", "json"}).out)["points"][0]["undecided"];
   }
 
-  /// Runs the stage, and once more with the hold that the summary advises: how many moves of it arrive.
+  /// Number of moves that arrive when the stage is run again with the duration (`hold`) that the summary of a
+  /// first run advises.
   std::int64_t arrived_with_advised_hold(std::vector<std::string> settings) const {
     EXPECT_EQ(run({"run", "stage.yaml", "-q", "-o", "slow.h5"}, settings).code, 0);
     const nlohmann::json said = undecided("slow.h5");
@@ -241,7 +242,7 @@ TEST_F(SlowStage, CheckWarnsBeforeItRuns) {
 // The rates of a study against a Monte Carlo that has nothing in common with it: other random numbers, other
 // distributions code, another integrator, measures written again from their definitions.
 
-/// Numbers of trials.
+/// Number of trials of the study under test, and of the independent Monte Carlo that judges it.
 struct Numbers {
   int study;
   int judge;

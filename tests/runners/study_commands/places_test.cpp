@@ -9,7 +9,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A command that writes `output`.
+/// A command that writes the file `output`.
 struct Writing {
   std::string output;
   std::vector<std::string> arguments;
@@ -35,7 +35,7 @@ class Places : public ::testing::Test {
     return zerocount_program(arguments, folder_.path());
   }
 
-  /// Exit code of a line for the shell, in the folder; $Z is the program.
+  /// Exit code of a line that the shell runs in the test's folder; $Z in it is the program.
   int shell(const std::string& line) {
     const std::string command =
         fmt::format("cd {} && Z={} && {} 2> err", folder_.path().string(), ZEROCOUNT_PROGRAM, line);

@@ -16,7 +16,7 @@ bool processor_has_fma() {
   return text.find(" fma ") != std::string::npos;
 }
 
-/// Exit code of a command of the shell.
+/// Exit code of a command line that the shell runs.
 int shell(const std::string& line) {
   return std::system(line.c_str());
 }

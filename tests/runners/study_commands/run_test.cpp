@@ -14,7 +14,7 @@ class Run : public ProgramTest {
  protected:
   fs::path at(const std::string& name) const { return folder_.path() / name; }
 
-  /// Runs to the end, and expects success.
+  /// Runs the study to its end, and expects success.
   void complete(const std::string& manifest, const std::string& output, std::vector<std::string> more = {}) {
     std::vector<std::string> words{"run", manifest, "-o", output};
     words.insert(words.end(), more.begin(), more.end());
@@ -145,7 +145,7 @@ TEST_F(Run, RepeatsTheTrialsOfADamagedShard) {
   expect_same_datasets(at("whole.h5"), at("new.h5"));
 }
 
-/// Trials of ten million samples of a contact that creeps fast: each takes minutes.
+/// Manifest of trials with ten million samples of a contact that creeps fast: each takes minutes.
 constexpr const char* long_trials =
     "zerocount: 1\nname: slow\nseed: 1\ntrials: 4\nfriction: {lambda: 1.0e-6}\n"
     "command: {targets: [5], hold: 5000}\n";

@@ -129,7 +129,7 @@ TEST_F(StatusOfARun, AnExistingFileIsComplete) {
 /// small_manifest(150) has 150 trials at each of two points.
 class TimelineOfRun : public ProgramTest {
  protected:
-  /// Trials of the spans of each stage.
+  /// For each stage of the work, the number of trials in its spans of the timeline.
   std::map<std::string, std::int64_t> trials_of_stages(const std::string& name) const {
     std::ifstream file(folder_.path() / name);
     std::map<std::string, std::int64_t> trials;

@@ -141,7 +141,8 @@ TEST_F(Trace, APartHasOnlyItsTrials) {
 namespace zerocount::study_commands {
 namespace {
 
-/// The trace of one sample, in a study with these further columns.
+/// The trace of one sample as text, with the columns that a study with these features has.
+/// @param json as JSON; false: as a table
 std::string trace_of(const study::StudyFeatures& features, bool json) {
   study::Study study;
   study.name = "extras";

@@ -19,7 +19,8 @@
 namespace zerocount::testing {
 namespace {
 
-/// Two points; trial 3 of each keeps its samples, and so runs on the reference engine.
+/// A study with two gains as its design points. Trial 3 of each keeps its samples, and so runs on the
+/// reference engine.
 study::Study two_gains(study::Engine engine) {
   study::Study study = manifest::parse_study(R"(zerocount: 1
 name: two-gains
@@ -58,7 +59,7 @@ TEST(TrialRunner, ResultsEqualThoseOfEachTrialAlone) {
 
 // A stop keeps what has ended.
 
-/// Runs the rows as a block, stopped after so many milliseconds.
+/// Runs the rows as one block of trials, stopped after `milliseconds`.
 trials::TrialBlock block_stopped_after(int milliseconds, const study::Study& study, layout::RowRange rows) {
   std::stop_source source;
   const std::jthread clock([&] {
@@ -127,7 +128,7 @@ std::vector<RowRange> blocks_of(const study::Study& study, const std::vector<Row
   return blocks;
 }
 
-/// Two points for the batch engine. @param trials of each
+/// A study with two design points for the batch engine. @param trials number of trials at each point
 study::Study batch_study(std::int64_t trials) {
   const TemporaryFolder folder;
   folder.write("study.yaml", small_manifest(static_cast<int>(trials)));

@@ -7,7 +7,7 @@ namespace {
 
 using layout::RowRange;
 
-/// Ranges in order of rows with random gaps, within `rows`.
+/// Random ranges of rows in ascending order, with gaps, within 0 … rows.
 std::vector<RowRange> random_ranges(std::mt19937& random, std::int64_t rows) {
   std::vector<RowRange> ranges;
   std::uniform_int_distribution<std::int64_t> step(0, rows / 3);

@@ -38,7 +38,8 @@ const char* const manifests[] = {
      "goal: {band: 1, within: 0.15, moves: 0.9}\n"),
 };
 
-/// The study whose manifest has these values; empty if they are refused.
+/// The study whose manifest has these values for the named parameters; empty if they are refused, with the
+/// message in `refusal`.
 std::optional<study::Study> parsed(const study::Study& study, const std::vector<std::string>& names,
                                    const std::vector<double>& values, std::string& refusal) {
   std::vector<std::string> overrides;
@@ -63,7 +64,7 @@ bool is_overridden(const study::StudyPlan& plan, std::size_t slot) {
              plan.axes[*plan.settings_axis].assignments.end();
 }
 
-/// The numbers of the study that have one value, and an effect.
+/// The paths of the parameters of the study that are a single number and have an effect.
 std::vector<std::string> one_numbers(const study::Study& study) {
   std::vector<std::string> names;
   const study::StudyPlan& plan = *study.plan;

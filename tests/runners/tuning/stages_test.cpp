@@ -20,7 +20,7 @@ study::Study axis_study(const std::vector<std::string>& overrides = {}) {
                                "axis.yaml", overrides);
 }
 
-/// The space of the study, and a search in it.
+/// The search space of a study, and a search in it.
 struct Searching {
   explicit Searching(std::int64_t trials, const std::vector<std::string>& overrides = {})
       : study(axis_study(overrides)),
@@ -51,7 +51,7 @@ TEST(TuningStages, SearchTakesItsFractionOfTheBudgetAndRanksItsFinalists) {
     EXPECT_FALSE(is_better(aim, found.result.estimates[i], found.result.estimates[i - 1])) << i;
 }
 
-/// The proof of values, as the only finalist.
+/// The proof that these values of the free parameters meet the goal, as the only finalist of the search.
 std::optional<Proven> proof_of_values(Searching& of, const Values& values,
                                       const std::filesystem::path& path) {
   SearchResult found;
@@ -78,7 +78,8 @@ TEST(TuningStages, ProofEqualsTheVerdictOfItsFile) {
   EXPECT_NE(file.study().seed, of.study.seed);
 }
 
-/// Random values, and a goal near the proportion of moves that meet it at these.
+/// Random values of the free parameters, and a goal near the proportion of moves that meet it at these
+/// values.
 struct RandomProofs {
   static constexpr unsigned seeds = 3;
 
@@ -131,7 +132,8 @@ TEST(TuningStages, AMissedGoalIsUnreachableOnlyTogetherWithTheSearch) {
   }
 }
 
-/// A made-up extra that needs `trials` trials; above 4000 it may take fewer.
+/// A made-up optional part of the answer of `tune` that needs `trials` trials. If these are more than 4000,
+/// it also runs when only a tenth of them is affordable.
 template <std::int64_t trials, bool applies = true>
 Extra made_up(std::string_view name) {
   return {.name = name,

@@ -26,7 +26,7 @@ const char* const verified_manifest =
     "sweep: {grid: {controller.ki: [3.85e-5, 2.08e-4]}}\n"
     "retain: {trials: [3]}\n";
 
-/// The name of a dataset without its group, with which messages name it too.
+/// The last part of the path of a dataset, by which messages name it too.
 std::string base_name(const std::string& dataset) {
   return dataset.substr(dataset.rfind('/') + 1);
 }
@@ -53,7 +53,8 @@ class Verify : public ProgramTest {
     ASSERT_EQ(result.code, 0) << result.err;
   }
 
-  /// The shards of a run that was killed at its end: each of the `pieces` of the trials.
+  /// Makes the shards that a run leaves if it is killed at its end: each has one of `pieces` equal parts of
+  /// the trials.
   fs::path make_shards(const std::string& name, const std::string& manifest, std::int64_t pieces) {
     const study::Study study =
         manifest::load_study(folder_.write(name + ".yaml", manifest), {}, {.plugin = {}, .samples = {}});

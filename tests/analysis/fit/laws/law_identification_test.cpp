@@ -23,7 +23,7 @@ using fit::IdentifiedLaw;
 using fit::LawComparison;
 using friction::FrictionModel;
 
-/// A rotor with its friction, and the values of the parameters by name.
+/// A simulated rotor with its friction, and the true values of the friction parameters by name.
 struct Truth {
   motion::PlantParameters plant;
   friction::FrictionAlongRotor friction;
@@ -34,7 +34,8 @@ double factor(std::mt19937_64& random) {
   return std::exp(std::uniform_real_distribution<double>(-0.5, 0.5)(random));
 }
 
-/// A rotor of the paper's kind on a bristle that the tests strain to about half of its level.
+/// A rotor like the paper's with a bristle friction law. The tests strain the bristle to about half of its
+/// friction level.
 Truth bristle_rotor(FrictionModel law, std::mt19937_64& random) {
   Truth truth;
   truth.friction.model = law;
@@ -55,7 +56,8 @@ Truth bristle_rotor(FrictionModel law, std::mt19937_64& random) {
   return truth;
 }
 
-/// Elements that slip at 5, 20 and 80 counts, and one that sticks.
+/// A rotor with generalised Maxwell-slip friction: elements that slip at 5, 20 and 80 counts, and one that
+/// sticks.
 Truth maxwell_slip_rotor(std::mt19937_64& random) {
   Truth truth;
   truth.friction.model = FrictionModel::gms;
@@ -103,9 +105,9 @@ Truth rotor_of(FrictionModel law, std::mt19937_64& random) {
   }
 }
 
-/// Steps, loops and holds.
-/// @param pace 1: slow loops, and holds that are long enough to show creep; the time of a fit goes with
-/// 1/pace
+/// The record of a simulated test of the rotor: steps, loops and holds of the torque.
+/// @param pace 1: slow loops, and holds that are long enough to show creep; the time of a fit is proportional
+///        to 1/pace
 fit::TestRecord record_of(const Truth& truth, std::mt19937_64& random, const TestInstrument& instrument = {},
                           double pace = 1.0) {
   TorqueProgramme test;
@@ -115,13 +117,14 @@ fit::TestRecord record_of(const Truth& truth, std::mt19937_64& random, const Tes
   return simulated_test(truth.plant, truth.friction, test, instrument, random);
 }
 
-/// The number of intervals that hold the truth, and of all.
+/// Number of confidence intervals that contain the true value, and number of all intervals.
 struct Held {
   int held{0};
   int estimated{0};
 };
 
-/// @param widening of the intervals, before the truth is looked for in them
+/// Counts the confidence intervals of the identified parameters that contain the true values.
+/// @param widening factor by which the intervals are widened before they are compared with the true values
 Held held_by(const IdentifiedLaw& law, const Truth& truth, double widening = 1.0) {
   Held count;
   for (const fit::ParameterEstimate& parameter : law.parameters) {
@@ -179,7 +182,8 @@ TEST(LawIdentification, LawsThatCannotBeFittedAreLeftOutWithTheReason) {
   EXPECT_NE(text.find("which the friction model dahl cannot represent"), std::string::npos) << text;
 }
 
-/// Slow loading and unloading without steps, as of a drive that limits the rate of its torque.
+/// A torque programme that loads and unloads slowly without steps, as a drive that limits the rate of its
+/// torque would.
 TorqueProgramme slow_levels(std::initializer_list<double> levels, double rate) {
   TorqueProgramme test;
   for (const double level : levels) test.ramp(level, rate).hold(0.05);
@@ -272,7 +276,7 @@ TEST(LawIdentification, DISABLED_DistinguishesACompliantFixtureFromTheSpring) {
   expect_fixture_told_from_contact(FrictionModel::spring, 1.0);
 }
 
-/// The law and the one that comes nearest to its records.
+/// The law itself and the friction law whose fit to its records comes nearest.
 std::vector<FrictionModel> nearest_of(FrictionModel law) {
   if (law == FrictionModel::dahl || law == FrictionModel::lugre)
     return {FrictionModel::dahl, FrictionModel::lugre};
@@ -280,7 +284,7 @@ std::vector<FrictionModel> nearest_of(FrictionModel law) {
   return {FrictionModel::presliding, FrictionModel::spring};
 }
 
-/// The law and all that come near to its records. The fit of gms takes long.
+/// The law itself and all friction laws whose fits come near to its records. The fit of gms takes long.
 std::vector<FrictionModel> rivals_of(FrictionModel law) {
   if (law == FrictionModel::gms) return {FrictionModel::spring, law};
   return {FrictionModel::presliding, FrictionModel::spring, FrictionModel::dahl, FrictionModel::lugre};

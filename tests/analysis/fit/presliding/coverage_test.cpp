@@ -19,7 +19,8 @@ int least_held(int machines) {
   return machines == 12 ? 8 : 2;  // of 3
 }
 
-/// Quantile of the root mean square of `machines` normalised errors, if the standard errors are right.
+/// Quantile of the root mean square of the errors of `machines` estimates, each divided by its standard
+/// error, if the standard errors are right.
 double error_ratio(int machines, double probability) {
   return std::sqrt(boost::math::quantile(boost::math::chi_squared(machines), probability) / machines);
 }

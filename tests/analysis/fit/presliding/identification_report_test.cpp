@@ -30,7 +30,8 @@ constexpr Named names[] = {{"k1", "friction.k1"},
                            {"lambda", "friction.lambda"},
                            {"n", "friction.n"}};
 
-/// Values and intervals over all magnitudes, some given, some open.
+/// A made-up identification: random values and intervals over all orders of magnitude, some of the parameters
+/// given, some not identifiable.
 fit::Identification random_identification(std::mt19937_64& random) {
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   fit::Identification found;
@@ -71,7 +72,7 @@ study::Study study_with(const std::string& fragment) {
       "pasted.yaml");
 }
 
-/// The values of the parameter in the study's trials.
+/// The values of the parameter that the study's trials draw.
 std::vector<double> drawn(const study::Study& study, const std::string& key) {
   std::size_t column = 0;
   while (study.columns.inputs[column].name != key) ++column;
@@ -81,7 +82,7 @@ std::vector<double> drawn(const study::Study& study, const std::string& key) {
   return values;
 }
 
-/// Quantile of the parameter over the study's trials.
+/// Quantile of the parameter's values over the study's trials.
 double sampled(const study::Study& study, const std::string& key, double proportion) {
   std::vector<double> values = drawn(study, key);
   std::sort(values.begin(), values.end());

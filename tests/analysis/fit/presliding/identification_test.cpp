@@ -25,8 +25,8 @@ const fit::ParameterEstimate& estimate_of(const fit::Identification& found, cons
   return *at;
 }
 
-/// Whether the interval of the parameter holds the true value and the estimate, and is at most `widest` wide
-/// (relative).
+/// Whether the confidence interval of the parameter contains the true value and the estimate, and is at most
+/// `widest` wide (relative to the value).
 ::testing::AssertionResult finds(const fit::Identification& found, const std::string& name, double truth,
                                  double widest) {
   const fit::ParameterEstimate& parameter = estimate_of(found, name);
@@ -38,7 +38,7 @@ const fit::ParameterEstimate& estimate_of(const fit::Identification& found, cons
                                        << parameter.high << "], truth " << truth << "; " << parameter.reason;
 }
 
-/// The value is within the relative distance `off` of the truth.
+/// Whether the estimate of the parameter is within the relative distance `off` of the true value.
 ::testing::AssertionResult is_near(const fit::Identification& found, const std::string& name, double truth,
                                    double off) {
   const fit::ParameterEstimate& parameter = estimate_of(found, name);
@@ -51,18 +51,19 @@ bool is_open(const fit::Identification& found, const std::string& name) {
   return estimate_of(found, name).status == fit::EstimateStatus::not_identifiable;
 }
 
-/// Effort of a search that is to fail: what does not fit makes it try other starting points, for 20 s with 1.
+/// Effort of a search that is expected to fail: without a fit it tries other starting points, for 20 s at the
+/// effort 1.
 constexpr double few_starts = 0.05;
 
 const std::vector<fit::KnownParameter> no_creep{
     {fit::log_alpha, 1e-9}, {fit::log_limit, 1.0}, {fit::creep_exponent, 2.0}};
 
-/// Known, and so small that they do not show in a slow test.
+/// A damping (N m s/rad) that is given, and so small that it does not show in a slow test.
 constexpr double light_damping = 1e-2;
 const std::vector<fit::KnownParameter> light_rotor{{fit::log_damping, light_damping},
                                                    {fit::log_inertia, 1e-5}};
 
-/// A contact that softens over a few counts of `judge_counts`.
+/// Counts per revolution of the encoder of a simulated test, in which the contact softens over a few counts.
 constexpr double judge_counts = 2e5;
 friction::FrictionParameters wide_contact() {
   friction::FrictionParameters friction;
@@ -76,7 +77,8 @@ friction::FrictionParameters without_creep(friction::FrictionParameters friction
   return friction;
 }
 
-/// @param rate N m/s
+/// A torque programme that loads and unloads the contact.
+/// @param rate rate of the torque, N m/s
 TorqueProgramme loading_and_unloading(double rate = 0.4) {
   TorqueProgramme programme;
   for (const double turn : {0.3, -0.3, 0.3, 0.1, 0.2, -0.3}) programme.ramp(turn, rate);

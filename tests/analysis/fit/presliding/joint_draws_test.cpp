@@ -17,7 +17,7 @@ namespace {
 
 constexpr double creep_torque = 0.07;
 
-/// Errors that correlate, such as those of k2 and β.
+/// Random errors of a bootstrap's replicates, correlated as those of k2 and β are.
 Eigen::MatrixXd correlated_errors(Eigen::Index replicates, double size, std::mt19937_64& random) {
   std::normal_distribution<double> normal;
   const auto next = [&] { return normal(random); };
@@ -26,7 +26,10 @@ Eigen::MatrixXd correlated_errors(Eigen::Index replicates, double size, std::mt1
   return size * Eigen::MatrixXd::NullaryExpr(replicates, columns, next) * mixing;
 }
 
-/// The manifest's parameters of a contact, with profiles that are wider than the replicates say.
+/// The estimated quantities from which a manifest is written, as the identification of a contact gives them.
+/// Every second quantity has a profile-likelihood interval that is wider than the interval of the replicates'
+/// errors.
+/// @param widening factor of the intervals of the errors
 std::vector<fit::EstimatedQuantity> estimated_quantities(const fit::ContactParameters& contact,
                                                          const Eigen::MatrixXd& errors, double widening) {
   const fit::Point point = fit::point_of(contact, creep_torque);
@@ -45,7 +48,7 @@ std::vector<fit::EstimatedQuantity> estimated_quantities(const fit::ContactParam
   return quantities;
 }
 
-/// The numbers of the rows in the order of `values`.
+/// The indices of the rows, sorted by their entry in `values`.
 std::vector<std::size_t> order_of(const std::vector<double>& values) {
   std::vector<std::size_t> order(values.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

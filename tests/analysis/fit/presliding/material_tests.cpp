@@ -44,7 +44,7 @@ fit::ContactParameters random_contact(std::mt19937_64& random) {
 
 namespace {
 
-/// Advances the plant from sample k to the next, with a torque that is late by `skew` samples (early if
+/// Advances the plant from sample k to the next sample, with a torque that acts `skew` samples late (early if
 /// negative).
 void advance_skewed(const fit::TestRecord& record, std::size_t k, double skew, plant::Plant& plant) {
   const auto torque_of = [&](double sample) {

@@ -11,7 +11,7 @@
 
 namespace zerocount::testing {
 
-/// A torque for every sample. The torque starts at 0 N m.
+/// The torque of a test over time: one value for every sample. It starts at 0 N m.
 class TorqueProgramme {
  public:
   explicit TorqueProgramme(double sample_time = 5e-4) : sample_time_(sample_time) {}
@@ -28,39 +28,42 @@ class TorqueProgramme {
   std::vector<double> torque_;
 };
 
-/// Properties of the DAC, the encoder and the fixture of a test.
+/// Properties of the DAC, the encoder and the fixture with which a simulated test is made.
 struct TestInstrument {
   double counts_per_revolution{1.62e6};
-  double torque_step{2.4e-4};  ///< Δu, N m; 0: the torque is exact
+  double torque_step{2.4e-4};  ///< step Δu of the DAC, N m; 0: the torque is exact
   double noise{0.0};           ///< noise of the readings before rounding, counts
-  double skew{0.0};            ///< delay of the torque after its sample, samples
+  double skew{0.0};            ///< delay of the torque after the sample at which it is recorded, samples
   double compliance{0.0};      ///< compliance of the fixture, rad/(N m)
 };
 
-/// A machine of the paper's kind: its numbers, each times a random factor of 0.5 to 2, and n between 1.5
-/// and 2.5.
+/// A random friction contact like the paper's: each of its numbers times a random factor of 0.5 to 2, and a
+/// creep exponent n between 1.5 and 2.5.
 fit::ContactParameters random_contact(std::mt19937_64& random);
 
-/// A test of a rotor, simulated by core's Plant sample by sample, and read by an encoder of random phase.
+/// The record of a test of a rotor, simulated by core's Plant sample by sample, and read by an encoder of
+/// random phase.
 fit::TestRecord simulated_test(const motion::PlantParameters& plant,
                                const friction::FrictionAlongRotor& friction, const TorqueProgramme& programme,
                                const TestInstrument& instrument, std::mt19937_64& random);
 
-/// A test of a rotor on a contact of the pre-sliding model, simulated and read as above.
+/// The record of a test of a rotor on a contact of the pre-sliding model, simulated by core's Plant and read
+/// by an encoder of random phase.
 fit::TestRecord simulated_test(const fit::ContactParameters& contact, const TorqueProgramme& programme,
                                const TestInstrument& instrument, std::mt19937_64& random);
 
-/// Slow loading and unloading with inner loops; four steps with their ring-downs; two holds. One record each.
+/// Torque programmes of three tests, one record each: slow loading and unloading with inner loops; four steps
+/// with their ring-downs; two holds.
 std::vector<TorqueProgramme> three_tests();
 
-/// Loading with inner loops, steps with ring-downs and holds, in one record.
+/// Torque programme of one test with one record: loading with inner loops, steps with ring-downs, and holds.
 std::vector<TorqueProgramme> one_test();
 
-/// Loading, steps and holds in one record of 3 s.
+/// Torque programme of one test of 3 s: loading, steps and holds in one record.
 std::vector<TorqueProgramme> short_test();
 
-/// The true value of the parameter that an estimate has as its name.
-/// @param skew true value of the time offset
+/// The true value of the parameter with this name, of which an identification gives an estimate.
+/// @param skew true value of the time offset of the torque, samples
 double true_value(const fit::ContactParameters& contact, const std::string& name, double skew = 0.0);
 
 /// Coverage of the confidence intervals of one parameter.
@@ -68,9 +71,9 @@ struct IntervalCoverage {
   std::string name;
   int held{0};
   int estimated{0};
-  int open{0};                 ///< number of machines for which it was not identifiable
-  double squared_errors{0.0};  ///< Σ (error/standard error)²
-  double half_widths{0.0};     ///< Σ half-width/value
+  int open{0};                 ///< number of machines for which the parameter was not identifiable
+  double squared_errors{0.0};  ///< sum of (error/standard error)² over the machines
+  double half_widths{0.0};     ///< sum of the intervals' half-width/value over the machines
   double farthest{0.0};        ///< largest |error/standard error|
   int farthest_set{0};         ///< number of the machine with the largest error
 };

@@ -11,7 +11,8 @@
 namespace zerocount::testing {
 namespace {
 
-/// The elongation at which the spring carries `torque`. It lies between x and the elongation with k1 alone.
+/// The elongation (rad) at which the spring carries `torque` (N m). It lies between x and the elongation at
+/// which a spring of stiffness k1 alone would carry the torque.
 double elongation_at(const StopElements& spring, double x, double torque, double k1) {
   const auto surplus = [&](double at) {
     StopElements moved = spring;

@@ -14,7 +14,8 @@ using fit::ContactParameters;
 using fit::Identification;
 using fit::TestRecord;
 
-/// The higher frequency (Hz) of a rotor on the spring `ground` with a load, from the two equations of motion.
+/// The higher of the two natural frequencies (Hz) of a rotor on the spring `ground` (N m/rad) with a load on
+/// a coupling, from the two equations of motion.
 double higher_frequency(const motion::PlantParameters& plant, double ground) {
   const double rotor = (ground + plant.load.stiffness) / plant.inertia;
   const double load = plant.load.stiffness / plant.load.inertia;

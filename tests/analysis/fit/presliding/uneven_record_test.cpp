@@ -12,7 +12,8 @@
 namespace zerocount::testing {
 namespace {
 
-/// A test whose samples are 0.3 to 1.7 intervals apart; the torque is held from each to the next.
+/// The record of a simulated test whose samples are 0.3 to 1.7 intervals apart; the torque is held from each
+/// sample to the next.
 records::RawSeries uneven_series(const fit::ContactParameters& contact, const TorqueProgramme& programme,
                                  std::mt19937_64& random) {
   records::RawSeries series;

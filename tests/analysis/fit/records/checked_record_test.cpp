@@ -17,7 +17,7 @@ namespace {
 
 constexpr double count_size = 2.0 * std::numbers::pi / 1.62e6;
 
-/// A good series: the paper's machine, loaded and unloaded slowly, with a hold.
+/// A record that is accepted: the paper's machine, loaded and unloaded slowly, with a hold.
 fit::RawSeries good_series() {
   TorqueProgramme programme;
   programme.ramp(0.1, 0.4).ramp(-0.1, 0.4).ramp(0.15, 0.4).hold(0.2).ramp(0.0, 0.4);
@@ -50,7 +50,7 @@ std::string record_refusal(const std::function<void(fit::RawSeries&)>& spoil,
   return "not refused";
 }
 
-/// Whether the refusal begins with `place` and contains `reason`.
+/// Whether the message of a refused record begins with `place` and contains `reason`.
 ::testing::AssertionResult refused(const std::string& message, const std::string& place,
                                    const std::string& reason) {
   if (message.starts_with(place + ": ") && message.find(reason) != std::string::npos) {
@@ -59,7 +59,7 @@ std::string record_refusal(const std::function<void(fit::RawSeries&)>& spoil,
   return ::testing::AssertionFailure() << message;
 }
 
-/// The series in rad, as an encoder without steps would give it.
+/// The record with angles in rad instead of counts, as an encoder without steps would give it.
 fit::RawSeries in_radians(fit::RawSeries series) {
   for (double& angle : series.angle) angle *= count_size;
   series.count_size = 0.0;

@@ -42,7 +42,7 @@ TEST(FittedRecords, ResidualsGiveTheMisfitOfTheSummary) {
   }
 }
 
-/// A record of rad with these times, and any torque.
+/// A record of angles in rad with these sample times (s), and an arbitrary torque.
 records::RawSeries series_at(const std::vector<double>& times) {
   records::RawSeries series;
   series.name = "record";

@@ -27,14 +27,15 @@ fit::RawSeries series_of(const fit::TestRecord& record) {
   return series;
 }
 
-/// Noise of half a count before rounding.
+/// Adds noise with a standard deviation of half a count to the readings, before they are rounded to counts.
 void add_noise(fit::RawSeries& series, std::mt19937_64& random) {
   std::uniform_real_distribution<double> within_count(0.0, 1.0);
   std::normal_distribution<double> noise(0.0, 0.5);
   for (double& count : series.angle) count = std::floor(count + within_count(random) + noise(random));
 }
 
-/// The first sample at which core's plant slides.
+/// Index of the first sample at which core's plant, driven by the torque of the record, slides; empty if it
+/// never slides.
 std::optional<std::size_t> breakaway_sample(const fit::ContactParameters& contact,
                                             const fit::TestRecord& record) {
   plant::Plant plant(contact.plant, {contact.friction, {}}, {}, {1e-11 * record.unit});
@@ -45,7 +46,8 @@ std::optional<std::size_t> breakaway_sample(const fit::ContactParameters& contac
   return std::nullopt;
 }
 
-/// Several steps of growing height, from a small one on: the torque grows most, and the rotor overshoots.
+/// A torque programme of several steps of growing height, the first one small: the torque grows most, and the
+/// rotor overshoots.
 TorqueProgramme growing_steps(std::mt19937_64& random) {
   std::uniform_real_distribution<double> factor(1.1, 3.0);
   std::uniform_real_distribution<double> duration(0.01, 1.0);
@@ -58,7 +60,8 @@ TorqueProgramme growing_steps(std::mt19937_64& random) {
   return programme;
 }
 
-/// Rings down, two loops below the breakaway, and a ramp beyond it, after which the rotor sticks again.
+/// A torque programme: ring-downs, two loops below the breakaway torque, and a ramp beyond it, after which
+/// the rotor sticks again.
 TorqueProgramme breaking_away(double rate) {
   TorqueProgramme programme;
   for (int i = 0; i < 2; ++i) programme.step(0.03).hold(0.1).step(0.0).hold(0.1);
@@ -66,7 +69,7 @@ TorqueProgramme breaking_away(double rate) {
   return programme.ramp(0.0, 1.0).hold(0.2).ramp(0.05, rate);
 }
 
-/// Random machines with a random level of sliding friction that break away at 0.1 N m.
+/// A random friction contact that breaks away at 0.1 N m, with a random level of sliding friction.
 fit::ContactParameters random_breakaway(std::mt19937_64& random) {
   fit::ContactParameters contact = random_contact(random);
   contact.friction.breakaway = 0.1;
@@ -120,8 +123,8 @@ TEST(GrossSliding, TheCutIsShortlyBeforeBreakaway) {
   }
 }
 
-/// Slow loading to 0.1 N m within 0.25 s, and a slide from sample `breakaway` on, with the acceleration of
-/// `acceleration` counts per sample².
+/// A made-up record: slow loading to 0.1 N m within 0.25 s, and from sample `breakaway` on a slide with the
+/// acceleration of `acceleration` counts per sample².
 fit::RawSeries made_slide(std::size_t breakaway, double acceleration) {
   TorqueProgramme programme;
   programme.ramp(0.1, 0.4);

@@ -12,14 +12,15 @@
 namespace zerocount::report {
 namespace {
 
-/// A horizontal axis whose range is that of its data.
+/// A random horizontal axis of a figure whose range is that of its data.
 struct RandomAxis {
   std::string scale;
   std::string unit;
   double low{0.0}, high{0.0};
 };
 
-/// Ranges about zero and far from it, wide and narrow, of units with and without SI prefixes.
+/// A random axis: its range lies about zero or far from it, is wide or narrow, and has a unit with or without
+/// SI prefix.
 RandomAxis random_axis(std::mt19937_64& random) {
   const auto uniform = [&](double low, double high) {
     return std::uniform_real_distribution<>(low, high)(random);
@@ -65,7 +66,7 @@ std::string text_of(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// Output of the program of a figure.
+/// What the page's drawing program prints for a figure when Node.js runs it.
 /// @param form argument `form` of drawing_program()
 std::string drawn_by_node(const Figure& figure, const char* form) {
   const testing::TemporaryFolder folder;
@@ -302,7 +303,7 @@ TEST(EmbeddedFiles, AMissingFileIsReportedWithItsRemedy) {
   testing::expect_failure(ExitCode::machine_failed, "npm ci", [] { embedded_file("vega.max.js"); });
 }
 
-/// A line of counts that mostly rests, with jerks of one sample here and there.
+/// Made-up samples of a move: counts that mostly rest, with jerks of one sample here and there.
 std::vector<trial::SampleRecord> random_samples(std::uint64_t seed, std::int64_t size) {
   std::mt19937_64 random(seed);
   std::vector<trial::SampleRecord> samples;

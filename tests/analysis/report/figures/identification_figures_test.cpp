@@ -11,7 +11,8 @@ using fit::FittedRecord;
 using fit::Identification;
 using nlohmann::ordered_json;
 
-/// A record of counts with noise, outliers of one sample, and some masked stretches.
+/// A random fitted record in counts with noise, outliers of one sample, and some masked stretches (samples
+/// that the fit leaves out).
 FittedRecord random_record(std::uint64_t seed, std::size_t samples, bool masked) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);

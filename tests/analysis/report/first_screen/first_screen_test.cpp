@@ -29,7 +29,7 @@ const char* const two_goals =
     "verdict: {dwell: 0.02, window: 0.02}\n"
     "tune: {free: {controller.ki: {log: [1.0e-5, 1.0e-4]}}}\n";
 
-/// The first screen of a study by this manifest.
+/// The text of the first screen of a report on a study with this manifest.
 std::string screen_of(const std::string& manifest, const FirstScreenParts& parts = {}) {
   const TemporaryFolder folder;
   testing::run_study_file(folder / "a.h5", manifest);

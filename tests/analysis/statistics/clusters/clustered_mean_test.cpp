@@ -92,7 +92,8 @@ TEST(ClusteredMean, ResamplesDependOnlyOnTheirStream) {
   EXPECT_NE(clustered_mean_bounds(totals, {{12, 34}, 6}).high, once.high);
 }
 
-/// Quantiles of (θ* − θ)/e* of the mm equally probable draws of m clusters, one by one.
+/// The lower and upper quantile of the studentised bootstrap statistic (θ* − θ)/e*, computed over all m^m
+/// equally probable draws of m clusters, one by one.
 std::pair<double, double> tails_of_every_draw(const std::vector<double>& values, double tail) {
   const std::size_t m = values.size();
   const double mean = moments_of(values).mean;
@@ -368,7 +369,8 @@ struct Mixture {
   double others_rate{1.0};
 };
 
-/// Coverage of the lower bound of the hit rate: proportion of studies in which it is not above the true rate.
+/// Coverage of the lower bound of the hit rate: proportion of studies in which the bound is not above the
+/// true rate.
 double coverage_of(const Mixture& mixture, int studies, std::uint64_t seed = 11) {
   std::mt19937_64 random(seed);
   std::binomial_distribution<std::int64_t> number_of_weak(mixture.clusters, mixture.weak);
@@ -401,8 +403,8 @@ TEST(ClusteredProportion, LowerBoundsHoldIfAFewClustersFailAlwaysOrHalfTheTime) 
   }
 }
 
-/// The largest proportion of lower bounds that are wrong, of a nominal 5 %, where a few clusters always fail
-/// and the others hit with one of several rates.
+/// The largest proportion of wrong lower bounds (nominally 5 %) over several populations in which a few
+/// clusters always fail and the others hit with one of several rates.
 double wrong_in_mixtures(std::int64_t clusters, std::int64_t size, int studies, std::uint64_t seed) {
   double wrong = 0.0;
   for (const double others : {0.97, 0.99, 0.999, 1.0}) {
@@ -415,7 +417,8 @@ double wrong_in_mixtures(std::int64_t clusters, std::int64_t size, int studies, 
   return wrong;
 }
 
-/// Upper limit of the proportion of wrong bounds: 0.1 plus three standard errors in `studies` studies.
+/// Upper limit of the observed proportion of wrong bounds: 0.1 plus three standard errors in `studies`
+/// studies.
 double most_wrong(int studies) {
   return 0.1 + 3.0 * std::sqrt(0.1 * 0.9 / studies);
 }
@@ -431,7 +434,7 @@ TEST(ClusteredProportion, LowerBoundsHoldIfFailingClustersMixWithScatteredMisses
   }
 }
 
-/// Another one each day.
+/// A seed that changes every day.
 std::uint64_t seed_of_today() {
   const auto days =
       std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now()).time_since_epoch().count();

@@ -182,10 +182,12 @@ TEST(MachineProportion, IsUnknownWithoutMachines) {
   EXPECT_EQ(none.high, 1.0);
 }
 
-/// Studies of machines drawn at random, half of them with moves of a trial that are all alike.
+/// A population of random machines, on which studies are simulated. In half of the studies the moves of a
+/// trial all have the same result.
 struct Population {
-  double meeting;       ///< proportion of machines at or above the requirement
-  double above, below;  ///< proportions of moves of those, and of the others
+  double meeting;  ///< proportion of machines whose proportion of good moves is at or above the requirement
+  /// Proportions of good moves of a machine at or above the requirement, and of a machine below it.
+  double above, below;
 };
 
 class MachineProportionCoverage : public ::testing::TestWithParam<Population> {};
@@ -225,7 +227,8 @@ INSTANTIATE_TEST_SUITE_P(, MachineProportionCoverage,
 
 constexpr std::int64_t moves = 3;
 
-/// The values of a trial that are not censored: few distinct ones.
+/// The measured values of a trial that are not censored (cut off by the end of the move): few distinct ones,
+/// so there are ties.
 std::vector<double> values_of(std::int64_t trial) {
   std::mt19937_64 random(static_cast<std::uint64_t>(trial));
   std::vector<double> values;

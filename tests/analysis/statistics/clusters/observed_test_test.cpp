@@ -71,7 +71,7 @@ TEST(ObservedTest, RaisesFalseAlarmsNoMoreOftenThanStated) {
   std::cout << "Fisher: " << 100.0 * fisher / rounds << " % false alarms\n";
 }
 
-/// The success probability of a machine: most are good, some are not.
+/// The random success probability of a machine: most machines are good, some are not.
 double of_a_machine(Random& random) {
   return random() % 5 == 0 ? 0.3 : 0.95;
 }

@@ -6,7 +6,7 @@
 namespace zerocount::statistics {
 namespace {
 
-/// P(B ≤ k), B binomial (n, p), term by term.
+/// Probability P(B ≤ k) of a binomial variable B of n trials with probability p, summed term by term.
 double binomial_up_to(std::int64_t k, std::int64_t n, double p) {
   double sum = 0.0;
   for (std::int64_t i = 0; i <= k; ++i) {

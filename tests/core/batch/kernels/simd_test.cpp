@@ -8,7 +8,7 @@ namespace {
 
 using Lanes = batch::Simd<2, 1>;
 
-/// Each lane has a number of its own.
+/// A SIMD vector with a different number in each lane, for tests of single lanes.
 Lanes lanes_of(double first, double second) {
   Lanes lanes;
   lanes.part[0][0] = first;

@@ -172,8 +172,8 @@ std::vector<trial::TrialParameters> trials_of(DriveKind kind, int count) {
   return trials;
 }
 
-/// Bounds of what rounding may decide of trials under a disturbance that varies. They have no rest rule, and
-/// their rotor is never still.
+/// Expects that the batch engine agrees with the reference on trials under a varying disturbance, except in
+/// the few measures that rounding may decide. Such trials have no rest rule, and their rotor is never still.
 void expect_agreement_in_motion(const std::vector<trial::TrialParameters>& trials, const std::string& name) {
   const BatchAgreement agreement = agreement_of(trials, name);
   std::cout << name << ": " << agreement.figures() << "\n";

@@ -35,7 +35,7 @@ double steady_friction(double velocity) {
          viscous_damping * velocity;
 }
 
-/// F = σ0·z + σ1·dz/dt + σ2·ω of the plant's state.
+/// LuGre friction torque of the plant's present state, F = σ0·z + σ1·dz/dt + σ2·ω.
 double friction_force(const LuGrePlant& plant) {
   const double velocity = plant.omega();
   const double level = steady_friction(velocity) - viscous_damping * velocity;
@@ -80,7 +80,8 @@ struct Oscillation {
   double period;
 };
 
-/// Half of the range and the mean time between upward crossings of the middle, over the second half.
+/// Amplitude and period of an oscillation over the second half of the values: half of the range, and the mean
+/// time between upward crossings of the middle.
 Oscillation oscillation_of(const std::vector<double>& values, double step) {
   const auto begin = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   const auto [low, high] = std::minmax_element(begin, values.end());
@@ -196,7 +197,7 @@ double torque_of(const GmsPlant& plant) {
   return sum;
 }
 
-/// Takes the torque slowly from level to level, without sliding.
+/// Changes the torque slowly to the given level, without sliding.
 void go_slowly(GmsPlant& plant, double torque) {
   const double from = torque_of(plant);
   constexpr int steps = 200;

@@ -13,7 +13,8 @@ double uniform(std::mt19937_64& engine, double low, double high) {
   return low + (high - low) * std::ldexp(static_cast<double>(engine() >> 11), -53);
 }
 
-/// Largest difference of the two torques over a random sequence of elongations, and over its bound.
+/// Largest difference of the spring's torque from that of the stop elements over a random sequence of
+/// elongations, and its largest ratio to the error bound.
 struct Difference {
   double absolute{0.0};
   double proportion{0.0};

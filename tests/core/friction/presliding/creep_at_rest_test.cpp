@@ -34,11 +34,11 @@ class Draws {
 struct CreepingRotor {
   motion::PlantParameters plant;
   FrictionParameters contact;
-  SpringBranch branch;  ///< branch that starts at xr = 0
-  double torque;        ///< u, N m
+  SpringBranch branch;  ///< branch of the spring, which starts at the elongation xr = 0
+  double torque;        ///< constant torque u, N m
   double sign;
-  double start;      ///< xs at t = 0, rad
-  double hardening;  ///< xh at t = 0, rad
+  double start;      ///< elongation xs of the spring at t = 0, rad
+  double hardening;  ///< hardening xh at t = 0, rad
   CreepAtRest creep;
   double bound;  ///< computed bound of the error of θ, rad
 };
@@ -48,7 +48,7 @@ Real branch_torque(const SpringBranch& b, Real x) {
   return b.torque + b.sign * (b.k1 * travel - b.softening_torque * std::expm1(-b.softening_rate * travel));
 }
 
-/// The elongation at which the branch has the torque, by Newton's method from `near`.
+/// The elongation at which the branch of the spring carries the torque, by Newton's method from `near`.
 Real branch_elongation(const SpringBranch& b, Real torque, Real near) {
   Real x = near;
   for (int i = 0; i < 60; ++i) {
@@ -60,8 +60,9 @@ Real branch_elongation(const SpringBranch& b, Real torque, Real near) {
   return x;
 }
 
-/// Machines of every size and damping. Creep is as fast as it may be, or up to 30 times slower.
-/// @param softening whether the spring softens noticeably on the way.
+/// A random creeping rotor of any size and damping. Its creep is as fast as the formula allows, or up to 30
+/// times slower.
+/// @param softening whether the spring softens noticeably on the way
 CreepingRotor random_rotor(Draws& draws, bool softening) {
   constexpr double exponents[] = {1.0, 1.2, 1.5, 2.0, 2.7, 3.0};
   for (;;) {
@@ -126,7 +127,8 @@ struct Deviations {
   double hardening{0.0};  // rad
 };
 
-/// Largest differences while the creep dies out to 1/150 of its rate.
+/// Largest deviations of the closed form from the numerical integration while the creep dies out to 1/150 of
+/// its rate.
 Deviations largest_deviations(const CreepingRotor& r) {
   namespace odeint = boost::numeric::odeint;
   using Stepper = odeint::runge_kutta_fehlberg78<State, Real, State, Real>;

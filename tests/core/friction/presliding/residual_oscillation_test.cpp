@@ -10,7 +10,7 @@
 namespace zerocount::testing {
 namespace {
 
-/// J = 1: of the rotor only c/J and k/J count.
+/// An oscillating rotor with the inertia J = 1, because only c/J and k/J matter.
 struct Rotor {
   double damping;    // c/J, 1/s
   double stiffness;  // k/J, 1/s²

@@ -17,18 +17,18 @@ double count_of(const trial::TrialParameters& machine) {
   return 2.0 * std::numbers::pi / machine.encoder.fine;
 }
 
-/// A machine at the start of a trial, with the tolerances of one.
+/// The plant of a machine at the start of a trial, with the tolerances that trials use.
 PreslidingPlant plant_of(const trial::TrialParameters& machine) {
   return {machine.plant, machine.friction, trial::plant_start(machine),
           trial::motion_tolerance(count_of(machine))};
 }
 
 struct Hold {
-  double torque;    ///< N m
+  double torque;    ///< torque that is held, N m
   double duration;  ///< duration of the hold, s
 };
 
-/// Torques that the hook withstands, each held until the oscillation has ended.
+/// Random torques that do not break the contact away, each held until the oscillation has ended.
 std::vector<Hold> random_holds(Draws& draws, const trial::TrialParameters& machine) {
   std::vector<Hold> holds;
   holds.reserve(3);
@@ -42,7 +42,7 @@ void hold(PreslidingPlant& plant, double torque, double duration) {
   plant.advance(motion::constant_torque(torque), duration);
 }
 
-/// Machines like the paper's, with creep of every exponent and without.
+/// Random machine `index`, like the paper's: with creep of every exponent, or without creep.
 trial::TrialParameters machine_number(std::uint64_t index) {
   return random_trial(index % 4 == 0 ? TrialKind::spring_alone : TrialKind::calm, 9000 + index);
 }

@@ -21,7 +21,7 @@ FrictionParameters random_friction(std::mt19937& random) {
   return friction;
 }
 
-/// Elongations of a random walk over a few softening lengths.
+/// Random elongations (rad) for a spring: a random walk over a few softening lengths 1/β.
 std::vector<double> random_targets(std::mt19937& random, double beta, int count) {
   std::normal_distribution<double> normal(0.0, 3.0 / beta);
   std::vector<double> targets(static_cast<std::size_t>(count));
@@ -29,7 +29,7 @@ std::vector<double> random_targets(std::mt19937& random, double beta, int count)
   return targets;
 }
 
-/// A random contact.
+/// Parameters of a random friction contact, whose spring is tested.
 struct SpringProperties {
   static constexpr unsigned seeds = 40;
   explicit SpringProperties(unsigned seed) : random_(seed) {}
@@ -123,7 +123,7 @@ TEST_EACH_SEED(SpringProperties, PreloadLeavesOneReversalPointAndNoTorque) {
   }
 }
 
-/// Torques of a random walk up to three times k2/β.
+/// Random torques (N m) for a spring: a random walk up to three times k2/β.
 std::vector<double> random_torques(std::mt19937& random, double scale, int count) {
   std::uniform_real_distribution<double> uniform(-3.0 * scale, 3.0 * scale);
   std::vector<double> torques(static_cast<std::size_t>(count));
@@ -180,7 +180,7 @@ class MeasuredSpring : public ::testing::Test {
   std::mt19937_64 random_{11};
 };
 
-/// σv(x)
+/// Spring torque σv(x) on the virgin curve at the travel x, N m.
 double virgin_torque(double final, const Softening& softening, double travel) {
   FrictionParameters contact;
   contact.k1 = final;

@@ -17,7 +17,8 @@ using testing::hold;
 constexpr motion::MotionTolerance coulomb_tolerance{4e-16};
 constexpr double level = 0.3;  // N m
 
-/// Without Stribeck the friction of a slide is the breakaway torque itself.
+/// Coulomb friction without Stribeck effect: the friction while sliding is the breakaway torque times
+/// `ratio`.
 FrictionAlongRotor coulomb(double ratio = 1.0) {
   FrictionAlongRotor friction;
   friction.model = FrictionModel::coulomb;
@@ -288,8 +289,8 @@ struct Push {
   double duration;
 };
 
-/// Dampings from none to overwhelming, amplifiers from slower than the rotor to instantaneous, and both of
-/// one rate, where the textbook divides by zero.
+/// Random pushes of a sliding rotor: dampings from none to overwhelming, amplifiers from slower than the
+/// rotor to instantaneous, and some of the rotor's own rate, where the textbook formula divides by zero.
 class RandomPushes {
  public:
   Push next() {
@@ -317,8 +318,8 @@ class RandomPushes {
   std::uniform_real_distribution<double> unit_{0.0, 1.0};
 };
 
-/// ω and θ by the inverse Laplace transform, with what would divide by zero moved by 1e-30: far below what a
-/// double shows, far above the rounding of a hundred digits.
+/// Exact ω and θ of a push by the inverse Laplace transform. A difference that would divide by zero is moved
+/// by 1e-30: far below what a double shows, far above the rounding of a hundred digits.
 struct Textbook {
   Digits theta;
   Digits omega;

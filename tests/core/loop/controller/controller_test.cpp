@@ -39,7 +39,7 @@ TEST(Controller, StaysInTheCoarsePhaseWithADwellLongerThanAnyTrial) {
 
 constexpr TorqueRange any_torque{-1e9, 1e9};
 
-/// I after each of the errors, with an increment of 1 at each sample.
+/// [sample] the integral I after each of the errors, with a gain that adds 1 per count at each sample.
 std::vector<double> integrals(const ControlBlocks& blocks, const std::vector<double>& errors) {
   Integrator integrator(integral_constants(blocks, 1000.0, any_torque), 0.0);
   std::vector<double> all;
@@ -106,7 +106,8 @@ TEST(CountDifference, WithoutAFilterIsTheDifferenceBitForBit) {
 
 // The counts before the first sample.
 
-/// The counts of an encoder on a motion at a constant velocity, n_0 that of θ₀.
+/// The encoder count of a motion at a constant velocity at sample k; n_0 is the count of the initial angle
+/// θ₀.
 double count_of_motion(const CountsBefore& motion, double k) {
   const double theta = motion.theta + k * motion.velocity * motion.sample_time;
   return std::floor(theta / motion.encoder.resolution + motion.encoder.phase);
@@ -188,7 +189,8 @@ std::vector<double> filtered(const TransferFunction& transfer, const std::vector
   return y;
 }
 
-/// The stages on the inputs' signals; that of the first one's torque is the inputs'.
+/// Output of the chain of stages for these inputs. The torque that the first stage receives is that of the
+/// inputs.
 std::vector<double> output_of(const LinearChain& stages, const std::vector<Input>& inputs) {
   const auto signal = [&](double (*of)(const Input&)) {
     std::vector<double> values;
@@ -259,7 +261,7 @@ class RandomControl {
     return filter;
   }
 
-  /// Without deadband and zone, which have no linear form.
+  /// Random controller parameters without deadband and zone, which have no linear form.
   ControllerParameters control() {
     ControllerParameters p;
     p.sample_rate = log_uniform(100.0, 1e5);
@@ -371,7 +373,7 @@ std::complex<double> response(const BiquadConstants<double>& c, double frequency
   return (c.b0 + c.b1 * z + c.b2 * z * z) / (1.0 + c.a1 * z + c.a2 * z * z);
 }
 
-/// max |pole| of the filter, which is stable below 1.
+/// The largest magnitude of the poles of the filter; the filter is stable if it is below 1.
 double largest_pole(const BiquadConstants<double>& c) {
   const std::complex<double> root = std::sqrt(std::complex<double>(c.a1 * c.a1 - 4.0 * c.a2));
   return 0.5 * std::max(std::abs(-c.a1 + root), std::abs(-c.a1 - root));

@@ -49,7 +49,7 @@ double largest_k1() {
   return numerics::bisect({100.0, 1000.0}, meets, numerics::within(0.01)).holds;
 }
 
-/// The age at which k1 exceeds `limit` in 20 % of the machines, so that 80 % remain.
+/// The true age at which k1 exceeds `limit` in 20 % of the machines, so that 80 % still meet the goal.
 double true_age(double limit) {
   return 1.0e6 / rate_of_k1 * std::log(limit / (50.0 + 0.8 * 200.0));
 }
@@ -85,7 +85,7 @@ TEST(AgeOfLoss, IsGivenForEachClaim) {
   const LostAges found = lost_of({"goal={band: 1, within: 0.1, moves: 0.8}", "trials=1200",
                                   "conditions={light: {}, stiff: {friction.k1: {uniform: [75, 375]}}}"});
   ASSERT_EQ(found.claims.size(), 2U);
-  EXPECT_EQ(found.claims[1].claim.setting, 1U);
+  EXPECT_EQ(found.claims[1].claim.condition, 1U);
   // The stiff ones are where the light ones are after the time in which k1 grows by a half.
   EXPECT_NEAR(*found.claims[0].lost - *found.claims[1].lost, 1.0e6 / rate_of_k1 * std::log(1.5),
               0.2 * *found.claims[0].lost);

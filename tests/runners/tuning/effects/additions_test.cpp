@@ -19,7 +19,8 @@ EffectRuns runs_of(const study::Study& study) {
   return {study, trials::replicates_of(study, 0), {}};
 }
 
-/// The rates of a study as its manifest states it.
+/// Success rates in a run of a study with this manifest and these overrides, as a row of the command
+/// `limits`.
 Limit stated(const std::string& text, const std::vector<std::string>& overrides) {
   const study::Study study = parsed(text, overrides);
   const EffectRuns runs = runs_of(study);
@@ -31,7 +32,7 @@ void expect_same(const Limit& found, const Limit& wanted) {
   EXPECT_EQ(found.estimate.rates, wanted.estimate.rates) << found.effect;
   EXPECT_EQ(found.rate, wanted.rate) << found.effect;
   EXPECT_EQ(found.worst.goal, wanted.worst.goal) << found.effect;
-  EXPECT_EQ(found.worst.setting, wanted.worst.setting) << found.effect;
+  EXPECT_EQ(found.worst.condition, wanted.worst.condition) << found.effect;
   EXPECT_EQ(found.rates, wanted.rates) << found.effect;
 }
 
@@ -47,7 +48,7 @@ std::vector<std::string> mode_of(double inertia, double frequency, const std::st
           fmt::format("{}plant.load.damping={}", path, 2.0 * 0.01 * reduced * omega)};
 }
 
-/// The frequency that a row names, Hz.
+/// The frequency that the text of a row names, Hz.
 double frequency_in(const std::string& text) {
   return std::stod(text.substr(text.find_first_of("0123456789")));
 }

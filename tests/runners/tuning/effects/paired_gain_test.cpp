@@ -6,7 +6,7 @@
 namespace zerocount::tuning {
 namespace {
 
-/// Machines with `moves` moves each, of which these meet the goal.
+/// Results of machines with `moves` moves each; met[machine] of the moves meet the goal.
 std::vector<MachineResult> machines(const std::vector<int>& met, int moves) {
   std::vector<MachineResult> machines;
   for (const int one : met) machines.push_back({.claims = {{moves, one, {}}}});

@@ -16,7 +16,7 @@ trial::MoveTiming timing_of(const trial::ErrorBands& bands) {
   return {.sample_time = 1e-3, .samples = 400, .dwell = 20, .window = 50, .bands = bands, .number = 0};
 }
 
-/// The measures of a move with these errors, counts.
+/// The outcome of a move with these errors (counts) at its samples, measured with these error bands.
 trial::MoveOutcome measured(const std::vector<std::int64_t>& errors, const trial::ErrorBands& bands) {
   trial::MoveMeasures measures(timing_of(bands), 0);
   for (const std::int64_t error : errors) measures.add({.target = 0, .count = -error});
@@ -24,7 +24,7 @@ trial::MoveOutcome measured(const std::vector<std::int64_t>& errors, const trial
   return measures.outcome();
 }
 
-/// Errors in finer counts of a move that decays and jitters, and may come to rest.
+/// Random errors, in units finer than a count, of a move that decays and jitters, and may come to rest.
 std::vector<std::int64_t> drawn_errors(testing::Draws& draws) {
   std::vector<std::int64_t> errors;
   double error = draws.sign() * draws.uniform(10.0, 200.0);

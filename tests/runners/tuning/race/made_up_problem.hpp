@@ -19,13 +19,13 @@ namespace zerocount::tuning {
 struct MadeUpProblem {
   std::uint64_t seed{1};
   double highest_rate{0.99};
-  double fall{0.4};  ///< decrease of the rate per squared distance
+  double fall{0.4};  ///< decrease of the success rate per squared distance from `reliable`
   Values reliable{0.3, 0.6};
   Values fast{0.7, 0.4};
   /// Widths of a peak of the rate with heavy tails, used in place of `fall`; empty: `fall` is used.
   Values widths{};
   study::Goal goal{.within = 1.0, .moves = 0.95};
-  /// Machine → its luck and slowness.
+  /// For each machine its random effects on success (luck) and on settling time (slowness).
   mutable std::unordered_map<std::uint64_t, std::pair<double, double>> machines{};
 
   static double squared_distance(const Values& a, const Values& b) {

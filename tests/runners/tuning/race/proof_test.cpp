@@ -29,7 +29,7 @@ struct ProvenSearch {
   ProvenFinalist proven;
 };
 
-/// A search on 256 machines, and a proof on at most 6000.
+/// A search with 256 machines, and the proof of its result with at most 6000 machines.
 ProvenSearch searched_and_proven(const MadeUpProblem& truth) {
   const SearchProblem searched = truth.problem(256);
   ProvenSearch both{search(searched, {.seed = truth.seed, .generations = 4}), {}};
@@ -159,14 +159,14 @@ TEST(Proof, TriesTheNextFinalistIfItRejectsOneThatMeetsTheGoal) {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-/// A candidate with one claim, [machine] its results.
+/// A candidate of the search that is judged by one claim. @param results [machine] results
 Candidate candidate_of(const std::vector<ClaimResult>& results) {
   Candidate candidate;
   for (const ClaimResult& one : results) candidate.machines.push_back({.claims = {one}});
   return candidate;
 }
 
-/// One claim, by the 95 % quantile or another.
+/// The aim of a search: one claim, and the quantile of the settling time to be minimised.
 Aim aim_with(const Claim& claim, double quantile = 0.95) {
   return {.claims = {claim}, .quantile = quantile};
 }
@@ -206,7 +206,7 @@ TEST(Candidate, CriterionCountsMovesThatNeverSettleAsLate) {
 
 TEST(Candidate, OneThatMeetsTheGoalIsBetterThanAFasterOne) {
   const Aim aim = aim_with({.moves = 0.9});
-  /// The estimate from 1000 moves, which all settle at the time `time`; `met` of them meet the goal.
+  /// The estimate from 1000 moves that all settle at the time `time`; `met` of them meet the goal.
   const auto estimate = [&](int met, double time) {
     std::vector<ClaimResult> machines;
     for (int i = 0; i < 1000; ++i) machines.push_back({1, i < met ? 1 : 0, {time}});
@@ -220,7 +220,8 @@ TEST(Candidate, OneThatMeetsTheGoalIsBetterThanAFasterOne) {
   EXPECT_FALSE(is_better(aim, good, better));
 }
 
-/// Candidates of two goals under two conditions: [claim] the proportion of met moves, and their time.
+/// A made-up claim (a goal under a condition) of a candidate: the proportion of moves that meet it, and their
+/// settling time.
 struct MadeUpClaim {
   double rate{1.0};
   double time{0.0};
@@ -235,7 +236,7 @@ Candidate candidate_with(const std::vector<MadeUpClaim>& claims, int machines = 
   return candidate;
 }
 const Aim two_goals{.claims = {{.moves = 0.9}, {.moves = 0.9}, {.moves = 0.6}, {.moves = 0.6}},
-                    .settings = 2};
+                    .conditions = 2};
 
 TEST(Candidate, TheWorstOfSeveralClaimsDecides) {
   const Candidate lacking = candidate_with({{0.99, 0.1}, {0.95, 0.2}, {0.99, 0.3}, {0.62, 0.4}});

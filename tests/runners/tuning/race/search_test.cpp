@@ -8,7 +8,7 @@
 namespace zerocount::tuning {
 namespace {
 
-/// The smallest time of a dense grid among the points whose rate reaches the goal.
+/// The smallest settling time on a dense grid, among the points whose success rate reaches the goal.
 double best_time(const MadeUpProblem& truth) {
   double best = 1.0;
   constexpr int steps = 400;
@@ -87,7 +87,8 @@ TEST(Search, IsNotWorseThanItsStarts) {
   }
 }
 
-/// A peak in five parameters, narrow in some of them, that is below or above the goal.
+/// A problem whose success rate has a peak in five parameters, narrow in some of them; the peak is above or
+/// below the goal.
 MadeUpProblem narrow_peak(std::uint64_t seed) {
   MadeUpProblem truth{.seed = seed};
   const auto uniform = [&](std::uint64_t number) { return truth.uniform(200 + number, 0, {}); };
@@ -168,7 +169,7 @@ TEST(Search, EndsWhenAllValuesAreTried) {
   EXPECT_LE(result.trials, 4 * 512);
 }
 
-/// A control some of whose blocks are 0, with its tuned values.
+/// A control with its tuned values; some of its blocks are fixed at 0.
 struct TunedControl {
   std::vector<std::size_t> zeros;
   TunedValues values;
@@ -190,7 +191,8 @@ Values values_of(const TunedControl& control) {
   return values;
 }
 
-/// Tunes a control from those that are tuned already.
+/// Tunes a control with the blocks `zeros` fixed at 0, starting from the controls `before` that are tuned
+/// already.
 TunedControl tuned(const MadeUpProblem& truth, std::vector<std::size_t> zeros,
                    const std::vector<TunedControl>& before, std::int64_t machines) {
   TunedControl control{std::move(zeros), {}};
@@ -278,7 +280,8 @@ TEST(Search, FindsPointsThatAreAdmissibleOnlyOnAFace) {
   EXPECT_NEAR(result.finalists.front().values[1], 0.4, 0.15);
 }
 
-/// A tube of this radius around a curve through the cube, at whose end the axis is fast.
+/// A feasible region like a tube of this radius around a curve through the cube; the axis is fast at the end
+/// of the curve.
 struct Tube {
   double radius;
   double bend;

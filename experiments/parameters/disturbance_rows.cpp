@@ -36,8 +36,8 @@ template <auto list, auto field>
 Parameter number_of(parameter::Handle name, std::size_t dimension, std::size_t dimensions,
                     std::string_view unit, std::string_view meaning, const numerics::Interval& range) {
   Parameter row = real_row(name, dimension, unit, meaning, "required", range);
-  row.element = {dimensions, [](trial::TrialParameters& parameters, std::size_t element, std::size_t,
-                                double value) { list(parameters)[element].*field = value; }};
+  row.element = {dimensions, +[](trial::TrialParameters& parameters, std::size_t element, std::size_t,
+                                 double value) { list(parameters)[element].*field = value; }};
   return row;
 }
 

@@ -47,7 +47,7 @@ Parameter number_of_filter(parameter::Handle name, std::size_t dimension, std::s
                            std::string_view meaning, const numerics::Interval& range) {
   Parameter row = real_row(name, dimension, unit, meaning, "required", range);
   row.element = {dimensions_of_filter,
-                 [](trial::TrialParameters& parameters, std::size_t filter, std::size_t, double value) {
+                 +[](trial::TrialParameters& parameters, std::size_t filter, std::size_t, double value) {
                    Phase::filters(parameters)[filter].*field = value;
                  }};
   return row;
@@ -60,9 +60,8 @@ Parameter coefficients_of_filter(parameter::Handle name, std::size_t dimension, 
   constexpr std::size_t count = std::tuple_size_v<std::remove_reference_t<decltype(loop::Filter{}.*field)>>;
   row.list = {count, count, "coefficient", "coefficients", {}};
   row.element = {dimensions_of_filter,
-                 [](trial::TrialParameters& parameters, std::size_t filter, std::size_t index, double value) {
-                   (Phase::filters(parameters)[filter].*field)[index] = value;
-                 }};
+                 +[](trial::TrialParameters& parameters, std::size_t filter, std::size_t index,
+                     double value) { (Phase::filters(parameters)[filter].*field)[index] = value; }};
   return row;
 }
 

@@ -74,14 +74,15 @@ inline Parameter stored_at(Parameter row, NoField) {
   return row;
 }
 
-/// Adds to a table row the access to the parameter's field of TrialParameters: `Field` returns a pointer to
-/// it.
+// The accesses of all rows have one type, pointer to function: the + converts the lambda. With a type for
+// each row, the compiler would instantiate std::function hundreds of times.
+
+/// Adds the access to the field of TrialParameters: `Field` returns a pointer to it.
 template <class Field>
 Parameter stored_at(Parameter row, Field) {
-  row.get = [](const trial::TrialParameters& parameters) {
-    return static_cast<double>(*Field{}(parameters));
-  };
-  row.set = [](trial::TrialParameters& parameters, double value) {
+  row.get =
+      +[](const trial::TrialParameters& parameters) { return static_cast<double>(*Field{}(parameters)); };
+  row.set = +[](trial::TrialParameters& parameters, double value) {
     auto& field = *Field{}(parameters);
     field = static_cast<std::remove_reference_t<decltype(field)>>(value);
   };
@@ -93,10 +94,9 @@ Parameter stored_at(Parameter row, Field) {
 template <class Field>
 Parameter or_none(Parameter row, Field) {
   row.none = max_count;
-  row.get = [](const trial::TrialParameters& parameters) {
-    return std::min(*Field{}(parameters), max_count);
-  };
-  row.set = [](trial::TrialParameters& parameters, double value) {
+  row.get =
+      +[](const trial::TrialParameters& parameters) { return std::min(*Field{}(parameters), max_count); };
+  row.set = +[](trial::TrialParameters& parameters, double value) {
     *Field{}(parameters) = value < max_count ? value : std::numeric_limits<double>::infinity();
   };
   return row;
@@ -212,7 +212,7 @@ template <class Field>
 Parameter list_of(std::size_t max_values, std::string_view singular, std::string_view plural, Parameter row,
                   Field) {
   row.list = {1, max_values, singular, plural,
-              [](trial::TrialParameters& parameters, std::size_t index, double value) {
+              +[](trial::TrialParameters& parameters, std::size_t index, double value) {
                 auto& field = *Field{}(parameters, index);
                 field = static_cast<std::remove_reference_t<decltype(field)>>(value);
               }};
